@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The two ways to fail: the input is wrong, or no certified solution was found. Both are told in one clear message."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+Where = tuple[str | int, ...]
+
+
+class SignoriniError(Exception):
+    """Base of every error that this package raises on purpose."""
+
+
+class InputError(SignoriniError, ValueError):
+    """The input is wrong: says where, what was found and what is expected.
+
+    Parameters
+    ----------
+    message : what was found and what is expected
+    where : path of the value in the model, as a deck spells it: ``("contact", 0, "friction")``
+
+    Examples
+    --------
+    >>> print(InputError("is -0.1; expected a number >= 0", where=("contact", 0, "friction")))
+    contact[0].friction: is -0.1; expected a number >= 0
+    """
+
+    def __init__(self, message: str, *, where: Where = ()) -> None:
+        self.message = message
+        self.where = where
+        super().__init__(f"{spell(where)}: {message}" if where else message)
+
+    def inside(self, *outer: str | int) -> InputError:
+        """The same error, said from one level further out (a part of a model does not know its own index)."""
+        return InputError(self.message, where=outer + self.where)
+
+
+class SolveFailed(SignoriniError):
+    """No certified solution: carries the reason and whatever was found before.
+
+    Attributes
+    ----------
+    status : ``"no_equilibrium"`` (proved), ``"not_found"`` or ``"jump"``, as in ``summary.json``
+    solution : the steps that were finished before, or None
+    """
+
+    def __init__(self, message: str, *, status: str, solution: object | None = None) -> None:
+        self.status = status
+        self.solution = solution
+        super().__init__(message)
+
+
+def spell(where: Where) -> str:
+    """A path as a deck spells it.
+
+    >>> spell(("contact", 0, "friction"))
+    'contact[0].friction'
+    """
+    text = ""
+    for part in where:
+        text += f"[{part}]" if isinstance(part, int) else f".{part}" if text else part
+    return text
+
+
+def one_of(found: str, known: Iterable[str], what: str) -> str:
+    """Words for a name that is not known: the nearest known one, and all of them.
+
+    >>> one_of("botom", ["bottom", "top"], "boundary")
+    "unknown boundary 'botom'; did you mean 'bottom'? Known: bottom, top"
+    """
+    names = sorted(known)
+    near = difflib.get_close_matches(found, names, n=1)
+    hint = f"; did you mean '{near[0]}'?" if near else "."
+    return f"unknown {what} '{found}'{hint} Known: {', '.join(names) if names else 'none'}"
