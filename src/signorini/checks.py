@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks of single values that users give: each returns the value, typed, or says what was found and what is expected."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Sequence
+from typing import Any
+
+from signorini.errors import InputError, Where, one_of
+
+
+def number(
+    value: Any, where: Where, *, above: float = -math.inf, below: float = math.inf, least: float = -math.inf
+) -> float:
+    """A finite number with ``above < value < below`` and ``value >= least``.
+
+    >>> number(-1, ("E",), above=0)
+    Traceback (most recent call last):
+    signorini.errors.InputError: E: is -1; expected a number > 0
+    """
+    limits = [
+        f"{sign} {limit:g}" for sign, limit in ((">", above), (">=", least), ("<", below)) if math.isfinite(limit)
+    ]
+    expected = f"a number{' ' if limits else ''}{' and '.join(limits)}"
+    if isinstance(value, bool) or not hasattr(value, "__float__"):
+        raise InputError(f"is {value!r}; expected {expected}", where=where)
+    if not (math.isfinite(value) and above < value < below and value >= least):
+        raise InputError(f"is {value!r}; expected {expected}", where=where)
+    return float(value)
+
+
+def whole(value: Any, where: Where, *, least: int = 1) -> int:
+    """A whole number of at least ``least``."""
+    if isinstance(value, bool) or not hasattr(value, "__index__") or int(value) < least:
+        raise InputError(f"is {value!r}; expected a whole number >= {least}", where=where)
+    return int(value)
+
+
+def text(value: Any, where: Where) -> str:
+    """A non-empty text."""
+    if not isinstance(value, str) or not value:
+        raise InputError(f"is {value!r}; expected a name (text)", where=where)
+    return value
+
+
+def choice(value: Any, known: Collection[str], where: Where, what: str) -> str:
+    """One of the known words."""
+    if not isinstance(value, str) or value not in known:
+        raise InputError(one_of(str(value), known, what), where=where)
+    return value
+
+
+def vector(value: Any, where: Where, *, dimension: int | None = None) -> tuple[float, ...]:
+    """A list of finite numbers, of the given length."""
+    return tuple(part for part in components(value, where, dimension=dimension, free=False) if part is not None)
+
+
+def components(
+    value: Any, where: Where, *, dimension: int | None = None, free: bool = True
+) -> tuple[float | None, ...]:
+    """A list of components, each a finite number or, where ``free`` allows it, None (in a deck: ``"free"``).
+
+    >>> components([0.0, None], ("u",), dimension=2)
+    (0.0, None)
+    """
+    size = "a list" if dimension is None else f"a list of {dimension}"
+    kind = "numbers or free components" if free else "numbers"
+    if isinstance(value, str) or (not isinstance(value, Sequence) and not hasattr(value, "__array__")):
+        raise InputError(f"is {value!r}; expected {size} {kind}", where=where)
+    if dimension is not None and len(value) != dimension:
+        raise InputError(f"has {len(value)} components, {list(value)!r}; expected {size} {kind}", where=where)
+    return tuple(
+        None if free and (part is None or part == "free") else number(part, (*where, i)) for i, part in enumerate(value)
+    )

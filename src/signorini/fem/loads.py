@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Nodal forces of loads."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.errors import Where
+from signorini.fem.boundary import boundary
+from signorini.fem.places import nodes_at
+from signorini.fem.space import Space
+from signorini.model.conditions import Load
+from signorini.model.model import Model
+
+
+def nodal_loads(space: Space, model: Model) -> dict[str, Array]:
+    """Consistent nodal forces of every load at factor 1, by name, each (dofs,)."""
+    return {load.label: _forces(space, model, load, ("load", i)) for i, load in enumerate(model.loads)}
+
+
+def _forces(space: Space, model: Model, load: Load, where: Where) -> Array:
+    if load.body_force is not None:
+        return _body_forces(space, model, str(load.on), np.array(load.body_force))
+    forces = np.zeros((len(space.mesh.points), space.dimension))
+    if load.force is not None and load.on not in space.mesh.boundaries:
+        nodes = nodes_at(space, load.on, (*where, "on"))
+        forces[nodes] = _given(load.force) / len(nodes)
+        return forces.ravel()
+    side = boundary(space, str(load.on), (*where, "on"))
+    area = side.lengths[:, None] * model.thickness
+    if load.force is not None:
+        per_facet = area / area.sum() * _given(load.force)
+    elif load.pressure is not None:
+        per_facet = -load.pressure * area * side.normals
+    else:
+        per_facet = area * np.array(load.traction)
+    forces[side.nodes] = side.nodal(per_facet)
+    return forces.ravel()
+
+
+def _given(force: tuple[float | None, ...]) -> Array:
+    return np.array([part or 0.0 for part in force])
+
+
+def _body_forces(space: Space, model: Model, name: str, density: Array) -> Array:
+    inside = np.zeros(space.mesh.number_of_cells, bool)
+    inside[space.mesh.bodies[name]] = True
+    share = np.zeros(len(space.mesh.points))
+    for block, volumes in zip(space.blocks, space.volumes, strict=True):
+        here = inside[block.first : block.first + len(block.cells)]
+        np.add.at(share, block.cells[here], volumes[here] @ block.values * model.thickness)
+    return np.outer(share, density).ravel()

@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rigid motions: which ones the supports leave to each connected part, and how to say them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse as sp
+from scipy.sparse.csgraph import connected_components
+
+from signorini.arrays import Array, IntArray
+from signorini.fem.space import Space
+from signorini.fem.supports import Constraints
+from signorini.model.model import Model
+
+# of the largest eigenvalue of the Gram matrix of the motions: below it a motion is not held
+_UNSEEN = 1e-12
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Part:
+    """A connected piece of the mesh.
+
+    Attributes
+    ----------
+    bodies : names of the bodies it is made of
+    nodes : (k,) its nodes
+    centre : (d,) their mean, length
+    size : half the diagonal of its bounding box, length
+    """
+
+    bodies: tuple[str, ...]
+    nodes: IntArray
+    centre: Array
+    size: float
+
+    @property
+    def label(self) -> str:
+        """As in "body 'disk'"."""
+        return ("body " if len(self.bodies) == 1 else "bodies ") + " and ".join(f"'{name}'" for name in self.bodies)
+
+
+def make_parts(space: Space, model: Model) -> tuple[Part, ...]:
+    """The connected pieces of the mesh, in the order of their first nodes."""
+    points, count = space.mesh.points, len(space.mesh.points)
+    links = [(np.repeat(b.cells[:, 0], b.cells.shape[1]), b.cells.ravel()) for b in space.blocks]
+    rows, columns = np.concatenate([r for r, _ in links]), np.concatenate([c for _, c in links])
+    graph = sp.csr_array((np.ones(len(rows), np.int8), (rows, columns)), shape=(count, count))
+    _, piece = connected_components(graph, directed=False)
+    body_of_cell = model.body_of_cells()
+    body_of_node = [
+        np.unique(
+            np.concatenate(
+                [piece[b.cells[body_of_cell[b.first : b.first + len(b.cells)] == i, 0]] for b in space.blocks]
+            )
+        )
+        for i in range(len(model.bodies))
+    ]
+    parts = []
+    for number in np.unique(piece[space.used_nodes]):
+        nodes = np.nonzero(piece == number)[0]
+        parts.append(
+            Part(
+                bodies=tuple(
+                    body.name for body, pieces in zip(model.bodies, body_of_node, strict=True) if number in pieces
+                ),
+                nodes=nodes,
+                centre=points[nodes].mean(axis=0),
+                size=float(np.linalg.norm(np.ptp(points[nodes], axis=0)) / 2.0),
+            )
+        )
+    return tuple(parts)
+
+
+def rigid_motions(space: Space, parts: tuple[Part, ...]) -> sp.csr_array:
+    """Translations along x and y and the rotation ``(-(y - y_c), x - x_c) / size`` of each part, (dofs, 3 parts)."""
+    rows, columns, values = [], [], []
+    for i, part in enumerate(parts):
+        arm = (space.mesh.points[part.nodes] - part.centre) / part.size
+        one, (x, y) = np.ones(len(part.nodes)), space.dofs(part.nodes).T
+        rows += [x, y, x, y]
+        columns += [np.full(len(x), 3 * i + k) for k in (0, 1, 2, 2)]
+        values += [one, one, -arm[:, 1], arm[:, 0]]
+    entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
+    return sp.csr_array(entries, shape=(space.number_of_dofs, 3 * len(parts)))
+
+
+def free_motions(motions: sp.csr_array, constraints: Constraints, held: sp.csr_array) -> Array:
+    """Rigid motions that the supports allow and that ``held`` does not see.
+
+    Parameters
+    ----------
+    motions : (dofs, 3 parts), see :func:`rigid_motions`
+    held : (rows, dofs) sparse, further components that are held, of unit size
+
+    Returns
+    -------
+    (3 parts, k) coefficients, a basis as simple as it can be
+    """
+    transform = constraints.transform
+    together = np.maximum(transform.sum(axis=0), 1.0)
+    # what supports and rigid boundaries hold is what the free displacements cannot represent
+    lost = motions - transform @ sp.diags_array(1.0 / together) @ (transform.T @ motions)
+    seen = sp.vstack([lost, held @ motions])
+    values, vectors = scipy.linalg.eigh((seen.T @ seen).toarray())
+    return _readable(vectors[:, values <= _UNSEEN * max(1.0, values[-1])])
+
+
+def describe_motion(parts: tuple[Part, ...], motion: Array) -> str:
+    """A rigid motion (3 parts,) in words: of every part that moves, along what or about where.
+
+    >>> block = Part(bodies=("block",), nodes=np.arange(4), centre=np.array([1.0, 0.5]), size=1.0)
+    >>> describe_motion((block,), np.array([1.0, 0.0, 0.0]))
+    "body 'block' can move along x"
+    """
+    words = []
+    largest = np.abs(motion).max()
+    for part, (a, b, turn) in zip(parts, motion.reshape(-1, 3), strict=True):
+        if max(abs(a), abs(b), abs(turn)) < 1e-6 * largest:
+            continue
+        if abs(turn) < 1e-6 * largest:
+            if abs(b) < 1e-6 * largest:
+                way = "along x"
+            elif abs(a) < 1e-6 * largest:
+                way = "along y"
+            else:
+                way = f"along ({a / np.hypot(a, b):.4g}, {b / np.hypot(a, b):.4g})"
+            words.append(f"{part.label} can move {way}")
+        else:
+            centre = part.centre + part.size * np.array([-b, a]) / turn
+            centre[np.abs(centre) < 1e-9 * part.size] = 0.0
+            words.append(f"{part.label} can rotate about ({centre[0]:.4g}, {centre[1]:.4g})")
+    return " while ".join(words)
+
+
+def _readable(motions: Array) -> Array:
+    """A basis of the same motions (3 parts, k) with as few parts and directions in each as can be (row echelon)."""
+    basis = motions.T.copy()
+    row = 0
+    for column in range(basis.shape[1]):
+        if row == len(basis):
+            break
+        pivot = row + int(np.argmax(np.abs(basis[row:, column])))
+        if abs(basis[pivot, column]) < 1e-6:
+            continue
+        basis[[row, pivot]] = basis[[pivot, row]]
+        basis[row] /= basis[row, column]
+        others = np.arange(len(basis)) != row
+        basis[others] -= np.outer(basis[others, column], basis[row])
+        row += 1
+    return basis.T

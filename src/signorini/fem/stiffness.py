@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The elastic stiffness of a model."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array
+from signorini.fem.space import Space
+from signorini.model.model import Model
+
+
+def lame_parameters(model: Model) -> tuple[Array, Array]:
+    """Lame's parameters (lambda, G) of every body, force per area; lambda is the plane one in plane stress.
+
+    ``lambda = E nu / ((1 + nu)(1 - 2 nu))``; plane stress ``2 lambda G / (lambda + 2 G)``.
+    """
+    E = np.array([body.material.E for body in model.bodies])
+    nu = np.array([body.material.nu for body in model.bodies])
+    shear = E / (2.0 * (1.0 + nu))
+    lame = E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
+    if model.kind == "plane stress":
+        lame = 2.0 * lame * shear / (lame + 2.0 * shear)
+    return lame, shear
+
+
+def stiffness(space: Space, model: Model) -> sp.csr_array:
+    """``K_ij = int (lambda div phi_i div phi_j + 2 G eps(phi_i):eps(phi_j)) dx`` times the thickness, (dofs, dofs)."""
+    lame, shear = lame_parameters(model)
+    owner = model.body_of_cells()
+    total = sp.csr_array((space.number_of_dofs, space.number_of_dofs))
+    for block, volumes in zip(space.blocks, space.volumes, strict=True):
+        own = owner[block.first : block.first + len(block.cells)]
+        g = space.gradients(block, block.gradients)
+        volumes = volumes * model.thickness
+        first = np.einsum("mq,mqai,mqbj->maibj", volumes * lame[own, None], g, g, optimize=True)
+        second = np.einsum("mq,mqaj,mqbi->maibj", volumes * shear[own, None], g, g, optimize=True)
+        third = np.einsum("mq,mqak,mqbk->mab", volumes * shear[own, None], g, g, optimize=True)
+        cell = first + second + third[:, :, None, :, None] * np.eye(space.dimension)[None, None, :, None, :]
+        dofs = space.dofs(block.cells).reshape(len(block.cells), -1)
+        size = dofs.shape[1]
+        rows, columns = np.repeat(dofs, size, axis=1).ravel(), np.tile(dofs, (1, size)).ravel()
+        total = total + sp.csr_array((cell.ravel(), (rows, columns)), shape=total.shape)
+    return total

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Supports and rigid boundaries: the displacements that remain unknown."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array, IntArray
+from signorini.errors import InputError
+from signorini.fem.places import nodes_at
+from signorini.fem.space import Space
+from signorini.model.model import Model
+
+AXES = "xyz"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Constraints:
+    """``u = T z + sum_k s_k g_k``: z the free displacements, g_k what support k prescribes at factor 1.
+
+    Attributes
+    ----------
+    free : (dofs,) index into z, -1 where a support (or nothing at all) holds the dof; dofs that move together share one
+    transform : (dofs, z) sparse T, one entry 1 a row
+    prescribed : name of moving support to (dofs,) displacements at factor 1
+    owner : (dofs,) index of the support that holds the dof, otherwise -1
+    nodes : (z,) a node of each free displacement
+    """
+
+    free: IntArray
+    transform: sp.csr_array
+    prescribed: Mapping[str, Array]
+    owner: IntArray
+    nodes: IntArray
+
+
+def make_constraints(space: Space, model: Model) -> Constraints:
+    """Read supports and rigid loaded boundaries.
+
+    Raises
+    ------
+    InputError
+        If two supports prescribe different values at one node, or a rigid boundary carries a support in its direction.
+    """
+    d, total = space.dimension, space.number_of_dofs
+    owner = np.full(total, -1)
+    values = np.zeros(total)
+    prescribed = {support.label: np.zeros(total) for support in model.supports if support.moves}
+    for i, support in enumerate(model.supports):
+        nodes = nodes_at(space, support.on, ("support", i, "on"))
+        for axis, value in enumerate(support.u):
+            if value is None:
+                continue
+            dofs = nodes * d + axis
+            _check_agreement(space, model, owner, values, dofs, i, value)
+            new = dofs[owner[dofs] < 0]
+            owner[new], values[new] = i, value
+            if support.moves:
+                prescribed[support.label][new] = value
+    held = owner >= 0
+    unused = np.setdiff1d(np.arange(len(space.mesh.points)), space.used_nodes)
+    held[space.dofs(unused).ravel()] = True
+    leader = np.arange(total)
+    for i, load in enumerate(model.loads):
+        if load.spread == "displacement" and load.force is not None:
+            nodes = nodes_at(space, load.on, ("load", i, "on"))
+            for axis, part in enumerate(load.force):
+                if part is not None:
+                    _tie(space, model, leader, owner, nodes * d + axis, i)
+    free = np.full(total, -1)
+    leaders = np.nonzero(~held & (leader == np.arange(total)))[0]
+    free[leaders] = np.arange(len(leaders))
+    free = np.where(held, -1, free[leader])
+    rows = np.nonzero(free >= 0)[0]
+    transform = sp.csr_array((np.ones(len(rows)), (rows, free[rows])), shape=(total, len(leaders)))
+    return Constraints(free=free, transform=transform, prescribed=prescribed, owner=owner, nodes=leaders // d)
+
+
+def _check_agreement(
+    space: Space, model: Model, owner: IntArray, values: Array, dofs: IntArray, i: int, value: float
+) -> None:
+    """Two supports may share a dof if they prescribe the same at every load factor."""
+    for dof in dofs[owner[dofs] >= 0]:
+        other = model.supports[owner[dof]]
+        if value == 0.0 and values[dof] == 0.0:
+            continue
+        node, axis = divmod(int(dof), space.dimension)
+        raise InputError(
+            f"'{model.supports[i].label}' prescribes u_{AXES[axis]} = {value:g} at node {node + 1}, where support "
+            f"'{other.label}' prescribes {values[dof]:g}; expected one support to move a node in a direction",
+            where=("support", i, "u"),
+        )
+
+
+def _tie(space: Space, model: Model, leader: IntArray, owner: IntArray, dofs: IntArray, i: int) -> None:
+    """Let the dofs of a rigid loaded boundary follow the first of them."""
+    blocked = dofs[(owner[dofs] >= 0) | (leader[dofs] != dofs)]
+    if len(blocked):
+        node, axis = divmod(int(blocked[0]), space.dimension)
+        by = f"support '{model.supports[owner[blocked[0]]].label}'" if owner[blocked[0]] >= 0 else "another load"
+        raise InputError(
+            f"the boundary should move rigidly in {AXES[axis]}, but {by} holds node {node + 1} in that direction; "
+            'expected the component to be free (None, in a deck "free")',
+            where=("load", i, "force"),
+        )
+    leader[dofs] = dofs[0]

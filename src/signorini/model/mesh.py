@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A finite element mesh with named parts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray, frozen
+from signorini.errors import InputError
+
+NODES_PER_CELL = {"triangle": 3, "quad": 4}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Mesh:
+    """Points, cells and the names of bodies, boundaries and node sets.
+
+    Nodes are counted from 0 here and from 1 in files that people read (``number = index + 1``, as Gmsh counts). Cells
+    are counted through all families, in the order of ``cells``.
+
+    Parameters
+    ----------
+    points : (n, 2) array of coordinates, length
+    cells : family ("triangle", "quad") to (m, k) array of node indices, counterclockwise or clockwise
+    bodies : name to indices of cells
+    boundaries : name to (m, 2) array, the two end nodes of each facet
+    nodes : name to node indices, for supports and forces on points
+
+    Raises
+    ------
+    InputError
+        If a shape is wrong or an index points to nothing.
+
+    Examples
+    --------
+    >>> square = Mesh(points=[[0, 0], [1, 0], [1, 1], [0, 1]], cells={"quad": [[0, 1, 2, 3]]},
+    ...               bodies={"block": [0]}, boundaries={"bottom": [[0, 1]]})
+    >>> square
+    Mesh(4 nodes, 1 quad; bodies: block; boundaries: bottom)
+    """
+
+    points: Array
+    cells: Mapping[str, IntArray]
+    bodies: Mapping[str, IntArray]
+    boundaries: Mapping[str, IntArray] = field(default_factory=dict)
+    nodes: Mapping[str, IntArray] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        points = frozen(self.points)
+        if points.ndim != 2 or points.shape[1] != 2:
+            raise InputError(f"has shape {points.shape}; expected (n, 2), plane coordinates", where=("mesh", "points"))
+        if not np.isfinite(points).all():
+            row = int(np.nonzero(~np.isfinite(points).all(axis=1))[0][0])
+            raise InputError(f"node {row + 1} is at {points[row]}; expected finite numbers", where=("mesh", "points"))
+        object.__setattr__(self, "points", points)
+        cells = {}
+        for family, nodes in self.cells.items():
+            if family not in NODES_PER_CELL:
+                known = ", ".join(NODES_PER_CELL)
+                raise InputError(f"unknown family '{family}'; expected one of {known}", where=("mesh", "cells"))
+            cells[family] = self._indices(nodes, len(points), "cells", family, NODES_PER_CELL[family])
+        object.__setattr__(self, "cells", MappingProxyType(cells))
+        for part, limit, width in (
+            ("bodies", self.number_of_cells, None),
+            ("boundaries", len(points), 2),
+            ("nodes", len(points), None),
+        ):
+            named = {name: self._indices(i, limit, part, name, width) for name, i in getattr(self, part).items()}
+            object.__setattr__(self, part, MappingProxyType(named))
+
+    @staticmethod
+    def _indices(values: IntArray, limit: int, part: str, name: str, width: int | None) -> IntArray:
+        array = frozen(values, np.int64)
+        if (width is None and array.ndim != 1) or (width is not None and (array.ndim != 2 or array.shape[1] != width)):
+            expected = "(m,)" if width is None else f"(m, {width})"
+            raise InputError(f"has shape {array.shape}; expected {expected}", where=("mesh", part, name))
+        if array.size and (array.min() < 0 or array.max() >= limit):
+            raise InputError(
+                f"holds indices from {array.min()} to {array.max()}; expected 0 to {limit - 1}",
+                where=("mesh", part, name),
+            )
+        return array
+
+    @property
+    def number_of_cells(self) -> int:
+        """Cells of all families together."""
+        return sum(len(nodes) for nodes in self.cells.values())
+
+    def nodes_of(self, name: str) -> IntArray:
+        """The sorted nodes of a boundary or node set."""
+        found = self.boundaries[name] if name in self.boundaries else self.nodes[name]
+        return np.unique(found)
+
+    def __repr__(self) -> str:
+        families = ", ".join(f"{len(n)} {f}{'s' if len(n) != 1 else ''}" for f, n in self.cells.items())
+        parts = [f"{len(self.points)} nodes, {families}", f"bodies: {', '.join(self.bodies)}"]
+        if self.boundaries:
+            parts.append(f"boundaries: {', '.join(self.boundaries)}")
+        return f"Mesh({'; '.join(parts)})"
+
+
+def join(meshes: Mapping[str, Mesh]) -> Mesh:
+    """Several meshes as one, not connected; names become ``"key.name"``, a single body's name becomes the key.
+
+    Parameters
+    ----------
+    meshes : key to mesh; the key names the part
+
+    Examples
+    --------
+    >>> one = Mesh(points=[[0, 0], [1, 0], [0, 1]], cells={"triangle": [[0, 1, 2]]}, bodies={"body": [0]},
+    ...            boundaries={"bottom": [[0, 1]]})
+    >>> join({"left": one, "right": one})
+    Mesh(6 nodes, 2 triangles; bodies: left, right; boundaries: left.bottom, right.bottom)
+    """
+    families = [family for family in NODES_PER_CELL if any(family in mesh.cells for mesh in meshes.values())]
+    point_shift = np.cumsum([0] + [len(mesh.points) for mesh in meshes.values()])
+    blocks: dict[str, list[IntArray]] = {family: [] for family in families}
+    cell_number: list[IntArray] = [np.empty(mesh.number_of_cells, np.int64) for mesh in meshes.values()]
+    count = 0
+    for family in families:
+        for mesh, shift, numbers in zip(meshes.values(), point_shift, cell_number, strict=False):
+            start = 0
+            for other, nodes in mesh.cells.items():
+                if other == family:
+                    blocks[family].append(nodes + shift)
+                    numbers[start : start + len(nodes)] = count + np.arange(len(nodes))
+                    count += len(nodes)
+                start += len(nodes)
+    bodies, boundaries, nodes_named = {}, {}, {}
+    for (key, mesh), shift, numbers in zip(meshes.items(), point_shift, cell_number, strict=False):
+        for name, index in mesh.bodies.items():
+            bodies[key if len(mesh.bodies) == 1 else f"{key}.{name}"] = numbers[index]
+        boundaries |= {f"{key}.{name}": facets + shift for name, facets in mesh.boundaries.items()}
+        nodes_named |= {f"{key}.{name}": index + shift for name, index in mesh.nodes.items()}
+    return Mesh(
+        points=np.vstack([mesh.points for mesh in meshes.values()]),
+        cells={family: np.vstack(block) for family, block in blocks.items()},
+        bodies=bodies,
+        boundaries=boundaries,
+        nodes=nodes_named,
+    )

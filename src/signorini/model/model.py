@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The whole problem: mesh, bodies, supports, loads, contacts and steps that fit together."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import KW_ONLY, dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from signorini.arrays import IntArray
+from signorini.checks import choice, number
+from signorini.errors import InputError, one_of
+from signorini.model.body import Body
+from signorini.model.conditions import Load, Support
+from signorini.model.contact import Contact, Plane
+from signorini.model.mesh import Mesh
+from signorini.model.step import Step
+
+Kind = Literal["plane strain", "plane stress"]
+KINDS = ("plane strain", "plane stress")
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """A contact problem, checked for everything that can be checked without numerics.
+
+    Parameters
+    ----------
+    mesh : the mesh; its names are what the rest speaks of
+    kind : "plane strain" or "plane stress"
+    thickness : out of plane, length; forces and areas are for this thickness
+    bodies : every cell of the mesh belongs to exactly one
+    supports, loads, contacts : see :class:`Support`, :class:`Load`, :class:`Contact`
+    steps : the load history; by default one step, all loads from 0 to 1, in one increment
+    title, units : said again in the results
+
+    Raises
+    ------
+    InputError
+        With the path of the value, as ``support[0].on``, what was found and what is expected.
+
+    Examples
+    --------
+    >>> from signorini.model.body import Elastic
+    >>> mesh = Mesh(points=[[0, 0], [1, 0], [1, 1], [0, 1]], cells={"quad": [[0, 1, 2, 3]]}, bodies={"block": [0]},
+    ...             boundaries={"bottom": [[0, 1]], "top": [[2, 3]]})
+    >>> block = Body("block", Elastic(E=1.0, nu=0.3))
+    >>> Model(mesh, bodies=[block], supports=[Support("botom", u=(0, 0))])
+    Traceback (most recent call last):
+    signorini.errors.InputError: support[0].on: unknown boundary or node set 'botom'; did you mean 'bottom'? Known: bottom, top
+    """
+
+    mesh: Mesh
+    _: KW_ONLY
+    kind: Kind = "plane strain"
+    thickness: float = 1.0
+    bodies: Sequence[Body] = ()
+    supports: Sequence[Support] = ()
+    loads: Sequence[Load] = ()
+    contacts: Sequence[Contact] = ()
+    steps: Sequence[Step] = (Step(name="load"),)
+    title: str = ""
+    units: str = "as given, consistent"
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.mesh, Mesh):
+            raise InputError(f"is {type(self.mesh).__name__}; expected a Mesh", where=("mesh",))
+        choice(self.kind, KINDS, ("kind",), "kind")
+        number(self.thickness, ("thickness",), above=0.0)
+        for part, kind in (
+            ("bodies", Body),
+            ("supports", Support),
+            ("loads", Load),
+            ("contacts", Contact),
+            ("steps", Step),
+        ):
+            object.__setattr__(self, part, _typed(getattr(self, part), kind, part))
+        self._check_bodies()
+        for i, support in enumerate(self.supports):
+            self._check_place(support.on, ("support", i, "on"), nodes=True)
+            self._check_dimension(support.u, ("support", i, "u"))
+        for i, load in enumerate(self.loads):
+            self._check_load(i, load)
+        for i, contact in enumerate(self.contacts):
+            self._check_contact(i, contact)
+        self._check_labels()
+        self._check_steps()
+
+    @property
+    def dimension(self) -> int:
+        """Of space: 2."""
+        return int(self.mesh.points.shape[1])
+
+    def body_of_cells(self) -> IntArray:
+        """For every cell the index of its body, (m,)."""
+        owner = np.full(self.mesh.number_of_cells, -1)
+        for i, body in enumerate(self.bodies):
+            owner[self.mesh.bodies[body.name]] = i
+        return owner
+
+    def _check_bodies(self) -> None:
+        known = self.mesh.bodies
+        if not self.bodies:
+            raise InputError(f"there is none; the mesh has {', '.join(known) or 'no named body'}", where=("body",))
+        count = np.zeros(self.mesh.number_of_cells, int)
+        for i, body in enumerate(self.bodies):
+            if body.name not in known:
+                raise InputError(one_of(body.name, known, "body"), where=("body", i, "name"))
+            count[known[body.name]] += 1
+        if (count == 1).all():
+            return
+        cell = int(np.nonzero(count != 1)[0][0])
+        names = [name for name, cells in known.items() if cell in cells]
+        if count[cell]:
+            raise InputError(f"cell {cell + 1} belongs to several bodies: {', '.join(names)}", where=("body",))
+        of = f"it is in {' and '.join(names)}" if names else "it is in no named part of the mesh"
+        raise InputError(f"cell {cell + 1} belongs to no body ({of}); give it a body and a material", where=("body",))
+
+    def _check_load(self, i: int, load: Load) -> None:
+        where = ("load", i, "on")
+        if load.kind == "body_force":
+            if load.on not in {body.name for body in self.bodies}:
+                raise InputError(one_of(str(load.on), [body.name for body in self.bodies], "body"), where=where)
+        elif load.kind == "force" and load.spread == "traction":
+            self._check_place(load.on, where, nodes=True)
+        else:
+            self._check_place(load.on, where, nodes=False)
+        for kind in ("force", "traction", "body_force"):
+            self._check_dimension(getattr(load, kind), ("load", i, kind))
+
+    def _check_contact(self, i: int, contact: Contact) -> None:
+        self._check_place(contact.nonmortar, ("contact", i, "nonmortar"), nodes=False)
+        if isinstance(contact.mortar, Plane):
+            self._check_dimension(contact.mortar.normal, ("contact", i, "plane"))
+            return
+        self._check_place(contact.mortar, ("contact", i, "mortar"), nodes=False)
+        if contact.mortar == contact.nonmortar:
+            raise InputError(f"'{contact.mortar}' touches itself; expected another boundary", where=("contact", i))
+
+    def _check_place(self, on: Any, where: tuple[str | int, ...], *, nodes: bool) -> None:
+        if not isinstance(on, str):
+            if not nodes:
+                raise InputError(f"is the point {on}; expected a boundary", where=where)
+            self._check_dimension(on, where)
+            return
+        known: set[str] = set(self.mesh.boundaries) | (set(self.mesh.nodes) if nodes else set())
+        if on not in known:
+            raise InputError(one_of(on, known, "boundary or node set" if nodes else "boundary"), where=where)
+        if not len(self.mesh.nodes_of(on)):
+            raise InputError(f"'{on}' is empty in the mesh", where=where)
+
+    def _check_dimension(self, parts: Sequence[float | None] | None, where: tuple[str | int, ...]) -> None:
+        if parts is not None and len(parts) != self.dimension:
+            raise InputError(f"has {len(parts)} components; expected {self.dimension}", where=where)
+
+    def _check_labels(self) -> None:
+        groups: tuple[tuple[str, Iterable[Support | Load | Contact]], ...] = (
+            ("support", self.supports),
+            ("load", self.loads),
+            ("contact", self.contacts),
+        )
+        for part, members in groups:
+            twice = [label for label, n in Counter(member.label for member in members).items() if n > 1]
+            if twice:
+                raise InputError(f"two are called '{twice[0]}'; give each a name of its own", where=(part,))
+        both = {load.label for load in self.loads} & {support.label for support in self.supports if support.moves}
+        if both:
+            raise InputError(
+                f"'{both.pop()}' is a load and a moving support; steps need a name for each", where=("load",)
+            )
+
+    def _check_steps(self) -> None:
+        if not self.steps:
+            raise InputError("there is none; expected at least one", where=("step",))
+        names = self.scaled_names
+        used: set[str] = set()
+        for i, step in enumerate(self.steps):
+            for name in step.scale or ():
+                if name not in names:
+                    raise InputError(one_of(name, names, "load or moving support"), where=("step", i, "scale"))
+            used |= set(names if step.scale is None else step.scale)
+        unused = [name for name in names if name not in used]
+        if unused:
+            raise InputError(
+                f"no step's scale names '{unused[0]}': it would never act. Expected a factor for it in a step",
+                where=("step",),
+            )
+
+    @property
+    def scaled_names(self) -> tuple[str, ...]:
+        """What steps can scale: loads and moving supports."""
+        return tuple(load.label for load in self.loads) + tuple(s.label for s in self.supports if s.moves)
+
+    def factors(self) -> list[dict[str, float]]:
+        """Load factors by name: before the first step (all 0) and at the end of every step."""
+        history = [dict.fromkeys(self.scaled_names, 0.0)]
+        for step in self.steps:
+            change = dict.fromkeys(self.scaled_names, 1.0) if step.scale is None else dict(step.scale)
+            history.append(history[-1] | change)
+        return history
+
+
+def _typed(values: Any, kind: type, part: str) -> tuple[Any, ...]:
+    singular = {"bodies": "body"}.get(part, part.removesuffix("s"))
+    if isinstance(values, kind):
+        values = (values,)
+    for i, value in enumerate(values):
+        if not isinstance(value, kind):
+            raise InputError(f"is {value!r}; expected a {kind.__name__}", where=(singular, i))
+    return tuple(values)
