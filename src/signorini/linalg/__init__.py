@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sparse direct factorisation that condenses onto the contact interface."""
+
+from signorini.linalg.protocol import Factorisation, NotPositiveDefinite
+from signorini.linalg.registry import BACKENDS, factorise
+
+__all__ = ["BACKENDS", "Factorisation", "NotPositiveDefinite", "factorise"]

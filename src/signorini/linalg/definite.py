@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Is a motion without resistance hidden in the round-off?
+
+The last pivot of a free body is not 0 but round-off of either sign, so a factorisation may well run through. Rigid
+motions of large bodies sum up much round-off, slender bodies have small honest pivots: no bound on a pivot tells the
+two apart. The energy of the softest motion does: one solve with an arbitrary load gives a motion x that a vanishing
+eigenvalue dominates, and x counts as free where, body by body,
+
+    x . K x  <=  c eps  |x| . |K| |x|:
+
+its energy is then the round-off of the products it is summed from.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.sparse.csgraph import connected_components
+
+from signorini.arrays import Array
+from signorini.linalg.protocol import NotPositiveDefinite
+from signorini.linalg.system import System
+
+SUSPICIOUS = 1e-5
+"""A pivot this small against its diagonal entry calls for the test of the energy."""
+
+ROUNDOFF = 16 * float(np.finfo(np.float64).eps)
+
+
+def check_energy(system: System, solve: Callable[[Array], Array]) -> None:
+    """Refuse a factorised interior that has a motion without resistance.
+
+    Parameters
+    ----------
+    system : the matrix
+    solve : maps a load (n,), 0 on the interface, to the displacement (n,) with the interface held
+
+    Raises
+    ------
+    NotPositiveDefinite
+        With the unknown that moves most in the first free body found.
+    """
+    K = system.matrix
+    rng = np.random.default_rng(0)
+    load = np.where(system.inside, np.sqrt(np.abs(K.diagonal())) * rng.choice([-1.0, 1.0], system.n), 0.0)
+    x = solve(load)
+    if not np.isfinite(x).all():
+        raise NotPositiveDefinite(int(np.flatnonzero(~np.isfinite(x))[0]))
+    held = system.inside.astype(np.float64)
+    interior = K.multiply(held[:, None]).multiply(held).tocsr()
+    interior.eliminate_zeros()
+    _, body = connected_components(interior, directed=False)
+    energy = np.bincount(body, weights=x * load)
+    size = np.bincount(body, weights=np.abs(x) * (abs(interior) @ np.abs(x)))
+    free = (energy <= ROUNDOFF * size) & (size > 0)
+    if free.any():
+        raise NotPositiveDefinite(int(np.argmax(np.where(free[body], np.abs(x), -1.0))))

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The back ends by name, and the one door to them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from signorini.errors import InputError, one_of
+from signorini.linalg import superlu
+from signorini.linalg.protocol import Factorisation
+from signorini.linalg.system import System, check
+
+BACKENDS: dict[str, Callable[[System], Factorisation]] = {
+    "superlu": superlu.factorise,
+}
+
+
+def factorise(K: Any, interface: ArrayLike, *, nodes: ArrayLike | None = None, backend: str = "auto") -> Factorisation:
+    """Factorise the interior of a symmetric matrix and condense it onto the interface.
+
+    Parameters
+    ----------
+    K : (n, n) sparse array, symmetric, both triangles stored
+    interface : (m,) unknowns that are not eliminated, in the order of the condensed system; may be empty
+    nodes : (n,) node of every unknown; makes the analysis cheaper, changes no result
+    backend : a name of `BACKENDS`, or "auto"
+
+    Raises
+    ------
+    InputError
+        If the arguments do not fit, or the back end is unknown.
+    NotPositiveDefinite
+        If the interior is singular or indefinite; names one unknown that can move.
+
+    Examples
+    --------
+    Two springs in a row, the left end fixed; the middle is eliminated:
+
+    >>> import numpy as np
+    >>> from scipy import sparse
+    >>> K = sparse.csr_array(np.array([[4.0, -2.0], [-2.0, 2.0]]))
+    >>> factor = factorise(K, [1])
+    >>> factor.schur()
+    array([[1.]])
+    >>> factor.reduce(np.array([4.0, 0.0]))
+    array([2.])
+    >>> factor.expand(np.array([4.0, 0.0]), np.array([2.0]))
+    array([2., 2.])
+    """
+    name = "superlu" if backend == "auto" else backend
+    if name not in BACKENDS:
+        raise InputError(one_of(backend, ["auto", *BACKENDS], "back end"))
+    return BACKENDS[name](check(K, interface, nodes))

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A checked matrix with its interface, and the graph of its nodes: what every back end starts from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy import sparse
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.errors import InputError
+from signorini.linalg._graph import quotient
+
+Int32Array = NDArray[np.int32]
+
+
+@dataclass(frozen=True, kw_only=True)
+class System:
+    """A symmetric matrix in rows, and what is known about its unknowns.
+
+    Attributes
+    ----------
+    indptr, indices, data : the rows of K; the columns of a row need not be sorted
+    interface : (m,) unknowns that are never eliminated
+    inside : (n,) whether an unknown is eliminated
+    nodes : (n,) the node of every unknown
+    """
+
+    indptr: Int32Array
+    indices: Int32Array
+    data: Array
+    interface: IntArray
+    inside: BoolArray
+    nodes: IntArray
+
+    @property
+    def n(self) -> int:
+        """Unknowns in all."""
+        return len(self.indptr) - 1
+
+    @property
+    def m(self) -> int:
+        """Unknowns on the interface."""
+        return len(self.interface)
+
+    @property
+    def matrix(self) -> sparse.csr_array:
+        """K, sharing its memory with this object."""
+        return sparse.csr_array((self.data, self.indices, self.indptr), shape=(self.n, self.n))
+
+
+@dataclass(frozen=True, kw_only=True)
+class NodeGraph:
+    """The unknowns gathered into nodes, those of the interior first; a node may have any number of unknowns.
+
+    A node with unknowns on both sides counts as two.
+
+    Attributes
+    ----------
+    start : (g + 1,) where the unknowns of every node begin in `member`
+    member : (n,) unknowns, node by node, ascending inside a node
+    interior : number of nodes that are eliminated: the first ones
+    indptr, indices : rows of the graph, without loops
+    """
+
+    start: Int32Array
+    member: Int32Array
+    interior: int
+    indptr: Int32Array
+    indices: Int32Array
+
+
+def check(K: Any, interface: ArrayLike, nodes: ArrayLike | None) -> System:
+    """Check the arguments of `factorise`.
+
+    Raises
+    ------
+    InputError
+        If K is not a square sparse matrix of finite numbers, the interface names an unknown twice or one that does not
+        exist, or `nodes` has another length than K.
+    """
+    if not sparse.issparse(K) or np.shape(K) != np.shape(K)[:1] * 2:
+        raise InputError(f"K is {type(K).__name__} of shape {np.shape(K)}; expected a square sparse matrix")
+    K = sparse.csr_array(K)
+    n = K.shape[0]
+    if K.nnz > np.iinfo(np.int32).max:
+        raise InputError(f"K has {K.nnz} entries; expected at most 2^31 - 1")
+    if not np.isfinite(K.data).all():
+        raise InputError("K has entries that are not finite")
+    if nodes is not None and np.shape(nodes) != (n,):
+        raise InputError(f"nodes has shape {np.shape(nodes)}; expected ({n},), the node of every unknown")
+    edge = np.asarray(interface, dtype=np.int64)
+    if edge.ndim != 1 or (edge.size and (edge.min() < 0 or edge.max() >= n)):
+        raise InputError(f"interface of shape {edge.shape} leaves the range 0 .. {n - 1} of the unknowns")
+    inside = np.ones(n, dtype=np.bool_)
+    inside[edge] = False
+    if n - np.count_nonzero(inside) != len(edge):
+        raise InputError("interface names an unknown twice")
+    return System(
+        indptr=K.indptr.astype(np.int32, copy=False),
+        indices=K.indices.astype(np.int32, copy=False),
+        data=K.data.astype(np.float64, copy=False),
+        interface=edge,
+        inside=inside,
+        nodes=np.arange(n) if nodes is None else np.asarray(nodes, dtype=np.int64),
+    )
+
+
+def columns(values: ArrayLike, rows: int) -> Array:
+    """Read a vector as one column.
+
+    Raises
+    ------
+    InputError
+        If there are not as many rows.
+    """
+    array = np.asarray(values, dtype=np.float64)
+    if array.ndim not in (1, 2) or len(array) != rows:
+        raise InputError(f"got an array of shape {array.shape}; expected ({rows},) or ({rows}, k)")
+    return array[:, None] if array.ndim == 1 else array
+
+
+def like(values: ArrayLike, result: Array) -> Array:
+    """Give one column back as a vector where a vector came in."""
+    return result[:, 0] if np.ndim(values) == 1 else result
+
+
+def node_graph(system: System) -> NodeGraph:
+    """Gather the unknowns of a node, interior nodes first."""
+    key = system.nodes - system.nodes.min(initial=0)
+    key = key + (key.max(initial=0) + 1) * ~system.inside
+    member = np.argsort(key, kind="stable").astype(np.int32)
+    first = np.concatenate([[True], np.diff(key[member]) > 0]) if system.n else np.empty(0, dtype=np.bool_)
+    start = np.append(np.flatnonzero(first), system.n).astype(np.int32)
+    group = np.empty(system.n, dtype=np.int32)
+    group[member] = np.cumsum(first) - 1
+    indptr, indices = quotient(system.indptr, system.indices, start, member, group)
+    interior = int(np.searchsorted(start, system.n - system.m))
+    return NodeGraph(start=start, member=member, interior=interior, indptr=indptr, indices=indices)
