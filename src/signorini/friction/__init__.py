@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The condensed 2D Coulomb problem and the solver that always answers."""
+
+from signorini.friction.certificate import certify
+from signorini.friction.interface import Interface
+from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STATE_NAMES, STICK, UNDECIDED
+from signorini.friction.problem import CoulombProblem
+from signorini.friction.result import Attempt, CoulombResult
+from signorini.friction.solve import solve_coulomb
+
+__all__ = [
+    "OPEN",
+    "SLIP_MINUS",
+    "SLIP_PLUS",
+    "STATE_NAMES",
+    "STICK",
+    "UNDECIDED",
+    "Attempt",
+    "CoulombProblem",
+    "CoulombResult",
+    "Interface",
+    "certify",
+    "solve_coulomb",
+]

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whether a candidate is a solution: the one test that every method's answer passes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.friction.law import split
+from signorini.friction.problem import CoulombProblem
+
+FARTHEST = 1e9
+"""Motions beyond this many times the data are a body that has left, not a solution."""
+
+
+def certify(problem: CoulombProblem, y: Array) -> float:
+    """Largest violation of equilibrium by y, relative to the data; y obeys Coulomb's law as such (see `law`).
+
+    The larger of ``max |b + W (h + r) - h| / scale`` and, for each rigid motion rho, ``|rho.(r + b)| / (scale sum
+    |rho_i|)``. The second is not implied by the first in floating-point numbers: rounding in ``h - W h`` times a huge
+    rigid motion h can balance any load. For the same reason motions above 1e9 times the data count as infinite.
+
+    Parameters
+    ----------
+    problem : the problem as posed
+    y : (2n,) candidate ``r - h``
+
+    Examples
+    --------
+    >>> problem = CoulombProblem(
+    ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.0]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
+    ... )
+    >>> certify(problem, np.array([2.0, 0.0])), certify(problem, np.array([0.0, 0.0]))
+    (0.0, 1.0)
+    """
+    if not np.isfinite(y).all():
+        return np.inf
+    h, r = split(y, problem.mu)
+    unit = problem.scale if problem.scale > 0 else 1.0
+    if np.abs(h).max(initial=0.0) > FARTHEST * unit:
+        return np.inf
+    misfit = np.abs(problem.misfit(h, r)).max(initial=0.0) / unit
+    R = problem.interface.R
+    resultants = np.abs(R.T @ (r + problem.b)) / (unit * np.abs(R).sum(axis=0))
+    return float(max(misfit, resultants.max(initial=0.0)))

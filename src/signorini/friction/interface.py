@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The interface without its load: one factorisation that every load, friction and state shares.
+
+Equilibrium reads ``G h - W r = b`` with ``G = I - W``. With R an orthonormal basis of the rigid motions (W R = R) and
+``T = (G + R R')^-1``, regular whether bodies float or not, the same in forces is::
+
+    h = A r + c + R a,    R'(r + b) = 0,    A = T - I,    c = T b - R R'b
+
+so that open pairs (r = 0) take no part in the systems to solve.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.linalg import lapack, qr
+
+from signorini.arrays import Array
+from signorini.errors import InputError
+
+UNRESISTED = 1e-14
+"""Stiffness, relative to the interface stiffness D, below which a motion counts as rigid."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Interface:
+    """Compliance and rigid motions of a contact interface, scaled; factorised once, when first asked.
+
+    Parameters
+    ----------
+    W : (2n, 2n) scaled image-form compliance, spectrum in [0, 1]
+    motions : (2n, k) rigid motions seen by the pairs, W R = R
+
+    Examples
+    --------
+    >>> Interface(W=np.diag([0.5, 0.5]), motions=np.zeros((2, 0))).A.round(12).tolist()
+    [[1.0, 0.0], [0.0, 1.0]]
+    """
+
+    W: Array
+    motions: Array
+
+    @cached_property
+    def R(self) -> Array:
+        """(2n, k) Orthonormal rigid motions."""
+        if self.motions.shape[1] == 0:
+            return self.motions
+        Q, triangle = qr(self.motions, mode="economic")
+        diagonal = np.abs(np.diag(triangle))
+        if len(diagonal) < self.motions.shape[1] or diagonal.min() <= 1e-10 * diagonal.max():
+            raise InputError("rigid motions are linearly dependent; expected independent columns", where=("motions",))
+        return np.asarray(Q, dtype=np.float64)
+
+    @cached_property
+    def A(self) -> Array:
+        """(2n, 2n) Compliance: motion per force, on what forces can move without a rigid motion."""
+        G = np.asfortranarray(self.R @ self.R.T - self.W)
+        G[np.diag_indices(len(G))] += 1.0
+        factor, failed = lapack.dpotrf(G, lower=1, overwrite_a=1, clean=0)
+        if not failed and np.diag(factor).min(initial=1.0) ** 2 > UNRESISTED:
+            factor, failed = lapack.dpotri(factor, lower=1, overwrite_c=1)
+        else:
+            failed = 1
+        if failed:
+            raise InputError(
+                "has an eigenvalue 1 (a motion that nothing resists) beyond the rigid motions given; add that motion",
+                where=("W",),
+            )
+        A = np.tril(factor)
+        A += np.tril(factor, -1).T
+        A[np.diag_indices(len(A))] -= 1.0
+        return np.asarray(A, dtype=np.float64)
+
+    def free_motion(self, b: Array) -> Array:
+        """(2n,) Motion c of the pairs under the load alone, without its rigid part."""
+        return b + self.A @ b - self.R @ (self.R.T @ b)

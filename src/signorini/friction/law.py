@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Coulomb's law of a pair in one unknown: ``y = r - h``, force minus relative motion, two numbers a pair.
+
+Because a pair never presses and gapes at once, and never has friction to spare while it slips, y tells both::
+
+    p = max(y_n, 0)      gap  = max(-y_n, 0)
+    r_t = clip(y_t, -mu p, mu p)      slip = r_t - y_t
+
+Every y obeys the law; what is left to solve is equilibrium, one piecewise linear equation in y with four cones a pair.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray, IntArray
+
+OPEN, STICK, SLIP_PLUS, SLIP_MINUS = 0, 1, 2, 3
+UNDECIDED = -1
+
+STATE_NAMES = ("open", "stick", "slip, friction +", "slip, friction -")
+
+
+def split(y: Array, friction: Array) -> tuple[Array, Array]:
+    """Motion h = (gap, slip increment) and force r = (normal, tangential) of y.
+
+    Parameters
+    ----------
+    y : (2n,) n normals, then n tangents
+    friction : (n,) mu >= 0, ``inf`` for pairs that never slip
+
+    Returns
+    -------
+    h, r : (2n,) with ``y = r - h``
+
+    Examples
+    --------
+    >>> h, r = split(np.array([2.0, -3.0, 1.5, 4.0]), np.array([0.5, 0.5]))
+    >>> h.tolist(), r.tolist()
+    ([0.0, 3.0, -0.5, -4.0], [2.0, 0.0, 1.0, 0.0])
+    """
+    n = len(friction)
+    pressure = np.maximum(y[:n], 0.0)
+    bound = np.zeros(n)
+    np.multiply(friction, pressure, out=bound, where=pressure > 0)
+    r = np.concatenate([pressure, np.clip(y[n:], -bound, bound)])
+    return r - y, r
+
+
+def states(y: Array, friction: Array, closed: IntArray) -> IntArray:
+    """The cone of each pair that y lies in.
+
+    Parameters
+    ----------
+    y : (2n,)
+    friction : (n,)
+    closed : (n,) the state that a pair takes wherever it is closed, or UNDECIDED where y_t decides
+
+    Examples
+    --------
+    >>> states(np.array([2.0, -3.0, 0.5, 4.0]), np.array([0.5, 0.5]), np.array([UNDECIDED, UNDECIDED])).tolist()
+    [1, 0]
+    """
+    n = len(friction)
+    y_n, y_t = y[:n], y[n:]
+    bound = np.zeros(n)
+    np.multiply(friction, y_n, out=bound, where=y_n > 0)
+    state = np.where(np.abs(y_t) <= bound, STICK, np.where(y_t >= 0, SLIP_PLUS, SLIP_MINUS))
+    state = np.where(closed == UNDECIDED, state, closed)
+    return np.where(y_n <= 0, OPEN, state).astype(np.int64)
+
+
+def closed_states(friction: Array, locked: BoolArray, b_t: Array) -> IntArray:
+    """What a closed pair can only be: stick without limit, slip without friction, slip as its support drags it.
+
+    A locked pair (its tangential motion is that of its supports, whatever the forces) slips by b_t, known beforehand,
+    and friction opposes it. UNDECIDED everywhere else.
+
+    Examples
+    --------
+    >>> locked = np.array([False, False, True, False])
+    >>> closed_states(np.array([np.inf, 0.0, 0.3, 0.3]), locked, np.full(4, 0.1)).tolist()
+    [1, 2, 3, -1]
+    """
+    closed = np.full(len(friction), UNDECIDED)
+    closed[np.isinf(friction)] = STICK
+    closed[locked] = np.where(b_t[locked] > 0, SLIP_MINUS, SLIP_PLUS)
+    closed[friction == 0] = SLIP_PLUS
+    return closed.astype(np.int64)

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The condensed 2D Coulomb contact problem."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray, IntArray, frozen
+from signorini.errors import InputError
+from signorini.friction.interface import Interface
+from signorini.friction.law import closed_states
+
+
+@dataclass(frozen=True, kw_only=True)
+class CoulombProblem:
+    """Find h = (gap, slip increment) and r = (normal force, tangential force) of n pairs in Coulomb's law with::
+
+        G h - W r = b,    G = I - W
+
+    Unknowns are ordered n normals, then n tangents; gap >= 0 is open, normal force >= 0 presses, the tangential force
+    acts on body 1. All quantities are scaled by the square roots of an interface stiffness D (the same for both
+    directions of a pair): ``h = D^.5 u``, ``r = D^-.5 forces``, ``W = D^.5 (B (K + B'DB)^-1 B') D^.5``.
+
+    Parameters
+    ----------
+    W : (2n, 2n) symmetric, spectrum in [0, 1]; 1 belongs to rigid motions alone. An exactly zero tangential row says
+        that supports lock the pair's tangential motion
+    b : (2n,) load: motion of the pairs under the loads plus ``G h0``, h0 = (initial gap, -slip of the step before)
+    friction : (n,) mu >= 0; ``inf`` never slips, but may open
+    motions : (2n, k) rigid motions seen by the pairs, W R = R; k = 0 where supports hold every body
+    scale : size of b's entries, from the data, that tolerances refer to; in the units of b
+    interface : what does not depend on the load. ``dataclasses.replace(problem, b=...)`` shares it, with its
+        factorisation; made from W and motions where not given or not theirs
+
+    Raises
+    ------
+    InputError
+        Where shapes do not fit, entries are not finite, W is not symmetric, friction is negative, or a pair that may
+        never slip is dragged by its supports.
+
+    Examples
+    --------
+    >>> problem = CoulombProblem(
+    ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.2]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
+    ... )
+    >>> problem.pairs, problem.floating
+    (1, False)
+    """
+
+    W: Array
+    b: Array
+    friction: Array
+    motions: Array
+    scale: float
+    interface: Interface = field(default=None, repr=False, compare=False)  # type: ignore[assignment]
+
+    def __post_init__(self) -> None:
+        for name in ("W", "b", "friction", "motions"):
+            object.__setattr__(self, name, _read_only(getattr(self, name)))
+        _check(self)
+        known = self.interface
+        if known is None or known.W is not self.W or known.motions is not self.motions:
+            object.__setattr__(self, "interface", Interface(W=self.W, motions=self.motions))
+
+    @property
+    def pairs(self) -> int:
+        """Number of pairs n."""
+        return len(self.friction)
+
+    @property
+    def floating(self) -> bool:
+        """Whether some body is held by contact alone."""
+        return bool(self.motions.shape[1])
+
+    @cached_property
+    def locked(self) -> BoolArray:
+        """(n,) Pairs whose tangential motion is that of their supports."""
+        return np.asarray(~self.W[self.pairs :].any(axis=1), dtype=np.bool_)
+
+    @cached_property
+    def mu(self) -> Array:
+        """(n,) Friction that can act: none at a locked pair that is not dragged."""
+        return np.where(self.locked & (self.b[self.pairs :] == 0), 0.0, self.friction)
+
+    @cached_property
+    def closed(self) -> IntArray:
+        """(n,) State of each pair where it is closed, UNDECIDED where the solution decides."""
+        return closed_states(self.mu, self.locked, self.b[self.pairs :])
+
+    def misfit(self, h: Array, r: Array) -> Array:
+        """(2n,) ``b - (G h - W r)``, the motion that equilibrium lacks."""
+        return self.b + self.W @ (h + r) - h
+
+
+def _read_only(values: Array) -> Array:
+    """The array itself where nobody can edit it: W is large and shared by every step."""
+    array = np.asarray(values, dtype=np.float64)
+    return array if not array.flags.writeable and array.base is None else frozen(array)
+
+
+def _check(problem: CoulombProblem) -> None:
+    n = len(problem.friction)
+    shapes = {"W": (2 * n, 2 * n), "b": (2 * n,), "friction": (n,), "motions": (2 * n, problem.motions.shape[-1])}
+    for name, expected in shapes.items():
+        found = getattr(problem, name)
+        if found.shape != expected:
+            raise InputError(f"has shape {found.shape}; expected {expected} for {n} pairs", where=(name,))
+        if not np.isfinite(found).all() and name != "friction":
+            raise InputError("has entries that are not finite", where=(name,))
+    if not (problem.friction >= 0).all():
+        raise InputError("has negative entries or NaN; expected mu >= 0, inf for pairs that stick", where=("friction",))
+    if not (np.isfinite(problem.scale) and problem.scale >= 0):
+        raise InputError(f"is {problem.scale}; expected a finite number >= 0", where=("scale",))
+    if np.abs(problem.W - problem.W.T).max(initial=0.0) > 1e-12:
+        raise InputError("is not symmetric", where=("W",))
+    if np.any(problem.locked & np.isinf(problem.friction) & (problem.b[n:] != 0)):
+        raise InputError(
+            "is infinite at a pair whose supports drag it along: it can neither slip nor stick; give a finite mu",
+            where=("friction",),
+        )

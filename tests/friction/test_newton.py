@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Newton on problems small enough to solve by hand."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from signorini.errors import InputError
+from signorini.friction import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, CoulombProblem, solve_coulomb
+
+
+def one_pair(normal, tangential, mu):
+    """A pair with compliance 1 in both directions (W = 1/2): the motion of the free body is twice b."""
+    b = np.array([normal, tangential])
+    return CoulombProblem(W=np.diag([0.5, 0.5]), b=b, friction=[mu], motions=np.zeros((2, 0)), scale=1.0)
+
+
+@pytest.mark.parametrize(
+    ("normal", "tangential", "mu", "state", "force", "motion"),
+    [
+        (0.5, 0.1, 0.3, OPEN, (0, 0), (1, 0.2)),
+        (-1, 0.2, 0.3, STICK, (2, -0.4), (0, 0)),
+        (-1, 0.5, 0.3, SLIP_MINUS, (2, -0.6), (0, 0.4)),
+        (-1, -0.5, 0.3, SLIP_PLUS, (2, 0.6), (0, -0.4)),
+        (-1, 0.5, 0.0, SLIP_MINUS, (2, 0), (0, 1)),
+        (-1, 5, np.inf, STICK, (2, -10), (0, 0)),
+        (0.5, 5, np.inf, OPEN, (0, 0), (1, 10)),
+    ],
+)
+def test_one_pair(normal, tangential, mu, state, force, motion):
+    result = solve_coulomb(one_pair(normal, tangential, mu))
+    assert result.solved
+    assert result.state.tolist() == [state]
+    np.testing.assert_allclose([result.normal_force[0], result.tangential_force[0]], force, atol=1e-14)
+    np.testing.assert_allclose([result.gap[0], result.slip[0]], motion, atol=1e-14)
+
+
+@pytest.mark.parametrize("drag", [-0.2, 0.0, 0.2])
+def test_locked_pair_slips_as_its_support_moves(drag):
+    problem = CoulombProblem(
+        W=np.diag([0.5, 0.0]), b=np.array([-1.0, drag]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
+    )
+    result = solve_coulomb(problem)
+    assert result.solved
+    np.testing.assert_allclose([result.slip[0], result.tangential_force[0]], [drag, -0.6 * np.sign(drag)], atol=1e-14)
+
+
+def test_no_pairs():
+    nothing = np.zeros(0)
+    problem = CoulombProblem(W=np.zeros((0, 0)), b=nothing, friction=nothing, motions=np.zeros((0, 0)), scale=0.0)
+    assert solve_coulomb(problem).solved
+
+
+def test_another_load_shares_the_factorisation():
+    problem = one_pair(-1, 0.2, 0.3)
+    assert dataclasses.replace(problem, b=np.array([1.0, 0.0])).interface is problem.interface
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"b": np.zeros(3)}, r"b: has shape \(3,\); expected \(2,\) for 1 pairs"),
+        ({"b": np.array([np.nan, 0])}, "b: has entries that are not finite"),
+        ({"friction": [-0.1]}, "friction: has negative entries"),
+        ({"W": np.array([[0.5, 0.1], [0.2, 0.5]])}, "W: is not symmetric"),
+        ({"scale": np.nan}, "scale: is nan; expected"),
+        ({"W": np.diag([0.5, 0]), "friction": [np.inf]}, "friction: is infinite at a pair whose supports drag it"),
+    ],
+)
+def test_wrong_input_is_named(change, message):
+    with pytest.raises(InputError, match=message):
+        dataclasses.replace(one_pair(-1, 0.2, 0.3), **change)
+
+
+def test_a_motion_not_given_is_named():
+    problem = CoulombProblem(W=np.eye(2), b=np.ones(2), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0)
+    with pytest.raises(InputError, match="add that motion"):
+        solve_coulomb(problem)
+
+
+def test_start_is_checked():
+    with pytest.raises(InputError, match="start: expected 1 states"):
+        solve_coulomb(one_pair(-1, 0.2, 0.3), np.array([0, 0]))
