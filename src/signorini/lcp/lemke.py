@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Lemke's complementary pivoting method, the one that always ends: a solution, a ray, or a breakdown named so."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.errors import InputError
+from signorini.lcp.active import polish
+from signorini.lcp.problem import LCP, read_vector
+from signorini.lcp.residual import natural_residual
+from signorini.lcp.scaling import Equilibrated, equilibrate
+from signorini.lcp.solution import Attempt, Ray
+from signorini.lcp.status import Status
+from signorini.lcp.tableau import Tableau
+from signorini.lcp.transform import principal_transform
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lemke:
+    """Follow the solutions of ``w = M z + q + theta d`` from a large theta down to theta = 0.
+
+    One of w_i, z_i is 0 for every i all along; the complement of the variable that left enters next. Ties in the ratio
+    test are broken lexicographically, which excludes cycling, except that theta leaves first where it can: in
+    frictional contact the textbook choice runs along pairs of multipliers that rise together, into a spurious ray.
+
+    Parameters
+    ----------
+    covering : (n,) d >= 0, positive where q < 0; None stands for 1 in the equilibrated rows
+    max_pivots : limit, None stands for ``100 n + 1000``
+    pivot_tolerance : entries of the equilibrated tableau below it, relative to their column, are not pivoted on
+    tie_tolerance : ratios closer than it, relative to the size of the basic variables, are ties
+    check_every : pivots between two looks at the rounding error of the tableau, which is refactored where it drifts
+
+    Notes
+    -----
+    Rows and columns are equilibrated by powers of two, which leaves the path what it is. With ``z0`` the path starts
+    from the basis of its positive components. The ray of a path that ends in one is returned; theta near 0 there is
+    polished and tested first, since it may be a solution hidden by a tie.
+
+    References
+    ----------
+    Cottle, Pang, Stone (1992), The Linear Complementarity Problem, algorithms 4.4.5 and 4.9.3 (lexicographic).
+
+    Examples
+    --------
+    >>> from signorini.lcp import solve
+    >>> solve([[2.0, 1.0], [0.0, 2.0]], [-1.0, -2.0], method=Lemke()).z.round(12)
+    array([0., 1.])
+    """
+
+    name: ClassVar[str] = "lemke"
+    matrices: ClassVar[str] = "any; ends in a solution where M is copositive plus, P0 or semimonotone and one exists"
+
+    covering: ArrayLike | None = None
+    max_pivots: int | None = None
+    pivot_tolerance: float = 1e-11
+    tie_tolerance: float = 1e-12
+    check_every: int = 64
+
+    def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:
+        """See ``Method.attempt``."""
+        M = problem.dense()
+        if M is None:
+            return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note="Lemke needs the entries of M.")
+        scaled = equilibrate(M, problem.q)
+        d = np.ones(problem.n) if self.covering is None else scaled.rows * self._covering(problem)
+        basis: BoolArray = np.zeros(problem.n, dtype=bool) if z0 is None else z0 > 0
+        turned = principal_transform(scaled.M, scaled.q, basis)
+        note = "" if turned is not None else "The basis of z0 is singular: started from z = 0."
+        if turned is None:
+            basis[:] = False
+        path = _Path(self, Tableau(*(turned or (scaled.M, scaled.q)), _normed(d)), tolerance, basis)
+        return path.follow(problem, M, scaled, note)
+
+    def _covering(self, problem: LCP) -> Array:
+        d = read_vector(self.covering, "covering", problem.n) if self.covering is not None else np.ones(problem.n)
+        bad = np.flatnonzero((d < 0) | ((d == 0) & (problem.q < 0)))
+        if len(bad):
+            raise InputError(
+                f"is {d[bad[0]]} in row {bad[0]}; expected d >= 0, and d > 0 where q < 0", where=("covering",)
+            )
+        return d
+
+
+class _Path:
+    """One run: the tableau and what is needed to judge where it stands."""
+
+    def __init__(self, options: Lemke, tableau: Tableau, tolerance: float, basis: BoolArray) -> None:
+        self.options, self.tableau, self.tolerance, self.basis = options, tableau, tolerance, basis
+        self.pivots = 0
+        self.largest_theta = 0.0
+        self.theta = 2 * tableau.n
+        self.refused = -1
+
+    def follow(self, problem: LCP, M: Array, scaled: Equilibrated, note: str) -> Attempt:
+        """From the first ratio test to a solution, a ray or the limit."""
+        self.problem, self.M, self.scaled = problem, M, scaled
+        tableau, n = self.tableau, self.tableau.n
+        if (tableau.rhs >= 0).all():
+            return self._ended(Status.SOLVED, note)
+        first = np.flatnonzero(tableau.d > 0)
+        ratios = tableau.q[first] / tableau.d[first]
+        self.largest_theta = -float(ratios.min())
+        ties = first[ratios <= ratios.min() + self.options.tie_tolerance * self.largest_theta]
+        row = tableau.least_lexicographic(ties, tableau.d[ties], 0.0)
+        left = self._exchange(row, self.theta)
+        limit = self.options.max_pivots or 100 * n + 1000
+        while self.pivots < limit:
+            entering = left + n if left < n else left - n
+            if self.pivots % self.options.check_every == 0 and not self._sound():
+                return self._ended(Status.BREAKDOWN, note)
+            row = self._leaving_row(entering)
+            if row < 0:
+                return self._at_ray(entering, note)
+            left = self._exchange(row, entering)
+            if left == self.theta:
+                return self._ended(Status.SOLVED, note)
+        return self._ended(Status.MAX_ITERATIONS, note)
+
+    def _exchange(self, row: int, entering: int) -> int:
+        self.pivots += 1
+        return self.tableau.pivot(row, entering)
+
+    def _sound(self) -> bool:
+        """Refactor where rounding shows; False where that does not help."""
+        drift = self.tableau.drift()
+        return bool(drift <= 1e-10) or (bool(np.isfinite(drift)) and self.tableau.refresh())
+
+    def _leaving_row(self, entering: int) -> int:
+        """Row of the lexicographic ratio test, with theta first in ties; -1 where nothing blocks."""
+        tableau, options = self.tableau, self.options
+        column = tableau.column(entering)
+        rows: IntArray = np.flatnonzero(column > options.pivot_tolerance * max(1.0, float(np.abs(column).max())))
+        if not len(rows):
+            return -1
+        values, rates = np.maximum(tableau.rhs[rows], 0.0), column[rows]
+        ratios = values / rates
+        step = float(ratios.min())
+        slack = options.tie_tolerance * max(float(np.abs(tableau.rhs).max()), self.largest_theta)
+        tied = values - step * rates <= slack * np.minimum(1.0, rates)
+        theta_row = int(tableau.row_of[self.theta])
+        position = np.flatnonzero(rows[tied] == theta_row)
+        if len(position):
+            strict = ratios[tied][position[0]] <= step
+            if strict or self._would_solve(entering, theta_row):
+                return theta_row
+            tied[np.flatnonzero(tied)[position[0]]] = False
+        return tableau.least_lexicographic(rows[tied], rates[tied], options.tie_tolerance)
+
+    def _would_solve(self, entering: int, row: int) -> bool:
+        """Whether the basis with theta gone is a solution, or theta is tied only within the tolerance."""
+        tableau = self.tableau
+        basic = tableau.basic.copy()
+        basic[row] = entering
+        z = polish(self.M, self.problem.q, self._z_of(basic, np.maximum(tableau.rhs, 0.0)), attempts=2)
+        return natural_residual(self.M, self.problem.q, z).worst <= self.tolerance
+
+    def _z_of(self, basic: IntArray, values: Array) -> Array:
+        """z of the problem as posed, from values of basic variables of the turned, scaled problem."""
+        n = self.tableau.n
+        x = np.zeros(2 * n + 1)
+        x[basic] = values
+        return self.scaled.back(np.where(self.basis, x[:n], x[n:-1]))
+
+    def _at_ray(self, entering: int, note: str) -> Attempt:
+        """Test the end of the path for a solution hidden by a tie, then report the ray."""
+        tableau = self.tableau
+        theta = tableau.values()[2]
+        candidate = self._z_of(tableau.basic, np.maximum(tableau.rhs, 0.0))
+        if theta <= 1e-6 * self.largest_theta:
+            candidate = polish(self.M, self.problem.q, candidate)
+            if natural_residual(self.M, self.problem.q, candidate).worst <= self.tolerance:
+                note = f"{note} The path ended near theta = 0 in a tie; polished.".strip()
+                return Attempt(z=candidate, ending=Status.SOLVED, iterations=self.pivots, note=note)
+        direction = np.zeros(2 * tableau.n + 1)
+        direction[tableau.basic] = -tableau.column(entering)
+        direction[entering] = 1.0
+        basic = np.arange(2 * tableau.n + 1)
+        ray = Ray(
+            point=candidate,
+            direction=self._z_of(basic, direction),
+            theta=theta / self.scaled.unit,
+            slope=float(direction[-1]) / self.scaled.unit,
+        )
+        note = f"{note} theta is {theta / self.largest_theta:.1e} of its largest value at the ray.".strip()
+        return Attempt(z=candidate, ending=Status.RAY_TERMINATION, iterations=self.pivots, note=note, ray=ray)
+
+    def _ended(self, ending: Status, note: str) -> Attempt:
+        """The candidate of the present basis, solved for anew on the problem as posed."""
+        rhs = self.tableau.rhs
+        if not np.isfinite(rhs).all():
+            return Attempt(z=None, ending=Status.NONFINITE, iterations=self.pivots, note=note)
+        z = polish(self.M, self.problem.q, self._z_of(self.tableau.basic, np.maximum(rhs, 0.0)))
+        return Attempt(z=z, ending=ending, iterations=self.pivots, note=note)
+
+
+def _normed(d: Array) -> Array:
+    """d with a largest entry near 1, by a power of two: the path does not depend on its length."""
+    return d / float(np.exp2(np.round(np.log2(d.max()))))

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How wrong a candidate solution of a linear complementarity problem is.
+
+What a residual is stands here and nowhere else, so that solvers, tests and users mean the same.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.linalg import LinearOperator
+
+from signorini.arrays import Array
+from signorini.errors import InputError
+
+Matrix = Array | sp.csr_array | LinearOperator
+
+
+@dataclass(frozen=True, kw_only=True)
+class Residual:
+    """Violations of ``0 <= z``, ``0 <= w`` and ``z_i w_i = 0``, each dimensionless, 0 where satisfied."""
+
+    primal: float
+    dual: float
+    complementarity: float
+
+    @property
+    def worst(self) -> float:
+        """The number that a tolerance is compared with; infinite where an entry is not a number."""
+        numbers = np.array([self.primal, self.dual, self.complementarity])
+        return float(numbers.max()) if np.isfinite(numbers).all() else np.inf
+
+
+def natural_residual(M: Matrix, q: Array, z: Array) -> Residual:
+    """Evaluate ``min(z, M z + q)`` on the problem as posed, never on a scaled copy.
+
+    With ``w = M z + q``, every w_i is divided by ``s_i = |q_i| + sum_j |M_ij z_j|``, the size of the terms that cancel
+    in it, and every z_j by ``1 / max_i(|M_ij| / s_i)``, the value at which it alone would make up such a sum: the
+    result does not change when rows, columns or units do. An operator does not show its entries; there s_i is
+    ``|q_i| + max|M z|`` and z_j is divided by ``max|z|``.
+
+    Parameters
+    ----------
+    M : (n, n) array, sparse array or linear operator
+    q : (n,) array, in the units of w
+    z : (n,) array, the candidate
+
+    Raises
+    ------
+    InputError
+        If the shapes do not fit, with the shapes found.
+
+    References
+    ----------
+    Cottle, Pang, Stone (1992), The Linear Complementarity Problem, section 1.4 (the min map).
+
+    Examples
+    --------
+    >>> M, q = np.array([[2.0, 1.0], [0.0, 2.0]]), np.array([-1.0, -2.0])
+    >>> natural_residual(M, q, np.array([0.0, 1.0])).worst
+    0.0
+    >>> natural_residual(M, q, np.zeros(2)).dual
+    1.0
+    """
+    if M.shape != (len(q), len(q)) or z.shape != q.shape:
+        raise InputError(f"M {M.shape}, q {q.shape} and z {z.shape} do not fit: expected (n, n), (n,), (n,)")
+
+    share, w = relative_sizes(M, q, z)
+    return Residual(
+        primal=_largest(-share),
+        dual=_largest(-w),
+        complementarity=_largest(np.minimum(share, w)),
+    )
+
+
+def relative_sizes(M: Matrix, q: Array, z: Array) -> tuple[Array, Array]:
+    """z and w divided by the sizes that ``natural_residual`` states: what is compared with 0, and with each other."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        product = M @ z
+        size = _or_one(np.abs(q) + (np.abs(product).max() if isinstance(M, LinearOperator) else abs(M) @ np.abs(z)))
+        w = (product + q) / size
+        share = z / _or_one(np.abs(z).max(initial=0.0, keepdims=True))
+        if not isinstance(M, LinearOperator):
+            column = _largest_in_columns(M, 1.0 / size)
+            share = np.where(column > 0, z * column, share)
+    return share, w
+
+
+def _largest_in_columns(M: Array | sp.csr_array, weights: Array) -> Array:
+    """``max_i |M_ij| weights_i`` for every column j."""
+    if sp.issparse(M):
+        largest = abs(M).multiply(weights[:, None]).tocsc().max(axis=0)
+        return np.asarray(largest.toarray(), dtype=float).ravel()
+    return np.asarray((np.abs(M) * weights[:, None]).max(axis=0), dtype=float)
+
+
+def _largest(violation: Array) -> float:
+    return max(0.0, float(violation.max(initial=0.0)))
+
+
+def _or_one(size: Array) -> Array:
+    """Sizes to divide by: where nothing is there, nothing can be violated."""
+    return np.where(size > 0, size, 1.0)

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Principal pivotal transform: the same problem with the roles of some z_i and w_i exchanged."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.linalg as la
+
+from signorini.arrays import Array, BoolArray
+
+
+def principal_transform(M: Array, q: Array, swapped: BoolArray) -> tuple[Array, Array] | None:
+    """(M', q') of the LCP in which z_i and w_i are exchanged where ``swapped``; None where that block is singular.
+
+    Examples
+    --------
+    >>> M, q = principal_transform(np.array([[2.0]]), np.array([-4.0]), np.array([True]))
+    >>> float(M[0, 0]), float(q[0])
+    (0.5, 2.0)
+    """
+    A, B = np.flatnonzero(swapped), np.flatnonzero(~swapped)
+    if not len(A):
+        return M, q
+    factors = la.lu_factor(M[np.ix_(A, A)], check_finite=False) if np.isfinite(M).all() else None
+    if factors is None or not np.abs(np.diag(factors[0])).min() > 0:
+        return None
+    inverse = la.lu_solve(factors, np.eye(len(A)))
+    turned, vector = np.empty_like(M), np.empty_like(q)
+    coupling = M[np.ix_(B, A)] @ inverse
+    turned[np.ix_(A, A)] = inverse
+    turned[np.ix_(A, B)] = -inverse @ M[np.ix_(A, B)]
+    turned[np.ix_(B, A)] = coupling
+    turned[np.ix_(B, B)] = M[np.ix_(B, B)] - coupling @ M[np.ix_(A, B)]
+    vector[A], vector[B] = -inverse @ q[A], q[B] - coupling @ q[A]
+    return turned, vector
