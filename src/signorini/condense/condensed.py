@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The condensed interface in its image form: regular also where contact alone holds a body, for any compliance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse as sp
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.clock import Clock
+from signorini.interface.interface import Interface
+from signorini.linalg.protocol import Factorisation
+from signorini.linalg.registry import factorise
+
+# of the size of a row of B: below it supports hold what the row sees
+_HELD = 1e-12
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Condensed:
+    """The bodies as their contact pairs feel them.
+
+    With S the condensed stiffness on the contact dofs, ``u_c = B_c z_c`` the relative displacement, r the forces of the
+    pairs and D a positive interface stiffness (any: it changes nothing but the conditioning), ``S z_c = f_c + B_c^T r``
+    becomes ``(I - A D^) u_c - A r = B_c (S + B_c^T D^ B_c)^-1 f_c`` with ``A = B_c (S + B_c^T D^ B_c)^-1 B_c^T``, which is
+    regular where S is not. The interface compliance C = diag(c / area) is in series: h = u_c + C r + h_0 obeys the
+    exact law, and
+
+        G h - W r = b,    W = E A E + E C,   G = I - W D,   E = (I + D C)^-1,   D^ = D E,
+
+    so that C = 0 (exact) and C -> infinity are both harmless. Everything here is scaled by the roots of D.
+
+    Attributes
+    ----------
+    W : (2 a, 2 a) for the a active pairs, symmetric, spectrum in [0, 1]
+    active : (n,) pairs that can move along their normal; supports hold the others
+    root : (2 a,) square roots of D, force per length to the 1/2
+    """
+
+    factorisation: Factorisation
+    W: Array
+    active: BoolArray
+    root: Array
+    _dofs: IntArray
+    _B: sp.csr_array
+    _compliance: Array
+    _cholesky: tuple[Array, bool]
+
+    @property
+    def active_rows(self) -> IntArray:
+        """Rows of B that belong to active pairs: normals, then tangents."""
+        pairs = np.nonzero(self.active)[0]
+        return np.concatenate([pairs, len(self.active) + pairs])
+
+    def condensed_load(self, f: Array) -> Array:
+        """Loads (z,) on the free displacements, condensed onto the contact dofs, (m,)."""
+        return self.factorisation.reduce(f)
+
+    def right_hand_side(self, f_c: Array, offset: Array) -> Array:
+        """``b = E B_c (S + B_c^T D^ B_c)^-1 f_c + G h_0``, scaled.
+
+        Parameters
+        ----------
+        f_c : (m,) condensed load
+        offset : (2 a,) h_0, length: initial gaps and minus the tangential displacements of the step before, each plus
+            the relative displacement that supports prescribe
+        """
+        response = self._softening * (self._B @ self._solve(f_c))
+        scaled = self.root * offset
+        result: Array = self.root * response + scaled - self.W @ scaled
+        return result
+
+    def displacement(self, f: Array, f_c: Array, h: Array, r: Array, offset: Array) -> Array:
+        """Free displacements (z,) under the load f and the solution h, r (2 a,), in the units of the problem."""
+        if not len(self._dofs):
+            return self.factorisation.expand(f, f_c)
+        moved = h - self._compliance * r - offset
+        springs = self.root**2 * self._softening
+        contact = self._solve(f_c + self._B.T @ (r + springs * moved))
+        return self.factorisation.expand(f, contact)
+
+    @property
+    def _softening(self) -> Array:
+        return 1.0 / (1.0 + self.root**2 * self._compliance)
+
+    def _solve(self, f_c: Array) -> Array:
+        solved: Array = scipy.linalg.cho_solve(self._cholesky, f_c)
+        return solved
+
+
+def condense(
+    K: sp.csr_array, B: sp.csr_array, interface: Interface, nodes: IntArray, *, backend: str, clock: Clock
+) -> Condensed:
+    """Factorise the bodies once and condense them onto the contact pairs.
+
+    Parameters
+    ----------
+    K : (z, z) stiffness of the free displacements
+    B : (2 n, z) relative displacements of the pairs in terms of them
+    interface : the pairs
+    nodes : (z,) node of each free displacement
+    backend : of the factorisation, "auto" or a name
+    clock : counts the factorisation and the condensation apart
+
+    Raises
+    ------
+    NotPositiveDefinite
+        If a part of a body can move without moving a contact node.
+    """
+    n = len(interface)
+    size = np.sqrt(np.asarray(B.multiply(B).sum(axis=1)).ravel())
+    B = sp.csr_array(sp.diags_array(np.where(size > _HELD, 1.0, 0.0)) @ B)
+    B.eliminate_zeros()
+    active = size[:n] > _HELD
+    pairs = np.nonzero(active)[0]
+    B = B[np.concatenate([pairs, n + pairs])]
+    dofs = np.unique(B.indices)
+    with clock.phase("factorisation"):
+        factorisation = factorise(K, dofs, nodes=nodes, backend=backend)
+    with clock.phase("condensation"):
+        return _condense(factorisation, sp.csr_array(B[:, dofs]), interface, active, dofs)
+
+
+def _condense(
+    factorisation: Factorisation, B_c: sp.csr_array, interface: Interface, active: BoolArray, dofs: IntArray
+) -> Condensed:
+    """From the contact dofs to the pairs."""
+    pairs = np.nonzero(active)[0]
+    S = factorisation.schur()
+    stiffness = _interface_stiffness(S, B_c, interface, pairs)
+    area = np.tile(interface.area[pairs], 2)
+    compliance = np.concatenate([interface.normal_compliance[pairs], interface.tangential_compliance[pairs]]) / area
+    softening = 1.0 / (1.0 + stiffness * compliance)
+    held = S + (B_c.T @ sp.diags_array(stiffness * softening) @ B_c).toarray()
+    cholesky = (
+        scipy.linalg.cho_factor(held, lower=True, overwrite_a=True, check_finite=False) if len(dofs) else (S, True)
+    )
+    A = B_c @ scipy.linalg.cho_solve(cholesky, B_c.T.toarray(), check_finite=False) if len(dofs) else np.zeros((0, 0))
+    root = np.sqrt(stiffness)
+    W = (root * softening)[:, None] * A * (root * softening)
+    W[np.diag_indices_from(W)] += stiffness * softening * compliance
+    return Condensed(
+        factorisation=factorisation,
+        W=0.5 * (W + W.T),
+        active=active,
+        root=root,
+        _dofs=dofs,
+        _B=B_c,
+        _compliance=compliance,
+        _cholesky=cholesky,
+    )
+
+
+def _interface_stiffness(S: Array, B_c: sp.csr_array, interface: Interface, pairs: IntArray) -> Array:
+    """D, (2 a,) force per length: of the size that makes Newton's method most robust, equal in both directions.
+
+    The mean stiffness that a pair of the contact feels, spread like the areas and divided by the root of their number
+    (between the stiffness of a node and that of the whole surface).
+    """
+    felt = np.asarray((B_c @ S) * B_c.toarray()).sum(axis=1)[: len(pairs)] if len(pairs) else np.zeros(0)
+    result = np.zeros(len(pairs))
+    for contact in np.unique(interface.contact[pairs]):
+        own = interface.contact[pairs] == contact
+        area = interface.area[pairs][own]
+        result[own] = felt[own].mean() / np.sqrt(own.sum()) * area / area.mean()
+    return np.tile(result, 2)

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What was found: states, fields, resultants, energies and the certificate."""

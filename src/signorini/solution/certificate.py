@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whether a state is a solution: measured on the problem as posed, with nothing from the solver but its answer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array
+from signorini.fem.supports import Constraints
+from signorini.interface.interface import Interface
+from signorini.solution.scale import Scale
+from signorini.solution.state import State
+
+TOLERANCE = 1e-8
+"""Every number of a certificate is at most this, or the answer is no solution."""
+
+_FARTHEST = 1e9  # lengths of the data: a body that has left is no solution
+
+
+@dataclass(frozen=True, kw_only=True)
+class Certificate:
+    """Violations of equilibrium and of the law of contact, dimensionless, 0 where satisfied.
+
+    Attributes
+    ----------
+    equilibrium : largest nodal ``|K u - f - B^T r|`` and largest resultant on a rigid motion of any part
+    penetration : largest overlap
+    tension : largest pulling normal force
+    cone : largest excess of friction over ``mu p``
+    complementarity : largest ``min(gap, normal force)``, ``min(|slip|, mu p - |t|)``, and friction along the slip
+    """
+
+    equilibrium: float
+    penetration: float
+    tension: float
+    cone: float
+    complementarity: float
+
+    @property
+    def worst(self) -> float:
+        """The largest of the five."""
+        return max(getattr(self, field.name) for field in fields(self))
+
+    @property
+    def passed(self) -> bool:
+        """All at most 1e-8."""
+        return bool(self.worst <= TOLERANCE)
+
+
+def certify(
+    K: sp.csr_array,
+    loads: Array,
+    motions: sp.csr_array,
+    constraints: Constraints,
+    interface: Interface,
+    state: State,
+    before: Array,
+    scale: Scale,
+) -> Certificate:
+    """Measure a state.
+
+    Parameters
+    ----------
+    K : (dofs, dofs) stiffness, supports not applied
+    loads : (dofs,) nodal forces
+    motions : (dofs, k) rigid motions of all parts, see :func:`signorini.fem.rigid.rigid_motions`
+    state : its displacement and pair forces are the answer to be measured
+    before : (n,) tangential displacement at which the slip increment began
+    scale : sizes of forces and lengths
+
+    Returns
+    -------
+    Certificate; every number infinite where something is not finite or a body has left
+    """
+    u, r, n = state.displacement, state.forces, len(interface)
+    if not (np.isfinite(u).all() and np.isfinite(r).all()) or np.abs(u).max(initial=0.0) > _FARTHEST * scale.length:
+        return Certificate(**{field.name: np.inf for field in fields(Certificate)})
+    applied = loads + interface.B.T @ r
+    residual = constraints.transform.T @ (K @ u - applied)
+    balance = motions.T @ (state.external + interface.B.T @ r)
+    moved = interface.B @ u
+    normal, tangential = r[:n] / scale.force, r[n:] / scale.force
+    gap = (interface.gap + moved[:n] + interface.normal_compliance * r[:n] / interface.area) / scale.length
+    slip = (moved[n:] + interface.tangential_compliance * r[n:] / interface.area - before) / scale.length
+    bound = np.zeros(n)
+    np.multiply(interface.friction, normal, out=bound, where=normal > 0)
+    room = bound - np.abs(tangential)
+    along = np.where(tangential * slip > 0, np.minimum(np.abs(tangential), np.abs(slip)), 0.0)
+    # where a pair is open, slip is free: the cone is a point and its room 0
+    friction = np.maximum(np.minimum(np.abs(slip), np.maximum(room, 0.0)), along)
+    return Certificate(
+        equilibrium=max(_largest(np.abs(residual)), _largest(np.abs(balance))) / scale.force,
+        penetration=_largest(-gap),
+        tension=_largest(-normal),
+        cone=_largest(-room),
+        complementarity=max(_largest(np.minimum(gap, normal)), _largest(friction)),
+    )
+
+
+def _largest(violation: Array) -> float:
+    return float(max(0.0, violation.max(initial=0.0)))

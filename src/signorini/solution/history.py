@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A solved load history: its steps, what it cost, and whether it was finished."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from signorini.errors import InputError, one_of
+from signorini.model.model import Model
+from signorini.solution.results import ContactResult, StepResult
+
+PHASES = ("read", "assembly", "factorisation", "condensation", "complementarity", "recovery", "output", "total")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class History:
+    """The end of every finished step.
+
+    Attributes
+    ----------
+    model : what was solved
+    status : "solved", or why not: "no_equilibrium" (proved), "not_found", "jump"
+    message : the same in words, empty where solved
+    steps : finished and certified, in order
+    backend : of the factorisation
+    timings : seconds by phase
+    pairs : contact pairs
+    """
+
+    model: Model
+    status: str
+    message: str
+    steps: tuple[StepResult, ...]
+    backend: str
+    timings: Mapping[str, float]
+    pairs: int
+
+    @property
+    def solved(self) -> bool:
+        """Whether every step was solved and certified."""
+        return self.status == "solved"
+
+    @property
+    def last(self) -> StepResult:
+        """The last finished step.
+
+        Raises
+        ------
+        InputError
+            If no step was finished.
+        """
+        if not self.steps:
+            raise InputError("no step was finished; there is no result")
+        return self.steps[-1]
+
+    def contact(self, name: str) -> ContactResult:
+        """A contact at the end of the last finished step, by name."""
+        return find_contact(self.last, name)
+
+
+def find_contact(step: StepResult, name: str) -> ContactResult:
+    """A contact of a step, by name.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name; the known ones are listed.
+    """
+    for contact in step.contacts:
+        if contact.name == name:
+            return contact
+    raise InputError(one_of(name, [contact.name for contact in step.contacts], "contact"))

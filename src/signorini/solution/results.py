@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The results of a contact and of a step, as arrays and resultants."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.solution.certificate import Certificate
+
+OPEN, STICK, SLIP = "open", "stick", "slip"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ContactResult:
+    """One contact at the end of a step, on its nonmortar nodes.
+
+    Attributes
+    ----------
+    name : of the contact
+    node : (n,) node indices, from 0
+    points : (n, d) undeformed coordinates
+    normals, tangents : (n, d) unit vectors; the normal points from the mortar side into the nonmortar body
+    area : (n,) tributary area
+    gap : (n,) length, 0 where closed; negative only as overlap of an interface with finite stiffness
+    pressure : (n,) force per area, positive compressive
+    traction : (n,) friction on the nonmortar body along the tangent, force per area
+    slip : (n,) accumulated along the tangent, nonmortar minus mortar, length
+    status : (n,) "open", "stick" or "slip"
+    dissipation : of this step, work
+    """
+
+    name: str
+    node: IntArray
+    points: Array
+    normals: Array
+    tangents: Array
+    area: Array
+    gap: Array
+    pressure: Array
+    traction: Array
+    slip: Array
+    status: NDArray[np.str_]
+    dissipation: float
+
+    @property
+    def closed(self) -> BoolArray:
+        """(n,) whether a pair touches."""
+        return np.asarray(self.status != OPEN)
+
+    @property
+    def normal_force(self) -> Array:
+        """Resultant of the pressure on the nonmortar body, (d,) force."""
+        force: Array = (self.pressure * self.area) @ self.normals
+        return force
+
+    @property
+    def tangential_force(self) -> Array:
+        """Resultant of the friction on the nonmortar body, (d,) force."""
+        force: Array = (self.traction * self.area) @ self.tangents
+        return force
+
+    @property
+    def closed_area(self) -> float:
+        """Area of the pairs that touch."""
+        return float(self.area[self.closed].sum())
+
+    def count(self, status: str) -> int:
+        """How many pairs are "open", "stick" or "slip"."""
+        return int((self.status == status).sum())
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class StepResult:
+    """The end of a step.
+
+    Attributes
+    ----------
+    name, path : of the step; path is "single" (one increment) or "increments"
+    load_factor : step k ends at k
+    increments : solved in this step
+    displacement : (nodes, d) length
+    reactions : support to its force on the bodies, (d,)
+    strain_energy : of the bodies
+    interface_energy : of compliant interfaces
+    work : of loads and moving supports in this step
+    certificate : the worst of every increment
+    contacts : in the order of the model
+    methods : how the increments were solved, each once
+    notes : what a reader should know
+    """
+
+    name: str
+    path: str
+    load_factor: float
+    increments: int
+    displacement: Array
+    reactions: Mapping[str, Array]
+    strain_energy: float
+    interface_energy: float
+    work: float
+    certificate: Certificate
+    contacts: tuple[ContactResult, ...]
+    methods: tuple[str, ...]
+    notes: tuple[str, ...]
+
+    @property
+    def dissipation(self) -> float:
+        """By friction in this step."""
+        return sum(contact.dissipation for contact in self.contacts)

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The sizes that dimensionless residuals refer to: from the data, never from the solution."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.fem.supports import Constraints
+from signorini.interface.interface import Interface
+from signorini.model.model import Model
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scale:
+    """Sizes of forces and displacements, both > 0.
+
+    Attributes
+    ----------
+    force : the largest load of the history, or what the largest imposed displacement or overlap causes
+    length : the displacement that goes with it
+    """
+
+    force: float
+    length: float
+
+
+def data_scale(model: Model, loads: Mapping[str, Array], constraints: Constraints, interface: Interface) -> Scale:
+    """Sizes over the whole load history: ``length = force / (E thickness)``, E of the softest body.
+
+    Parameters
+    ----------
+    loads : nodal forces at factor 1 by name, each (dofs,)
+    """
+    factors = model.factors()
+    largest = {name: max(abs(step[name]) for step in factors) for name in model.scaled_names}
+    force = sum(largest[name] * float(np.abs(f).sum()) for name, f in loads.items())
+    moved = [largest[name] * float(np.abs(u).max()) for name, u in constraints.prescribed.items()]
+    length = max([*moved, float(np.max(-interface.gap, initial=0.0))])
+    stiffness = min(body.material.E for body in model.bodies) * model.thickness
+    force = max(force, stiffness * length) or stiffness
+    return Scale(force=force, length=force / stiffness)

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The state of all bodies at one instant of the load history."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class State:
+    """Displacements, forces and what friction remembers.
+
+    Attributes
+    ----------
+    factors : load factors by name
+    displacement : (dofs,) length
+    external : (dofs,) loads, reactions of supports and forces inside rigid boundaries
+    forces : (2 n,) of the pairs on the nonmortar body: normal (pressing > 0), then tangential
+    gap : (n,) of the contact law, 0 where closed
+    tangential : (n,) tangential displacement of the contact law, length: where the next slip increment starts
+    increment : (n,) slip increment of the last increment
+    slip : (n,) accumulated while closed
+    status : (n,) codes of :mod:`signorini.friction.law`
+    work : of loads and moving supports since the beginning, trapezoidal in time
+    dissipation : (n,) frictional dissipation since the beginning
+    """
+
+    factors: Mapping[str, float]
+    displacement: Array
+    external: Array
+    forces: Array
+    gap: Array
+    tangential: Array
+    increment: Array
+    slip: Array
+    status: IntArray
+    work: float
+    dissipation: Array
+
+
+def initial_state(factors: Mapping[str, float], dofs: int, gap: Array) -> State:
+    """Nothing has moved; overlaps have not pressed yet."""
+    n = len(gap)
+    return State(
+        factors=MappingProxyType(dict(factors)),
+        displacement=np.zeros(dofs),
+        external=np.zeros(dofs),
+        forces=np.zeros(2 * n),
+        gap=gap,
+        tangential=np.zeros(n),
+        increment=np.zeros(n),
+        slip=np.zeros(n),
+        status=np.zeros(n, np.int64),
+        work=0.0,
+        dissipation=np.zeros(n),
+    )

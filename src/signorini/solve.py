@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Follow the load history of a model: steps, increments, certificates. Model in, history out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from signorini.arrays import Array, frozen
+from signorini.clock import Clock
+from signorini.errors import SolveFailed
+from signorini.fem.rigid import describe_motion
+from signorini.friction.law import OPEN, STICK
+from signorini.friction.problem import CoulombProblem
+from signorini.friction.result import CoulombResult
+from signorini.friction.solve import solve_coulomb
+from signorini.model.model import Model
+from signorini.model.step import Step
+from signorini.prepare import Prepared, prepare
+from signorini.solution import results
+from signorini.solution.certificate import Certificate, certify
+from signorini.solution.history import History
+from signorini.solution.results import ContactResult, StepResult
+from signorini.solution.state import State, initial_state
+
+ONE_INCREMENT = (
+    "one increment: assumes that the final state was reached from zero slip; where the contact grows under friction "
+    "the tractions can be off by tens of percent (more increments follow the history)"
+)
+"""What a step with friction says when it was solved in one increment (METHOD 5)."""
+
+
+def solve(model: Model, *, backend: str = "auto", raise_on_failure: bool = True, clock: Clock | None = None) -> History:
+    """Solve every step of a model and certify every increment.
+
+    Parameters
+    ----------
+    model : the problem
+    backend : of the sparse factorisation, "auto" or a name
+    raise_on_failure : otherwise a history whose ``status`` says why is returned, with the steps finished before
+    clock : counts the seconds and tells progress
+
+    Raises
+    ------
+    InputError
+        If the model is wrong; a body that nothing holds is named with its free motion.
+    SolveFailed
+        If no certified solution was found; ``.solution`` is the history so far.
+    """
+    return solve_prepared(prepare(model, backend=backend, clock=clock), raise_on_failure=raise_on_failure)
+
+
+def solve_prepared(prepared: Prepared, *, raise_on_failure: bool = True) -> History:
+    """Solve the load history of a prepared model; see :func:`solve`."""
+    model = prepared.model
+    factors = model.factors()
+    state = initial_state(factors[0], prepared.space.number_of_dofs, prepared.interface.gap)
+    problem = _law(prepared)
+    steps: list[StepResult] = []
+    try:
+        for number, (step, end) in enumerate(zip(model.steps, factors[1:], strict=True), start=1):
+            first, certificates, methods = state, [], []
+            for fraction, target in _increments(step, state.factors, end):
+                where = f"step '{step.name}' at {fraction:.0%}" if step.name else f"step {number} at {fraction:.0%}"
+                prepared.clock.tell(where)
+                state, certificate, result = _advance(prepared, problem, state, target, where)
+                certificates.append(certificate)
+                methods.append(result.method)
+            steps.append(_step_result(prepared, step, number, first, state, certificates, methods))
+    except SolveFailed as failure:
+        history = _history(prepared, failure.status, str(failure), steps)
+        if raise_on_failure:
+            raise SolveFailed(str(failure), status=failure.status, solution=history) from failure.__cause__
+        return history
+    return _history(prepared, "solved", "", steps)
+
+
+def _increments(
+    step: Step, start: Mapping[str, float], end: Mapping[str, float]
+) -> Iterator[tuple[float, Mapping[str, float]]]:
+    """Equal parts of the straight segment between two sets of load factors: fraction and factors at the end of each."""
+    for k in range(1, step.increments + 1):
+        t = k / step.increments
+        yield t, {name: (1.0 - t) * start[name] + t * end[name] for name in end} if t < 1.0 else end
+
+
+def _law(prepared: Prepared) -> CoulombProblem:
+    """The contact law on the condensed interface, with no load yet."""
+    condensed, rows = prepared.condensed, prepared.condensed.active_rows
+    seen = (prepared.interface.B @ prepared.motions @ prepared.floating)[rows]
+    return CoulombProblem(
+        W=frozen(condensed.W),
+        b=np.zeros(len(rows)),
+        friction=prepared.interface.friction[condensed.active],
+        motions=condensed.root[:, None] * seen,
+        scale=prepared.scale.length * float(condensed.root.max(initial=1.0)),
+    )
+
+
+def _advance(
+    prepared: Prepared, problem: CoulombProblem, state: State, factors: Mapping[str, float], where: str
+) -> tuple[State, Certificate, CoulombResult]:
+    """One increment: from a state to the next at given load factors."""
+    condensed, constraints, interface = prepared.condensed, prepared.constraints, prepared.interface
+    n, rows, active = len(interface), condensed.active_rows, condensed.active
+    loads = sum((factors[name] * f for name, f in prepared.loads.items()), np.zeros(prepared.space.number_of_dofs))
+    imposed = sum((factors[name] * u for name, u in constraints.prescribed.items()), np.zeros_like(loads))
+    offset = np.concatenate([interface.gap, -state.tangential]) + interface.B @ imposed
+    _refuse_overlap(prepared, offset[:n], where)
+    with prepared.clock.phase("complementarity"):
+        f = constraints.transform.T @ (loads - prepared.K @ imposed)
+        f_c = condensed.condensed_load(f)
+        b = condensed.right_hand_side(f_c, offset[rows])
+        started = bool(state.forces.any())
+        result = solve_coulomb(replace(problem, b=b), state.status[active] if started else None)
+    if not result.solved:
+        raise SolveFailed(f"{where}: {_explain(prepared, problem, result)}", status=result.outcome)
+    with prepared.clock.phase("recovery"):
+        forces, moved = np.zeros(2 * n), np.zeros(2 * n)
+        forces[rows] = condensed.root * np.concatenate([result.normal_force, result.tangential_force])
+        moved[rows] = np.concatenate([result.gap, result.slip]) / condensed.root
+        free = condensed.displacement(f, f_c, moved[rows], forces[rows], offset[rows])
+        displacement = constraints.transform @ free + imposed
+        inactive = np.setdiff1d(np.arange(2 * n), rows)
+        moved[inactive] = offset[inactive]
+        status = np.full(n, OPEN)
+        status[active] = result.state
+        new = _next_state(prepared, state, factors, displacement, forces, moved, status, loads)
+        certificate = certify(
+            prepared.K, loads, prepared.motions, constraints, interface, new, state.tangential, prepared.scale
+        )
+    if not certificate.passed:
+        raise SolveFailed(
+            f"{where}: the solver's answer did not pass the certificate ({spell_certificate(certificate)}); badly "
+            "scaled data (extreme ratios of moduli, sizes or compliances) are the usual cause",
+            status="not_found",
+        )
+    return new, certificate, result
+
+
+def _refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
+    """Supports that hold both sides of a pair decide its gap; no force can mend an overlap there."""
+    held = np.nonzero(~prepared.condensed.active & (gap < -1e-12 * prepared.scale.length))[0]
+    if len(held):
+        pair = held[np.argmin(gap[held])]
+        contact = prepared.model.contacts[prepared.interface.contact[pair]]
+        raise SolveFailed(
+            f"{where}: contact '{contact.label}': supports press node {prepared.interface.node[pair] + 1} "
+            f"{-gap[pair]:.4g} into the other side and leave it no way out",
+            status="no_equilibrium",
+        )
+
+
+def _explain(prepared: Prepared, problem: CoulombProblem, result: CoulombResult) -> str:
+    """The reason, and the bodies that leave by name."""
+    if result.escape is None or not problem.motions.shape[1]:
+        return result.message
+    coefficients, *_ = np.linalg.lstsq(problem.motions, result.escape, rcond=None)
+    return f"{describe_motion(prepared.parts, prepared.floating @ coefficients)}: {result.message}"
+
+
+def _next_state(
+    prepared: Prepared,
+    state: State,
+    factors: Mapping[str, float],
+    displacement: Array,
+    forces: Array,
+    moved: Array,
+    status: Array,
+    loads: Array,
+) -> State:
+    constraints, n = prepared.constraints, len(prepared.interface)
+    inner = prepared.K @ displacement - prepared.interface.B.T @ forces
+    # loads where a displacement is free on its own, whatever equilibrium takes where it is held or tied
+    shared = np.bincount(constraints.free[constraints.free >= 0], minlength=1)
+    own = (constraints.free >= 0) & (shared[constraints.free] == 1)
+    external = np.where(own, loads, inner)
+    increment = moved[n:]
+    work = 0.5 * (state.external + external) @ (displacement - state.displacement)
+    return State(
+        factors=factors,
+        displacement=displacement,
+        external=external,
+        forces=forces,
+        gap=moved[:n],
+        tangential=state.tangential + increment,
+        increment=increment,
+        slip=state.slip + np.where(status == OPEN, 0.0, increment),
+        status=status.astype(np.int64),
+        work=state.work + float(work),
+        dissipation=state.dissipation + np.maximum(-forces[n:] * increment, 0.0),
+    )
+
+
+def _step_result(
+    prepared: Prepared,
+    step: Step,
+    number: int,
+    before: State,
+    state: State,
+    certificates: list[Certificate],
+    methods: list[str],
+) -> StepResult:
+    model, interface, n = prepared.model, prepared.interface, len(prepared.interface)
+    compliance = np.concatenate([interface.normal_compliance, interface.tangential_compliance])
+    coulomb = (interface.friction > 0) & np.isfinite(interface.friction)
+    notes = (ONE_INCREMENT,) if step.increments == 1 and coulomb.any() else ()
+    return StepResult(
+        name=step.name or f"step {number}",
+        path="single" if step.increments == 1 else "increments",
+        load_factor=float(number),
+        increments=step.increments,
+        displacement=frozen(state.displacement.reshape(-1, model.dimension)),
+        reactions=_reactions(prepared, state),
+        strain_energy=0.5 * float(state.displacement @ (prepared.K @ state.displacement)),
+        interface_energy=0.5 * float(state.forces**2 @ (compliance / np.tile(interface.area, 2))),
+        work=state.work - before.work,
+        certificate=Certificate(
+            **{key: max(getattr(c, key) for c in certificates) for key in Certificate.__dataclass_fields__}
+        ),
+        contacts=tuple(
+            _contact_result(prepared, i, before, state, interface.contact == i) for i in range(len(model.contacts))
+        ),
+        methods=tuple(dict.fromkeys(methods)),
+        notes=notes,
+    )
+
+
+def _reactions(prepared: Prepared, state: State) -> dict[str, Array]:
+    """Forces of the supports on the bodies, by name."""
+    owner, d = prepared.constraints.owner, prepared.model.dimension
+    total = np.zeros((len(prepared.model.supports) + 1, d))
+    # a support's force is what equilibrium takes beyond the loads that act on the held node itself
+    loads = sum((state.factors[name] * f for name, f in prepared.loads.items()), np.zeros(len(owner)))
+    np.add.at(total, (owner, np.arange(len(owner)) % d), np.where(owner >= 0, state.external - loads, 0.0))
+    return {support.label: frozen(total[i]) for i, support in enumerate(prepared.model.supports)}
+
+
+def _contact_result(prepared: Prepared, i: int, before: State, state: State, own: Array) -> ContactResult:
+    interface, n = prepared.interface, len(prepared.interface)
+    normal, tangential, friction = state.forces[:n][own], state.forces[n:][own], interface.friction[own]
+    code = state.status[own]
+    bound = np.zeros(len(normal))
+    np.multiply(friction, normal, out=bound, where=normal > 0)
+    # a pair that a support guides carries no friction: it touches without slipping
+    sticks = (code == STICK) | ((friction > 0) & (np.abs(tangential) < (1.0 - 1e-9) * bound))
+    status = np.where(code == OPEN, results.OPEN, np.where(sticks, results.STICK, results.SLIP))
+    area = interface.area[own]
+    overlap = interface.normal_compliance[own] * normal / area
+    return ContactResult(
+        name=prepared.model.contacts[i].label,
+        node=frozen(interface.node[own], np.int64),
+        points=frozen(prepared.model.mesh.points[interface.node[own]]),
+        normals=frozen(interface.normals[own]),
+        tangents=frozen(interface.tangents[own]),
+        area=frozen(area),
+        gap=frozen(state.gap[own] - overlap),
+        pressure=frozen(normal / area),
+        traction=frozen(tangential / area),
+        slip=frozen(state.slip[own]),
+        status=status,
+        dissipation=float((state.dissipation - before.dissipation)[own].sum()),
+    )
+
+
+def _history(prepared: Prepared, status: str, message: str, steps: list[StepResult]) -> History:
+    return History(
+        model=prepared.model,
+        status=status,
+        message=message,
+        steps=tuple(steps),
+        backend=prepared.condensed.factorisation.name,
+        timings=dict(prepared.clock.seconds),
+        pairs=len(prepared.interface),
+    )
+
+
+def spell_certificate(certificate: Certificate) -> str:
+    """The five numbers in words."""
+    return ", ".join(f"{key} {getattr(certificate, key):.1e}" for key in Certificate.__dataclass_fields__)
