@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks of single values that users give: each returns the value, typed, or says what was found and what is expected."""
+"""Checks of single values that users give: each returns the value, typed, or says what was found and expected."""
 
 from __future__ import annotations
 

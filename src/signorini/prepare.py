@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Everything about a model that does not depend on its loads: assembled, checked for free motions and condensed once."""
+"""What does not depend on the loads: assembled, checked for free motions and condensed once."""
 
 from __future__ import annotations
 

@@ -203,7 +203,7 @@ def _step_result(
     certificates: list[Certificate],
     methods: list[str],
 ) -> StepResult:
-    model, interface, n = prepared.model, prepared.interface, len(prepared.interface)
+    model, interface = prepared.model, prepared.interface
     compliance = np.concatenate([interface.normal_compliance, interface.tangential_compliance])
     coulomb = (interface.friction > 0) & np.isfinite(interface.friction)
     notes = (ONE_INCREMENT,) if step.increments == 1 and coulomb.any() else ()

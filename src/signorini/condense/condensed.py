@@ -23,11 +23,11 @@ _HELD = 1e-12
 class Condensed:
     """The bodies as their contact pairs feel them.
 
-    With S the condensed stiffness on the contact dofs, ``u_c = B_c z_c`` the relative displacement, r the forces of the
-    pairs and D a positive interface stiffness (any: it changes nothing but the conditioning), ``S z_c = f_c + B_c^T r``
-    becomes ``(I - A D^) u_c - A r = B_c (S + B_c^T D^ B_c)^-1 f_c`` with ``A = B_c (S + B_c^T D^ B_c)^-1 B_c^T``, which is
-    regular where S is not. The interface compliance C = diag(c / area) is in series: h = u_c + C r + h_0 obeys the
-    exact law, and
+    With S the condensed stiffness on the contact dofs, ``u_c = B_c z_c`` the relative displacement, r the forces of
+    the pairs and D a positive interface stiffness (any: it changes nothing but the conditioning),
+    ``S z_c = f_c + B_c^T r`` becomes ``(I - A D^) u_c - A r = B_c (S + B_c^T D^ B_c)^-1 f_c`` with
+    ``A = B_c (S + B_c^T D^ B_c)^-1 B_c^T``, which is regular where S is not. The interface compliance
+    C = diag(c / area) is in series: h = u_c + C r + h_0 obeys the exact law, and
 
         G h - W r = b,    W = E A E + E C,   G = I - W D,   E = (I + D C)^-1,   D^ = D E,
 
@@ -135,10 +135,10 @@ def _condense(
     compliance = np.concatenate([interface.normal_compliance[pairs], interface.tangential_compliance[pairs]]) / area
     softening = 1.0 / (1.0 + stiffness * compliance)
     held = S + (B_c.T @ sp.diags_array(stiffness * softening) @ B_c).toarray()
-    cholesky = (
-        scipy.linalg.cho_factor(held, lower=True, overwrite_a=True, check_finite=False) if len(dofs) else (S, True)
-    )
-    A = B_c @ scipy.linalg.cho_solve(cholesky, B_c.T.toarray(), check_finite=False) if len(dofs) else np.zeros((0, 0))
+    cholesky, A = (S, True), np.zeros((0, 0))
+    if len(dofs):
+        cholesky = scipy.linalg.cho_factor(held, lower=True, overwrite_a=True, check_finite=False)
+        A = B_c @ scipy.linalg.cho_solve(cholesky, B_c.T.toarray(), check_finite=False)
     root = np.sqrt(stiffness)
     W = (root * softening)[:, None] * A * (root * softening)
     W[np.diag_indices_from(W)] += stiffness * softening * compliance

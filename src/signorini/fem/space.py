@@ -150,9 +150,9 @@ def _check_shapes(space: Space) -> None:
         bad |= (determinants * np.sign(determinants[:, :1])).min(axis=1) <= -1e-12 * size
         if bad.any():
             cell = int(np.nonzero(bad)[0][0])
-            centre = space.mesh.points[block.cells[cell]].mean(axis=0)
+            centre = tuple(float(x) for x in space.mesh.points[block.cells[cell]].mean(axis=0).round(6))
             raise InputError(
-                f"cell {block.first + cell + 1} ({block.family}) near {tuple(float(x) for x in centre.round(6))} has no "
+                f"cell {block.first + cell + 1} ({block.family}) near {centre} has no "
                 "area or is turned inside out (its Jacobian changes sign); expected a convex cell",
                 where=("mesh",),
             )

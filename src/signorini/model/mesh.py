@@ -131,7 +131,9 @@ def join(meshes: Mapping[str, Mesh]) -> Mesh:
                     numbers[start : start + len(nodes)] = count + np.arange(len(nodes))
                     count += len(nodes)
                 start += len(nodes)
-    bodies, boundaries, nodes_named = {}, {}, {}
+    bodies: dict[str, IntArray] = {}
+    boundaries: dict[str, IntArray] = {}
+    nodes_named: dict[str, IntArray] = {}
     for (key, mesh), shift, numbers in zip(meshes.items(), point_shift, cell_number, strict=False):
         for name, index in mesh.bodies.items():
             bodies[key if len(mesh.bodies) == 1 else f"{key}.{name}"] = numbers[index]

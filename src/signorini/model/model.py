@@ -50,7 +50,7 @@ class Model:
     >>> block = Body("block", Elastic(E=1.0, nu=0.3))
     >>> Model(mesh, bodies=[block], supports=[Support("botom", u=(0, 0))])
     Traceback (most recent call last):
-    signorini.errors.InputError: support[0].on: unknown boundary or node set 'botom'; did you mean 'bottom'? Known: bottom, top
+    signorini.errors.InputError: support[0].on: unknown boundary or node set 'botom'; did you mean 'bottom'? Known: ...
     """
 
     mesh: Mesh
