@@ -18,6 +18,7 @@ from signorini.errors import InputError
 Matrix = Array | sp.csr_array | LinearOperator
 
 NOISE_FLOOR = 1e-5
+LARGEST_GROWTH = 1e4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,7 +42,9 @@ def natural_residual(M: Matrix, q: Array, z: Array, *, rows: Array | None = None
     With ``w = M z + q``, every w_i is divided by ``s_i = |q_i| + sum_j |M_ij z_j|``, the size of the terms that cancel
     in it, and every z_j by ``1 / max_i(|M_ij| / s_i)``, the value at which it alone would make up such a sum: the
     result does not change when rows, columns or units do. Where all terms of a row are rounding noise (an open contact:
-    ``0 = 2 mu 0 - 0``), s_i would be noise too; it is never less than ``1e-5 rows_i max_k(s_k / rows_k)``.
+    ``0 = 2 mu 0 - 0``), s_i would be noise too; it is never less than ``1e-5 rows_i max_k(s_k / rows_k)``. Where z is
+    enormous, rounding in M z would balance any q, also in a problem without solution; s_i is never more than
+    ``1e4 rows_i max_k(|q_k| / rows_k)``.
 
     Parameters
     ----------
@@ -87,7 +90,9 @@ def relative_sizes(M: Matrix, q: Array, z: Array, rows: Array) -> tuple[Array, A
     with np.errstate(over="ignore", invalid="ignore"):
         product = M @ z
         size = np.abs(q) + (np.abs(product).max() if isinstance(M, LinearOperator) else abs(M) @ np.abs(z))
-        size = _or_one(np.maximum(size, NOISE_FLOOR * rows * (size / rows).max(initial=0.0)))
+        data = float((np.abs(q) / rows).max(initial=0.0))
+        size = np.minimum(size / rows, LARGEST_GROWTH * data if data > 0 else np.inf)
+        size = _or_one(rows * np.maximum(size, NOISE_FLOOR * size.max(initial=0.0)))
         w = (product + q) / size
         share = z / _or_one(np.abs(z).max(initial=0.0, keepdims=True))
         if not isinstance(M, LinearOperator):
