@@ -124,13 +124,12 @@ def paper_problem(
     weighted = np.repeat(area, 2) * np.tile([E_tau, E_n], n)
     K_c = scipy.linalg.cho_factor(S + B.T @ (weighted[:, None] * B), lower=True)
     f_c = f - B.T @ (weighted * offset)
-    C_all = scipy.linalg.block_diag(*[C] * n)
-    Phi = B.T @ (weighted[:, None] * C_all)
-    E_phi = scipy.linalg.block_diag(*law.U) @ B
-    E_lambda = scipy.linalg.block_diag(*law.V)
+    U = scipy.linalg.block_diag(*law.U)
+    # K_c^-1 Phi with C taken out: so M (1, 1, 0) = 0 holds exactly at every pair, as in the paper's law
+    response = scipy.linalg.cho_solve(K_c, B.T * weighted)
     return PaperProblem(
-        M=-(E_lambda + E_phi @ scipy.linalg.cho_solve(K_c, Phi)),
-        q=-E_phi @ scipy.linalg.cho_solve(K_c, f_c) - scipy.linalg.block_diag(*law.U) @ offset,
+        M=(U - U @ B @ response) @ scipy.linalg.block_diag(*[C] * n),
+        q=-U @ (B @ scipy.linalg.cho_solve(K_c, f_c) + offset),
         covering=np.column_stack([1.0 + friction, 1.0 + friction, np.ones(n)]).ravel(),
         law=law,
         _B=B,
