@@ -6,7 +6,7 @@ from signorini.friction.interface import Interface
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STATE_NAMES, STICK, UNDECIDED
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.result import Attempt, CoulombResult
-from signorini.friction.solve import solve_coulomb
+from signorini.friction.solve import CoulombSettings, solve_coulomb
 
 __all__ = [
     "OPEN",
@@ -18,6 +18,7 @@ __all__ = [
     "Attempt",
     "CoulombProblem",
     "CoulombResult",
+    "CoulombSettings",
     "Interface",
     "certify",
     "solve_coulomb",
