@@ -7,6 +7,7 @@ from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STATE_NAMES, STI
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.result import Attempt, CoulombResult
 from signorini.friction.solve import CoulombSettings, solve_coulomb
+from signorini.friction.uniqueness import index, mu_low
 
 __all__ = [
     "OPEN",
@@ -21,5 +22,7 @@ __all__ = [
     "CoulombSettings",
     "Interface",
     "certify",
+    "index",
+    "mu_low",
     "solve_coulomb",
 ]

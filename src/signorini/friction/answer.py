@@ -15,6 +15,7 @@ UNDETERMINED = (
     "; the state leaves a motion or a force undetermined (nothing resists a motion along the contact, or one pair"
     " repeats another): the solution of least change was taken"
 )
+SEVERAL = "; its index is -1: at least two more solutions exist, and the load history decides which one is taken"
 PULLED_AWAY = (
     "no equilibrium: the loads pull a body away along a rigid motion that contact cannot resist, whatever its state;"
     " hold the body, or change the loads"
@@ -48,7 +49,9 @@ def solved(problem: CoulombProblem, found: Candidate, trace: tuple[Attempt, ...]
         trace=trace,
         residual=found.residual,
         index=found.index,
-        message=how + ("" if found.index else UNDETERMINED),
+        message=how
+        + ("" if found.index else UNDETERMINED)
+        + (SEVERAL if found.index < 0 and not problem.floating else ""),
     )
 
 

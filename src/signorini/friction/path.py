@@ -140,13 +140,13 @@ def _walk(course: _Course, state: IntArray) -> PathEnd:
         entry, way = X[:, :-1] @ course.b, X[:, -1].copy()
         length, pair, slot = _next_wall(walls(state, problem.mu, problem.closed), entry, way, pair, slot)
         to_end = entry[-1] / -way[-1] if way[-1] < 0 else np.inf
-        if to_end <= length and np.isfinite(to_end):
-            return PathEnd(end="solution", state=state, y=(entry + to_end * way)[:-1], theta=0.0, pivots=pivots)
-        if not np.isfinite(length):
+        if not np.isfinite(min(length, to_end)):
             return PathEnd(end="ray", state=state, y=way[:-1], theta=entry[-1], pivots=pivots)
-        point = entry + length * way
+        point = entry + min(length, to_end) * way
         if np.abs(point[:-1]).max() > course.far:
             return PathEnd(end="ray", state=state, y=point[:-1], theta=point[-1], pivots=pivots)
+        if to_end <= length:
+            return PathEnd(end="solution", state=state, y=point[:-1], theta=0.0, pivots=pivots)
     return PathEnd(end="budget spent", state=state, y=point[:-1], theta=point[-1], pivots=pivots)
 
 
