@@ -72,7 +72,18 @@ def syrk(n: int, k: int, A: int, lda: int, keep: bool, C: int, ldc: int, s: Scra
 
 @njit(cache=True)
 def gemm(
-    transposed: bool, m: int, n: int, k: int, A: int, lda: int, B: int, ldb: int, keep: bool, C: int, ldc: int, s: Scratch
+    transposed: bool,
+    m: int,
+    n: int,
+    k: int,
+    A: int,
+    lda: int,
+    B: int,
+    ldb: int,
+    keep: bool,
+    C: int,
+    ldc: int,
+    s: Scratch,
 ) -> None:
     """Overwrite C, (m, n), by ``[C] - op(A) B``; `keep` says whether C counts."""
     s.size[0], s.size[1], s.size[2], s.size[3], s.size[4], s.size[5] = m, n, k, lda, ldb, ldc
