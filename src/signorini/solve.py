@@ -23,7 +23,7 @@ from signorini.solution import results
 from signorini.solution.certificate import Certificate, certify
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult, StepResult
-from signorini.solution.state import State, initial_state
+from signorini.solution.state import State, initial_state, next_state
 
 ONE_INCREMENT = (
     "one increment: assumes that the final state was reached from zero slip; where the contact grows under friction "
@@ -127,13 +127,24 @@ def _advance(
         moved[inactive] = offset[inactive]
         status = np.full(n, OPEN)
         status[active] = result.state
-        new = _next_state(prepared, state, factors, displacement, forces, moved, status, loads)
+        new = next_state(
+            state,
+            prepared.K,
+            constraints,
+            interface,
+            factors=factors,
+            loads=loads,
+            displacement=displacement,
+            forces=forces,
+            moved=moved,
+            status=status,
+        )
         certificate = certify(
             prepared.K, loads, prepared.motions, constraints, interface, new, state.tangential, prepared.scale
         )
     if not certificate.passed:
         raise SolveFailed(
-            f"{where}: the solver's answer did not pass the certificate ({spell_certificate(certificate)}); badly "
+            f"{where}: the solver's answer did not pass the certificate ({certificate}); badly "
             "scaled data (extreme ratios of moduli, sizes or compliances) are the usual cause",
             status="not_found",
         )
@@ -159,39 +170,6 @@ def _explain(prepared: Prepared, problem: CoulombProblem, result: CoulombResult)
         return result.message
     coefficients, *_ = np.linalg.lstsq(problem.motions, result.escape, rcond=None)
     return f"{describe_motion(prepared.parts, prepared.floating @ coefficients)}: {result.message}"
-
-
-def _next_state(
-    prepared: Prepared,
-    state: State,
-    factors: Mapping[str, float],
-    displacement: Array,
-    forces: Array,
-    moved: Array,
-    status: Array,
-    loads: Array,
-) -> State:
-    constraints, n = prepared.constraints, len(prepared.interface)
-    inner = prepared.K @ displacement - prepared.interface.B.T @ forces
-    # loads where a displacement is free on its own, whatever equilibrium takes where it is held or tied
-    shared = np.bincount(constraints.free[constraints.free >= 0], minlength=1)
-    own = (constraints.free >= 0) & (shared[constraints.free] == 1)
-    external = np.where(own, loads, inner)
-    increment = moved[n:]
-    work = 0.5 * (state.external + external) @ (displacement - state.displacement)
-    return State(
-        factors=factors,
-        displacement=displacement,
-        external=external,
-        forces=forces,
-        gap=moved[:n],
-        tangential=state.tangential + increment,
-        increment=increment,
-        slip=state.slip + np.where(status == OPEN, 0.0, increment),
-        status=status.astype(np.int64),
-        work=state.work + float(work),
-        dissipation=state.dissipation + np.maximum(-forces[n:] * increment, 0.0),
-    )
 
 
 def _step_result(
@@ -275,8 +253,3 @@ def _history(prepared: Prepared, status: str, message: str, steps: list[StepResu
         timings=dict(prepared.clock.seconds),
         pairs=len(prepared.interface),
     )
-
-
-def spell_certificate(certificate: Certificate) -> str:
-    """The five numbers in words."""
-    return ", ".join(f"{key} {getattr(certificate, key):.1e}" for key in Certificate.__dataclass_fields__)

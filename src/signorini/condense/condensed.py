@@ -35,17 +35,20 @@ class Condensed:
 
     Attributes
     ----------
+    factorisation : of the bodies, with the contact dofs last
     W : (2 a, 2 a) for the a active pairs, symmetric, spectrum in [0, 1]
     active : (n,) pairs that can move along their normal; supports hold the others
     root : (2 a,) square roots of D, force per length to the 1/2
+    dofs : (m,) the contact dofs among the free displacements
+    B : (2 a, m) relative displacements of the active pairs in terms of them, B_c
     """
 
     factorisation: Factorisation
     W: Array
     active: BoolArray
     root: Array
-    _dofs: IntArray
-    _B: sp.csr_array
+    dofs: IntArray
+    B: sp.csr_array
     _compliance: Array
     _cholesky: tuple[Array, bool]
 
@@ -68,18 +71,18 @@ class Condensed:
         offset : (2 a,) h_0, length: initial gaps and minus the tangential displacements of the step before, each plus
             the relative displacement that supports prescribe
         """
-        response = self._softening * (self._B @ self._solve(f_c))
+        response = self._softening * (self.B @ self._solve(f_c))
         scaled = self.root * offset
         result: Array = self.root * response + scaled - self.W @ scaled
         return result
 
     def displacement(self, f: Array, f_c: Array, h: Array, r: Array, offset: Array) -> Array:
         """Free displacements (z,) under the load f and the solution h, r (2 a,), in the units of the problem."""
-        if not len(self._dofs):
+        if not len(self.dofs):
             return self.factorisation.expand(f, f_c)
         moved = h - self._compliance * r - offset
         springs = self.root**2 * self._softening
-        contact = self._solve(f_c + self._B.T @ (r + springs * moved))
+        contact = self._solve(f_c + self.B.T @ (r + springs * moved))
         return self.factorisation.expand(f, contact)
 
     @property
@@ -147,8 +150,8 @@ def _condense(
         W=0.5 * (W + W.T),
         active=active,
         root=root,
-        _dofs=dofs,
-        _B=B_c,
+        dofs=dofs,
+        B=B_c,
         _compliance=compliance,
         _cholesky=cholesky,
     )

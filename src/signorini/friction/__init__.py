@@ -6,7 +6,8 @@ from signorini.friction.interface import Interface
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STATE_NAMES, STICK, UNDECIDED
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.result import Attempt, CoulombResult
-from signorini.friction.solve import solve_coulomb
+from signorini.friction.solve import CoulombSettings, solve_coulomb
+from signorini.friction.uniqueness import index, mu_low
 
 __all__ = [
     "OPEN",
@@ -18,7 +19,10 @@ __all__ = [
     "Attempt",
     "CoulombProblem",
     "CoulombResult",
+    "CoulombSettings",
     "Interface",
     "certify",
+    "index",
+    "mu_low",
     "solve_coulomb",
 ]

@@ -17,7 +17,7 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import lapack, qr
 
-from signorini.arrays import Array
+from signorini.arrays import Array, frozen
 from signorini.errors import InputError
 
 UNRESISTED = 1e-14
@@ -42,10 +42,33 @@ class Interface:
     W: Array
     motions: Array
 
+    @classmethod
+    def exact(cls, W: Array, motions: Array) -> Interface:
+        """The interface with ``W R = R`` to rounding, whatever the accuracy of W: ``P W P + R R'``, P = I - R R'.
+
+        A body that floats may travel far beyond its elastic motion, which multiplies the error of W R by as much.
+
+        Raises
+        ------
+        InputError
+            Where W is not symmetric to 1e-12, or W R differs from R by more than 1e-8 of the largest motion.
+        """
+        if np.abs(W - W.T).max(initial=0.0) > 1e-12:
+            raise InputError("is not symmetric", where=("W",))
+        R = cls(W=W, motions=motions).R
+        if not R.size:
+            return cls(W=W, motions=motions)
+        wrong = np.abs(W @ R - R).max()
+        if wrong > 1e-8 * np.abs(R).max():
+            raise InputError(f"are no rigid motions: W R differs from R by {wrong:.1e}", where=("motions",))
+        elastic = W - R @ (R.T @ W)
+        elastic -= (elastic @ R) @ R.T
+        return cls(W=frozen((elastic + elastic.T) / 2 + R @ R.T), motions=motions)
+
     @cached_property
     def R(self) -> Array:
         """(2n, k) Orthonormal rigid motions."""
-        if self.motions.shape[1] == 0:
+        if not self.motions.size:
             return self.motions
         Q, triangle = qr(self.motions, mode="economic")
         diagonal = np.abs(np.diag(triangle))

@@ -7,42 +7,15 @@ method). Three steps are usual; in 2-3 % of hard problems the states repeat in a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from signorini.arrays import Array, IntArray
+from signorini.friction.candidate import Candidate
 from signorini.friction.certificate import certify
 from signorini.friction.cone import cone_system
 from signorini.friction.law import OPEN, STICK, UNDECIDED, states
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.result import Attempt
-
-
-@dataclass(frozen=True, kw_only=True)
-class Candidate:
-    """Where a method ended.
-
-    Attributes
-    ----------
-    y : (2n,) the last iterate, or None where there is none
-    state : (n,) the state it was computed in
-    residual : `certify` of y
-    index : sign of the determinant in that state, 0 where it is singular
-    attempt : how it went
-    """
-
-    y: Array | None
-    state: IntArray
-    residual: float
-    index: int
-    attempt: Attempt
-
-    @classmethod
-    def nothing(cls) -> Candidate:
-        """The solution of a problem without pairs."""
-        attempt = Attempt(method="none", iterations=0, end="certified")
-        return cls(y=np.zeros(0), state=np.zeros(0, dtype=np.int64), residual=0.0, index=1, attempt=attempt)
 
 
 def newton(
@@ -95,7 +68,7 @@ def newton(
             end = "states repeat"
             break
     attempt = Attempt(method="newton", iterations=len(changes), changes=tuple(changes), end=end)
-    return Candidate(y=y if changes else None, state=state, residual=residual, index=index, attempt=attempt)
+    return Candidate(y=y, state=state, residual=residual, index=index, attempt=attempt)
 
 
 def admissible(problem: CoulombProblem, start: IntArray | None) -> IntArray:

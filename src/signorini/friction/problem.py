@@ -27,7 +27,7 @@ class CoulombProblem:
     Parameters
     ----------
     W : (2n, 2n) symmetric, spectrum in [0, 1]; 1 belongs to rigid motions alone. An exactly zero tangential row says
-        that supports lock the pair's tangential motion
+        that supports lock the pair's tangential motion. Kept with W R = R restored to rounding
     b : (2n,) load: motion of the pairs under the loads plus ``G h0``, h0 = (initial gap, -slip of the step before)
     friction : (n,) mu >= 0; ``inf`` never slips, but may open
     motions : (2n, k) rigid motions seen by the pairs, W R = R; k = 0 where supports hold every body
@@ -63,7 +63,9 @@ class CoulombProblem:
         _check(self)
         known = self.interface
         if known is None or known.W is not self.W or known.motions is not self.motions:
-            object.__setattr__(self, "interface", Interface(W=self.W, motions=self.motions))
+            interface = Interface.exact(self.W, self.motions)
+            object.__setattr__(self, "W", interface.W)
+            object.__setattr__(self, "interface", interface)
 
     @property
     def pairs(self) -> int:
@@ -114,8 +116,6 @@ def _check(problem: CoulombProblem) -> None:
         raise InputError("has negative entries or NaN; expected mu >= 0, inf for pairs that stick", where=("friction",))
     if not (np.isfinite(problem.scale) and problem.scale >= 0):
         raise InputError(f"is {problem.scale}; expected a finite number >= 0", where=("scale",))
-    if np.abs(problem.W - problem.W.T).max(initial=0.0) > 1e-12:
-        raise InputError("is not symmetric", where=("W",))
     if np.any(problem.locked & np.isinf(problem.friction) & (problem.b[n:] != 0)):
         raise InputError(
             "is infinite at a pair whose supports drag it along: it can neither slip nor stick; give a finite mu",

@@ -1,30 +1,72 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Solve the condensed Coulomb problem: the methods in their order, and the words for what came out."""
+"""Solve the condensed Coulomb problem: the methods in their order.
+
+1. Newton from the previous states (see `newton`), then from every pair sticking. Nearly always enough.
+2. Floating bodies: proof that the loads pull them away (see `rigid`).
+3. Paths (see `path`), first with a budget of 10 pivots a pair, then of 100. Held bodies: open, then press; one of them
+   ends in a solution. Floating bodies: press, then "open" with springs of falling stiffness at every pair.
+4. Up to 25 pairs: proof or solution by a tree of linear programs (see `tree`).
+
+Whatever a method finds is polished by Newton and certified (see `certify`) before it is believed. The order is fixed,
+and the previous states come first: where several solutions exist the history decides, not accident.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
 import numpy as np
 
-from signorini.arrays import Array, IntArray, frozen
+from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
-from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, UNDECIDED, split, states
-from signorini.friction.newton import Candidate, newton
+from signorini.friction.answer import impossible, not_found, solved
+from signorini.friction.candidate import Candidate
+from signorini.friction.law import SLIP_MINUS, UNDECIDED, split
+from signorini.friction.newton import newton
+from signorini.friction.path import Covering, PathEnd, follow
 from signorini.friction.problem import CoulombProblem
-from signorini.friction.result import Attempt, CoulombResult, Outcome
+from signorini.friction.result import Attempt, CoulombResult
+from signorini.friction.rigid import pulled_away
+from signorini.friction.tree import search
 
 
-def solve_coulomb(problem: CoulombProblem, start: IntArray | None = None) -> CoulombResult:
-    """Solve ``G h - W r = b`` in Coulomb's law.
+@dataclass(frozen=True, kw_only=True)
+class CoulombSettings:
+    """How long each method may try.
+
+    Attributes
+    ----------
+    tolerance : of `certify`, relative to the data
+    newton_steps : most linear systems of one Newton run
+    pivots_per_pair : most pivots of a path, in rounds
+    springs : stiffness of the springs, falling, in units of the interface stiffness
+    tree_pairs, tree_programs : most pairs and most linear programs of the tree
+    """
+
+    tolerance: float = 1e-10
+    newton_steps: int = 40
+    pivots_per_pair: tuple[int, ...] = (10, 100)
+    springs: tuple[float, ...] = (1e-3, 1e-6, 1e-9)
+    tree_pairs: int = 25
+    tree_programs: int = 2000
+
+
+def solve_coulomb(
+    problem: CoulombProblem, start: IntArray | None = None, *, settings: CoulombSettings | None = None
+) -> CoulombResult:
+    """Solve ``G h - W r = b`` in Coulomb's law: a certified solution, a proof that there is none, or the escape motion.
 
     Parameters
     ----------
     problem : the problem
     start : (n,) states of the previous solution, or None to start with every pair sticking
+    settings : how long each method may try
 
     Raises
     ------
     InputError
-        Where ``start`` does not fit.
+        Where ``start`` does not fit, or W has a rigid motion that the problem does not name.
 
     Examples
     --------
@@ -35,13 +77,20 @@ def solve_coulomb(problem: CoulombProblem, start: IntArray | None = None) -> Cou
     >>> result.outcome, result.normal_force.tolist(), result.tangential_force.tolist(), result.slip.round(12).tolist()
     ('solved', [2.0], [-0.6], [0.4])
     """
+    settings = settings or CoulombSettings()
     _check_start(problem, start)
     if problem.pairs == 0:
-        return _solved(problem, Candidate.nothing(), ())
-    end = newton(problem, start)
-    if end.residual <= 1e-10:
-        return _solved(problem, end, (end.attempt,))
-    return _unsolved(problem, "not_found", (end.attempt,), None, f"Newton ended without a solution: {end.attempt.end}.")
+        return solved(problem, Candidate.nothing(), ())
+    trace: list[Attempt] = []
+    escape: Array | None = None
+    for found in _candidates(problem, start, settings):
+        trace.append(found.attempt)
+        if found.residual <= settings.tolerance:
+            return solved(problem, found, tuple(trace))
+        escape = found.escape if found.escape is not None else escape
+        if found.proof is not None:
+            return impossible(problem, replace(found, escape=escape), tuple(trace))
+    return not_found(problem, escape, tuple(trace))
 
 
 def _check_start(problem: CoulombProblem, start: IntArray | None) -> None:
@@ -52,43 +101,64 @@ def _check_start(problem: CoulombProblem, start: IntArray | None) -> None:
         raise InputError(f"expected {problem.pairs} states between {UNDECIDED} and {SLIP_MINUS}", where=("start",))
 
 
-def _solved(problem: CoulombProblem, end: Candidate, trace: tuple[Attempt, ...]) -> CoulombResult:
-    assert end.y is not None
-    n = problem.pairs
-    h, r = split(end.y, problem.mu)
-    state = states(end.y, problem.mu, problem.closed)
-    sliding = (state != OPEN) & (problem.mu == 0)
-    state = np.where(sliding & (h[n:] > 0), SLIP_MINUS, np.where(sliding, SLIP_PLUS, state))
-    message = (
-        f"solved by {trace[-1].method} ({trace[-1].iterations} iterations)" if trace else "no pairs, nothing to solve"
-    )
-    return CoulombResult(
-        outcome="solved",
-        gap=frozen(h[:n]),
-        slip=frozen(h[n:]),
-        normal_force=frozen(r[:n]),
-        tangential_force=frozen(r[n:]),
-        state=frozen(state, dtype=np.int64),
-        trace=trace,
-        residual=end.residual,
-        index=end.index,
-        message=message,
-    )
+def _candidates(problem: CoulombProblem, start: IntArray | None, settings: CoulombSettings) -> Iterator[Candidate]:
+    """What the methods find, one after the other, each tried only when it is asked for."""
+    if start is not None:
+        yield newton(problem, start, limit=settings.newton_steps, tolerance=settings.tolerance)
+    yield newton(problem, limit=settings.newton_steps, tolerance=settings.tolerance)
+    if problem.floating:
+        yield _proof_by_rigid_motion(problem)
+    for round_, per_pair in enumerate(settings.pivots_per_pair):
+        budget = per_pair * max(problem.pairs, 5)
+        if not problem.floating:
+            yield _along_path(problem, "open", budget, round_, settings)
+        yield _along_path(problem, "press", budget, round_, settings)
+        if problem.floating:
+            yield from _with_springs(problem, budget, round_, settings)
+    if problem.pairs <= settings.tree_pairs:
+        yield _in_tree(problem, settings)
 
 
-def _unsolved(
-    problem: CoulombProblem, outcome: Outcome, trace: tuple[Attempt, ...], escape: Array | None, message: str
-) -> CoulombResult:
-    nothing = frozen(np.full(problem.pairs, np.nan))
-    return CoulombResult(
-        outcome=outcome,
-        gap=nothing,
-        slip=nothing,
-        normal_force=nothing,
-        tangential_force=nothing,
-        state=frozen(np.full(problem.pairs, UNDECIDED), dtype=np.int64),
-        trace=trace,
-        residual=np.inf,
-        escape=escape,
-        message=message,
-    )
+def _proof_by_rigid_motion(problem: CoulombProblem) -> Candidate:
+    rho = pulled_away(problem)
+    if rho is None:
+        return Candidate.without(problem, Attempt(method="rigid motions", iterations=1, end="nothing proved"))
+    attempt = Attempt(method="rigid motions", iterations=1, end="pulled away")
+    return replace(Candidate.without(problem, attempt), proof="rigid motion", escape=rho)
+
+
+def _along_path(
+    problem: CoulombProblem, covering: Covering, budget: int, seed: int, settings: CoulombSettings
+) -> Candidate:
+    path = follow(problem, covering, budget=budget, seed=seed)
+    return _polished(problem, path, f"path {covering}", settings)
+
+
+def _polished(problem: CoulombProblem, path: PathEnd, method: str, settings: CoulombSettings) -> Candidate:
+    """The end of a path made exact on the problem as posed: no perturbation, no springs."""
+    attempt = Attempt(method=method, iterations=path.pivots, end=path.end)
+    if path.end == "singular":
+        return Candidate.without(problem, attempt)
+    near = None if path.end == "ray" else path.y
+    exact = newton(problem, path.state, near=near, limit=settings.newton_steps, tolerance=settings.tolerance)
+    return replace(exact, attempt=attempt)
+
+
+def _with_springs(problem: CoulombProblem, budget: int, seed: int, settings: CoulombSettings) -> Iterator[Candidate]:
+    """Held by springs a path always ends; in an answer that stays as the springs weaken, or in one that runs away."""
+    for springs in settings.springs:
+        path = follow(problem, "open", budget=budget, seed=seed, springs=springs)
+        found = _polished(problem, path, "springs", settings)
+        motion = split(path.y, problem.mu)[0]
+        size = np.abs(motion).max(initial=0.0)
+        away = path.end == "solution" and size * springs > 1e-3 * problem.scale and springs == settings.springs[-1]
+        yield replace(found, escape=motion / size if away else None)
+
+
+def _in_tree(problem: CoulombProblem, settings: CoulombSettings) -> Candidate:
+    tree = search(problem, budget=settings.tree_programs)
+    attempt = Attempt(method="tree", iterations=tree.programs, end=tree.end)
+    if tree.state is None:
+        return replace(Candidate.without(problem, attempt), proof="tree" if tree.end == "impossible" else None)
+    exact = newton(problem, tree.state, limit=settings.newton_steps, tolerance=settings.tolerance)
+    return replace(exact, attempt=attempt)

@@ -3,20 +3,20 @@
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
-import scipy.linalg as la
+import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
-from signorini.lcp.residual import natural_residual, relative_sizes
+from signorini.lcp.linear import factorised
+from signorini.lcp.problem import LCP
+from signorini.lcp.residual import Matrix
 
 
-def solve_on(M: Array, q: Array, active: BoolArray, *, refinements: int = 2) -> Array | None:
+def solve_on(M: Matrix, q: Array, active: BoolArray, *, refinements: int = 2, shift: Array | None = None) -> Array | None:
     """z with ``(M z + q)_i = 0`` where active and ``z_i = 0`` elsewhere; None where that system is singular.
 
     Rows and columns are scaled by their largest entries before the factorisation; the refinement takes the residual of
-    the problem as posed.
+    the problem as posed. A shift (n,) is added to the diagonal of M.
 
     Examples
     --------
@@ -27,42 +27,44 @@ def solve_on(M: Array, q: Array, active: BoolArray, *, refinements: int = 2) -> 
     A = np.flatnonzero(active)
     if not len(A):
         return z
-    block = M[np.ix_(A, A)]
-    rows = np.abs(block).max(axis=1)
-    columns = np.abs(block / np.where(rows > 0, rows, 1.0)[:, None]).max(axis=0)
-    if not (rows > 0).all() or not (columns > 0).all():
-        return None
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", la.LinAlgWarning)  # a zero pivot is looked for below
-        factors = la.lu_factor(block / rows[:, None] / columns, check_finite=False)
-    if not np.abs(np.diag(factors[0])).min() > 0:
+    block = M[np.ix_(A, A)] if isinstance(M, np.ndarray) else M[A][:, A]
+    if shift is not None:
+        block = block + (np.diag(shift[A]) if isinstance(block, np.ndarray) else sp.diags_array(shift[A]))
+    inverse = factorised(block)
+    if inverse is None:
         return None
     x = np.zeros(len(A))
     for _ in range(1 + refinements):
-        x = x - la.lu_solve(factors, (block @ x + q[A]) / rows, check_finite=False) / columns
+        x = x - inverse(block @ x + q[A])
     z[A] = x
     return z if np.isfinite(x).all() else None
 
 
-def polish(M: Array, q: Array, z: Array, *, attempts: int = 3) -> Array:
+def polish(problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None, attempts: int = 3) -> Array:
     """The best of z and a few steps of the active-set Newton method started there, never below 0.
 
-    A step solves for the basis ``z_i > w_i`` (both in the units of the residual's denominators); it is exact as soon as
-    the basis is the right one. The result is judged by the natural residual and never worse than z.
+    A step solves for the given basis first, then for ``z_i > w_i`` (both as shares, see ``natural_residual``); it is
+    exact as soon as that is the right one.
+
+    Parameters
+    ----------
+    M : the matrix of the problem with its entries, as a dense or CSR array
     """
     best = np.maximum(z, 0.0)
-    least = natural_residual(M, q, best).worst
-    current = best
-    for _ in range(attempts):
-        share, w = relative_sizes(M, q, current)
-        following = solve_on(M, q, share > w)
-        if following is None:
+    least = problem.residual(best).worst
+    for attempt in range(attempts):
+        if active is None:
+            share, w = problem.relative(best)
+            active = share > w
+        z = np.maximum(_or_nan(solve_on(M, problem.q, active), problem.n), 0.0)
+        worst = problem.residual(z).worst
+        if worst >= least and attempt > 0:
             break
-        current = np.maximum(following, 0.0)
-        worst = natural_residual(M, q, current).worst
         if worst < least:
-            best, least = current, worst
-        if worst == 0.0:
-            break
-        current = following
+            best, least = z, worst
+        active = None
     return best
+
+
+def _or_nan(z: Array | None, n: int) -> Array:
+    return np.full(n, np.nan) if z is None else z

@@ -13,7 +13,6 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
 from signorini.lcp.active import polish
 from signorini.lcp.problem import LCP, read_vector
-from signorini.lcp.residual import natural_residual
 from signorini.lcp.scaling import Equilibrated, equilibrate
 from signorini.lcp.solution import Attempt, Ray
 from signorini.lcp.status import Status
@@ -158,8 +157,8 @@ class _Path:
         tableau = self.tableau
         basic = tableau.basic.copy()
         basic[row] = entering
-        z = polish(self.M, self.problem.q, self._z_of(basic, np.maximum(tableau.rhs, 0.0)), attempts=2)
-        return natural_residual(self.M, self.problem.q, z).worst <= self.tolerance
+        z = self._polished(basic)
+        return self.problem.residual(z).worst <= self.tolerance
 
     def _z_of(self, basic: IntArray, values: Array) -> Array:
         """z of the problem as posed, from values of basic variables of the turned, scaled problem."""
@@ -168,14 +167,22 @@ class _Path:
         x[basic] = values
         return self.scaled.back(np.where(self.basis, x[:n], x[n:-1]))
 
+    def _polished(self, basic: IntArray) -> Array:
+        """The values of the basic variables, or the basis solved for anew where that is better."""
+        n = self.tableau.n
+        z = self._z_of(basic, np.maximum(self.tableau.rhs, 0.0))
+        is_basic = np.zeros(2 * n + 1, dtype=bool)
+        is_basic[basic] = True
+        return polish(self.problem, self.M, z, active=np.where(self.basis, is_basic[:n], is_basic[n:-1]))
+
     def _at_ray(self, entering: int, note: str) -> Attempt:
         """Test the end of the path for a solution hidden by a tie, then report the ray."""
         tableau = self.tableau
         theta = tableau.values()[2]
         candidate = self._z_of(tableau.basic, np.maximum(tableau.rhs, 0.0))
         if theta <= 1e-6 * self.largest_theta:
-            candidate = polish(self.M, self.problem.q, candidate)
-            if natural_residual(self.M, self.problem.q, candidate).worst <= self.tolerance:
+            candidate = self._polished(tableau.basic)
+            if self.problem.residual(candidate).worst <= self.tolerance:
                 note = f"{note} The path ended near theta = 0 in a tie; polished.".strip()
                 return Attempt(z=candidate, ending=Status.SOLVED, iterations=self.pivots, note=note)
         direction = np.zeros(2 * tableau.n + 1)
@@ -196,7 +203,7 @@ class _Path:
         rhs = self.tableau.rhs
         if not np.isfinite(rhs).all():
             return Attempt(z=None, ending=Status.NONFINITE, iterations=self.pivots, note=note)
-        z = polish(self.M, self.problem.q, self._z_of(self.tableau.basic, np.maximum(rhs, 0.0)))
+        z = self._polished(self.tableau.basic)
         return Attempt(z=z, ending=ending, iterations=self.pivots, note=note)
 
 

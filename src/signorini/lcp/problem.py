@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from scipy.sparse.linalg import LinearOperator
 
 from signorini.arrays import Array
 from signorini.errors import InputError
-from signorini.lcp.residual import Matrix
+from signorini.lcp.residual import Matrix, Residual, balance, natural_residual, relative_sizes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,6 +34,19 @@ class LCP:
     def n(self) -> int:
         """Number of unknowns."""
         return len(self.q)
+
+    @cached_property
+    def sizes(self) -> tuple[Array, Array]:
+        """Balanced sizes of rows and columns of M (``balance``)."""
+        return balance(self.M)
+
+    def residual(self, z: Array) -> Residual:
+        """The natural residual of a candidate."""
+        return natural_residual(self.M, self.q, z, rows=self.sizes[0])
+
+    def relative(self, z: Array) -> tuple[Array, Array]:
+        """z and w over the sizes by which the natural residual divides."""
+        return relative_sizes(self.M, self.q, z, self.sizes[0])
 
     def dense(self) -> Array | None:
         """M as a dense array, None where it is a linear operator or too large (more than 30000 rows)."""

@@ -13,7 +13,6 @@ from signorini.errors import InputError, one_of
 from signorini.lcp.lemke import Lemke
 from signorini.lcp.method import Method
 from signorini.lcp.problem import LCP, read_problem, read_vector
-from signorini.lcp.residual import natural_residual
 from signorini.lcp.solution import Attempt, LCPSolution
 from signorini.lcp.status import Status
 
@@ -90,7 +89,7 @@ def _judge(problem: LCP, methods: list[Method], z0: Array | None, tolerance: flo
 def _tested(problem: LCP, method: Method, attempt: Attempt, tolerance: float, lines: list[str]) -> LCPSolution:
     """Replace the method's claim by what the natural residual says."""
     z = attempt.z if attempt.z is not None and np.isfinite(attempt.z).all() else None
-    residual = None if z is None else natural_residual(problem.M, problem.q, z)
+    residual = None if z is None else problem.residual(z)
     confirmed = residual is not None and residual.worst <= tolerance
     status = attempt.ending
     if confirmed:

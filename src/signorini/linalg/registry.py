@@ -9,11 +9,12 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from signorini.errors import InputError, one_of
-from signorini.linalg import superlu
+from signorini.linalg import multifrontal, superlu
 from signorini.linalg.protocol import Factorisation
 from signorini.linalg.system import System, check
 
 BACKENDS: dict[str, Callable[[System], Factorisation]] = {
+    "multifrontal": multifrontal.factorise,
     "superlu": superlu.factorise,
 }
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -82,9 +82,13 @@ def check(K: Any, interface: ArrayLike, nodes: ArrayLike | None) -> System:
         If K is not a square sparse matrix of finite numbers, the interface names an unknown twice or one that does not
         exist, or `nodes` has another length than K.
     """
-    if not sparse.issparse(K) or np.shape(K) != np.shape(K)[:1] * 2:
-        raise InputError(f"K is {type(K).__name__} of shape {np.shape(K)}; expected a square sparse matrix")
-    K = sparse.csr_array(K)
+    shape = getattr(K, "shape", ())
+    if not sparse.issparse(K) or shape != shape[:1] * 2:
+        raise InputError(f"K is {type(K).__name__} of shape {shape}; expected a square sparse matrix")
+    return _checked(sparse.csr_array(cast(Any, K)), interface, nodes)
+
+
+def _checked(K: sparse.csr_array, interface: ArrayLike, nodes: ArrayLike | None) -> System:
     n = K.shape[0]
     if K.nnz > np.iinfo(np.int32).max:
         raise InputError(f"K has {K.nnz} entries; expected at most 2^31 - 1")

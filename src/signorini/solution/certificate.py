@@ -49,6 +49,9 @@ class Certificate:
         """All at most 1e-8."""
         return bool(self.worst <= TOLERANCE)
 
+    def __str__(self) -> str:
+        return ", ".join(f"{field.name} {getattr(self, field.name):.1e}" for field in fields(self))
+
 
 def certify(
     K: sp.csr_array,

@@ -8,8 +8,12 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
+import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
+from signorini.fem.supports import Constraints
+from signorini.friction.law import OPEN
+from signorini.interface.interface import Interface
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -59,4 +63,50 @@ def initial_state(factors: Mapping[str, float], dofs: int, gap: Array) -> State:
         status=np.zeros(n, np.int64),
         work=0.0,
         dissipation=np.zeros(n),
+    )
+
+
+def next_state(
+    state: State,
+    K: sp.csr_array,
+    constraints: Constraints,
+    interface: Interface,
+    *,
+    factors: Mapping[str, float],
+    loads: Array,
+    displacement: Array,
+    forces: Array,
+    moved: Array,
+    status: IntArray,
+) -> State:
+    """The state after an increment, with the work and the dissipation in between.
+
+    Parameters
+    ----------
+    state : before
+    K : (dofs, dofs) stiffness, supports not applied
+    loads, displacement : (dofs,)
+    forces, moved : (2 n,) forces of the pairs; gaps and slip increments
+    status : (n,)
+    """
+    n = len(interface)
+    inner = K @ displacement - interface.B.T @ forces
+    # the loads where a displacement is free on its own, whatever equilibrium takes where it is held or tied
+    shared = np.bincount(constraints.free[constraints.free >= 0], minlength=1)
+    own = (constraints.free >= 0) & (shared[constraints.free] == 1)
+    external = np.where(own, loads, inner)
+    increment = moved[n:]
+    work = 0.5 * (state.external + external) @ (displacement - state.displacement)
+    return State(
+        factors=factors,
+        displacement=displacement,
+        external=external,
+        forces=forces,
+        gap=moved[:n],
+        tangential=state.tangential + increment,
+        increment=increment,
+        slip=state.slip + np.where(status == OPEN, 0.0, increment),
+        status=status,
+        work=state.work + float(work),
+        dissipation=state.dissipation + np.maximum(-forces[n:] * increment, 0.0),
     )

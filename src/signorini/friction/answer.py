@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The words and values of an answer, whichever method gave it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from signorini.arrays import Array, frozen
+from signorini.friction.candidate import Candidate
+from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, UNDECIDED, split, states
+from signorini.friction.problem import CoulombProblem
+from signorini.friction.result import Attempt, CoulombResult, Outcome
+
+UNDETERMINED = (
+    "; the state leaves a motion or a force undetermined (nothing resists a motion along the contact, or one pair"
+    " repeats another): the solution of least change was taken"
+)
+SEVERAL = "; its index is -1: at least two more solutions exist, and the load history decides which one is taken"
+PULLED_AWAY = (
+    "no equilibrium: the loads pull a body away along a rigid motion that contact cannot resist, whatever its state;"
+    " hold the body, or change the loads"
+)
+TREE = (
+    "no equilibrium: the forces can balance the resultants, but no state of the pairs (open, stick, slip) is in"
+    " equilibrium; every one is refused by a linear program"
+)
+ESCAPES = (
+    "no certified equilibrium, and no proof that there is none: with ever weaker springs the bodies run away along the"
+    " motion given; hold them against it, or change loads, gaps or friction"
+)
+NOTHING = "no certified equilibrium, and no proof that there is none: every method ended without a solution"
+
+
+def solved(problem: CoulombProblem, found: Candidate, trace: tuple[Attempt, ...]) -> CoulombResult:
+    """A certified candidate as a result."""
+    n, y = problem.pairs, found.y
+    h, r = split(y, problem.mu)
+    state = states(y, problem.mu, problem.closed)
+    frictionless = (state != OPEN) & (problem.mu == 0)
+    state = np.where(frictionless & (h[n:] > 0), SLIP_MINUS, np.where(frictionless, SLIP_PLUS, state))
+    how = f"solved by {trace[-1].method}, {trace[-1].iterations} steps" if trace else "no pairs, nothing to solve"
+    return CoulombResult(
+        outcome="solved",
+        gap=frozen(h[:n]),
+        slip=frozen(h[n:]),
+        normal_force=frozen(r[:n]),
+        tangential_force=frozen(r[n:]),
+        state=frozen(state, dtype=np.int64),
+        trace=trace,
+        residual=found.residual,
+        index=found.index,
+        message=how
+        + ("" if found.index else UNDETERMINED)
+        + (SEVERAL if found.index < 0 and not problem.floating else ""),
+    )
+
+
+def impossible(problem: CoulombProblem, found: Candidate, trace: tuple[Attempt, ...]) -> CoulombResult:
+    """A proof that there is no equilibrium as a result."""
+    message = PULLED_AWAY if found.proof == "rigid motion" else TREE
+    return _unsolved(problem, "no_equilibrium", trace, found.escape, message)
+
+
+def not_found(problem: CoulombProblem, escape: Array | None, trace: tuple[Attempt, ...]) -> CoulombResult:
+    """Neither solution nor proof."""
+    ends = "; ".join(f"{a.method}: {a.end}" for a in trace)
+    return _unsolved(problem, "not_found", trace, escape, f"{NOTHING if escape is None else ESCAPES} ({ends})")
+
+
+def _unsolved(
+    problem: CoulombProblem, outcome: Outcome, trace: tuple[Attempt, ...], escape: Array | None, message: str
+) -> CoulombResult:
+    nothing = frozen(np.full(problem.pairs, np.nan))
+    return CoulombResult(
+        outcome=outcome,
+        gap=nothing,
+        slip=nothing,
+        normal_force=nothing,
+        tangential_force=nothing,
+        state=frozen(np.full(problem.pairs, UNDECIDED), dtype=np.int64),
+        trace=trace,
+        residual=np.inf,
+        escape=None if escape is None else frozen(escape),
+        message=message,
+    )

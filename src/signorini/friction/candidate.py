@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where a method ended: what passes between the methods of the solver."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.friction.law import UNDECIDED
+from signorini.friction.problem import CoulombProblem
+from signorini.friction.result import Attempt
+
+
+@dataclass(frozen=True, kw_only=True)
+class Candidate:
+    """A candidate solution, or what a method has instead.
+
+    Attributes
+    ----------
+    y : (2n,) the last iterate
+    state : (n,) the states it leads to
+    residual : `certify` of y; infinite where the method has no candidate
+    index : sign of the determinant of the system that gave y, 0 where it is singular
+    attempt : how it went
+    proof : what proves that there is no equilibrium, or None
+    escape : (2n,) motion along which the bodies run away, or None
+    """
+
+    y: Array
+    state: IntArray
+    residual: float
+    index: int
+    attempt: Attempt
+    proof: Literal["rigid motion", "tree"] | None = None
+    escape: Array | None = None
+
+    @classmethod
+    def without(cls, problem: CoulombProblem, attempt: Attempt) -> Candidate:
+        """A method that ended without a candidate."""
+        n = problem.pairs
+        return cls(y=np.zeros(2 * n), state=np.full(n, UNDECIDED), residual=np.inf, index=0, attempt=attempt)
+
+    @classmethod
+    def nothing(cls) -> Candidate:
+        """The solution of a problem without pairs."""
+        attempt = Attempt(method="none", iterations=0, end="certified")
+        return cls(y=np.zeros(0), state=np.zeros(0, dtype=np.int64), residual=0.0, index=1, attempt=attempt)

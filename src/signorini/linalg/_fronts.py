@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Compiled numeric phase: the whole multifrontal factorisation, and the solves, as one loop over the fronts each.
+
+A front holds k unknowns that it eliminates and r below them. Its k columns live in the factor, (k + r, k) by columns;
+its lower right block in a work array, (r, r); what is left of that, packed by columns, waits on a stack for the parent.
+What is left of the last fronts is added to the condensed matrix of the interface.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from signorini.arrays import Array
+from signorini.linalg._blas import Scratch, gemm, potrf, syrk, trsm
+from signorini.linalg.plan import Fronts
+from signorini.linalg.system import Int32Array
+
+
+@njit(cache=True)
+def factorise_fronts(
+    fronts: Fronts,
+    indptr: Int32Array,
+    indices: Int32Array,
+    data: Array,
+    order: Int32Array,
+    place: Int32Array,
+    slot: Int32Array,
+    factor: Array,
+    stack: Array,
+    work: Array,
+    condensed: Array,
+    s: Scratch,
+) -> int:
+    """Factorise; give -1, or the place in the order of elimination where a pivot is not positive.
+
+    Parameters
+    ----------
+    indptr, indices, data : rows of K in its own numbering
+    order, place : order of elimination of the unknowns, and its inverse
+    slot : for every unknown of the interface, in order of elimination, its row in the condensed matrix
+    factor, condensed : zero on entry
+    """
+    inside = len(order) - len(slot)
+    local = np.empty(len(order), np.int32)
+    target = np.empty(max(1, fronts.below.max() if len(fronts.below) else 0), np.int32)
+    waiting = np.empty(len(fronts.parent) + 1, np.int32)
+    offset = np.empty(len(fronts.parent) + 1, np.int64)
+    count = 0
+    for t in range(len(fronts.parent)):
+        a = fronts.unknown[fronts.first[t]]
+        k = fronts.unknown[fronts.first[t + 1]] - a
+        r = fronts.below[t]
+        ld = k + r
+        panel = fronts.panel[t]
+        _number_rows(fronts, t, k, local)
+        for j in range(k):
+            local[a + j] = j
+        _add_matrix(indptr, indices, data, order, place, a, k, local, factor[panel:], ld)
+        leaf = count == 0 or fronts.parent[waiting[count - 1]] != t
+        if not leaf:
+            work[: r * r] = 0.0
+        while count > 0 and fronts.parent[waiting[count - 1]] == t:
+            count -= 1
+            child = waiting[count]
+            _list_rows(fronts, child, local, target)
+            _extend_add(stack[offset[count] :], target, fronts.below[child], k, factor[panel:], ld, work, r)
+        top = factor.ctypes.data + 8 * panel
+        failed = potrf(k, top, ld, s)
+        if failed != 0:
+            return a + failed - 1
+        if r == 0:
+            continue
+        trsm(True, True, r, k, top, ld, top + 8 * k, ld, s)
+        syrk(r, k, top + 8 * k, ld, not leaf, work.ctypes.data, r, s)
+        if fronts.parent[t] == -1:
+            local[inside:] = slot
+            _list_rows(fronts, t, local, target)
+            _add_condensed(work, target, r, condensed)
+        else:
+            begin = 0
+            if count > 0:
+                last = fronts.below[waiting[count - 1]]
+                begin = offset[count - 1] + last * (last + 1) // 2
+            _pack(work, r, stack[begin:])
+            waiting[count], offset[count] = t, begin
+            count += 1
+    _add_interface(indptr, indices, data, order, place, slot, condensed)
+    return -1
+
+
+@njit(cache=True)
+def _number_rows(fronts: Fronts, t: int, k: int, local: Int32Array) -> None:
+    """Note where the unknowns below front t stand in it."""
+    at = k
+    for p in range(fronts.begin[t], fronts.begin[t + 1]):
+        for u in range(fronts.unknown[fronts.row[p]], fronts.unknown[fronts.row[p] + 1]):
+            local[u] = at
+            at += 1
+
+
+@njit(cache=True)
+def _list_rows(fronts: Fronts, t: int, local: Int32Array, target: Int32Array) -> None:
+    """List where the unknowns below front t stand in its parent."""
+    at = 0
+    for p in range(fronts.begin[t], fronts.begin[t + 1]):
+        for u in range(fronts.unknown[fronts.row[p]], fronts.unknown[fronts.row[p] + 1]):
+            target[at] = local[u]
+            at += 1
+
+
+@njit(cache=True)
+def _add_matrix(
+    indptr: Int32Array,
+    indices: Int32Array,
+    data: Array,
+    order: Int32Array,
+    place: Int32Array,
+    a: int,
+    k: int,
+    local: Int32Array,
+    panel: Array,
+    ld: int,
+) -> None:
+    """Add the entries of K on and below the diagonal to the columns of a front."""
+    for j in range(k):
+        for p in range(indptr[order[a + j]], indptr[order[a + j] + 1]):
+            i = place[indices[p]]
+            if i >= a + j:
+                panel[j * ld + local[i]] += data[p]
+
+
+@njit(cache=True)
+def _extend_add(left: Array, target: Int32Array, size: int, k: int, panel: Array, ld: int, work: Array, r: int) -> None:
+    """Add what is left of a child, packed by columns, to its parent."""
+    p = 0
+    for c in range(size):
+        j = target[c]
+        if j < k:
+            for i in range(c, size):
+                panel[j * ld + target[i]] += left[p]
+                p += 1
+        else:
+            for i in range(c, size):
+                work[(j - k) * r - k + target[i]] += left[p]
+                p += 1
+
+
+@njit(cache=True)
+def _pack(work: Array, r: int, left: Array) -> None:
+    """Copy a lower triangle, (r, r) by columns, to packed columns."""
+    p = 0
+    for c in range(r):
+        for i in range(c, r):
+            left[p] = work[c * r + i]
+            p += 1
+
+
+@njit(cache=True)
+def _add_condensed(work: Array, target: Int32Array, r: int, condensed: Array) -> None:
+    """Add a lower triangle, (r, r) by columns, to the lower triangle of the condensed matrix."""
+    for c in range(r):
+        for i in range(c, r):
+            u, v = target[i], target[c]
+            if u < v:
+                u, v = v, u
+            condensed[u, v] += work[c * r + i]
+
+
+@njit(cache=True)
+def _add_interface(
+    indptr: Int32Array,
+    indices: Int32Array,
+    data: Array,
+    order: Int32Array,
+    place: Int32Array,
+    slot: Int32Array,
+    condensed: Array,
+) -> None:
+    """Add K_cc to the condensed matrix and mirror its lower triangle."""
+    inside = len(order) - len(slot)
+    for u in range(len(slot)):
+        row = order[inside + u]
+        for p in range(indptr[row], indptr[row + 1]):
+            i = place[indices[p]]
+            if i >= inside and slot[i - inside] <= slot[u]:
+                condensed[slot[u], slot[i - inside]] += data[p]
+    for u in range(len(slot)):
+        for v in range(u):
+            condensed[v, u] = condensed[u, v]
+
+
+@njit(cache=True)
+def forward(fronts: Fronts, factor: Array, y: Array, s: Scratch) -> None:
+    """Overwrite the inside of y, (k, n) with one load per row, by ``L_ii^-1 y``; the interface gathers what is left."""
+    columns, n = y.shape
+    work = np.empty(columns * max(1, fronts.below.max() if len(fronts.below) else 0), np.float64)
+    for t in range(len(fronts.parent)):
+        a = fronts.unknown[fronts.first[t]]
+        k = fronts.unknown[fronts.first[t + 1]] - a
+        r = fronts.below[t]
+        top = factor.ctypes.data + 8 * fronts.panel[t]
+        x = y.ctypes.data + 8 * a
+        trsm(False, False, k, columns, top, k + r, x, n, s)
+        if r == 0:
+            continue
+        gemm(False, r, columns, k, top + 8 * k, k + r, x, n, False, work.ctypes.data, r, s)
+        for c in range(columns):
+            at = c * r
+            for p in range(fronts.begin[t], fronts.begin[t + 1]):
+                for u in range(fronts.unknown[fronts.row[p]], fronts.unknown[fronts.row[p] + 1]):
+                    y[c, u] += work[at]
+                    at += 1
+    work[0] = 0.0
+
+
+@njit(cache=True)
+def backward(fronts: Fronts, factor: Array, y: Array, s: Scratch) -> None:
+    """Overwrite the inside of y, (k, n) with one load per row, by ``L_ii^-T (y_i - L_ci^T y_c)``."""
+    columns, n = y.shape
+    work = np.empty(columns * max(1, fronts.below.max() if len(fronts.below) else 0), np.float64)
+    for t in range(len(fronts.parent) - 1, -1, -1):
+        a = fronts.unknown[fronts.first[t]]
+        k = fronts.unknown[fronts.first[t + 1]] - a
+        r = fronts.below[t]
+        top = factor.ctypes.data + 8 * fronts.panel[t]
+        x = y.ctypes.data + 8 * a
+        if r > 0:
+            for c in range(columns):
+                at = c * r
+                for p in range(fronts.begin[t], fronts.begin[t + 1]):
+                    for u in range(fronts.unknown[fronts.row[p]], fronts.unknown[fronts.row[p] + 1]):
+                        work[at] = y[c, u]
+                        at += 1
+            gemm(True, k, columns, r, top + 8 * k, k + r, work.ctypes.data, r, True, x, n, s)
+        trsm(False, True, k, columns, top, k + r, x, n, s)
+    work[0] = 0.0
+
+
+@njit(cache=True)
+def pivots(fronts: Fronts, factor: Array) -> Array:
+    """Give the squared diagonal of the factor: the pivots in their order of elimination."""
+    pivot = np.empty(fronts.unknown[fronts.first[-1]])
+    for t in range(len(fronts.parent)):
+        a = fronts.unknown[fronts.first[t]]
+        k = fronts.unknown[fronts.first[t + 1]] - a
+        for j in range(k):
+            pivot[a + j] = factor[fronts.panel[t] + j * (k + fronts.below[t] + 1)] ** 2
+    return pivot

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The default back end: multifrontal supernodal Cholesky whose last front, the interface, is never eliminated.
+
+What is left on the interface once the interior is eliminated is the condensed matrix: it costs nothing beyond the
+factorisation of the interior.
+
+References
+----------
+Duff, Reid (1983), The multifrontal solution of indefinite sparse symmetric linear equations, ACM TOMS 9:302.
+Liu (1992), The multifrontal method for sparse matrix solution: theory and practice, SIAM Review 34:82.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.linalg import _fronts
+from signorini.linalg._blas import scratch
+from signorini.linalg.definite import SUSPICIOUS, check_energy
+from signorini.linalg.plan import Plan, analyse
+from signorini.linalg.protocol import NotPositiveDefinite
+from signorini.linalg.system import System, columns, like
+
+
+@dataclass(frozen=True, kw_only=True)
+class MultifrontalFactorisation:
+    """``K_ii = L L^T``, the rows ``K_ci L^-T`` of the interface below it, and the condensed matrix.
+
+    Attributes
+    ----------
+    plan : order, fronts and cost
+    factor : the columns of every front
+    condensed : (m, m) S, read-only
+    """
+
+    n: int
+    m: int
+    plan: Plan
+    factor: Array = field(repr=False)
+    condensed: Array = field(repr=False)
+    slots: Array = field(repr=False)
+    name: str = "multifrontal"
+
+    @property
+    def nnz_factor(self) -> int:
+        """Entries of the factor."""
+        return self.plan.nnz_factor
+
+    def schur(self) -> Array:
+        """Give S, (m, m), read-only."""
+        return self.condensed
+
+    def reduce(self, f: Array) -> Array:
+        """Give ``f_c - K_ci K_ii^-1 f_i``."""
+        y = self._rows(f)
+        _fronts.forward(self.plan.fronts, self.factor, y, scratch())
+        g = np.empty((self.m, len(y)))
+        g[self.slots] = y[:, self.n - self.m :].T
+        return like(f, g)
+
+    def expand(self, f: Array, u_c: Array) -> Array:
+        """Give u from the load inside and the displacement of the interface."""
+        y = self._rows(f)
+        _fronts.forward(self.plan.fronts, self.factor, y, scratch())
+        y[:, self.n - self.m :] = columns(u_c, self.m)[self.slots].T
+        _fronts.backward(self.plan.fronts, self.factor, y, scratch())
+        u = np.empty((self.n, len(y)))
+        u[self.plan.order] = y.T
+        return like(f, u)
+
+    def _rows(self, f: Array) -> Array:
+        return np.ascontiguousarray(columns(f, self.n).T[:, self.plan.order])
+
+
+def factorise(system: System) -> MultifrontalFactorisation:
+    """Factorise by fronts.
+
+    Raises
+    ------
+    NotPositiveDefinite
+        If the interior is singular or indefinite.
+    """
+    plan = analyse(system)
+    inside = system.n - system.m
+    place = np.empty(system.n, dtype=np.int32)
+    place[plan.order] = np.arange(system.n, dtype=np.int32)
+    slots = np.empty(system.m, dtype=np.int32)
+    slots[place[system.interface] - inside] = np.arange(system.m, dtype=np.int32)
+    factor = np.zeros(plan.fronts.panel[-1])
+    condensed = np.zeros((system.m, system.m))
+    widest = int(plan.fronts.below.max(initial=0))
+    failed = _fronts.factorise_fronts(
+        plan.fronts, system.indptr, system.indices, system.data, plan.order, place, slots,
+        factor, np.empty(plan.stack + widest), np.empty(widest * widest), condensed, scratch(),
+    )  # fmt: skip
+    if failed >= 0:
+        raise NotPositiveDefinite(int(plan.order[failed]))
+    condensed.flags.writeable = False
+    result = MultifrontalFactorisation(
+        n=system.n, m=system.m, plan=plan, factor=factor, condensed=condensed, slots=slots
+    )
+    if np.any(_fronts.pivots(plan.fronts, factor) < SUSPICIOUS * system.matrix.diagonal()[plan.order[:inside]]):
+        check_energy(system, lambda load: result.expand(load, np.zeros(system.m)))
+    return result

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The plan of a multifrontal factorisation: the order, the fronts, and what they will cost.
+
+Unknowns of a node stay together, so that trees and fronts are those of the node graph, d times smaller.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from signorini.arrays import IntArray
+from signorini.linalg import _symbolic
+from signorini.linalg.ordering import nested_dissection, unknowns
+from signorini.linalg.system import Int32Array, NodeGraph, System, node_graph
+
+RELAX = (8, 0.5, 32, 0.15, 0.05)
+"""When supernodes are joined though zeros are stored for it; see `_symbolic.supernodes`. Found by measurement."""
+
+
+class Fronts(NamedTuple):
+    """The fronts in postorder; a named tuple, because compiled loops read it.
+
+    Attributes
+    ----------
+    first : (s + 1,) first node of every front, in the order of elimination
+    unknown : (g + 1,) first unknown of every node, in the order of elimination
+    begin, row : the nodes below front s are ``row[begin[s]:begin[s + 1]]``
+    below : (s,) how many unknowns they have
+    parent : (s,) the front that receives what is left of a front; -1: the interface
+    panel : (s + 1,) where the columns of every front begin in the factor
+    """
+
+    first: Int32Array
+    unknown: Int32Array
+    begin: IntArray
+    row: Int32Array
+    below: Int32Array
+    parent: Int32Array
+    panel: IntArray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """Everything that depends on the pattern alone.
+
+    Attributes
+    ----------
+    order : (n,) unknowns in their order of elimination, the interface last
+    fronts : see `Fronts`
+    stack : entries that wait for their parents at the worst time
+    nnz_factor : entries of the factor
+    flops : multiplications and additions of the factorisation
+    peak_bytes : factor, stack, largest front and condensed matrix together
+    """
+
+    order: Int32Array
+    fronts: Fronts
+    stack: int
+    nnz_factor: int
+    flops: float
+    peak_bytes: int
+
+
+def analyse(system: System) -> Plan:
+    """Plan the factorisation of a system."""
+    graph = node_graph(system)
+    order, place = _postordered(graph, nested_dissection(graph))
+    arguments = graph.indptr, graph.indices, order, place
+    parent = _symbolic.elimination_tree(*arguments, graph.interior)
+    count = _symbolic.column_counts(*arguments, parent)
+    first = _symbolic.supernodes(parent, count, RELAX)
+    begin, row, parent = _symbolic.front_rows(*arguments, first, count)
+
+    size = (graph.start[1:] - graph.start[:-1])[order]
+    unknown = _offsets(size, np.int32)
+    below = np.diff(_offsets(size[row], np.int64)[begin])
+    width = np.diff(unknown[first]).astype(np.int64)
+    panel = _offsets(width * (width + below), np.int64)
+    stack = _symbolic.stack_peak(parent, below * (below + 1) // 2)
+    widest = int(below.max(initial=0))
+    return Plan(
+        order=unknowns(graph, order),
+        fronts=Fronts(first, unknown, begin, row, below.astype(np.int32), parent, panel),
+        stack=stack,
+        nnz_factor=int((width * (width + 1) // 2 + width * below).sum()),
+        flops=float((width**3 / 3 + width**2 * below + width * below.astype(np.float64) ** 2).sum()),
+        peak_bytes=8 * (int(panel[-1]) + stack + widest**2 + system.m**2),
+    )
+
+
+def _postordered(graph: NodeGraph, nodes: Int32Array) -> tuple[Int32Array, Int32Array]:
+    """Order the nodes by a postorder of the tree of a given order; with the inverse."""
+    order = np.arange(len(graph.start) - 1, dtype=np.int32)
+    order[: graph.interior] = nodes
+    place = np.argsort(order).astype(np.int32)
+    parent = _symbolic.elimination_tree(graph.indptr, graph.indices, order, place, graph.interior)
+    order[: graph.interior] = order[_symbolic.postorder(parent)]
+    place[order] = np.arange(len(order), dtype=np.int32)
+    return order, place
+
+
+def _offsets(size: IntArray | Int32Array, dtype: type) -> IntArray:
+    return np.concatenate([[0], np.cumsum(size, dtype=np.int64)]).astype(dtype)

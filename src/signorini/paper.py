@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The paper's method from a model: its M and q for whoever wants them, and its answer with a certificate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.sparse as sp
+import scipy.sparse.linalg
+
+from signorini import lcp
+from signorini.arrays import Array
+from signorini.checks import number
+from signorini.errors import InputError
+from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK
+from signorini.friction.paper import PaperProblem, paper_problem
+from signorini.model.model import Model
+from signorini.prepare import Prepared, prepare
+from signorini.solution.certificate import Certificate, certify
+from signorini.solution.state import initial_state, next_state
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PaperFormulation:
+    """The paper's LCP of a model: all loads at their final factors, one increment.
+
+    Attributes
+    ----------
+    problem : M, q and the recovery of displacements and tractions
+    E_n, E_tau : penalties, pressure per length
+    prepared : the model, condensed
+    """
+
+    problem: PaperProblem
+    E_n: float
+    E_tau: float
+    prepared: Prepared
+
+    @property
+    def M(self) -> Array:
+        """(3 n, 3 n) matrix of the LCP."""
+        return self.problem.M
+
+    @property
+    def q(self) -> Array:
+        """(3 n,) vector of the LCP."""
+        return self.problem.q
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PaperAnswer:
+    """What the literal formulation gives, and how far it can be believed.
+
+    Attributes
+    ----------
+    lcp : the solution of the LCP, its status included
+    pressure, traction : (n,) contact pressure (positive compressive) and friction on the nonmortar body
+    displacement : (nodes, d)
+    normal_force : resultant of the pressures along the normals, (d,)
+    condition : estimate of the condition number of K_c in the 1-norm
+    certificate : on the law with the compliances 1 / E_n and 1 / E_tau
+    message : empty where certified; otherwise why the answer must not be used
+    """
+
+    lcp: lcp.LCPSolution
+    pressure: Array
+    traction: Array
+    displacement: Array
+    normal_force: Array
+    condition: float
+    certificate: Certificate
+    message: str
+
+    @property
+    def solved(self) -> bool:
+        """Whether it may be used."""
+        return not self.message
+
+
+def formulate(model: Model | Prepared, *, E_n: float, E_tau: float) -> PaperFormulation:
+    """Build the paper's LCP ``nu = M lambda + q`` of a model.
+
+    Parameters
+    ----------
+    model : its loads count with their factors at the end of the last step; compliances of its contacts must be 0
+    E_n, E_tau : penalties, pressure per length, > 0
+
+    Raises
+    ------
+    InputError
+        If the model has no contact, a contact sticks or is compliant, or a penalty is not positive.
+
+    References
+    ----------
+    Zhu Changming, A linear complementarity method for elastic contact problems based on the principle of virtual
+    work, Shanghai Jiao Tong University (1993), equations (33)-(37).
+    """
+    prepared = model if isinstance(model, Prepared) else prepare(model)
+    E_n, E_tau = number(E_n, ("E_n",), above=0.0), number(E_tau, ("E_tau",), above=0.0)
+    interface, condensed = prepared.interface, prepared.condensed
+    for i, contact in enumerate(prepared.model.contacts):
+        if contact.friction == "stick" or contact.normal_compliance or contact.tangential_compliance:
+            raise InputError("the paper's law has a finite friction and its own penalties", where=("contact", i))
+    if not condensed.active.any():
+        raise InputError("there is none that can move; the paper's LCP needs one", where=("contact",))
+    loads, imposed = _final(prepared)
+    n, rows = len(interface), condensed.active_rows
+    pairs = rows[: len(rows) // 2]
+    order = np.arange(len(rows)).reshape(2, -1)[::-1].T.ravel()  # (tau, n) pair by pair
+    offset = np.concatenate([interface.gap, np.zeros(n)]) + interface.B @ imposed
+    f = prepared.constraints.transform.T @ (loads - prepared.K @ imposed)
+    try:
+        problem = paper_problem(
+            condensed.factorisation.schur(),
+            condensed.B.toarray()[order],
+            condensed.condensed_load(f),
+            offset[rows][order],
+            interface.friction[pairs],
+            interface.area[pairs],
+            E_tau=E_tau,
+            E_n=E_n,
+        )
+    except np.linalg.LinAlgError as error:
+        raise InputError(
+            f"with E_n = {E_n:g}, E_tau = {E_tau:g} K_c is not positive definite in double precision; "
+            "expected smaller penalties, or the exact law"
+        ) from error
+    return PaperFormulation(problem=problem, E_n=E_n, E_tau=E_tau, prepared=prepared)
+
+
+def solve_literally(formulation: PaperFormulation) -> PaperAnswer:
+    """Solve the paper's LCP by Lemke's method, recover displacements and tractions, and certify them.
+
+    The answer is returned in any case, with its certificate: this is how the loss of accuracy at large penalties is
+    seen. ``solved`` and ``message`` say whether it may be used. Where the LCP is not solved, all multipliers are 0.
+    """
+    prepared, problem = formulation.prepared, formulation.problem
+    interface, condensed = prepared.interface, prepared.condensed
+    n, rows = len(interface), condensed.active_rows
+    pairs = rows[: len(rows) // 2]
+    # large penalties leave rounding in M itself; how much is too much the certificate says, on the law
+    found = lcp.solve(problem.M, problem.q, method=lcp.Lemke(covering=problem.covering), tolerance=1e-3)
+    condition = _condition(prepared, problem, formulation)
+    multipliers = np.zeros(3 * len(pairs)) if found.z is None else found.z
+    u, P = problem.recover(multipliers)
+    forces, moved = np.zeros(2 * n), np.zeros(2 * n)
+    forces[pairs], forces[n + pairs] = -P[:, 1] * interface.area[pairs], -P[:, 0] * interface.area[pairs]
+    slip = multipliers.reshape(-1, 3)
+    moved[pairs], moved[n + pairs] = slip[:, 2], slip[:, 0] - slip[:, 1]
+    loads, imposed = _final(prepared)
+    f = prepared.constraints.transform.T @ (loads - prepared.K @ imposed)
+    displacement = prepared.constraints.transform @ condensed.factorisation.expand(f, u) + imposed
+    status = np.full(n, OPEN)
+    closed = np.where(slip[:, 0] > 0, SLIP_MINUS, np.where(slip[:, 1] > 0, SLIP_PLUS, STICK))
+    status[pairs] = np.where(slip[:, 2] > 0, OPEN, closed)
+    before = initial_state(prepared.model.factors()[0], prepared.space.number_of_dofs, interface.gap)
+    state = next_state(
+        before,
+        prepared.K,
+        prepared.constraints,
+        interface,
+        factors=prepared.model.factors()[-1],
+        loads=loads,
+        displacement=displacement,
+        forces=forces,
+        moved=moved,
+        status=status,
+    )
+    penalised = replace(
+        interface,
+        normal_compliance=np.full(n, 1.0 / formulation.E_n),
+        tangential_compliance=np.full(n, 1.0 / formulation.E_tau),
+    )
+    certificate = certify(
+        prepared.K, loads, prepared.motions, prepared.constraints, penalised, state, before.tangential, prepared.scale
+    )
+    return PaperAnswer(
+        lcp=found,
+        pressure=forces[:n] / interface.area,
+        traction=forces[n:] / interface.area,
+        displacement=displacement.reshape(-1, prepared.model.dimension),
+        normal_force=forces[:n] @ interface.normals,
+        condition=condition,
+        certificate=certificate,
+        message=_judge(found, certificate, condition),
+    )
+
+
+def _final(prepared: Prepared) -> tuple[Array, Array]:
+    """Loads and imposed displacements at the end of the history."""
+    factors = prepared.model.factors()[-1]
+    zero = np.zeros(prepared.space.number_of_dofs)
+    loads = sum((factors[name] * f for name, f in prepared.loads.items()), zero)
+    imposed = sum((factors[name] * u for name, u in prepared.constraints.prescribed.items()), zero)
+    return loads, imposed
+
+
+def _condition(prepared: Prepared, problem: PaperProblem, formulation: PaperFormulation) -> float:
+    """``|K_c|_1 |K_c^-1|_1``, the second factor estimated through the factorised bodies."""
+    condensed, interface, T = prepared.condensed, prepared.interface, prepared.constraints.transform
+    n = len(interface)
+    penalty = np.concatenate([np.full(n, formulation.E_n), np.full(n, formulation.E_tau)]) * np.tile(interface.area, 2)
+    B = interface.B @ T
+    K_c = T.T @ prepared.K @ T + B.T @ sp.diags_array(penalty) @ B
+
+    def solve(b: Array) -> Array:
+        return condensed.factorisation.expand(b, problem.solve(condensed.condensed_load(b)))
+
+    inverse = scipy.sparse.linalg.LinearOperator(K_c.shape, matvec=solve, rmatvec=solve, matmat=solve, dtype=float)
+    return float(abs(K_c).sum(axis=0).max() * scipy.sparse.linalg.onenormest(inverse))
+
+
+def _judge(found: lcp.LCPSolution, certificate: Certificate, condition: float) -> str:
+    if not found.solved:
+        return f"the LCP was not solved: {found.message}"
+    if certificate.passed:
+        return ""
+    return (
+        f"not certified ({certificate}): the condition number of K_c is {condition:.1e}; "
+        "expected smaller penalties, or the exact law"
+    )

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bodies held by contact alone: pressed, dragged away, lifted, free along the wall."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from coulomb_samples import block_on_floor
+
+from signorini.friction import OPEN, STICK, CoulombProblem, solve_coulomb
+from signorini.friction.path import follow
+
+
+def test_pressed_block_carries_its_load():
+    result = solve_coulomb(block_on_floor(8, (-1.0, 0.2, 0.0)))
+    assert result.solved
+    np.testing.assert_allclose(result.normal_force.sum(), 1.0, atol=1e-12)
+    np.testing.assert_allclose(result.tangential_force.sum(), -0.2, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("load", "normal", "tangential"), [((1.0, 0.0, 0.0), 1, 0), ((-1.0, 0.4, 0.0), 0, 1), ((-1.0, -0.4, 0.0), 0, -1)]
+)
+def test_loads_that_pull_the_block_away_are_proved_to(load, normal, tangential):
+    result = solve_coulomb(block_on_floor(8, load))
+    assert result.outcome == "no_equilibrium"
+    assert "pull a body away" in result.message
+    assert np.isnan(result.gap).all()
+    assert result.escape[8:].mean() * tangential >= 0
+    assert (result.escape[:8] >= 0.3 * np.abs(result.escape[8:]) - 1e-9).all()
+    if normal:
+        np.testing.assert_allclose(result.escape[:8], 1.0, atol=1e-9)
+
+
+def test_frictionless_block_free_along_the_floor_does_not_move():
+    result = solve_coulomb(block_on_floor(8, (-1.0, 0.0, 0.0), friction=0.0))
+    assert result.solved
+    assert result.index == 0
+    assert "least change" in result.message
+    np.testing.assert_allclose(result.normal_force.sum(), 1.0, atol=1e-12)
+    np.testing.assert_allclose(result.slip.sum(), 0.0, atol=1e-9)
+
+
+def test_a_push_along_a_frictionless_floor_is_proved_to_have_no_equilibrium():
+    assert solve_coulomb(block_on_floor(8, (-1.0, 1e-3, 0.0), friction=0.0)).outcome == "no_equilibrium"
+
+
+def test_springs_hold_a_block_that_no_open_path_could_start_from():
+    problem = block_on_floor(8, (-1.0, 0.2, 0.0))
+    assert follow(problem, "open", budget=100, springs=1e-6).end == "solution"
+
+
+def test_an_unloaded_block_stays():
+    problem = block_on_floor(4, (0.0, 0.0, 0.0))
+    result = solve_coulomb(dataclasses.replace(problem, scale=0.0))
+    assert result.solved
+    np.testing.assert_array_equal(result.slip, np.zeros(4))
+
+
+def test_motions_that_are_none_are_refused():
+    problem = block_on_floor(4, (-1.0, 0.0, 0.0))
+    with pytest.raises(ValueError, match=r"motions: are no rigid motions: W R differs from R by"):
+        dataclasses.replace(problem, motions=np.eye(8)[:, :1])
+
+
+def test_a_pair_given_twice_shares_its_force():
+    once = np.array([[0.5, 0.1], [0.1, 0.4]])
+    half = np.repeat(np.repeat(once / 2, 2, axis=0), 2, axis=1)
+    b = np.repeat([-1.0, 0.1], 2) / np.sqrt(2)
+    problem = CoulombProblem(W=half, b=b, friction=[0.4, 0.4], motions=np.zeros((4, 0)), scale=1.0)
+    result = solve_coulomb(problem)
+    assert result.solved
+    assert result.state.tolist() == [STICK, STICK]
+    assert result.index == 0
+    np.testing.assert_allclose(result.normal_force[0], result.normal_force[1], atol=1e-12)
+
+
+def test_bonded_pairs_may_open():
+    result = solve_coulomb(block_on_floor(8, (-1.0, 50.0, 0.9), friction=np.inf))
+    assert result.solved
+    assert set(result.state.tolist()) == {OPEN, STICK}
+    np.testing.assert_allclose(result.tangential_force.sum(), -50.0, rtol=1e-10)
