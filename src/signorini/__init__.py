@@ -1,6 +1,95 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""signorini: frictional elastic contact by finite elements and linear complementarity."""
+"""signorini: frictional elastic contact by finite elements and linear complementarity.
+
+Everything that a user needs is here by name; it is imported when it is first asked for, so that the command line can
+answer at once.
+"""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
 from signorini._version import __version__
 
-__all__ = ["__version__"]
+if TYPE_CHECKING:
+    from signorini import lcp
+    from signorini.api import Solution, solve
+    from signorini.deck import read
+    from signorini.errors import InputError, SignoriniError, SolveFailed
+    from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
+    from signorini.fem.read import read_mesh
+    from signorini.model.body import Body, Elastic
+    from signorini.model.conditions import Load, Support
+    from signorini.model.contact import Contact, Plane
+    from signorini.model.mesh import Mesh, join
+    from signorini.model.model import Model
+    from signorini.model.step import Step
+
+__all__ = [
+    "Body",
+    "Contact",
+    "Elastic",
+    "InputError",
+    "Load",
+    "Mesh",
+    "Model",
+    "Plane",
+    "SignoriniError",
+    "Solution",
+    "SolveFailed",
+    "Step",
+    "Support",
+    "__version__",
+    "annulus",
+    "half_disk",
+    "join",
+    "lcp",
+    "quarter_disk",
+    "read",
+    "read_mesh",
+    "rectangle",
+    "solve",
+]
+
+_HOMES = {
+    "signorini.api": ("Solution", "solve"),
+    "signorini.deck": ("read",),
+    "signorini.errors": ("InputError", "SignoriniError", "SolveFailed"),
+    "signorini.fem.generators": ("annulus", "half_disk", "quarter_disk", "rectangle"),
+    "signorini.fem.read": ("read_mesh",),
+    "signorini.model.body": ("Body", "Elastic"),
+    "signorini.model.conditions": ("Load", "Support"),
+    "signorini.model.contact": ("Contact", "Plane"),
+    "signorini.model.mesh": ("Mesh", "join"),
+    "signorini.model.model": ("Model",),
+    "signorini.model.step": ("Step",),
+}
+_HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    if name == "lcp":
+        return importlib.import_module("signorini.lcp")
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'signorini' has no attribute '{name}'")
+    value = getattr(importlib.import_module(_HOME_OF[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
+class _Package(ModuleType):
+    """Keeps ``signorini.solve`` the function, whoever imports the module of the same name, and when."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not (name in _HOME_OF and isinstance(value, ModuleType)):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from signorini import solve as engine
 from signorini.clock import Clock
 from signorini.errors import SolveFailed
 from signorini.model.model import Model
@@ -15,6 +14,7 @@ from signorini.output.table import history_table
 from signorini.output.vtu import write_vtu
 from signorini.plot.contact import plot_contact
 from signorini.solution.history import History
+from signorini.solve import solve as solve_history
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -69,7 +69,7 @@ def solve(
     array([3., 3., 3.])
     """
     try:
-        history = engine.solve(model, backend=backend, raise_on_failure=raise_on_failure, clock=clock)
+        history = solve_history(model, backend=backend, raise_on_failure=raise_on_failure, clock=clock)
     except SolveFailed as failure:
         raise SolveFailed(str(failure), status=failure.status, solution=_dressed(failure.solution)) from failure
     return _dressed(history)

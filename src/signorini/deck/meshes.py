@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The mesh of a deck: from a generator or a file, one or several joined."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from signorini.checks import choice, text, vector
+from signorini.deck.table import check_keys, table
+from signorini.errors import InputError, Where
+from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
+from signorini.fem.read import read_mesh
+from signorini.model.mesh import Mesh, join
+
+GENERATORS: Mapping[str, Callable[..., Mesh]] = {
+    "rectangle": rectangle,
+    "quarter_disk": quarter_disk,
+    "half_disk": half_disk,
+    "annulus": annulus,
+}
+
+
+def deck_mesh(value: Any, folder: Path) -> Mesh:
+    """The mesh of ``[mesh]``, or of all ``[[mesh]]`` joined: names become "name.boundary".
+
+    Parameters
+    ----------
+    value : what the deck has under ``mesh``
+    folder : of the deck; files are relative to it
+    """
+    if not isinstance(value, list):
+        return _one(table(value, ("mesh",)), ("mesh",), folder)
+    parts: dict[str, Mesh] = {}
+    for i, entry in enumerate(value):
+        where = ("mesh", i)
+        data = dict(table(entry, where))
+        if "name" not in data:
+            raise InputError("has no 'name'; expected one, since there are several meshes", where=where)
+        name = text(data.pop("name"), (*where, "name"))
+        if name in parts:
+            raise InputError(f"another mesh is called '{name}' too; expected a name of its own", where=(*where, "name"))
+        parts[name] = _one(data, where, folder)
+    if not parts:
+        raise InputError("there is none; expected a generator or a file", where=("mesh",))
+    return join(parts)
+
+
+def _one(data: dict[str, Any], where: Where, folder: Path) -> Mesh:
+    sources = [key for key in ("generator", "file") if key in data]
+    if len(sources) != 1:
+        found = "both 'generator' and 'file'" if sources else "neither 'generator' nor 'file'"
+        raise InputError(f"has {found}; expected one of them", where=where)
+    try:
+        return _from_file(data, folder) if sources == ["file"] else _generated(data)
+    except InputError as error:
+        inner = error.where[1:] if error.where[:1] == ("mesh",) else error.where
+        raise InputError(error.message, where=where + inner) from error
+
+
+def _from_file(data: Mapping[str, Any], folder: Path) -> Mesh:
+    check_keys(data, ("mesh",), known=["file", "name"])
+    path = folder / text(data["file"], ("mesh", "file"))
+    try:
+        return read_mesh(path)
+    except InputError as error:
+        raise InputError(error.message, where=("mesh", "file")) from error
+
+
+def _generated(data: Mapping[str, Any]) -> Mesh:
+    given = dict(data)
+    generator = GENERATORS[choice(given.pop("generator"), GENERATORS, ("mesh", "generator"), "generator")]
+    parameters = inspect.signature(generator).parameters
+    needed = [name for name, parameter in parameters.items() if parameter.default is parameter.empty]
+    check_keys(given, ("mesh",), known=list(parameters), needed=needed)
+    for name in given:
+        if parameters[name].annotation == "tuple[float, float]":
+            vector(given[name], ("mesh", name), dimension=2)
+    return generator(**given)

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Materials, bodies, supports, loads, contacts and steps: from tables of a deck to the model's own classes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from signorini.checks import text
+from signorini.deck.table import check_keys, make, table, tables
+from signorini.errors import InputError, Where, one_of
+from signorini.model.body import Body, Elastic
+from signorini.model.conditions import Load, Support
+from signorini.model.contact import Contact, Plane
+from signorini.model.step import Step
+
+_CONTACT_KEYS = (
+    "name",
+    "nonmortar",
+    "mortar",
+    "plane",
+    "friction",
+    "gap",
+    "interference",
+    "normal_compliance",
+    "tangential_compliance",
+)
+
+
+def deck_materials(data: Mapping[str, Any]) -> dict[str, Elastic]:
+    """``[material.NAME]`` by name."""
+    materials = table(data.get("material", {}), ("material",))
+    return {name: make(Elastic, table(entry, ("material", name)), ("material", name)) for name, entry in materials.items()}
+
+
+def deck_bodies(data: Mapping[str, Any], materials: Mapping[str, Elastic]) -> list[Body]:
+    """``[[body]]``, each with the material that it names."""
+    bodies = []
+    for i, entry in enumerate(tables(data, "body")):
+        where: Where = ("body", i)
+        check_keys(entry, where, known=["name", "material"], needed=["name", "material"])
+        name = text(entry["material"], (*where, "material"))
+        if name not in materials:
+            raise InputError(one_of(name, materials, "material"), where=(*where, "material"))
+        bodies.append(make(Body, entry | {"material": materials[name]}, where))
+    return bodies
+
+
+def deck_supports(data: Mapping[str, Any]) -> list[Support]:
+    """``[[support]]``."""
+    return [_placed(Support, entry, ("support", i)) for i, entry in enumerate(tables(data, "support"))]
+
+
+def deck_loads(data: Mapping[str, Any]) -> list[Load]:
+    """``[[load]]``."""
+    return [_placed(Load, entry, ("load", i)) for i, entry in enumerate(tables(data, "load"))]
+
+
+def deck_steps(data: Mapping[str, Any]) -> list[Step]:
+    """``[[step]]``."""
+    return [make(Step, entry, ("step", i)) for i, entry in enumerate(tables(data, "step"))]
+
+
+def deck_contacts(data: Mapping[str, Any]) -> list[Contact]:
+    """``[[contact]]``, each with a ``mortar`` boundary or a ``plane``."""
+    return [_contact(entry, ("contact", i)) for i, entry in enumerate(tables(data, "contact"))]
+
+
+def _placed(kind: Any, entry: dict[str, Any], where: Where) -> Any:
+    on = entry.get("on", "")
+    if not isinstance(on, str | list):
+        raise InputError(f"is {on!r}; expected a name, or the coordinates of a node", where=(*where, "on"))
+    return make(kind, entry, where)
+
+
+def _contact(entry: dict[str, Any], where: Where) -> Contact:
+    check_keys(entry, where, known=_CONTACT_KEYS, needed=["nonmortar"])
+    given = dict(entry)
+    sides = [key for key in ("mortar", "plane") if key in given]
+    if len(sides) != 1:
+        found = "both 'mortar' and 'plane'" if sides else "neither 'mortar' nor 'plane'"
+        raise InputError(f"has {found}; expected one of them, the other side of the contact", where=where)
+    if sides == ["plane"]:
+        given["mortar"] = make(Plane, table(given.pop("plane"), (*where, "plane")), (*where, "plane"))
+    else:
+        text(given["mortar"], (*where, "mortar"))
+    return make(Contact, given, where)

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is drawn of a contact at the end of a step: values over one coordinate along its surface."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signorini.arrays import Array
+from signorini.solution.history import History
+from signorini.solution.results import OPEN, StepResult
+
+_FOLDED = 2.0  # times its extent: a surface that is longer is no graph over that axis
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Curve:
+    """One contact at the end of one step, in the order of the coordinate.
+
+    Attributes
+    ----------
+    contact, step : names
+    axis : what the coordinate is: "x", "y", or "angle, degrees" about the middle of a closed surface
+    s : (n,) increasing coordinate
+    pressure, traction : (n,) force per area; traction is friction on the nonmortar body along the tangent
+    status : (n,) "open", "stick" or "slip"
+    friction : Coulomb's coefficient, infinite where the contact never slips
+    """
+
+    contact: str
+    step: str
+    axis: str
+    s: Array
+    pressure: Array
+    traction: Array
+    status: NDArray[np.str_]
+    friction: float
+
+    @property
+    def has_bound(self) -> bool:
+        """Whether ``mu p`` is a bound to draw."""
+        return 0.0 < self.friction < math.inf
+
+
+def make_curve(
+    *,
+    contact: str,
+    step: str,
+    points: Array,
+    pressure: Array,
+    traction: Array,
+    status: NDArray[np.str_],
+    friction: float,
+) -> Curve:
+    """Choose the coordinate and sort by it; ``points`` (n, 2) are undeformed coordinates, length."""
+    axis, s = surface_coordinate(points)
+    order = np.argsort(s, kind="stable")
+    return Curve(
+        contact=contact,
+        step=step,
+        axis=axis,
+        s=s[order],
+        pressure=pressure[order],
+        traction=traction[order],
+        status=status[order],
+        friction=friction,
+    )
+
+
+def curves_of(history: History, step: StepResult) -> list[Curve]:
+    """Every contact at the end of a step of a solution."""
+    return [
+        make_curve(
+            contact=result.name,
+            step=step.name,
+            points=result.points,
+            pressure=result.pressure,
+            traction=result.traction,
+            status=result.status,
+            friction=contact.coefficient,
+        )
+        for contact, result in zip(history.model.contacts, step.contacts, strict=True)
+    ]
+
+
+def surface_coordinate(points: Array) -> tuple[str, Array]:
+    """The axis that a surface is a graph over, the longer one first; otherwise the angle about its middle.
+
+    Examples
+    --------
+    >>> surface_coordinate(np.array([[0.0, 1.0], [4.0, 1.5], [2.0, 1.1]]))
+    ('x', array([0., 4., 2.]))
+    """
+    extent = np.ptp(points, axis=0)
+    for axis in np.argsort(-extent, kind="stable"):
+        along = points[np.argsort(points[:, axis], kind="stable")]
+        length = np.linalg.norm(np.diff(along, axis=0), axis=1).sum()
+        if length <= _FOLDED * np.hypot(*extent):
+            return "xy"[axis], points[:, axis]
+    arm = points - points.mean(axis=0)
+    return "angle, degrees", np.degrees(np.arctan2(arm[:, 1], arm[:, 0]))
+
+
+def closed_range(curve: Curve) -> tuple[float, float]:
+    """The part of the coordinate worth showing: where the surface is closed, and half as much again on either side."""
+    closed = np.nonzero(curve.status != OPEN)[0]
+    low, high = float(curve.s[0]), float(curve.s[-1])
+    if not len(closed):
+        return low, high
+    first, last = max(closed[0] - 1, 0), min(closed[-1] + 1, len(curve.s) - 1)
+    start, end = float(curve.s[first]), float(curve.s[last])
+    margin = 0.35 * (end - start)
+    return max(low, start - margin), min(high, end + margin)
