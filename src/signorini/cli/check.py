@@ -17,6 +17,9 @@ from signorini.output.table import spell_vector
 from signorini.prepare import Prepared, prepare
 
 
+Rows = list[tuple[str, ...]]
+
+
 def check(options: argparse.Namespace) -> int:
     """Print a deck as it was understood, and notes on it; 0 unless something is wrong."""
     deck = load(options.deck)
@@ -51,7 +54,7 @@ def describe(deck: Deck, prepared: Prepared) -> list[str]:
     return [*lines, "", "notes", *(f"  {note}" for note in notes or ["nothing looks wrong"])]
 
 
-def _bodies(model: Model) -> list[tuple[str, ...]]:
+def _bodies(model: Model) -> Rows:
     return [
         (
             body.name,
@@ -63,8 +66,8 @@ def _bodies(model: Model) -> list[tuple[str, ...]]:
     ]
 
 
-def _supports(prepared: Prepared) -> list[tuple[str, ...]]:
-    rows = []
+def _supports(prepared: Prepared) -> Rows:
+    rows: Rows = []
     for i, support in enumerate(prepared.model.supports):
         parts = ", ".join("free" if part is None else f"{part:g}" for part in support.u)
         held = int((prepared.constraints.owner == i).sum())
@@ -72,16 +75,16 @@ def _supports(prepared: Prepared) -> list[tuple[str, ...]]:
     return rows
 
 
-def _loads(prepared: Prepared) -> list[tuple[str, ...]]:
-    rows = []
+def _loads(prepared: Prepared) -> Rows:
+    rows: Rows = []
     for load_ in prepared.model.loads:
         total = prepared.loads[load_.label].reshape(-1, prepared.model.dimension).sum(axis=0)
         rows.append((load_.label, load_.kind.replace("_", " "), f"total force {spell_vector(total)} at factor 1"))
     return rows
 
 
-def _contacts(prepared: Prepared) -> list[tuple[str, ...]]:
-    rows = []
+def _contacts(prepared: Prepared) -> Rows:
+    rows: Rows = []
     for i, contact in enumerate(prepared.model.contacts):
         gap = prepared.interface.gap[prepared.interface.contact == i]
         sides = f"{contact.nonmortar} on {_obstacle(contact)}"
@@ -97,8 +100,8 @@ def _obstacle(contact: Contact) -> str:
     return contact.mortar
 
 
-def _steps(model: Model) -> list[tuple[str, ...]]:
-    rows = []
+def _steps(model: Model) -> Rows:
+    rows: Rows = []
     for number, (step, factors) in enumerate(zip(model.steps, model.factors()[1:], strict=True), start=1):
         ends = ", ".join(f"{name} {factor:g}" for name, factor in factors.items())
         rows.append((str(number), step.name, f"{step.increments} increments", f"ends at {ends or 'no load'}"))

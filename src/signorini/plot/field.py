@@ -13,6 +13,7 @@ from signorini.plot.files import Grid, ResultFolder
 from signorini.plot.style import INK, STATUS_INK
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -21,18 +22,22 @@ _SEEN = 0.01  # of the size of the bodies: displacements at least as large are d
 
 
 def draw_stress(folder: ResultFolder) -> Figure:
-    """Von Mises stress of the last state on the deformed bodies; the title says by what displacements are multiplied."""
+    """Von Mises stress of the last state on the deformed bodies; the title says how much they are exaggerated."""
+    from matplotlib.ticker import MaxNLocator
+    from matplotlib.tri import Triangulation
+
     grid = folder.grid
     factor = drawn_factor(grid.points, grid.displacement)
     moved = grid.points + factor * grid.displacement
     figure, axes = _canvas(moved)
     levels = np.linspace(0.0, max(float(grid.von_mises.max()), 1e-300), 25)
-    field = axes.tricontourf(moved[:, 0], moved[:, 1], grid.triangles, grid.von_mises, levels=levels, cmap="viridis")
+    mesh = Triangulation(moved[:, 0], moved[:, 1], grid.triangles)
+    field = axes.tricontourf(mesh, grid.von_mises, levels=levels, cmap="viridis")
     _edges(axes, grid, moved, colour="#ffffff", width=_width(grid), alpha=0.35)
     bar = figure.colorbar(field, ax=axes, shrink=0.85, pad=0.02)
     bar.set_label("von Mises stress, force per area", fontsize=10, color=INK)
     bar.ax.tick_params(labelsize=9, colors=INK)
-    bar.ax.yaxis.set_major_locator(_round_ticks())
+    bar.ax.yaxis.set_major_locator(MaxNLocator(nbins=7, steps=[1, 2, 2.5, 5, 10]))
     words = "deformed, true displacements" if factor == 1.0 else f"deformed, displacements x {factor:g}"
     _finish(axes, folder.title, f"{words}; end of step '{folder.summary['steps'][-1]['name']}'")
     return figure
@@ -47,10 +52,12 @@ def draw_mesh(folder: ResultFolder) -> Figure:
     figure, axes = _canvas(grid.points)
     for cells, body in zip(grid.cells, grid.body, strict=True):
         faces = [_BODIES[i % len(_BODIES)] for i in body]
-        axes.add_collection(PolyCollection(grid.points[cells], facecolors=faces, edgecolors="none"))
+        axes.add_collection(PolyCollection(list(grid.points[cells]), facecolors=faces, edgecolors="none"))
     _edges(axes, grid, grid.points, colour="#7d7d7d", width=_width(grid), alpha=1.0)
     names = folder.summary.get("bodies", [])
-    handles = [Patch(facecolor=_BODIES[i % len(_BODIES)], edgecolor="#7d7d7d", label=n) for i, n in enumerate(names)]
+    handles: list[Artist] = [
+        Patch(facecolor=_BODIES[i % len(_BODIES)], edgecolor="#7d7d7d", label=n) for i, n in enumerate(names)
+    ]
     last = str(len(folder.summary["steps"]))
     for status, colour in STATUS_INK.items():
         own = [row for row in folder.rows if row["step"] == last and row["status"] == status]
@@ -95,7 +102,7 @@ def _edges(axes: Axes, grid: Grid, points: Array, *, colour: str, width: float, 
     from matplotlib.collections import PolyCollection
 
     for cells in grid.cells:
-        lines = PolyCollection(points[cells], facecolors="none", edgecolors=colour, linewidths=width, alpha=alpha)
+        lines = PolyCollection(list(points[cells]), facecolors="none", edgecolors=colour, linewidths=width, alpha=alpha)
         axes.add_collection(lines)
 
 
@@ -112,9 +119,3 @@ def _finish(axes: Axes, title: str, words: str) -> None:
     axes.set_xlabel("x", fontsize=10, color=INK)
     axes.set_ylabel("y", fontsize=10, color=INK)
     axes.set_title(f"{title}\n{words}" if title else words, fontsize=10.5, color=INK, loc="left")
-
-
-def _round_ticks() -> object:
-    from matplotlib.ticker import MaxNLocator
-
-    return MaxNLocator(nbins=7, steps=[1, 2, 2.5, 5, 10])

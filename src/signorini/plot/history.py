@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The picture of a load history: pressure and friction at the end of every step, and the contact forces over the steps."""
+"""The picture of a load history: pressure and friction at the end of every step, and the contact forces."""
 
 from __future__ import annotations
 
