@@ -16,7 +16,6 @@ from signorini.output.align import align
 from signorini.output.table import spell_vector
 from signorini.prepare import Prepared, prepare
 
-
 Rows = list[tuple[str, ...]]
 
 
@@ -104,7 +103,14 @@ def _steps(model: Model) -> Rows:
     rows: Rows = []
     for number, (step, factors) in enumerate(zip(model.steps, model.factors()[1:], strict=True), start=1):
         ends = ", ".join(f"{name} {factor:g}" for name, factor in factors.items())
-        rows.append((str(number), step.name, f"{step.increments} increments", f"ends at {ends or 'no load'}"))
+        rows.append(
+            (
+                str(number),
+                step.name,
+                "1 increment" if step.increments == 1 else f"{step.increments} increments",
+                f"ends at {ends or 'no load'}",
+            )
+        )
     return rows
 
 

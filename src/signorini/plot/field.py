@@ -36,6 +36,7 @@ def draw_stress(folder: ResultFolder) -> Figure:
     _edges(axes, grid, moved, colour="#ffffff", width=_width(grid), alpha=0.35)
     bar = figure.colorbar(field, ax=axes, shrink=0.85, pad=0.02)
     bar.set_label("von Mises stress, force per area", fontsize=10, color=INK)
+    bar.outline.set_visible(False)
     bar.ax.tick_params(labelsize=9, colors=INK)
     bar.ax.yaxis.set_major_locator(MaxNLocator(nbins=7, steps=[1, 2, 2.5, 5, 10]))
     words = "deformed, true displacements" if factor == 1.0 else f"deformed, displacements x {factor:g}"
@@ -94,7 +95,7 @@ def _canvas(points: Array) -> tuple[Figure, Axes]:
     shape = float(np.clip(height / width, 0.35, 1.4))
     figure = Figure(figsize=(8.4, 0.9 + 6.2 * shape), layout="constrained")
     axes = figure.add_subplot()
-    axes.set_aspect("equal")
+    axes.set_aspect("equal", anchor="W")
     return figure, axes
 
 

@@ -25,18 +25,20 @@ def draw_history(folder: ResultFolder) -> Figure:
     steps = folder.steps
     contacts = [curve.contact for curve in steps[0]] if steps else []
     rows = max(len(contacts), 1)
-    figure = Figure(figsize=(13.0, 0.8 + 3.8 * rows), layout="constrained")
+    figure = Figure(figsize=(13.0, 0.8 + 4.2 * rows), layout="constrained")
     panels = figure.subplots(rows, 3, squeeze=False)
     for i in range(len(contacts)):
         curves = [step[i] for step in steps]
         _profiles(panels[i, 0], curves, "pressure")
         _profiles(panels[i, 1], curves, "traction")
         _forces(panels[i, 2], folder, i)
-        if len(curves) <= _NAMED:
-            panels[i, 0].legend(fontsize=8.5, frameon=True, framealpha=0.92, edgecolor="none", title="end of step")
     if not contacts:
         for panel in panels.flat:
             panel.set_axis_off()
+    elif len(steps) <= _NAMED:
+        lines = panels[0, 0].get_lines()[: len(steps)]
+        legend = figure.legend(handles=lines, loc="outside lower center", ncols=6, fontsize=9, frameon=False)
+        legend.set_title("profiles at the end of step")
     figure.suptitle(folder.title, fontsize=12, color=INK)
     return figure
 
@@ -52,7 +54,7 @@ def _profiles(axes: Axes, curves: list[Curve], what: str) -> None:
         axes.set_xlim(ranges[:, 0].min(), ranges[:, 1].max())
     axes.axhline(0.0, color=INK, lw=0.8)
     axes.set_xlabel(f"{curves[0].axis} along '{curves[0].contact}', undeformed", fontsize=10, color=INK)
-    words = "pressure" if what == "pressure" else "friction traction, along the tangent"
+    words = "pressure" if what == "pressure" else "friction along the tangent"
     axes.set_ylabel(f"{words}, force per area", fontsize=10, color=INK)
     dress(axes)
 
