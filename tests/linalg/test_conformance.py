@@ -7,7 +7,7 @@ from problems import dense_schur, lattice, rigid_motions, together
 from scipy import sparse
 
 from signorini.errors import InputError
-from signorini.linalg import BACKENDS, Factorisation, NotPositiveDefinite, factorise
+from signorini.linalg import BACKENDS, Factorisation, NotPositiveDefinite, factorise, pardiso
 
 PROBLEMS = {
     "2d": lattice((17, 12)),
@@ -24,6 +24,8 @@ PROBLEMS = {
 
 @pytest.fixture(params=sorted(BACKENDS))
 def backend(request):
+    if request.param == "pardiso" and not pardiso.available():
+        pytest.skip("pypardiso is not installed")
     return request.param
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import llvmlite.binding
+import llvmlite.binding  # type: ignore[import-untyped]
 import numpy as np
 from numba import njit, types
 from numba.extending import get_cython_function_address
@@ -51,7 +51,7 @@ def potrf(k: int, A: int, ld: int, s: Scratch) -> int:
     s.size[0], s.size[1] = k, ld
     z, c = s.size.ctypes.data, s.letter.ctypes.data
     _dpotrf(c, z, A, z + 4, z + 8)
-    return s.size[2]
+    return int(s.size[2])
 
 
 @njit(cache=True)
@@ -72,7 +72,18 @@ def syrk(n: int, k: int, A: int, lda: int, keep: bool, C: int, ldc: int, s: Scra
 
 @njit(cache=True)
 def gemm(
-    transposed: bool, m: int, n: int, k: int, A: int, lda: int, B: int, ldb: int, keep: bool, C: int, ldc: int, s: Scratch
+    transposed: bool,
+    m: int,
+    n: int,
+    k: int,
+    A: int,
+    lda: int,
+    B: int,
+    ldb: int,
+    keep: bool,
+    C: int,
+    ldc: int,
+    s: Scratch,
 ) -> None:
     """Overwrite C, (m, n), by ``[C] - op(A) B``; `keep` says whether C counts."""
     s.size[0], s.size[1], s.size[2], s.size[3], s.size[4], s.size[5] = m, n, k, lda, ldb, ldc

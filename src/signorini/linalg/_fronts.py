@@ -68,7 +68,7 @@ def factorise_fronts(
         top = factor.ctypes.data + 8 * panel
         failed = potrf(k, top, ld, s)
         if failed != 0:
-            return a + failed - 1
+            return int(a + failed - 1)
         if r == 0:
             continue
         trsm(True, True, r, k, top, ld, top + 8 * k, ld, s)

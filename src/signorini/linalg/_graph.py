@@ -7,6 +7,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from signorini.arrays import Array, BoolArray
+
 Int32Array = NDArray[np.int32]
 
 
@@ -51,3 +53,40 @@ def subgraph(indptr: Int32Array, indices: Int32Array, count: int) -> tuple[Int32
                 top += 1
         rows[v + 1] = top
     return rows, columns[:top].copy()
+
+
+@njit(cache=True)
+def components(indptr: Int32Array, indices: Int32Array, inside: BoolArray) -> Int32Array:
+    """Number the connected parts of the vertices inside; -1 outside."""
+    part = np.full(len(inside), -1, np.int32)
+    stack = np.empty(len(inside), np.int32)
+    count = 0
+    for seed in range(len(inside)):
+        if not inside[seed] or part[seed] != -1:
+            continue
+        part[seed] = count
+        stack[0] = seed
+        top = 1
+        while top > 0:
+            top -= 1
+            v = stack[top]
+            for p in range(indptr[v], indptr[v + 1]):
+                w = indices[p]
+                if inside[w] and part[w] == -1:
+                    part[w] = count
+                    stack[top] = w
+                    top += 1
+        count += 1
+    return part
+
+
+@njit(cache=True)
+def absolute_energies(indptr: Int32Array, indices: Int32Array, data: Array, part: Int32Array, x: Array) -> Array:
+    """Sum ``|x_i| |K_ij| |x_j|`` over every part."""
+    energy = np.zeros(part.max() + 1)
+    for i in range(len(part)):
+        if part[i] != -1:
+            for p in range(indptr[i], indptr[i + 1]):
+                if part[indices[p]] == part[i]:
+                    energy[part[i]] += abs(x[i] * data[p] * x[indices[p]])
+    return energy

@@ -120,7 +120,11 @@ def supernodes(parent: Int32Array, count: Int32Array, relax: tuple[int, float, i
             more = zeros[top] + lost + width_child * float(width + rows - below[top])
             wide = width_child + width
             share = more / (0.5 * wide * (wide + 1) + float(wide) * rows)
-            if not (share <= relax[4] or (wide <= relax[0] and share <= relax[1]) or (wide <= relax[2] and share <= relax[3])):
+            if not (
+                share <= relax[4]
+                or (wide <= relax[0] and share <= relax[1])
+                or (wide <= relax[2] and share <= relax[3])
+            ):
                 break
             begin, lost = first[top], more
             top -= 1

@@ -22,7 +22,7 @@ from signorini.linalg._blas import scratch
 from signorini.linalg.definite import SUSPICIOUS, check_energy
 from signorini.linalg.plan import Plan, analyse
 from signorini.linalg.protocol import NotPositiveDefinite
-from signorini.linalg.system import System, columns, like
+from signorini.linalg.system import Int32Array, System, columns, like
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,6 +34,7 @@ class MultifrontalFactorisation:
     plan : order, fronts and cost
     factor : the columns of every front
     condensed : (m, m) S, read-only
+    slots : (m,) the place in `interface` of every unknown there, in order of elimination
     """
 
     n: int
@@ -41,7 +42,7 @@ class MultifrontalFactorisation:
     plan: Plan
     factor: Array = field(repr=False)
     condensed: Array = field(repr=False)
-    slots: Array = field(repr=False)
+    slots: Int32Array = field(repr=False)
     name: str = "multifrontal"
 
     @property

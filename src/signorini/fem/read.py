@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Meshes from files: Gmsh and whatever else meshio reads."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+from collections import defaultdict
+from pathlib import Path
+
+import meshio
+import numpy as np
+
+from signorini.arrays import IntArray
+from signorini.errors import InputError
+from signorini.model.mesh import NODES_PER_CELL, Mesh
+
+_LINES, _POINTS = "line", "vertex"
+_PLANE = 1e-9  # of the size: how far a plane mesh may leave its plane
+
+
+def read_mesh(path: str | Path) -> Mesh:
+    """Read a plane mesh; physical groups (or named cell sets) become bodies, boundaries and node sets.
+
+    Surfaces become bodies, curves boundaries, points node sets. Cells without a name form the body "body" if no cell
+    has one. Nodes keep their order: number k of the file is index k - 1.
+
+    Parameters
+    ----------
+    path : any format that meshio reads; the mesh lies in a plane z = const
+
+    Raises
+    ------
+    InputError
+        If the file is missing or unreadable, holds cells of a kind that this version does not have, is not plane, or a
+        group has no name.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise InputError(f"there is no file '{path}'", where=("mesh", "file"))
+    found = _read(path)
+    points = np.asarray(found.points, float)
+    if points.shape[1] == 3:
+        if np.ptp(points[:, 2]) > _PLANE * max(np.ptp(points, axis=0).max(), 1e-300):
+            raise InputError(f"'{path}' is not plane: z goes from {points[:, 2].min():g} to {points[:, 2].max():g}")
+        points = points[:, :2]
+    named, cells = _named_parts(found, path)
+    families = {family: np.vstack(blocks) for family, blocks in cells.items() if family in NODES_PER_CELL}
+    if not families:
+        raise InputError(f"'{path}' holds no triangles or quadrilaterals; it has {', '.join(cells) or 'no cells'}")
+    bodies, start = defaultdict(list), 0
+    for family, nodes in families.items():
+        for name, index in named[family].items():
+            bodies[name].append(start + index)
+        start += len(nodes)
+    return Mesh(
+        points=points,
+        cells=families,
+        bodies={name: np.concatenate(parts) for name, parts in bodies.items()} or {"body": np.arange(start)},
+        boundaries={name: np.vstack(cells[_LINES])[index] for name, index in named[_LINES].items()},
+        nodes={name: np.unique(np.vstack(cells[_POINTS])[index]) for name, index in named[_POINTS].items()},
+    )
+
+
+def _read(path: Path) -> meshio.Mesh:
+    # meshio prints warnings and ends the process on some malformed files
+    said = io.StringIO()
+    try:
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            return meshio.read(path)
+    except (Exception, SystemExit) as error:
+        told = "" if isinstance(error, SystemExit) else str(error)
+        reason = told or " ".join(said.getvalue().split()) or type(error).__name__
+        raise InputError(f"meshio cannot read '{path}': {reason}", where=("mesh", "file")) from error
+
+
+def _named_parts(found: meshio.Mesh, path: Path) -> tuple[dict[str, dict[str, IntArray]], dict[str, list[IntArray]]]:
+    """Family to name to indices, and family to the blocks of cells that the indices count through."""
+    tags = {(int(dimension), int(tag)): name for name, (tag, dimension) in found.field_data.items()}
+    physical = found.cell_data.get("gmsh:physical", [np.zeros(len(block.data), int) for block in found.cells])
+    named: dict[str, dict[str, list[IntArray]]] = defaultdict(lambda: defaultdict(list))
+    cells: dict[str, list[IntArray]] = defaultdict(list)
+    counts: dict[str, int] = defaultdict(int)
+    for number, (block, tag_of_cell) in enumerate(zip(found.cells, physical, strict=True)):
+        family = block.type
+        if family not in (*NODES_PER_CELL, _LINES, _POINTS):
+            raise InputError(
+                f"'{path}' holds {len(block.data)} cells of the kind '{family}'; this version has "
+                f"{', '.join(NODES_PER_CELL)} (write a mesh of first order)",
+                where=("mesh", "file"),
+            )
+        index = counts[family] + np.arange(len(block.data))
+        for tag in np.unique(tag_of_cell[tag_of_cell > 0]):
+            key = (block.dim, int(tag))
+            if key not in tags:
+                raise InputError(f"'{path}' has a physical group {tag} of dimension {block.dim} without a name")
+            named[family][tags[key]].append(index[tag_of_cell == tag])
+        if "gmsh:physical" not in found.cell_data:
+            for name, members in found.cell_sets.items():
+                if members[number] is not None and len(members[number]):
+                    named[family][name].append(counts[family] + np.asarray(members[number], int))
+        cells[family].append(np.asarray(block.data, np.int64))
+        counts[family] += len(block.data)
+    return defaultdict(dict, {f: {n: np.concatenate(p) for n, p in parts.items()} for f, parts in named.items()}), cells

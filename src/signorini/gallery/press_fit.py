@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A shaft pressed into a hub."""
+
+from __future__ import annotations
+
+from signorini.fem.generators import Cells, annulus
+from signorini.model.body import Body, Elastic
+from signorini.model.conditions import Support
+from signorini.model.contact import Contact
+from signorini.model.mesh import join
+from signorini.model.model import Kind, Model
+
+
+def press_fit(
+    *,
+    n_radial: int = 4,
+    n_angular: int = 12,
+    kind: Kind = "plane stress",
+    interference: float = 0.01,
+    friction: float = 0.0,
+    cells: Cells = "quad",
+) -> Model:
+    """A quarter of a hollow shaft 1..2 (E 2000) in a hub 2..3 (E 1000), nu 0.3, radial interference.
+
+    Parameters
+    ----------
+    n_radial, n_angular : cells in each ring
+    """
+    mesh = join(
+        {
+            name: annulus(inner=a, outer=b, n_radial=n_radial, n_angular=n_angular, angle=90.0, cells=cells)
+            for name, a, b in (("shaft", 1.0, 2.0), ("hub", 2.0, 3.0))
+        }
+    )
+    return Model(
+        mesh,
+        kind=kind,
+        title="Press fit",
+        bodies=[Body("shaft", Elastic(E=2000.0, nu=0.3)), Body("hub", Elastic(E=1000.0, nu=0.3))],
+        supports=[
+            *(Support(f"{name}.start", u=(None, 0.0)) for name in ("shaft", "hub")),
+            *(Support(f"{name}.end", u=(0.0, None)) for name in ("shaft", "hub")),
+        ],
+        contacts=[Contact("shaft.outer", "hub.inner", friction=friction, interference=interference, name="fit")],
+    )
