@@ -112,5 +112,5 @@ def closed_range(curve: Curve) -> tuple[float, float]:
         return low, high
     first, last = max(closed[0] - 1, 0), min(closed[-1] + 1, len(curve.s) - 1)
     start, end = float(curve.s[first]), float(curve.s[last])
-    margin = 0.35 * (end - start)
-    return max(low, start - margin), min(high, end + margin)
+    margin, edge = 0.35 * (end - start), 0.015 * (end - start)
+    return max(low - edge, start - margin), min(high + edge, end + margin)
