@@ -13,6 +13,9 @@ from signorini.errors import InputError
 from signorini.friction.interface import Interface
 from signorini.friction.law import closed_states
 
+STICKY = 1e6
+"""Friction that stands for ``inf``: without bound the law is not continuous, and need not have a solution."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class CoulombProblem:
@@ -29,7 +32,8 @@ class CoulombProblem:
     W : (2n, 2n) symmetric, spectrum in [0, 1]; 1 belongs to rigid motions alone. An exactly zero tangential row says
         that supports lock the pair's tangential motion. Kept with W R = R restored to rounding
     b : (2n,) load: motion of the pairs under the loads plus ``G h0``, h0 = (initial gap, -slip of the step before)
-    friction : (n,) mu >= 0; ``inf`` never slips, but may open
+    friction : (n,) mu >= 0; ``inf`` sticks wherever it is closed. A pair on the verge of opening may be in equilibrium
+        neither sticking nor open; it slips then, under a normal force of 1e-6 of its friction
     motions : (2n, k) rigid motions seen by the pairs, W R = R; k = 0 where supports hold every body
     scale : size of b's entries, from the data, that tolerances refer to; in the units of b
     interface : what does not depend on the load. ``dataclasses.replace(problem, b=...)`` shares it, with its
@@ -84,8 +88,8 @@ class CoulombProblem:
 
     @cached_property
     def mu(self) -> Array:
-        """(n,) Friction that can act: none at a locked pair that is not dragged."""
-        return np.where(self.locked & (self.b[self.pairs :] == 0), 0.0, self.friction)
+        """(n,) Friction that can act: none at a locked pair that is not dragged, 1e6 for ``inf``."""
+        return np.where(self.locked & (self.b[self.pairs :] == 0), 0.0, np.minimum(self.friction, STICKY))
 
     @cached_property
     def closed(self) -> IntArray:

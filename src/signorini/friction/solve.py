@@ -146,13 +146,15 @@ def _polished(problem: CoulombProblem, path: PathEnd, method: str, settings: Cou
 
 def _with_springs(problem: CoulombProblem, budget: int, seed: int, settings: CoulombSettings) -> Iterator[Candidate]:
     """Held by springs a path always ends; in an answer that stays as the springs weaken, or in one that runs away."""
+    before = np.inf
     for springs in settings.springs:
         path = follow(problem, "open", budget=budget, seed=seed, springs=springs)
         found = _polished(problem, path, "springs", settings)
         motion = split(path.y, problem.mu)[0]
-        size = np.abs(motion).max(initial=0.0)
-        away = path.end == "solution" and size * springs > 1e-3 * problem.scale and springs == settings.springs[-1]
-        yield replace(found, escape=motion / size if away else None)
+        size = float(np.abs(motion).max(initial=0.0))
+        grows = path.end == "solution" and size > 10.0 * max(before, problem.scale)
+        yield replace(found, escape=motion / size if grows else None)
+        before = size
 
 
 def _in_tree(problem: CoulombProblem, settings: CoulombSettings) -> Candidate:
