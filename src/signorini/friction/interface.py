@@ -94,7 +94,7 @@ class Interface:
         A = np.tril(factor)
         A += np.tril(factor, -1).T
         A[np.diag_indices(len(A))] -= 1.0
-        return np.asarray(A, dtype=np.float64)
+        return np.ascontiguousarray(A, dtype=np.float64)
 
     def free_motion(self, b: Array) -> Array:
         """(2n,) Motion c of the pairs under the load alone, without its rigid part."""

@@ -23,7 +23,7 @@ def newton(
     start: IntArray | None = None,
     *,
     near: Array | None = None,
-    limit: int = 40,
+    limit: int = 200,
     tolerance: float = 1e-10,
 ) -> Candidate:
     """Newton from given states; ends at a solution, a repeated state, a singular state or the limit.

@@ -96,6 +96,14 @@ class CoulombProblem:
         """(n,) State of each pair where it is closed, UNDECIDED where the solution decides."""
         return closed_states(self.mu, self.locked, self.b[self.pairs :])
 
+    @cached_property
+    def _free(self) -> Array:
+        return self.interface.free_motion(self.b)
+
+    def free_motion(self, b: Array) -> Array:
+        """(2n,) Motion of the pairs under a load alone, without its rigid part; that of the problem's b is kept."""
+        return self._free if b is self.b else self.interface.free_motion(b)
+
     def misfit(self, h: Array, r: Array) -> Array:
         """(2n,) ``b - (G h - W r)``, the motion that equilibrium lacks."""
         return self.b + self.W @ (h + r) - h

@@ -45,7 +45,7 @@ class CoulombSettings:
     """
 
     tolerance: float = 1e-10
-    newton_steps: int = 40
+    newton_steps: int = 200
     pivots_per_pair: tuple[int, ...] = (10, 100)
     springs: tuple[float, ...] = (1e-3, 1e-6, 1e-9)
     tree_pairs: int = 25
