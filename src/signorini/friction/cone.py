@@ -92,7 +92,7 @@ def cone_system(problem: CoulombProblem, state: IntArray) -> ConeSystem:
     >>> problem = CoulombProblem(
     ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.2]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
-    >>> cone_system(problem, np.array([STICK])).solve(near=np.zeros(2)).tolist()
+    >>> cone_system(problem, np.array([STICK])).solve(near=np.zeros(2)).round(12).tolist()
     [2.0, -0.4]
     """
     matrix = _matrix(problem, state)

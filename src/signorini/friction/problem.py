@@ -59,14 +59,13 @@ class CoulombProblem:
     friction: Array
     motions: Array
     scale: float
-    interface: Interface = field(default=None, repr=False, compare=False)  # type: ignore[assignment]
+    interface: Interface = field(default_factory=Interface.none, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         for name in ("W", "b", "friction", "motions"):
             object.__setattr__(self, name, _read_only(getattr(self, name)))
         _check(self)
-        known = self.interface
-        if known is None or known.W is not self.W or known.motions is not self.motions:
+        if self.interface.W is not self.W or self.interface.motions is not self.motions:
             interface = Interface.exact(self.W, self.motions)
             object.__setattr__(self, "W", interface.W)
             object.__setattr__(self, "interface", interface)
