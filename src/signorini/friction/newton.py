@@ -23,7 +23,7 @@ def newton(
     start: IntArray | None = None,
     *,
     near: Array | None = None,
-    limit: int = 40,
+    limit: int = 200,
     tolerance: float = 1e-10,
 ) -> Candidate:
     """Newton from given states; ends at a solution, a repeated state, a singular state or the limit.
@@ -42,7 +42,7 @@ def newton(
     ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.5]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
     >>> end = newton(problem)
-    >>> end.y.tolist(), end.attempt.end, end.attempt.changes
+    >>> end.y.round(12).tolist(), end.attempt.end, end.attempt.changes
     ([2.0, -1.0], 'certified', (1,))
     """
     state = admissible(problem, start)

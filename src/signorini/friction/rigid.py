@@ -36,11 +36,8 @@ def pulled_away(problem: CoulombProblem) -> Array | None:
     R, n, mu = problem.interface.R, problem.pairs, problem.mu
     if not R.shape[1]:
         return None
-    slips = np.isfinite(mu)
-    normal, tangential = R[:n], R[n:]
-    bound = mu[slips, None] * tangential[slips]
-    sticks = [normal[~slips], tangential[~slips], -tangential[~slips]]
-    C = np.concatenate([normal[slips] - bound, normal[slips] + bound, *sticks])
+    normal, bound = R[:n], mu[:, None] * R[n:]
+    C = np.concatenate([normal - bound, normal + bound]) / np.sqrt(1.0 + np.tile(mu, 2) ** 2)[:, None]
     load = R.T @ problem.b / (problem.scale or 1.0)
     multipliers, _ = nnls(C.T, -load)
     a = load + C.T @ multipliers
