@@ -12,7 +12,9 @@ from signorini.lcp.problem import LCP
 from signorini.lcp.residual import Matrix
 
 
-def solve_on(M: Matrix, q: Array, active: BoolArray, *, refinements: int = 2, shift: Array | None = None) -> Array | None:
+def solve_on(
+    M: Matrix, q: Array, active: BoolArray, *, refinements: int = 2, shift: Array | None = None
+) -> Array | None:
     """z with ``(M z + q)_i = 0`` where active and ``z_i = 0`` elsewhere; None where that system is singular.
 
     Rows and columns are scaled by their largest entries before the factorisation; the refinement takes the residual of

@@ -7,6 +7,7 @@ What a residual is stands here and nowhere else, so that solvers, tests and user
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any, TypeAlias
 
 import numpy as np
 import scipy.sparse as sp
@@ -15,7 +16,7 @@ from scipy.sparse.linalg import LinearOperator
 from signorini.arrays import Array
 from signorini.errors import InputError
 
-Matrix = Array | sp.csr_array | LinearOperator
+Matrix: TypeAlias = Array | sp.csr_array | LinearOperator
 
 NOISE_FLOOR = 1e-5
 LARGEST_GROWTH = 1e4
@@ -117,7 +118,7 @@ def balance(M: Matrix, *, sweeps: int = 6) -> tuple[Array, Array]:
     rows, columns = np.ones(M.shape[0]), np.ones(M.shape[0])
     if isinstance(M, LinearOperator):
         return rows, columns
-    size = abs(M)
+    size: Any = abs(M)
     for _ in range(sweeps):
         rows = _or_one(size @ columns)
         columns = 1.0 / _or_one(size.T @ (1.0 / rows))
@@ -126,14 +127,15 @@ def balance(M: Matrix, *, sweeps: int = 6) -> tuple[Array, Array]:
 
 def _largest_in_columns(M: Array | sp.csr_array, weights: Array) -> Array:
     """``max_i |M_ij| weights_i`` for every column j."""
-    if sp.issparse(M):
-        largest = abs(M).multiply(weights[:, None]).tocsc().max(axis=0)
-        return np.asarray(largest.toarray(), dtype=float).ravel()
+    if not isinstance(M, np.ndarray):
+        largest = np.zeros(M.shape[1])
+        np.maximum.at(largest, M.indices, np.abs(M.data) * np.repeat(weights, np.diff(M.indptr)))
+        return largest
     return np.asarray((np.abs(M) * weights[:, None]).max(axis=0), dtype=float)
 
 
 def _largest(violation: Array) -> float:
-    return float(violation.max(initial=0.0))
+    return 0.0 + float(violation.max(initial=0.0))
 
 
 def _or_one(size: Array) -> Array:

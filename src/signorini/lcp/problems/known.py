@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -137,7 +139,7 @@ def _one_node(mu: float, f_t: float, answer: ArrayLike | None) -> PosedLCP:
 def _posed(
     name: str,
     source: str,
-    M: ArrayLike,
+    M: Any,
     q: ArrayLike,
     answer: ArrayLike | None,
     *traits: str,
