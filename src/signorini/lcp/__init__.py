@@ -3,6 +3,7 @@
 
 from signorini.lcp import problems
 from signorini.lcp.block import BlockPivoting
+from signorini.lcp.box import BoxLCP, MixedLCP
 from signorini.lcp.classes import (
     is_copositive_plus,
     is_k,
@@ -32,6 +33,7 @@ __all__ = [
     "METHODS",
     "MPRGP",
     "BlockPivoting",
+    "BoxLCP",
     "Enumeration",
     "Face",
     "InteriorPoint",
@@ -39,6 +41,7 @@ __all__ = [
     "LeastIndex",
     "Lemke",
     "Method",
+    "MixedLCP",
     "ProjectedMultigrid",
     "ProjectedSOR",
     "Ray",

@@ -125,13 +125,12 @@ def _faces(problem: LCP, tolerance: float, *, only_first: bool) -> list[Face]:
 
 def _on_supports(A: Array, q: Array, supports: IntArray, tolerance: float) -> list[Face]:
     """Faces on supports of one size."""
-    count, size = supports.shape
+    size = supports.shape[1]
     none = np.zeros((len(q), 0))
     if size == 0:
         return [Face(support=(), z=np.zeros(len(q)), directions=none)] if (q >= -tolerance).all() else []
     blocks, right = A[supports[:, :, None], supports[:, None, :]], -q[supports]
-    sizes = np.linalg.svd(blocks, compute_uv=False)
-    regular = sizes[:, -1] > 1e-12 * np.maximum(sizes[:, 0], 1e-300)
+    regular = _regular(blocks)
     faces = []
     chosen = np.flatnonzero(regular)
     x = np.linalg.solve(blocks[chosen], right[chosen][:, :, None])[:, :, 0]
@@ -140,21 +139,39 @@ def _on_supports(A: Array, q: Array, supports: IntArray, tolerance: float) -> li
     scale = np.maximum(1.0, np.abs(z).max(axis=1))
     fits = (x > tolerance * scale[:, None]).all(axis=1) & (z @ A.T + q >= -tolerance * scale[:, None]).all(axis=1)
     faces += [Face(support=tuple(supports[chosen[k]].tolist()), z=z[k], directions=none) for k in np.flatnonzero(fits)]
-    for k in np.flatnonzero(~regular & _consistent(blocks, right, count)):
+    singular = np.flatnonzero(~regular)
+    for k in singular[_consistent(blocks[singular], right[singular])]:
         face = _singular_face(A, q, supports[k], tolerance)
         faces += [] if face is None else [face]
     return faces
 
 
-def _consistent(blocks: Array, right: Array, count: int) -> BoolArray:
-    """Whether the right-hand sides are in the ranges of the blocks."""
+def _regular(blocks: Array) -> BoolArray:
+    """Whether the blocks are regular: by the determinant where it is large for the rows, else by singular values."""
+    with np.errstate(divide="ignore"):
+        size = np.log(np.linalg.norm(blocks, axis=2)).sum(axis=1)
+    regular = np.asarray(np.linalg.slogdet(blocks)[1] > size + np.log(1e-9))
+    doubtful = np.flatnonzero(~regular)
+    values = np.linalg.svd(blocks[doubtful], compute_uv=False)
+    regular[doubtful] = values[:, -1] > 1e-12 * np.maximum(values[:, 0], 1e-300)
+    return regular
+
+
+def _consistent(blocks: Array, right: Array) -> BoolArray:
+    """Whether the right-hand sides are in the ranges of the singular blocks."""
+    if not len(blocks):
+        return np.zeros(0, dtype=bool)
     x = np.linalg.pinv(blocks, rcond=1e-11) @ right[:, :, None]
-    error = np.abs(blocks @ x - right[:, :, None]).reshape(count, -1).max(axis=1)
-    return np.asarray(error <= 1e-9 * np.maximum(1.0, np.abs(x).reshape(count, -1).max(axis=1)))
+    error = np.abs(blocks @ x - right[:, :, None]).max(axis=(1, 2))
+    return np.asarray(error <= 1e-9 * np.maximum(1.0, np.abs(x).max(axis=(1, 2))))
 
 
 def _singular_face(A: Array, q: Array, support: IntArray, tolerance: float) -> Face | None:
-    """Point with the largest least component on the support (at most 1), and the directions that stay on the face."""
+    """A point of the relative inside and the directions that stay on the face; None where no z > 0 is on it.
+
+    The point is the mean of one with the largest least component on the support (at most 1) and, for every other row
+    that is 0 there, of one where that row is largest.
+    """
     inside, outside = A[np.ix_(support, support)], np.delete(A, support, axis=0)[:, support]
     q_outside = np.delete(q, support)
     size = len(support)
@@ -168,13 +185,17 @@ def _singular_face(A: Array, q: Array, support: IntArray, tolerance: float) -> F
     if found.status != 0 or not found.x[-1] > 1e3 * tolerance:
         return None
     x = found.x[:-1]
-    tight = []
+    tight, points = [], [x]
     for row, value in zip(outside, q_outside, strict=True):
         if row @ x + value > 1e-7:
             continue
-        most = linprog(-row, A_ub=upper[:, :-1], b_ub=bound, A_eq=inside, b_eq=-q[support], bounds=(0, None))
-        if most.status == 0 and row @ most.x + value <= 1e-7:
+        room = (0, 10 * (1 + np.abs(x).max()))
+        most = linprog(-row, A_ub=upper[:, :-1], b_ub=bound, A_eq=inside, b_eq=-q[support], bounds=room)
+        if most.status == 0 and row @ most.x + value > 1e-7:
+            points.append(most.x)
+        else:
             tight.append(row)
+    x = np.mean(points, axis=0)
     null = la.null_space(np.vstack([inside, *tight]), rcond=1e-11)
     z, directions = np.zeros(len(q)), np.zeros((len(q), null.shape[1]))
     z[support], directions[support] = x, null

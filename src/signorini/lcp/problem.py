@@ -48,7 +48,8 @@ class LCP:
 
     def relative(self, z: Array) -> tuple[Array, Array]:
         """z and w over the sizes by which the natural residual divides."""
-        return relative_sizes(self.M, self.q, z, self.sizes[0])
+        unit, w = relative_sizes(self.M, self.q, z, self.sizes[0])
+        return unit * z, w
 
     def dense(self) -> Array | None:
         """M as a dense array, None where it is a linear operator or too large (more than 30000 rows)."""

@@ -78,7 +78,8 @@ def natural_residual(M: Matrix, q: Array, z: Array, *, rows: Array | None = None
     if M.shape != (len(q), len(q)) or z.shape != q.shape:
         raise InputError(f"M {M.shape}, q {q.shape} and z {z.shape} do not fit: expected (n, n), (n,), (n,)")
 
-    share, w = relative_sizes(M, q, z, balance(M)[0] if rows is None else rows)
+    unit, w = relative_sizes(M, q, z, balance(M)[0] if rows is None else rows)
+    share = unit * z
     return Residual(
         primal=_largest(-share),
         dual=_largest(-w),
@@ -87,7 +88,7 @@ def natural_residual(M: Matrix, q: Array, z: Array, *, rows: Array | None = None
 
 
 def relative_sizes(M: Matrix, q: Array, z: Array, rows: Array) -> tuple[Array, Array]:
-    """z and w divided by the sizes that ``natural_residual`` states: what is compared with 0, and with each other."""
+    """(unit, w): what z is multiplied by in ``natural_residual``, and w divided by its sizes."""
     with np.errstate(over="ignore", invalid="ignore"):
         product = M @ z
         size = np.abs(q) + (np.abs(product).max() if isinstance(M, LinearOperator) else abs(M) @ np.abs(z))
@@ -95,11 +96,11 @@ def relative_sizes(M: Matrix, q: Array, z: Array, rows: Array) -> tuple[Array, A
         size = np.minimum(size / rows, LARGEST_GROWTH * data if data > 0 else np.inf)
         size = _or_one(rows * np.maximum(size, NOISE_FLOOR * size.max(initial=0.0)))
         w = (product + q) / size
-        share = z / _or_one(np.abs(z).max(initial=0.0, keepdims=True))
+        unit = 1.0 / _or_one(np.abs(z).max(initial=0.0, keepdims=True)) * np.ones(len(z))
         if not isinstance(M, LinearOperator):
             column = _largest_in_columns(M, 1.0 / size)
-            share = np.where(column > 0, z * column, share)
-    return share, w
+            unit = np.where(column > 0, column, unit)
+    return unit, w
 
 
 def balance(M: Matrix, *, sweeps: int = 6) -> tuple[Array, Array]:
