@@ -16,6 +16,8 @@ from signorini.arrays import Array
 from signorini.errors import InputError
 from signorini.lcp.residual import Matrix, Residual, balance, natural_residual, relative_sizes
 
+LARGEST_DENSE = 30_000
+
 
 @dataclass(frozen=True, kw_only=True)
 class LCP:
@@ -46,13 +48,16 @@ class LCP:
 
     def relative(self, z: Array) -> tuple[Array, Array]:
         """z and w over the sizes by which the natural residual divides."""
-        return relative_sizes(self.M, self.q, z, self.sizes[0])
+        unit, w = relative_sizes(self.M, self.q, z, self.sizes[0])
+        return unit * z, w
 
     def dense(self) -> Array | None:
         """M as a dense array, None where it is a linear operator or too large (more than 30000 rows)."""
-        if isinstance(self.M, LinearOperator) or (sp.issparse(self.M) and self.n > 30_000):
+        if isinstance(self.M, np.ndarray):
+            return self.M
+        if isinstance(self.M, LinearOperator) or self.n > LARGEST_DENSE:
             return None
-        return self.M.toarray() if sp.issparse(self.M) else self.M
+        return np.asarray(self.M.toarray())
 
 
 def read_problem(M: Any, q: ArrayLike) -> LCP:

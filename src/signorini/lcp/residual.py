@@ -7,6 +7,7 @@ What a residual is stands here and nowhere else, so that solvers, tests and user
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any, TypeAlias
 
 import numpy as np
 import scipy.sparse as sp
@@ -15,7 +16,7 @@ from scipy.sparse.linalg import LinearOperator
 from signorini.arrays import Array
 from signorini.errors import InputError
 
-Matrix = Array | sp.csr_array | LinearOperator
+Matrix: TypeAlias = Array | sp.csr_array | LinearOperator
 
 NOISE_FLOOR = 1e-5
 LARGEST_GROWTH = 1e4
@@ -77,7 +78,8 @@ def natural_residual(M: Matrix, q: Array, z: Array, *, rows: Array | None = None
     if M.shape != (len(q), len(q)) or z.shape != q.shape:
         raise InputError(f"M {M.shape}, q {q.shape} and z {z.shape} do not fit: expected (n, n), (n,), (n,)")
 
-    share, w = relative_sizes(M, q, z, balance(M)[0] if rows is None else rows)
+    unit, w = relative_sizes(M, q, z, balance(M)[0] if rows is None else rows)
+    share = unit * z
     return Residual(
         primal=_largest(-share),
         dual=_largest(-w),
@@ -86,7 +88,7 @@ def natural_residual(M: Matrix, q: Array, z: Array, *, rows: Array | None = None
 
 
 def relative_sizes(M: Matrix, q: Array, z: Array, rows: Array) -> tuple[Array, Array]:
-    """z and w divided by the sizes that ``natural_residual`` states: what is compared with 0, and with each other."""
+    """(unit, w): what z is multiplied by in ``natural_residual``, and w divided by its sizes."""
     with np.errstate(over="ignore", invalid="ignore"):
         product = M @ z
         size = np.abs(q) + (np.abs(product).max() if isinstance(M, LinearOperator) else abs(M) @ np.abs(z))
@@ -94,11 +96,11 @@ def relative_sizes(M: Matrix, q: Array, z: Array, rows: Array) -> tuple[Array, A
         size = np.minimum(size / rows, LARGEST_GROWTH * data if data > 0 else np.inf)
         size = _or_one(rows * np.maximum(size, NOISE_FLOOR * size.max(initial=0.0)))
         w = (product + q) / size
-        share = z / _or_one(np.abs(z).max(initial=0.0, keepdims=True))
+        unit = 1.0 / _or_one(np.abs(z).max(initial=0.0, keepdims=True)) * np.ones(len(z))
         if not isinstance(M, LinearOperator):
             column = _largest_in_columns(M, 1.0 / size)
-            share = np.where(column > 0, z * column, share)
-    return share, w
+            unit = np.where(column > 0, column, unit)
+    return unit, w
 
 
 def balance(M: Matrix, *, sweeps: int = 6) -> tuple[Array, Array]:
@@ -117,7 +119,7 @@ def balance(M: Matrix, *, sweeps: int = 6) -> tuple[Array, Array]:
     rows, columns = np.ones(M.shape[0]), np.ones(M.shape[0])
     if isinstance(M, LinearOperator):
         return rows, columns
-    size = abs(M)
+    size: Any = abs(M)
     for _ in range(sweeps):
         rows = _or_one(size @ columns)
         columns = 1.0 / _or_one(size.T @ (1.0 / rows))
@@ -126,14 +128,15 @@ def balance(M: Matrix, *, sweeps: int = 6) -> tuple[Array, Array]:
 
 def _largest_in_columns(M: Array | sp.csr_array, weights: Array) -> Array:
     """``max_i |M_ij| weights_i`` for every column j."""
-    if sp.issparse(M):
-        largest = abs(M).multiply(weights[:, None]).tocsc().max(axis=0)
-        return np.asarray(largest.toarray(), dtype=float).ravel()
+    if not isinstance(M, np.ndarray):
+        largest = np.zeros(M.shape[1])
+        np.maximum.at(largest, M.indices, np.abs(M.data) * np.repeat(weights, np.diff(M.indptr)))
+        return largest
     return np.asarray((np.abs(M) * weights[:, None]).max(axis=0), dtype=float)
 
 
 def _largest(violation: Array) -> float:
-    return float(violation.max(initial=0.0))
+    return 0.0 + float(violation.max(initial=0.0))
 
 
 def _or_one(size: Array) -> Array:
