@@ -61,14 +61,14 @@ def solve_prepared(prepared: Prepared, *, raise_on_failure: bool = True) -> Hist
     steps: list[StepResult] = []
     try:
         for number, (step, end) in enumerate(zip(model.steps, factors[1:], strict=True), start=1):
-            first, certificates, methods = state, [], []
+            first, certificates, answers = state, [], []
             for fraction, target in _increments(step, state.factors, end):
                 where = f"step '{step.name}' at {fraction:.0%}" if step.name else f"step {number} at {fraction:.0%}"
                 prepared.clock.tell(where)
                 state, certificate, result = _advance(prepared, problem, state, target, where)
                 certificates.append(certificate)
-                methods.append(result.method)
-            steps.append(_step_result(prepared, step, number, first, state, certificates, methods))
+                answers.append(result)
+            steps.append(_step_result(prepared, step, number, first, state, certificates, answers))
     except SolveFailed as failure:
         history = _history(prepared, failure.status, str(failure), steps)
         if raise_on_failure:
@@ -179,7 +179,7 @@ def _step_result(
     before: State,
     state: State,
     certificates: list[Certificate],
-    methods: list[str],
+    answers: list[CoulombResult],
 ) -> StepResult:
     model, interface = prepared.model, prepared.interface
     compliance = np.concatenate([interface.normal_compliance, interface.tangential_compliance])
@@ -201,7 +201,8 @@ def _step_result(
         contacts=tuple(
             _contact_result(prepared, i, before, state, interface.contact == i) for i in range(len(model.contacts))
         ),
-        methods=tuple(dict.fromkeys(methods)),
+        methods=tuple(dict.fromkeys(answer.method for answer in answers)),
+        iterations=tuple(sum(attempt.iterations for attempt in answer.trace) for answer in answers),
         notes=notes,
     )
 

@@ -9,7 +9,7 @@ pulled; friction 0 to 8; histories of up to five steps. ``python -m signorini.be
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -201,7 +201,7 @@ class _Block:
 
     K: sparse.csr_matrix
     x: Array
-    sides: dict[str, IntArray]
+    sides: Mapping[str, IntArray]
     dofs: IntArray
 
 
