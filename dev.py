@@ -48,6 +48,9 @@ def example() -> None:
     install()
     run("signorini", "run", "examples/zhu_cylinder.toml", "-o", "out")
     run("signorini", "plot", "out", "--what", "contact", "-o", "out/contact.png")
+    say("the same cylinder without friction, beside Hertz and the paper's table 1")
+    run("python", "examples/zhu_table1.py")
+    say("the contact tractions are drawn in out/contact.png")
 
 
 def test() -> None:
@@ -66,10 +69,11 @@ def test() -> None:
         for deck in sorted((ROOT / "examples").glob("*.toml")):
             say(f"examples/{deck.name}")
             run("signorini", "run", str(deck), "-o", str(Path(folder) / deck.stem), "--quiet")
-        say("examples/zhu_table1.py, zhu_figures.py, zhu_convergence.py")
+        say("examples/zhu_table1.py, zhu_figures.py, zhu_convergence.py, readme_picture.py")
         run("python", "examples/zhu_table1.py")
         run("python", "examples/zhu_figures.py", folder)
         run("python", "examples/zhu_convergence.py")
+        run("python", "examples/readme_picture.py", str(Path(folder) / "cylinder.png"))
     say("verification suite")
     run("signorini", "verify", "--all")
     say("all checks passed")
@@ -79,6 +83,7 @@ def figures() -> None:
     """The pictures of README and docs."""
     install()
     run("python", "examples/zhu_figures.py")
+    run("python", "examples/readme_picture.py")
 
 
 if __name__ == "__main__":
