@@ -4,19 +4,26 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
-from signorini.clock import Clock
+from signorini.clock import Clock, Listener
 
 
 @contextmanager
-def progress(*, quiet: bool) -> Iterator[Clock]:
-    """A clock whose phases are shown while they last."""
-    if quiet or not sys.stderr.isatty():
-        yield Clock()
+def progress(*, quiet: bool, seconds: Mapping[str, float] | None = None) -> Iterator[Clock]:
+    """A clock whose phases are shown while they last; it goes on from the seconds of another."""
+    shown = not quiet and sys.stderr.isatty()
+    if not shown:
+        yield _clock(None, seconds)
         return
     from rich.console import Console
 
     with Console(stderr=True).status("starting") as line:
-        yield Clock(lambda words: line.update(words))
+        yield _clock(lambda words: line.update(words), seconds)
+
+
+def _clock(listener: Listener | None, seconds: Mapping[str, float] | None) -> Clock:
+    clock = Clock(listener)
+    clock.seconds |= seconds or {}
+    return clock

@@ -35,7 +35,7 @@ def verify(options: argparse.Namespace) -> int:
     file = _json_file(options.json)
     from signorini.verify.suite import run
 
-    cases = run(options.all)
+    cases = run(slow=options.all)
     _print(cases, _VERIFY)
     _write(cases, file)
     failed = sum(not case["passed"] for case in cases)

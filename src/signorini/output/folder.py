@@ -20,7 +20,9 @@ from signorini.output.summary import summary
 from signorini.output.vtu import write_step
 from signorini.solution.history import History
 
-_OURS = re.compile(r"(summary\.json|contact\.csv|solution(_\d{4,})?\.vtu|solution\.pvd)")
+_OURS = re.compile(
+    r"(summary\.json|contact\.csv|solution(_\d{4,})?\.vtu|solution\.pvd|(contact|stress|mesh|history)\.png)"
+)
 
 
 def open_folder(path: Path) -> Path:
