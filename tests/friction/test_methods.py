@@ -10,6 +10,7 @@ from signorini.friction import CoulombSettings, certify, solve_coulomb
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED, split, states
 from signorini.friction.newton import newton
 from signorini.friction.path import follow
+from signorini.friction.release import released
 from signorini.friction.walls import beyond, columns, jacobian, walls
 
 
@@ -111,3 +112,25 @@ def test_jacobian_is_the_derivative():
     state = states(y, problem.mu, problem.closed)
     G = np.eye(8) - problem.W
     np.testing.assert_allclose(jacobian(G, problem.W, problem.mu, state) @ y, G @ h - problem.W @ r, atol=1e-13)
+
+
+def test_a_path_among_touching_pairs_finds_the_same(cycling):
+    whole = solve_coulomb(cycling)
+    few = solve_coulomb(cycling, settings=CoulombSettings(many_pairs=0))
+    assert few.solved
+    np.testing.assert_allclose(answer(few), answer(whole), atol=1e-9 * cycling.scale)
+
+
+def test_releasing_open_pairs_changes_nothing():
+    problem = block_on_floor(8, (-1.0, 0.2, 0.9))
+    whole = solve_coulomb(problem)
+    kept = whole.state != OPEN
+    few = solve_coulomb(released(problem, kept))
+    assert 0 < np.count_nonzero(kept) < 8
+    np.testing.assert_allclose(few.normal_force, whole.normal_force[kept], atol=1e-9)
+    np.testing.assert_allclose(few.tangential_force, whole.tangential_force[kept], atol=1e-9)
+
+
+def test_pairs_that_hold_nothing_cannot_be_kept_alone():
+    problem = block_on_floor(8, (-1.0, 0.2, 0.0))
+    assert released(problem, np.zeros(8, dtype=bool)) is None

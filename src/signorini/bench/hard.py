@@ -26,7 +26,7 @@ FAMILIES = ("block", "two blocks", "skew block", "wedge", "peg", "corner", "punc
 FRICTION = (0.0, 0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 3.0)
 SEED = 1993
 
-METHODS = ("newton", "path open", "path press", "springs", "tree")
+METHODS = ("newton", "path open", "path press", "path among touching", "springs", "tree")
 PROOFS = ("proved: rigid motions", "proved: tree")
 OTHER = ("escape named", "no answer")
 

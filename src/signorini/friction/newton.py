@@ -47,11 +47,11 @@ def newton(
     """
     state = admissible(problem, start)
     y = np.zeros(2 * problem.pairs) if near is None else near
-    seen: set[bytes] = set()
+    seen: dict[bytes, IntArray] = {}
     changes: list[int] = []
     end, index, residual = "limit reached", 0, np.inf
     for _ in range(limit):
-        seen.add(state.tobytes())
+        seen[state.tobytes()] = state
         system = cone_system(problem, state)
         answer = system.solve(y)
         if answer is None:
@@ -68,7 +68,9 @@ def newton(
             end = "states repeat"
             break
     attempt = Attempt(method="newton", iterations=len(changes), changes=tuple(changes), end=end)
-    return Candidate(y=y, state=state, residual=residual, index=index, attempt=attempt)
+    late = list(seen.values())[len(seen) // 2 :] + [state]
+    touched = np.any([tried != OPEN for tried in late], axis=0)
+    return Candidate(y=y, state=state, residual=residual, index=index, attempt=attempt, touched=touched)
 
 
 def admissible(problem: CoulombProblem, start: IntArray | None) -> IntArray:
