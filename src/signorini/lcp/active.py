@@ -56,7 +56,7 @@ def polish(problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None
     least = problem.residual(best).worst
     for attempt in range(attempts):
         if active is None:
-            share, w = problem.relative(best)
+            share, w = problem.yardstick.shares(best)
             active = share > w
         z = np.maximum(_or_nan(solve_on(M, problem.q, active), problem.n), 0.0)
         worst = problem.residual(z).worst

@@ -134,23 +134,18 @@ class _Path:
     def _leaving_row(self, entering: int) -> int:
         """Row of the lexicographic ratio test, with theta first in ties; -1 where nothing blocks."""
         tableau, options = self.tableau, self.options
-        column = tableau.column(entering)
-        rows: IntArray = np.flatnonzero(column > options.pivot_tolerance * max(1.0, float(np.abs(column).max())))
-        if not len(rows):
+        rows, step = tableau.blocking(entering, options.pivot_tolerance, options.tie_tolerance, self.largest_theta)
+        if len(rows) == 0:
             return -1
-        values, rates = np.maximum(tableau.rhs[rows], 0.0), column[rows]
-        ratios = values / rates
-        step = float(ratios.min())
-        slack = options.tie_tolerance * max(float(np.abs(tableau.rhs).max()), self.largest_theta)
-        tied = values - step * rates <= slack * np.minimum(1.0, rates)
+        rates = tableau.column(entering)[rows]
         theta_row = int(tableau.row_of[self.theta])
-        position = np.flatnonzero(rows[tied] == theta_row)
-        if len(position):
-            strict = ratios[tied][position[0]] <= step
-            if strict or self._would_solve(entering, theta_row):
+        theta_tied = rows == theta_row
+        if theta_tied.any():
+            strict = max(tableau.rhs[theta_row], 0.0) <= step * float(rates[theta_tied][0])
+            if len(rows) == 1 or strict or self._would_solve(entering, theta_row):
                 return theta_row
-            tied[np.flatnonzero(tied)[position[0]]] = False
-        return tableau.least_lexicographic(rows[tied], rates[tied], options.tie_tolerance)
+            rows, rates = rows[~theta_tied], rates[~theta_tied]
+        return tableau.least_lexicographic(rows, rates, options.tie_tolerance)
 
     def _would_solve(self, entering: int, row: int) -> bool:
         """Whether the basis with theta gone is a solution, or theta is tied only within the tolerance."""

@@ -72,8 +72,8 @@ def equilibrating_factors(sizes: Array, *, sweeps: int) -> tuple[Array, Array]:
 
 
 def _log2(sizes: Array) -> Array:
-    with np.errstate(divide="ignore"):
-        return np.log2(sizes)
+    """The binary exponents, minus infinity for 0."""
+    return np.where(sizes > 0, np.frexp(sizes)[1].astype(float), -np.inf)
 
 
 def _finite_or_zero(values: Array) -> Array:
