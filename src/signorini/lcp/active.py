@@ -11,6 +11,8 @@ from signorini.lcp.linear import factorised
 from signorini.lcp.problem import LCP
 from signorini.lcp.residual import Matrix
 
+ROUNDING = 1e-13
+
 
 def solve_on(
     M: Matrix, q: Array, active: BoolArray, *, refinements: int = 2, shift: Array | None = None
@@ -64,6 +66,8 @@ def polish(problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None
             break
         if worst < least:
             best, least = z, worst
+        if least <= ROUNDING:
+            break
         active = None
     return best
 

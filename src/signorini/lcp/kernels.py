@@ -112,18 +112,19 @@ def exchange(T: Array, row: int, at: int) -> None:
 
 
 def blocking_rows(
-    column: Array, rhs: Array, pivot_tolerance: float, tie_tolerance: float, size: float, rows: IntArray
+    T: Array, at: int, pivot_tolerance: float, tie_tolerance: float, size: float, rows: IntArray
 ) -> tuple[int, float]:
     """Write the rows that stop the entering variable first, ties included; returns their number and the step.
 
     Parameters
     ----------
-    column, rhs : (n,) rates at which the basic variables fall, and their values
+    T, at : the tableau and the column of the entering variable; its last column holds the values of the basic ones
     pivot_tolerance : rates below it, relative to the largest, do not count
     tie_tolerance, size : values left over below their product, less at small rates, are ties
     rows : (n,) filled from the front
     """
-    n = len(rhs)
+    n = len(T)
+    column, rhs = T[:, at], T[:, -1]
     largest, highest = 1.0, size
     for i in range(n):
         largest = max(largest, abs(column[i]))

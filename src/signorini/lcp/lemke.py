@@ -67,7 +67,7 @@ class Lemke:
         M = problem.dense()
         if M is None:
             return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note="Lemke needs the entries of M.")
-        scaled = equilibrate(M, problem.q)
+        scaled = equilibrate(M, problem.q, *problem.sizes)
         d = np.ones(problem.n) if self.covering is None else scaled.rows * self._covering(problem)
         basis: BoolArray = np.zeros(problem.n, dtype=bool) if z0 is None else z0 > 0
         turned = principal_transform(scaled.M, scaled.q, basis)
@@ -95,7 +95,7 @@ class _Path:
         self.pivots = 0
         self.largest_theta = 0.0
         self.theta = 2 * tableau.n
-        self.refused = -1
+        self.confirmed: Array | None = None
 
     def follow(self, problem: LCP, M: Array, scaled: Equilibrated, note: str) -> Attempt:
         """From the first ratio test to a solution, a ray or the limit."""
@@ -135,14 +135,14 @@ class _Path:
         """Row of the lexicographic ratio test, with theta first in ties; -1 where nothing blocks."""
         tableau, options = self.tableau, self.options
         rows, step = tableau.blocking(entering, options.pivot_tolerance, options.tie_tolerance, self.largest_theta)
-        if len(rows) == 0:
-            return -1
+        if len(rows) <= 1:
+            return int(rows[0]) if len(rows) else -1
         rates = tableau.column(entering)[rows]
         theta_row = int(tableau.row_of[self.theta])
         theta_tied = rows == theta_row
         if theta_tied.any():
             strict = max(tableau.rhs[theta_row], 0.0) <= step * float(rates[theta_tied][0])
-            if len(rows) == 1 or strict or self._would_solve(entering, theta_row):
+            if strict or self._would_solve(entering, theta_row):
                 return theta_row
             rows, rates = rows[~theta_tied], rates[~theta_tied]
         return tableau.least_lexicographic(rows, rates, options.tie_tolerance)
@@ -153,7 +153,8 @@ class _Path:
         basic = tableau.basic.copy()
         basic[row] = entering
         z = self._polished(basic)
-        return self.problem.residual(z).worst <= self.tolerance
+        self.confirmed = z if self.problem.residual(z).worst <= self.tolerance else None
+        return self.confirmed is not None
 
     def _z_of(self, basic: IntArray, values: Array) -> Array:
         """z of the problem as posed, from values of basic variables of the turned, scaled problem."""
@@ -187,18 +188,24 @@ class _Path:
         ray = Ray(
             point=candidate,
             direction=self._z_of(basic, direction),
+            covering=self._covering(),
             theta=theta / self.scaled.unit,
             slope=float(direction[-1]) / self.scaled.unit,
         )
         note = f"{note} theta is {theta / self.largest_theta:.1e} of its largest value at the ray.".strip()
         return Attempt(z=candidate, ending=Status.RAY_TERMINATION, iterations=self.pivots, note=note, ray=ray)
 
+    def _covering(self) -> Array:
+        """The covering vector in the rows of the problem as posed (of the turned problem, after a warm start)."""
+        d, swapped = self.tableau.d, self.basis
+        return (np.where(swapped, 0.0, d) - self.scaled.M[:, swapped] @ d[swapped]) / self.scaled.rows
+
     def _ended(self, ending: Status, note: str) -> Attempt:
         """The candidate of the present basis, solved for anew on the problem as posed."""
         rhs = self.tableau.rhs
         if not np.isfinite(rhs).all():
             return Attempt(z=None, ending=Status.NONFINITE, iterations=self.pivots, note=note)
-        z = self._polished(self.tableau.basic)
+        z = self._polished(self.tableau.basic) if self.confirmed is None else self.confirmed
         return Attempt(z=z, ending=ending, iterations=self.pivots, note=note)
 
 

@@ -135,7 +135,7 @@ class Yardstick:
         return unit, w
 
 
-def balance(magnitude: Any, n: int, *, sweeps: int = 6) -> tuple[Array, Array]:
+def balance(magnitude: Any, n: int, *, sweeps: int = 12) -> tuple[Array, Array]:
     """Sizes (rows, columns) such that ``|M_ij| columns_j / rows_i`` has rows and columns of comparable sums (Sinkhorn).
 
     The rows follow a rescaling of the rows and, for all but nearly empty matrices, ignore one of the columns; the
@@ -151,8 +151,10 @@ def balance(magnitude: Any, n: int, *, sweeps: int = 6) -> tuple[Array, Array]:
     rows, columns = np.ones(n), np.ones(n)
     if magnitude is None:
         return rows, columns
-    for _ in range(sweeps):
-        rows = _or_one(magnitude @ columns)
+    for sweep in range(sweeps):
+        before, rows = rows, _or_one(magnitude @ columns)
+        if sweep > 0 and np.abs(np.log2(rows / before)).max() < 0.5:
+            break
         columns = 1.0 / _or_one(magnitude.T @ (1.0 / rows))
     return rows, columns
 

@@ -51,9 +51,9 @@ class Tableau:
         self, variable: int, pivot_tolerance: float, tie_tolerance: float, size: float
     ) -> tuple[IntArray, float]:
         """Rows that stop an entering variable first, and how far it comes (``blocking_rows``)."""
-        T, at = self.T, self.column_of[variable]
-        count, step = self._blocking_rows(T[:, at], T[:, -1], pivot_tolerance, tie_tolerance, size, self._rows)
-        return self._rows[:count].copy(), float(step)
+        at = self.column_of[variable]
+        count, step = self._blocking_rows(self.T, at, pivot_tolerance, tie_tolerance, size, self._rows)
+        return self._rows[:count], float(step)
 
     def pivot(self, row: int, variable: int) -> int:
         """Exchange the basic variable of the row with a nonbasic one; returns the variable that left."""
@@ -72,11 +72,10 @@ class Tableau:
         return x[: self.n], x[self.n : -1], float(x[-1])
 
     def drift(self) -> float:
-        """Largest ``|w - M z - d theta - q|`` relative to the terms of its row: what rounding has done so far."""
+        """Largest ``|w - M z - d theta - q|`` over the largest variable or q: what rounding has done so far."""
         w, z, theta = self.values()
-        size = np.abs(w) + np.abs(self.M) @ np.abs(z) + np.abs(self.d * theta) + np.abs(self.q)
-        error = np.abs(w - self.M @ z - self.d * theta - self.q)
-        return float((error / np.where(size > 0, size, 1.0)).max())
+        error = np.abs(w - self.M @ z - self.d * theta - self.q).max()
+        return float(error / max(np.abs(self.rhs).max(), np.abs(self.q).max()))
 
     def refresh(self) -> bool:
         """Recompute T from the data and the basis by a new factorisation; False where the basis is singular."""
