@@ -16,7 +16,7 @@ from signorini.errors import InputError
 from signorini.lcp.method import Method
 from signorini.lcp.mixed import WithoutFree, eliminate_free
 from signorini.lcp.problem import LCP, read_problem
-from signorini.lcp.residual import Residual, relative_sizes
+from signorini.lcp.residual import Residual
 from signorini.lcp.solution import LCPSolution
 from signorini.lcp.solve import solve
 from signorini.lcp.status import Status
@@ -164,7 +164,7 @@ class Reduction:
 
 def box_residual(problem: LCP, lower: Array, upper: Array, z: Array) -> Residual:
     """The natural residual of a problem with bounds, in the sizes of ``natural_residual``."""
-    unit, w = relative_sizes(problem.M, problem.q, z, problem.sizes[0])
+    unit, w = problem.yardstick.sizes(z)
     below = np.where(np.isfinite(lower), unit * (z - np.where(np.isfinite(lower), lower, 0.0)), np.inf)
     above = np.where(np.isfinite(upper), unit * (np.where(np.isfinite(upper), upper, 0.0) - z), np.inf)
     fixed = lower == upper

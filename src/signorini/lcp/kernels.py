@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The two compiled loops: relaxation sweeps over the rows of a sparse matrix, and aggregation of its graph."""
+"""The compiled loops: relaxation sweeps, aggregation of a graph, and the pivot of a tableau with its ratio test."""
 
 from __future__ import annotations
 
+import math
 from functools import cache
 from typing import Any
 
@@ -86,3 +87,58 @@ def aggregate(start: IntArray, index: IntArray, label: IntArray) -> int:
             label[i] = groups
             groups += 1
     return groups
+
+
+def exchange(T: Array, row: int, at: int) -> None:
+    """Pivot a Fortran-ordered condensed tableau in place on ``T[row, at]``.
+
+    Parameters
+    ----------
+    T : (n, m) with ``x_B + T x_N = rhs`` in its columns, rhs among them
+    row, at : the basic and the nonbasic variable that change places
+    """
+    n, m = T.shape
+    column = T[:, at].copy()
+    pivot = column[row]
+    column[row] = 0.0
+    T[:, at] = 0.0
+    T[row, at] = 1.0
+    for j in range(m):
+        factor = T[row, j] / pivot
+        if factor != 0.0:
+            for i in range(n):
+                T[i, j] -= factor * column[i]
+            T[row, j] = factor
+
+
+def blocking_rows(
+    T: Array, at: int, pivot_tolerance: float, tie_tolerance: float, size: float, rows: IntArray
+) -> tuple[int, float]:
+    """Write the rows that stop the entering variable first, ties included; returns their number and the step.
+
+    Parameters
+    ----------
+    T, at : the tableau and the column of the entering variable; its last column holds the values of the basic ones
+    pivot_tolerance : rates below it, relative to the largest, do not count
+    tie_tolerance, size : values left over below their product, less at small rates, are ties
+    rows : (n,) filled from the front
+    """
+    n = len(T)
+    column, rhs = T[:, at], T[:, -1]
+    largest, highest = 1.0, size
+    for i in range(n):
+        largest = max(largest, abs(column[i]))
+        highest = max(highest, abs(rhs[i]))
+    step = math.inf
+    for i in range(n):
+        if column[i] > pivot_tolerance * largest:
+            step = min(step, max(rhs[i], 0.0) / column[i])
+    count = 0
+    for i in range(n):
+        rate = column[i]
+        if rate > pivot_tolerance * largest:
+            left = max(rhs[i], 0.0) - step * rate
+            if left <= tie_tolerance * highest * min(1.0, rate):
+                rows[count] = i
+                count += 1
+    return count, step

@@ -64,7 +64,7 @@ def eliminate_free(M: Any, q: Array, free: BoolArray) -> WithoutFree | None:
     if inverse is None:
         return None
     rows = M[f][:, c].toarray() if sp.issparse(M) else M[np.ix_(f, c)]
-    columns = np.column_stack([inverse(column) for column in rows.T]) if len(c) else np.zeros((len(f), 0))
+    columns = inverse(rows) if len(c) else rows
     M_cf, M_cc = M[c][:, f], M[c][:, c]
     reduced = (M_cc.toarray() if sp.issparse(M) else M_cc) - M_cf @ columns
     return WithoutFree(M=reduced, q=q[c] - M_cf @ inverse(q[f]), free=free, rows=rows, right=q[f], inverse=inverse)

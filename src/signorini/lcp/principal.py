@@ -48,7 +48,7 @@ class LeastIndex:
         M, n = problem.dense(), problem.n
         if M is None:
             return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note="It needs the entries of M.")
-        scaled = equilibrate(M, problem.q)
+        scaled = equilibrate(M, problem.q, *problem.sizes)
         tableau = Tableau(scaled.M, scaled.q, np.zeros(n))
         active = np.zeros(n, dtype=bool)
         limit = self.max_pivots or 100 * n + 1000

@@ -14,7 +14,7 @@ from scipy.sparse.linalg import LinearOperator
 
 from signorini.arrays import Array
 from signorini.errors import InputError
-from signorini.lcp.residual import Matrix, Residual, balance, natural_residual, relative_sizes
+from signorini.lcp.residual import Matrix, Residual, Yardstick
 
 LARGEST_DENSE = 30_000
 
@@ -38,18 +38,18 @@ class LCP:
         return len(self.q)
 
     @cached_property
+    def yardstick(self) -> Yardstick:
+        """What candidates are measured with."""
+        return Yardstick.of(self.M, self.q)
+
+    @property
     def sizes(self) -> tuple[Array, Array]:
         """Balanced sizes of rows and columns of M (``balance``)."""
-        return balance(self.M)
+        return self.yardstick.rows, self.yardstick.columns
 
     def residual(self, z: Array) -> Residual:
         """The natural residual of a candidate."""
-        return natural_residual(self.M, self.q, z, rows=self.sizes[0])
-
-    def relative(self, z: Array) -> tuple[Array, Array]:
-        """z and w over the sizes by which the natural residual divides."""
-        unit, w = relative_sizes(self.M, self.q, z, self.sizes[0])
-        return unit * z, w
+        return self.yardstick.residual(z)
 
     def dense(self) -> Array | None:
         """M as a dense array, None where it is a linear operator or too large (more than 30000 rows)."""
