@@ -72,9 +72,7 @@ def solve(
     >>> sg.solve(model).contact("bottom").pressure.round(12)
     array([3., 3., 3.])
     """
-    return _answered(
-        lambda: solve_history(model, backend=backend, raise_on_failure=raise_on_failure, clock=clock)
-    )
+    return _answered(lambda: solve_history(model, backend=backend, raise_on_failure=raise_on_failure, clock=clock))
 
 
 class PreparedModel:
@@ -128,11 +126,11 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
     >>> from signorini.gallery.cylinder import zhu_cylinder
     >>> prepared = prepare(zhu_cylinder())
     >>> for mu in (0.0, 0.4):
-    ...     print(mu, round(prepared.solve(friction=mu).contact("foundation").pressure[0], 2))
+    ...     print(mu, prepared.solve(friction=mu).contact("foundation").pressure[0].round(2))
     0.0 36.15
     0.4 38.02
     >>> light = prepared.solve(friction=0.0, loads={"cut": 0.25})
-    >>> round(light.contact("foundation").normal_force[1], 9)
+    >>> print(light.contact("foundation").normal_force[1].round(9))
     19.5
     """
     return PreparedModel(prepare_model(model, backend=backend, clock=clock))

@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, frozen
+from signorini.arrays import Array, BoolArray, frozen
 from signorini.checks import number
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
@@ -20,6 +20,7 @@ from signorini.fem.space import Space, make_space
 from signorini.fem.stiffness import stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.friction.problem import CoulombProblem
+from signorini.interface.candidates import candidates
 from signorini.interface.interface import Interface, make_interface
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.model.model import Model
@@ -27,34 +28,56 @@ from signorini.solution.scale import Scale, data_scale
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Prepared:
-    """A model ready for any load.
+class Examined:
+    """A model on its mesh, checked; nothing is assembled yet.
 
     Attributes
     ----------
-    K : (dofs, dofs) stiffness, supports not applied
     loads : name to nodal forces at factor 1, each (dofs,)
     parts, motions : connected pieces and their rigid motions, (dofs, 3 parts)
     floating : (3 parts, k) rigid motions that supports leave free and contact must hold
-    condensed : the interface as the bodies feel it
-    law : the contact law on it, without load; ``dataclasses.replace(law, b=...)`` shares what it has computed
     scale : sizes from the data
-    clock : seconds spent so far
     """
 
     model: Model
     space: Space
     constraints: Constraints
     interface: Interface
-    K: sp.csr_array
     loads: Mapping[str, Array]
     parts: tuple[Part, ...]
     motions: sp.csr_array
     floating: Array
+    scale: Scale
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Prepared(Examined):
+    """A model ready for any load.
+
+    Attributes
+    ----------
+    K : (dofs, dofs) stiffness, supports not applied
+    condensed : the interface as the bodies feel it
+    law : the contact law on it, without load; ``dataclasses.replace(law, b=...)`` shares what it has computed
+    clock : seconds spent so far
+    backend : of the factorisation, as asked for
+    """
+
+    K: sp.csr_array
     condensed: Condensed
     law: CoulombProblem
-    scale: Scale
     clock: Clock
+    backend: str
+
+    @property
+    def limited(self) -> bool:
+        """Whether pairs that seemed too far apart were left out."""
+        return not (self.condensed.active | self.condensed.held).all()
+
+    def widened(self) -> Prepared:
+        """The same with every pair in the law, factorised anew."""
+        everything = np.ones(len(self.interface), bool)
+        return _condensed(self, self.K, everything, self.backend, self.clock)
 
     def changed(
         self,
@@ -114,46 +137,69 @@ class Prepared:
         )
 
 
-def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) -> Prepared:
-    """Assemble, check and condense.
+def examine(model: Model) -> Examined:
+    """Put a model on its mesh and check what can be checked without solving.
 
     Raises
     ------
     InputError
         If something in the model does not fit the mesh, or a body can move freely: it is named, with its motion.
     """
-    clock = clock or Clock()
-    with clock.phase("assembly"):
-        space = make_space(model.mesh)
-        constraints = make_constraints(space, model)
-        loads = nodal_loads(space, model)
-        interface = make_interface(space, model, constraints)
-        parts = make_parts(space, model)
-        motions = rigid_motions(space, parts)
-        _refuse_free_motions(space, constraints, interface, parts, motions)
-        K = stiffness(space, model)
-        T = constraints.transform
-        reduced, relative = sp.csr_array(T.T @ K @ T), sp.csr_array(interface.B @ T)
-    try:
-        condensed = condense(reduced, relative, interface, constraints.nodes, backend=backend, clock=clock)
-    except NotPositiveDefinite as error:
-        raise _singular(model, constraints, parts, error) from error
-    scale = data_scale(model, loads, constraints, interface)
-    floating = free_motions(motions, constraints, sp.csr_array((0, space.number_of_dofs)))
-    return Prepared(
+    space = make_space(model.mesh)
+    constraints = make_constraints(space, model)
+    loads = nodal_loads(space, model)
+    interface = make_interface(space, model, constraints)
+    parts = make_parts(space, model)
+    motions = rigid_motions(space, parts)
+    _refuse_free_motions(space, constraints, interface, parts, motions)
+    return Examined(
         model=model,
         space=space,
         constraints=constraints,
         interface=interface,
-        K=K,
         loads=loads,
         parts=parts,
         motions=motions,
-        floating=floating,
+        floating=free_motions(motions, constraints, sp.csr_array((0, space.number_of_dofs))),
+        scale=data_scale(model, loads, constraints, interface),
+    )
+
+
+def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) -> Prepared:
+    """Examine, assemble and condense; pairs that seem too far apart to touch are left out.
+
+    Raises
+    ------
+    InputError
+        See :func:`examine`.
+    """
+    clock = clock or Clock()
+    with clock.phase("assembly"):
+        examined = examine(model)
+        K = stiffness(examined.space, model)
+    near = candidates(examined.interface, examined.scale.length)
+    return _condensed(examined, K, near, backend, clock)
+
+
+def _condensed(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, clock: Clock) -> Prepared:
+    """Factorise the bodies with the nodes of the candidates last, and put the law on them."""
+    interface, T = examined.interface, examined.constraints.transform
+    with clock.phase("assembly"):
+        reduced, relative = sp.csr_array(T.T @ K @ T), sp.csr_array(interface.B @ T)
+    try:
+        condensed = condense(
+            reduced, relative, interface, examined.constraints.nodes, candidates=near, backend=backend, clock=clock
+        )
+    except NotPositiveDefinite as error:
+        raise _singular(examined, error) from error
+    seen = interface.B @ examined.motions @ examined.floating
+    return Prepared(
+        **{field.name: getattr(examined, field.name) for field in fields(Examined)},
+        K=K,
         condensed=condensed,
-        law=_law(interface, condensed, interface.B @ motions @ floating, scale),
-        scale=scale,
+        law=_law(interface, condensed, seen, examined.scale),
         clock=clock,
+        backend=backend,
     )
 
 
@@ -197,12 +243,10 @@ def _say(parts: tuple[Part, ...], motions: Array) -> str:
     return ", and ".join(describe_motion(parts, motion) for motion in motions.T)
 
 
-def _singular(
-    model: Model, constraints: Constraints, parts: tuple[Part, ...], error: NotPositiveDefinite
-) -> InputError:
-    node = constraints.nodes[error.dof]
-    label = next(part.label for part in parts if node in part.nodes)
-    at = tuple(float(x) for x in model.mesh.points[node].round(6))
+def _singular(examined: Examined, error: NotPositiveDefinite) -> InputError:
+    node = examined.constraints.nodes[error.dof]
+    label = next(part.label for part in examined.parts if node in part.nodes)
+    at = tuple(float(x) for x in examined.model.mesh.points[node].round(6))
     return InputError(
         f"{label} has no stiffness against some motion of node {node + 1} at {at}, though no rigid motion is free; "
         "expected cells that are joined by edges (a hinge at a single node?) and moduli that are not extremely apart"

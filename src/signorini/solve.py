@@ -52,7 +52,22 @@ def solve(model: Model, *, backend: str = "auto", raise_on_failure: bool = True,
 
 
 def solve_prepared(prepared: Prepared, *, raise_on_failure: bool = True) -> History:
-    """Solve the load history of a prepared model; see :func:`solve`."""
+    """Solve the load history of a prepared model; see :func:`solve`.
+
+    Pairs that were left out as too far apart are looked at after every increment; where one has met the other side, or
+    nothing was found without them, everything is solved again with all pairs.
+    """
+    history = _follow(prepared)
+    if prepared.limited and not history.solved:
+        prepared.clock.tell("again with all pairs")
+        history = _follow(prepared.widened())
+    if raise_on_failure and not history.solved:
+        raise SolveFailed(history.message, status=history.status, solution=history)
+    return history
+
+
+def _follow(prepared: Prepared) -> History:
+    """Step after step, increment after increment, up to the end or to what stops it."""
     model = prepared.model
     factors = model.factors()
     state = initial_state(factors[0], prepared.space.number_of_dofs, prepared.interface.gap)
@@ -68,10 +83,7 @@ def solve_prepared(prepared: Prepared, *, raise_on_failure: bool = True) -> Hist
                 answers.append(result)
             steps.append(_step_result(prepared, step, number, first, state, certificates, answers))
     except SolveFailed as failure:
-        history = _history(prepared, failure.status, str(failure), steps)
-        if raise_on_failure:
-            raise SolveFailed(str(failure), status=failure.status, solution=history) from failure.__cause__
-        return history
+        return _history(prepared, failure.status, str(failure), steps)
     return _history(prepared, "solved", "", steps)
 
 
@@ -108,8 +120,8 @@ def _advance(
         moved[rows] = np.concatenate([result.gap, result.slip]) / condensed.root
         free = condensed.displacement(f, f_c, moved[rows], forces[rows], offset[rows])
         displacement = constraints.transform @ free + imposed
-        inactive = np.setdiff1d(np.arange(2 * n), rows)
-        moved[inactive] = offset[inactive]
+        outside = np.setdiff1d(np.arange(2 * n), rows)
+        moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
         status = np.full(n, OPEN)
         status[active] = result.state
         new = next_state(
@@ -124,21 +136,33 @@ def _advance(
             moved=moved,
             status=status,
         )
-        certificate = certify(
-            prepared.K, loads, prepared.motions, constraints, interface, new, state.tangential, prepared.scale
-        )
-    if not certificate.passed:
-        raise SolveFailed(
-            f"{where}: the solver's answer did not pass the certificate ({certificate}); badly "
-            "scaled data (extreme ratios of moduli, sizes or compliances) are the usual cause",
-            status="not_found",
-        )
-    return new, certificate, result
+    return new, _certified(prepared, loads, new, state.tangential, where), result
+
+
+def _certified(prepared: Prepared, loads: Array, state: State, before: Array, where: str) -> Certificate:
+    """Measure a state; what does not pass is no solution."""
+    certificate = certify(
+        prepared.K,
+        loads,
+        prepared.motions,
+        prepared.constraints,
+        prepared.interface,
+        state,
+        before,
+        prepared.scale,
+    )
+    if certificate.passed:
+        return certificate
+    raise SolveFailed(
+        f"{where}: the solver's answer did not pass the certificate ({certificate}); badly scaled data (extreme ratios "
+        "of moduli, sizes or compliances) are the usual cause",
+        status="not_found",
+    )
 
 
 def _refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
     """Supports that hold both sides of a pair decide its gap; no force can mend an overlap there."""
-    held = np.nonzero(~prepared.condensed.active & (gap < -1e-12 * prepared.scale.length))[0]
+    held = np.nonzero(prepared.condensed.held & (gap < -1e-12 * prepared.scale.length))[0]
     if len(held):
         pair = held[np.argmin(gap[held])]
         contact = prepared.model.contacts[prepared.interface.contact[pair]]

@@ -13,11 +13,11 @@ def check(options: argparse.Namespace) -> int:
     """Print a deck as it was understood, and notes on it; 0 unless something is wrong."""
     deck = load(options.deck)
     from signorini.cli.describe import describe  # everything heavy: a wrong deck never waits for it
-    from signorini.prepare import prepare
+    from signorini.prepare import examine
 
     try:
-        prepared = prepare(deck.model)
+        examined = examine(deck.model)
     except InputError as error:
         raise deck.locate(error) from error
-    print("\n".join(describe(deck, prepared)))
+    print("\n".join(describe(deck, examined)))
     return 0

@@ -11,16 +11,16 @@ from signorini.model.contact import Contact, Plane
 from signorini.model.model import Model
 from signorini.output.align import align
 from signorini.output.table import spell_vector
-from signorini.prepare import Prepared
+from signorini.prepare import Examined
 
 Rows = list[tuple[str, ...]]
 
 
-def describe(deck: Deck, prepared: Prepared) -> list[str]:
+def describe(deck: Deck, examined: Examined) -> list[str]:
     """Lines on everything that the deck holds."""
     model, mesh = deck.model, deck.model.mesh
     families = ", ".join(f"{len(cells)} {family}s" for family, cells in mesh.cells.items())
-    free = prepared.constraints.transform.shape[1]
+    free = examined.constraints.transform.shape[1]
     lines = [
         f"{deck.path}: {model.title or 'untitled'}",
         f"{model.kind}, thickness {model.thickness:g}, units: {model.units}",
@@ -29,13 +29,13 @@ def describe(deck: Deck, prepared: Prepared) -> list[str]:
     ]
     for title, rows in (
         ("bodies", _bodies(model)),
-        ("supports", _supports(prepared)),
-        ("loads", _loads(prepared)),
-        ("contacts", _contacts(prepared)),
+        ("supports", _supports(examined)),
+        ("loads", _loads(examined)),
+        ("contacts", _contacts(examined)),
         ("steps", _steps(model)),
     ):
         lines += ["", title, *(align(rows) if rows else ["  none"])]
-    notes = [*_notes(deck), *_contact_notes(prepared), *_motion_notes(prepared)]
+    notes = [*_notes(deck), *_contact_notes(examined), *_motion_notes(examined)]
     return [*lines, "", "notes", *(f"  {note}" for note in notes or ["nothing looks wrong"])]
 
 
@@ -51,27 +51,27 @@ def _bodies(model: Model) -> Rows:
     ]
 
 
-def _supports(prepared: Prepared) -> Rows:
+def _supports(examined: Examined) -> Rows:
     rows: Rows = []
-    for i, support in enumerate(prepared.model.supports):
+    for i, support in enumerate(examined.model.supports):
         parts = ", ".join("free" if part is None else f"{part:g}" for part in support.u)
-        held = int((prepared.constraints.owner == i).sum())
+        held = int((examined.constraints.owner == i).sum())
         rows.append((support.label, f"u = ({parts})", f"holds {held} dofs"))
     return rows
 
 
-def _loads(prepared: Prepared) -> Rows:
+def _loads(examined: Examined) -> Rows:
     rows: Rows = []
-    for load_ in prepared.model.loads:
-        total = prepared.loads[load_.label].reshape(-1, prepared.model.dimension).sum(axis=0)
+    for load_ in examined.model.loads:
+        total = examined.loads[load_.label].reshape(-1, examined.model.dimension).sum(axis=0)
         rows.append((load_.label, load_.kind.replace("_", " "), f"total force {spell_vector(total)} at factor 1"))
     return rows
 
 
-def _contacts(prepared: Prepared) -> Rows:
+def _contacts(examined: Examined) -> Rows:
     rows: Rows = []
-    for i, contact in enumerate(prepared.model.contacts):
-        gap = prepared.interface.gap[prepared.interface.contact == i]
+    for i, contact in enumerate(examined.model.contacts):
+        gap = examined.interface.gap[examined.interface.contact == i]
         sides = f"{contact.nonmortar} on {_obstacle(contact)}"
         friction = "sticks" if contact.friction == "stick" else f"friction {contact.friction:g}"
         initial = f"initial gap {gap.min():.5g} to {gap.max():.5g}"
@@ -110,8 +110,8 @@ def _notes(deck: Deck) -> list[str]:
     return notes
 
 
-def _contact_notes(prepared: Prepared) -> list[str]:
-    notes, interface, model = [], prepared.interface, prepared.model
+def _contact_notes(examined: Examined) -> list[str]:
+    notes, interface, model = [], examined.interface, examined.model
     size = float(np.ptp(model.mesh.points, axis=0).max())
     for i, contact in enumerate(model.contacts):
         gap = interface.gap[interface.contact == i]
@@ -127,5 +127,5 @@ def _contact_notes(prepared: Prepared) -> list[str]:
     return notes
 
 
-def _motion_notes(prepared: Prepared) -> list[str]:
-    return [f"{describe_motion(prepared.parts, motion)}: only contact can hold that" for motion in prepared.floating.T]
+def _motion_notes(examined: Examined) -> list[str]:
+    return [f"{describe_motion(examined.parts, motion)}: only contact can hold that" for motion in examined.floating.T]
