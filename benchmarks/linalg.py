@@ -17,9 +17,6 @@ import sys
 import time
 from typing import Any
 
-for variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
-    os.environ[variable] = "1"
-
 import numpy as np
 import scipy.linalg
 import skfem
@@ -29,6 +26,7 @@ from signorini.fem.assembly import Cells, stiffness
 from signorini.linalg import BACKENDS, factorise
 from signorini.linalg.pardiso import available
 
+ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 CASES: dict[str, tuple[int, ...]] = {
     "2d_2e4": (141, 70),
     "2d_2e5": (447, 223),
@@ -120,7 +118,7 @@ def main() -> None:
     for case in options.cases:
         for backend in options.backends.split(","):
             arguments = [case, "--backends", backend, "--repeats", str(options.repeats), "--one"]
-            subprocess.run([sys.executable, __file__, *arguments], check=False)
+            subprocess.run([sys.executable, __file__, *arguments], check=False, env={**os.environ, **ONE_THREAD})
 
 
 if __name__ == "__main__":

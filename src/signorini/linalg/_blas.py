@@ -55,7 +55,7 @@ def _thread_functions() -> tuple[Any, Callable[[], int]]:
 _KEPT_ALIVE: list[Any] = []
 _address, get_threads = _thread_functions()
 llvmlite.binding.add_symbol("signorini_set_threads", _address)
-_set_threads = types.ExternalFunction("signorini_set_threads", types.void(types.int32))
+_set_threads: Any = types.ExternalFunction("signorini_set_threads", types.void(types.int32))
 
 
 @njit(cache=True)
