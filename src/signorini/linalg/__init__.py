@@ -2,6 +2,6 @@
 """Sparse direct factorisation that condenses onto the contact interface."""
 
 from signorini.linalg.protocol import Factorisation, NotPositiveDefinite
-from signorini.linalg.registry import BACKENDS, automatic, factorise
+from signorini.linalg.registry import AUTOMATIC, BACKENDS, factorise
 
-__all__ = ["BACKENDS", "Factorisation", "NotPositiveDefinite", "automatic", "factorise"]
+__all__ = ["AUTOMATIC", "BACKENDS", "Factorisation", "NotPositiveDefinite", "factorise"]

@@ -12,9 +12,12 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import Array
-from signorini.linalg._blas import Scratch, gemm, potrf, syrk, trsm
+from signorini.linalg._blas import Scratch, gemm, potrf, set_threads, syrk, trsm
 from signorini.linalg.plan import Fronts
 from signorini.linalg.system import Int32Array
+
+LARGE = 1e9
+"""Operations of a front from which several threads share it: tens of milliseconds of one thread."""
 
 
 @njit(cache=True)
@@ -31,6 +34,7 @@ def factorise_fronts(
     work: Array,
     condensed: Array,
     widest: int,
+    threads: int,
     s: Scratch,
 ) -> int:
     """Factorise; give -1, or the place in the order of elimination where a pivot is not positive.
@@ -42,6 +46,7 @@ def factorise_fronts(
     slot : for every unknown of the interface, in order of elimination, its row in the condensed matrix
     factor, condensed : zero on entry
     widest : unknowns below the largest front
+    threads : of BLAS in large fronts; in small ones they cost more than they give
     """
     inside = len(order) - len(slot)
     local = np.empty(len(order), np.int32)
@@ -49,6 +54,7 @@ def factorise_fronts(
     waiting = np.empty(len(fronts.parent) + 1, np.int32)
     offset = np.empty(len(fronts.parent) + 1, np.int64)
     count = 0
+    many = False
     for t in range(len(fronts.parent)):
         a = fronts.unknown[fronts.first[t]]
         k = fronts.unknown[fronts.first[t + 1]] - a
@@ -67,6 +73,9 @@ def factorise_fronts(
             child = waiting[count]
             _list_rows(fronts, child, local, target)
             _extend_add(stack[offset[count] :], target, fronts.below[child], k, factor[panel:], ld, work, r)
+        if (k * float(ld) * ld > LARGE) != many:
+            many = not many
+            set_threads(threads if many else 1)
         top = factor.ctypes.data + 8 * panel
         failed = potrf(k, top, ld, s)
         if failed != 0:

@@ -20,9 +20,9 @@ BACKENDS: dict[str, Callable[[System], Factorisation]] = {
 }
 
 
-def automatic() -> str:
-    """Name the back end that "auto" stands for: the fastest one installed."""
-    return "pardiso" if pardiso.available() else "multifrontal"
+AUTOMATIC = "multifrontal"
+"""What "auto" stands for. Measured on one thread it is never behind PARDISO, in the plane or in space
+(`benchmarks/linalg.py`), and it needs nothing that has to be installed apart."""
 
 
 def factorise(K: Any, interface: ArrayLike, *, nodes: ArrayLike | None = None, backend: str = "auto") -> Factorisation:
@@ -33,7 +33,7 @@ def factorise(K: Any, interface: ArrayLike, *, nodes: ArrayLike | None = None, b
     K : (n, n) sparse array, symmetric, both triangles stored
     interface : (m,) unknowns that are not eliminated, in the order of the condensed system; may be empty
     nodes : (n,) node of every unknown; makes the analysis cheaper, changes no result
-    backend : a name of `BACKENDS`, or "auto": see `automatic`; the result says which one it was
+    backend : a name of `BACKENDS`, or "auto": see `AUTOMATIC`; the result says which one it was
 
     Raises
     ------
@@ -57,7 +57,7 @@ def factorise(K: Any, interface: ArrayLike, *, nodes: ArrayLike | None = None, b
     >>> factor.expand(np.array([4.0, 0.0]), np.array([2.0]))
     array([2., 2.])
     """
-    name = automatic() if backend == "auto" else backend
+    name = AUTOMATIC if backend == "auto" else backend
     if name not in BACKENDS:
         raise InputError(one_of(backend, ["auto", *BACKENDS], "back end"))
     return BACKENDS[name](check(K, interface, nodes))
