@@ -155,7 +155,8 @@ MISTAKES = {
         '[[contact]]\nnonmortar = "arc"\nplane = { point = [0.0, 0.0], normal = [0.0, 1.0] }\nfriction = 0.4\n',
         '[[load]]\non = "cut"\nforce = [0.0, -78.0]\n\n'
         '[[contact]]\nnonmortar = "arc"\nplane = { point = [0.0, 0.0], normal = [0.0, 1.0] }\n',
-        ": body 'disk' can move along x: nothing but frictionless contact, which cannot resist; add a support or friction",
+        ": body 'disk' can move along x: nothing but frictionless contact, which cannot resist; add a support or "
+        "friction",
     ),
 }
 

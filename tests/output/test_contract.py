@@ -179,7 +179,7 @@ def test_fields(results: tuple[Results, dict[str, Any]]) -> None:
     assert fields.point_data["displacement"].shape == (count, 3)
     assert fields.point_data["stress"].shape == (count, 6)
     assert fields.point_data["von_mises"].shape == (count,)
-    bodies = np.concatenate([part for part in fields.cell_data["body"]])
+    bodies = np.concatenate(fields.cell_data["body"])
     assert set(bodies) == set(range(len(deck["body"])))
     assert len(bodies) == found.summary["size"]["elements"]
     # points of the bodies one after the other: no point belongs to two
