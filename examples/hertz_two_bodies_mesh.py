@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Make hertz_two_bodies.msh with Gmsh (``pip install gmsh``): right half of a cylinder on a block.
 
-NAFEMS/FENET advanced contact benchmark 1: cylinder of diameter 100, block 200 x 200. The nodes of both contact curves lie
-at the same x, so that the meshes match.
+NAFEMS/FENET advanced contact benchmark 1: cylinder of diameter 100, block 200 x 200. The nodes of both contact curves
+lie at the same x, so that the meshes match.
 
     python examples/hertz_two_bodies_mesh.py
 """
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import gmsh
@@ -21,7 +22,7 @@ COARSE = 12.0
 
 def chain(points: list[int]) -> list[int]:
     """Straight edges from point to point, one element each."""
-    lines = [gmsh.model.geo.addLine(a, b) for a, b in zip(points[:-1], points[1:], strict=True)]
+    lines = [gmsh.model.geo.addLine(a, b) for a, b in pairwise(points)]
     for line in lines:
         gmsh.model.geo.mesh.setTransfiniteCurve(line, 2)
     return lines

@@ -3,21 +3,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array
+from signorini.arrays import Array, frozen
+from signorini.checks import number
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
-from signorini.errors import InputError
+from signorini.errors import InputError, one_of
 from signorini.fem.loads import nodal_loads
 from signorini.fem.rigid import Part, describe_motion, free_motions, make_parts, rigid_motions
 from signorini.fem.space import Space, make_space
 from signorini.fem.stiffness import stiffness
 from signorini.fem.supports import Constraints, make_constraints
+from signorini.friction.problem import CoulombProblem
 from signorini.interface.interface import Interface, make_interface
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.model.model import Model
@@ -34,7 +36,8 @@ class Prepared:
     loads : name to nodal forces at factor 1, each (dofs,)
     parts, motions : connected pieces and their rigid motions, (dofs, 3 parts)
     floating : (3 parts, k) rigid motions that supports leave free and contact must hold
-    condensed : the interface as the contact law sees it
+    condensed : the interface as the bodies feel it
+    law : the contact law on it, without load; ``dataclasses.replace(law, b=...)`` shares what it has computed
     scale : sizes from the data
     clock : seconds spent so far
     """
@@ -49,8 +52,66 @@ class Prepared:
     motions: sp.csr_array
     floating: Array
     condensed: Condensed
+    law: CoulombProblem
     scale: Scale
     clock: Clock
+
+    def changed(
+        self,
+        *,
+        friction: Mapping[str, float] | None = None,
+        interference: Mapping[str, float] | None = None,
+        loads: Mapping[str, float] | None = None,
+    ) -> Prepared:
+        """The same bodies under another law or load; nothing is factorised again.
+
+        Parameters
+        ----------
+        friction : contact to Coulomb's coefficient
+        interference : contact to its overlap beyond the geometry, length
+        loads : load or moving support to what its value is multiplied by
+
+        Raises
+        ------
+        InputError
+            For an unknown name, a wrong value, or a body that is left with nothing but frictionless contact.
+        """
+        contacts = list(self.model.contacts)
+        _refuse_unknown(friction, [c.label for c in contacts], "contact", "friction")
+        _refuse_unknown(interference, [c.label for c in contacts], "contact", "interference")
+        _refuse_unknown(loads, self.model.scaled_names, "load or moving support", "loads")
+        gap = self.interface.gap.copy()
+        for i, contact in enumerate(contacts):
+            if friction is not None and contact.label in friction:
+                contacts[i] = replace(contacts[i], friction=friction[contact.label])
+            if interference is not None and contact.label in interference:
+                contacts[i] = replace(contacts[i], interference=interference[contact.label])
+                gap[self.interface.contact == i] += contact.interference - contacts[i].interference
+        factor = {name: number(value, ("loads", name)) for name, value in (loads or {}).items()}
+        mu = np.array([contact.coefficient for contact in contacts], float)[self.interface.contact]
+        interface = replace(self.interface, gap=gap, friction=mu)
+        constraints = replace(
+            self.constraints,
+            prescribed={name: factor.get(name, 1.0) * u for name, u in self.constraints.prescribed.items()},
+        )
+        forces = {name: factor.get(name, 1.0) * f for name, f in self.loads.items()}
+        _refuse_free_motions(self.space, constraints, interface, self.parts, self.motions)
+        model = replace(self.model, contacts=contacts)
+        scale = data_scale(model, forces, constraints, interface)
+        return replace(
+            self,
+            model=model,
+            interface=interface,
+            constraints=constraints,
+            loads=forces,
+            scale=scale,
+            law=replace(
+                self.law,
+                friction=interface.friction[self.condensed.active],
+                scale=scale.length * float(self.condensed.root.max(initial=1.0)),
+            ),
+            clock=Clock(),
+        )
 
 
 def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) -> Prepared:
@@ -77,6 +138,8 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
         condensed = condense(reduced, relative, interface, constraints.nodes, backend=backend, clock=clock)
     except NotPositiveDefinite as error:
         raise _singular(model, constraints, parts, error) from error
+    scale = data_scale(model, loads, constraints, interface)
+    floating = free_motions(motions, constraints, sp.csr_array((0, space.number_of_dofs)))
     return Prepared(
         model=model,
         space=space,
@@ -86,11 +149,30 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
         loads=loads,
         parts=parts,
         motions=motions,
-        floating=free_motions(motions, constraints, sp.csr_array((0, space.number_of_dofs))),
+        floating=floating,
         condensed=condensed,
-        scale=data_scale(model, loads, constraints, interface),
+        law=_law(interface, condensed, interface.B @ motions @ floating, scale),
+        scale=scale,
         clock=clock,
     )
+
+
+def _law(interface: Interface, condensed: Condensed, floating: Array, scale: Scale) -> CoulombProblem:
+    """The contact law of the active pairs, with no load yet; floating (2 n, k) rigid motions as the pairs see them."""
+    rows = condensed.active_rows
+    return CoulombProblem(
+        W=frozen(condensed.W),
+        b=np.zeros(len(rows)),
+        friction=interface.friction[condensed.active],
+        motions=condensed.root[:, None] * floating[rows],
+        scale=scale.length * float(condensed.root.max(initial=1.0)),
+    )
+
+
+def _refuse_unknown(given: Mapping[str, float] | None, known: Sequence[str], what: str, key: str) -> None:
+    for name in given or {}:
+        if name not in known:
+            raise InputError(one_of(name, known, what), where=(key,))
 
 
 def _refuse_free_motions(

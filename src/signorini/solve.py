@@ -13,7 +13,6 @@ from signorini.clock import Clock
 from signorini.errors import SolveFailed
 from signorini.fem.rigid import describe_motion
 from signorini.friction.law import OPEN, STICK
-from signorini.friction.problem import CoulombProblem
 from signorini.friction.result import CoulombResult
 from signorini.friction.solve import solve_coulomb
 from signorini.model.model import Model
@@ -57,18 +56,17 @@ def solve_prepared(prepared: Prepared, *, raise_on_failure: bool = True) -> Hist
     model = prepared.model
     factors = model.factors()
     state = initial_state(factors[0], prepared.space.number_of_dofs, prepared.interface.gap)
-    problem = _law(prepared)
     steps: list[StepResult] = []
     try:
         for number, (step, end) in enumerate(zip(model.steps, factors[1:], strict=True), start=1):
-            first, certificates, methods = state, [], []
+            first, certificates, answers = state, [], []
             for fraction, target in _increments(step, state.factors, end):
                 where = f"step '{step.name}' at {fraction:.0%}" if step.name else f"step {number} at {fraction:.0%}"
                 prepared.clock.tell(where)
-                state, certificate, result = _advance(prepared, problem, state, target, where)
+                state, certificate, result = _advance(prepared, state, target, where)
                 certificates.append(certificate)
-                methods.append(result.method)
-            steps.append(_step_result(prepared, step, number, first, state, certificates, methods))
+                answers.append(result)
+            steps.append(_step_result(prepared, step, number, first, state, certificates, answers))
     except SolveFailed as failure:
         history = _history(prepared, failure.status, str(failure), steps)
         if raise_on_failure:
@@ -86,21 +84,8 @@ def _increments(
         yield t, {name: (1.0 - t) * start[name] + t * end[name] for name in end} if t < 1.0 else end
 
 
-def _law(prepared: Prepared) -> CoulombProblem:
-    """The contact law on the condensed interface, with no load yet."""
-    condensed, rows = prepared.condensed, prepared.condensed.active_rows
-    seen = (prepared.interface.B @ prepared.motions @ prepared.floating)[rows]
-    return CoulombProblem(
-        W=frozen(condensed.W),
-        b=np.zeros(len(rows)),
-        friction=prepared.interface.friction[condensed.active],
-        motions=condensed.root[:, None] * seen,
-        scale=prepared.scale.length * float(condensed.root.max(initial=1.0)),
-    )
-
-
 def _advance(
-    prepared: Prepared, problem: CoulombProblem, state: State, factors: Mapping[str, float], where: str
+    prepared: Prepared, state: State, factors: Mapping[str, float], where: str
 ) -> tuple[State, Certificate, CoulombResult]:
     """One increment: from a state to the next at given load factors."""
     condensed, constraints, interface = prepared.condensed, prepared.constraints, prepared.interface
@@ -114,9 +99,9 @@ def _advance(
         f_c = condensed.condensed_load(f)
         b = condensed.right_hand_side(f_c, offset[rows])
         started = bool(state.forces.any())
-        result = solve_coulomb(replace(problem, b=b), state.status[active] if started else None)
+        result = solve_coulomb(replace(prepared.law, b=b), state.status[active] if started else None)
     if not result.solved:
-        raise SolveFailed(f"{where}: {_explain(prepared, problem, result)}", status=result.outcome)
+        raise SolveFailed(f"{where}: {_explain(prepared, result)}", status=result.outcome)
     with prepared.clock.phase("recovery"):
         forces, moved = np.zeros(2 * n), np.zeros(2 * n)
         forces[rows] = condensed.root * np.concatenate([result.normal_force, result.tangential_force])
@@ -164,11 +149,11 @@ def _refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
         )
 
 
-def _explain(prepared: Prepared, problem: CoulombProblem, result: CoulombResult) -> str:
+def _explain(prepared: Prepared, result: CoulombResult) -> str:
     """The reason, and the bodies that leave by name."""
-    if result.escape is None or not problem.motions.shape[1]:
+    if result.escape is None or not prepared.law.floating:
         return result.message
-    coefficients, *_ = np.linalg.lstsq(problem.motions, result.escape, rcond=None)
+    coefficients, *_ = np.linalg.lstsq(prepared.law.motions, result.escape, rcond=None)
     return f"{describe_motion(prepared.parts, prepared.floating @ coefficients)}: {result.message}"
 
 
@@ -179,7 +164,7 @@ def _step_result(
     before: State,
     state: State,
     certificates: list[Certificate],
-    methods: list[str],
+    answers: list[CoulombResult],
 ) -> StepResult:
     model, interface = prepared.model, prepared.interface
     compliance = np.concatenate([interface.normal_compliance, interface.tangential_compliance])
@@ -201,7 +186,8 @@ def _step_result(
         contacts=tuple(
             _contact_result(prepared, i, before, state, interface.contact == i) for i in range(len(model.contacts))
         ),
-        methods=tuple(dict.fromkeys(methods)),
+        methods=tuple(dict.fromkeys(answer.method for answer in answers)),
+        iterations=tuple(sum(attempt.iterations for attempt in answer.trace) for answer in answers),
         notes=notes,
     )
 

@@ -23,7 +23,8 @@ def node_pattern(start: IntArray, corner: Int32Array, nodes: int) -> tuple[IntAr
     first = np.zeros(nodes + 1, np.int64)
     for p in range(len(corner)):
         first[corner[p] + 1] += 1
-    first = np.cumsum(first)
+    for i in range(nodes):
+        first[i + 1] += first[i]
     element = np.empty(len(corner), np.int32)
     fill = first[:-1].copy()
     for e in range(len(start) - 1):
@@ -43,13 +44,25 @@ def node_pattern(start: IntArray, corner: Int32Array, nodes: int) -> tuple[IntAr
                     mark[j] = i
                     if top == len(columns):
                         longer = np.empty(2 * top, np.int32)
-                        longer[:top] = columns
+                        for r in range(top):
+                            longer[r] = columns[r]
                         columns = longer
                     columns[top] = j
                     top += 1
-        columns[rows[i] : top].sort()
         rows[i + 1] = top
-    return rows, columns[:top].copy()
+    return rows, _transposed(rows, columns[:top])
+
+
+@njit(cache=True)
+def _transposed(rows: IntArray, columns: Int32Array) -> Int32Array:
+    """Give the columns of the transposed pattern; of a symmetric one: the same, but sorted."""
+    top = rows.copy()
+    out = np.empty(len(columns), np.int32)
+    for i in range(len(rows) - 1):
+        for p in range(rows[i], rows[i + 1]):
+            out[top[columns[p]]] = i
+            top[columns[p]] += 1
+    return out
 
 
 @njit(cache=True)

@@ -11,6 +11,8 @@ from signorini.lcp.linear import factorised
 from signorini.lcp.problem import LCP
 from signorini.lcp.residual import Matrix
 
+ROUNDING = 1e-13
+
 
 def solve_on(
     M: Matrix, q: Array, active: BoolArray, *, refinements: int = 2, shift: Array | None = None
@@ -56,7 +58,7 @@ def polish(problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None
     least = problem.residual(best).worst
     for attempt in range(attempts):
         if active is None:
-            share, w = problem.relative(best)
+            share, w = problem.yardstick.shares(best)
             active = share > w
         z = np.maximum(_or_nan(solve_on(M, problem.q, active), problem.n), 0.0)
         worst = problem.residual(z).worst
@@ -64,6 +66,8 @@ def polish(problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None
             break
         if worst < least:
             best, least = z, worst
+        if least <= ROUNDING:
+            break
         active = None
     return best
 

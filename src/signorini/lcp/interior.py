@@ -57,7 +57,8 @@ class InteriorPoint:
         q = problem.q * scale / unit
         z, w = np.ones(problem.n), np.ones(problem.n)
         ending, steps = Status.MAX_ITERATIONS, 0
-        for steps in range(1, self.max_steps + 1):
+        while steps < self.max_steps:
+            steps += 1
             moved = self._step(M, q, z, w)
             if moved is None:
                 ending = Status.SINGULAR

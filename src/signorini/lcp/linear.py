@@ -20,7 +20,7 @@ SMALLEST_PIVOT = 1e-15
 
 
 def factorised(A: Any) -> Inverse | None:
-    """The map ``b -> x`` with ``A x = b``; None where A is singular to working precision.
+    """The map ``b -> x`` with ``A x = b``, b (n,) or (n, k); None where A is singular to working precision.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def factorised(A: Any) -> Inverse | None:
     inner = _sparse(scaled) if sp.issparse(scaled) else _dense(scaled)
     if inner is None:
         return None
-    return lambda b: inner(b / rows) / columns
+    return lambda b: (inner((b.T / rows).T).T / columns).T
 
 
 def _dense(A: Array) -> Inverse | None:

@@ -50,7 +50,7 @@ def check_energy(system: System, solve: Callable[[Array], Array]) -> None:
     if not np.isfinite(x).all():
         raise NotPositiveDefinite(int(np.argmin(np.isfinite(x))))
     part = components(system.indptr, system.indices, system.inside)
-    size = absolute_energies(system.indptr, system.indices, system.data, part, x)
+    size = absolute_energies(system.indptr, system.indices, system.data, part, int(part.max()) + 1, x)
     energy = np.bincount(part[system.inside], weights=(x * load)[system.inside])
     free = (energy <= ROUNDOFF * size) & (size > 0)
     if free.any():

@@ -57,7 +57,7 @@ class MultifrontalFactorisation:
     def reduce(self, f: Array) -> Array:
         """Give ``f_c - K_ci K_ii^-1 f_i``."""
         y = self._rows(f)
-        _fronts.forward(self.plan.fronts, self.factor, y, scratch())
+        _fronts.forward(self.plan.fronts, self.factor, y, np.empty(self.plan.widest * len(y)), scratch())
         g = np.empty((self.m, len(y)))
         g[self.slots] = y[:, self.n - self.m :].T
         return like(f, g)
@@ -65,9 +65,9 @@ class MultifrontalFactorisation:
     def expand(self, f: Array, u_c: Array) -> Array:
         """Give u from the load inside and the displacement of the interface."""
         y = self._rows(f)
-        _fronts.forward(self.plan.fronts, self.factor, y, scratch())
+        _fronts.forward(self.plan.fronts, self.factor, y, np.empty(self.plan.widest * len(y)), scratch())
         y[:, self.n - self.m :] = columns(u_c, self.m)[self.slots].T
-        _fronts.backward(self.plan.fronts, self.factor, y, scratch())
+        _fronts.backward(self.plan.fronts, self.factor, y, np.empty(self.plan.widest * len(y)), scratch())
         u = np.empty((self.n, len(y)))
         u[self.plan.order] = y.T
         return like(f, u)
@@ -92,10 +92,9 @@ def factorise(system: System) -> MultifrontalFactorisation:
     slots[place[system.interface] - inside] = np.arange(system.m, dtype=np.int32)
     factor = np.zeros(plan.fronts.panel[-1])
     condensed = np.zeros((system.m, system.m))
-    widest = int(plan.fronts.below.max(initial=0))
     failed = _fronts.factorise_fronts(
         plan.fronts, system.indptr, system.indices, system.data, plan.order, place, slots,
-        factor, np.empty(plan.stack + widest), np.empty(widest * widest), condensed, scratch(),
+        factor, np.empty(plan.stack + plan.widest), np.empty(plan.widest**2), condensed, plan.widest, scratch(),
     )  # fmt: skip
     if failed >= 0:
         raise NotPositiveDefinite(int(plan.order[failed]))

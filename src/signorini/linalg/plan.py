@@ -51,6 +51,7 @@ class Plan:
     order : (n,) unknowns in their order of elimination, the interface last
     fronts : see `Fronts`
     stack : entries that wait for their parents at the worst time
+    widest : unknowns below the largest front
     nnz_factor : entries of the factor
     flops : multiplications and additions of the factorisation
     peak_bytes : factor, stack, largest front and condensed matrix together
@@ -59,6 +60,7 @@ class Plan:
     order: Int32Array
     fronts: Fronts
     stack: int
+    widest: int
     nnz_factor: int
     flops: float
     peak_bytes: int
@@ -85,6 +87,7 @@ def analyse(system: System) -> Plan:
         order=unknowns(graph, order),
         fronts=Fronts(first, unknown, begin, row, below.astype(np.int32), parent, panel),
         stack=stack,
+        widest=widest,
         nnz_factor=int((width * (width + 1) // 2 + width * below).sum()),
         flops=float((width**3 / 3 + width**2 * below + width * below.astype(np.float64) ** 2).sum()),
         peak_bytes=8 * (int(panel[-1]) + stack + widest**2 + system.m**2),

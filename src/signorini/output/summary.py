@@ -8,9 +8,9 @@ from typing import Any
 
 from signorini._version import __version__
 from signorini.arrays import Array
+from signorini.memory import peak_memory
 from signorini.model.contact import Contact
 from signorini.model.model import Model
-from signorini.output.memory import peak_memory
 from signorini.solution.certificate import Certificate
 from signorini.solution.history import PHASES, History
 from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, StepResult

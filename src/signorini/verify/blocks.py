@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from signorini.arrays import Array
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
 from signorini.friction.problem import CoulombProblem
@@ -77,7 +78,7 @@ def _one_node(*, friction: float, push: float) -> tuple[float, float]:
     """Gap and tangential displacement of the one-node problem, in the image form with D = 1."""
     # unknowns (gap, slip): u_n of the catalogue is -gap there, so that the coupling changes sign
     K = np.array([[2.0, -1.0], [-1.0, 2.0]])
-    W = np.linalg.inv(K + np.eye(2))
+    W = np.linalg.inv(K + np.eye(2)).astype(np.float64)
     result = solve_coulomb(
         CoulombProblem(
             W=W, b=W @ np.array([-1.0, push]), friction=np.array([friction]), motions=np.zeros((2, 0)), scale=1.0
@@ -86,12 +87,12 @@ def _one_node(*, friction: float, push: float) -> tuple[float, float]:
     return float(result.gap[0]), float(result.slip[0])
 
 
-def _stress(history: History) -> np.ndarray:
+def _stress(history: History) -> Array:
     model: Model = history.model
     return np.vstack([b.stress for b in body_stresses(make_space(model.mesh), model, history.last.displacement)])
 
 
-def _farthest(case: str, quantity: str, values: np.ndarray, exact: float, source: str) -> Check:
+def _farthest(case: str, quantity: str, values: Array, exact: float, source: str) -> Check:
     """The value that is farthest from what all should be."""
     worst = float(values[np.argmax(np.abs(values - exact))])
     return Check(case=case, quantity=quantity, computed=worst, reference=exact, tolerance=1e-10, source=source)

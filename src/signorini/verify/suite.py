@@ -27,7 +27,7 @@ SLOW: tuple[Case, ...] = (
 )
 
 
-def run(*, slow: bool = False) -> list[dict[str, str | float | bool]]:
+def run(slow: bool = False) -> list[dict[str, str | float | bool]]:
     """Run the quick cases, or all of them, and return the rows of the table.
 
     Returns
