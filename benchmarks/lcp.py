@@ -111,7 +111,9 @@ def compare(sizes: list[int], field: list[Contender]) -> None:
             middle = {name: statistics.median(seconds) for name, seconds in times.items()}
             for name, seconds in middle.items():
                 ratios = f"{seconds / middle['ours: lemke']:.2f} | {seconds / middle['ours: auto']:.2f}"
-                print(f"| {family} | {n} | {name} | {right[name]}/{len(cases)} | {seconds:.4g} | {ratios} |", flush=True)
+                print(
+                    f"| {family} | {n} | {name} | {right[name]}/{len(cases)} | {seconds:.4g} | {ratios} |", flush=True
+                )
 
 
 def bank_success(field: list[Contender]) -> None:

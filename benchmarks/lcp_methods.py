@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Run every method on every problem of the bank and write the table of docs/choosing_an_lcp_method.md.
 
-    python benchmarks/lcp_methods.py
+python benchmarks/lcp_methods.py
 """
 
 from __future__ import annotations

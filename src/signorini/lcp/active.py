@@ -44,7 +44,9 @@ def solve_on(
     return z if np.isfinite(x).all() else None
 
 
-def polish(problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None, attempts: int = 3) -> tuple[Array, float]:
+def polish(
+    problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None, attempts: int = 3
+) -> tuple[Array, float]:
     """The best of z and a few steps of the active-set Newton method started there, never below 0, with its natural residual.
 
     A step solves for the given basis first, then for ``z_i > w_i`` (both as shares, see ``natural_residual``); it is

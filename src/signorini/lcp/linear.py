@@ -39,6 +39,9 @@ def factorised(A: Any) -> Inverse | None:
         i, j = _lone_entries(A)
         if len(i) > len(A) // 10:
             return _without(A, i, j)
+        i, j, k = _light_rows(A)
+        if len(i) > len(A) // 10:
+            return _without_light(A, i, j, k)
     rows = _largest(A, 1)
     if not (rows > 0).all() or not np.isfinite(rows).all():
         return None
@@ -76,6 +79,37 @@ def _without(A: Array, i: IntArray, j: IntArray) -> Inverse | None:
         x = np.zeros_like(b)
         x[others] = inner(b[rest])
         x[j] = ((b[i] - coupling @ x[others]).T / pivots).T
+        return x
+
+    return solve
+
+
+def _light_rows(A: Array) -> tuple[IntArray, IntArray, IntArray]:
+    """(i, j, k) of rows ``A_ij x_j + A_ik x_k = b_i`` with |A_ij| >= |A_ik|, no j in two of them or another's k."""
+    i = np.flatnonzero(np.count_nonzero(A, axis=1) == 2)
+    at = np.nonzero(A[i])[1].reshape(len(i), 2)
+    first_larger = np.abs(A[i, at[:, 0]]) > np.abs(A[i, at[:, 1]])
+    j, k = np.where(first_larger, at[:, 0], at[:, 1]), np.where(first_larger, at[:, 1], at[:, 0])
+    uses = np.bincount(np.concatenate([j, k]), minlength=len(A))
+    alone = (uses[j] == 1) & (uses[k] == 1)
+    return i[alone], j[alone], k[alone]
+
+
+def _without_light(A: Array, i: IntArray, j: IntArray, k: IntArray) -> Inverse | None:
+    """The unknowns j are replaced by their k in all other rows."""
+    rest, others = np.delete(np.arange(len(A)), i), np.delete(np.arange(len(A)), j)
+    ratio, pivots, moved = A[i, k] / A[i, j], A[i, j], A[np.ix_(rest, j)]
+    reduced = A[np.ix_(rest, others)]
+    reduced[:, np.searchsorted(others, k)] -= moved * ratio
+    inner = factorised(reduced)
+    if inner is None:
+        return None
+
+    def solve(b: Array) -> Array:
+        x = np.zeros_like(b)
+        own = (b[i].T / pivots).T
+        x[others] = inner(b[rest] - moved @ own)
+        x[j] = own - (x[k].T * ratio).T
         return x
 
     return solve
