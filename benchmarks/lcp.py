@@ -101,11 +101,13 @@ def compare(sizes: list[int], field: list[Contender]) -> None:
             times: dict[str, list[float]] = {c.name: [] for c in running}
             right = dict.fromkeys(times, 0)
             for posed in cases:
+                answers: dict[str, Array | None] = {}
                 for _ in range(1 if n > 1000 else 3):
                     for c in running:
-                        seconds, z = timed(c.solve, posed)
+                        seconds, answers[c.name] = timed(c.solve, posed)
                         times[c.name].append(seconds)
-                right |= {c.name: right[c.name] + is_right(posed, c.solve(posed) if n <= 1000 else z) for c in running}
+                for name, z in answers.items():
+                    right[name] += is_right(posed, z)
             middle = {name: statistics.median(seconds) for name, seconds in times.items()}
             for name, seconds in middle.items():
                 ratios = f"{seconds / middle['ours: lemke']:.2f} | {seconds / middle['ours: auto']:.2f}"

@@ -11,7 +11,7 @@ from signorini.lcp.linear import factorised
 from signorini.lcp.problem import LCP
 from signorini.lcp.residual import Matrix
 
-ROUNDING = 1e-13
+ROUNDING = 1e-12
 
 
 def solve_on(
@@ -44,8 +44,10 @@ def solve_on(
     return z if np.isfinite(x).all() else None
 
 
-def polish(problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None, attempts: int = 3) -> Array:
-    """The best of z and a few steps of the active-set Newton method started there, never below 0.
+def polish(
+    problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None, attempts: int = 3
+) -> tuple[Array, float]:
+    """The best of z and a few steps of the active-set Newton method started there, never below 0, with its natural residual.
 
     A step solves for the given basis first, then for ``z_i > w_i`` (both as shares, see ``natural_residual``); it is
     exact as soon as that is the right one.
@@ -57,6 +59,8 @@ def polish(problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None
     best = np.maximum(z, 0.0)
     least = problem.residual(best).worst
     for attempt in range(attempts):
+        if least <= ROUNDING:
+            break
         if active is None:
             share, w = problem.yardstick.shares(best)
             active = share > w
@@ -66,10 +70,8 @@ def polish(problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None
             break
         if worst < least:
             best, least = z, worst
-        if least <= ROUNDING:
-            break
         active = None
-    return best
+    return best, least
 
 
 def _or_nan(z: Array | None, n: int) -> Array:

@@ -152,8 +152,8 @@ class _Path:
         tableau = self.tableau
         basic = tableau.basic.copy()
         basic[row] = entering
-        z = self._polished(basic)
-        self.confirmed = z if self.problem.residual(z).worst <= self.tolerance else None
+        z, worst = self._polished(basic)
+        self.confirmed = z if worst <= self.tolerance else None
         return self.confirmed is not None
 
     def _z_of(self, basic: IntArray, values: Array) -> Array:
@@ -163,7 +163,7 @@ class _Path:
         x[basic] = values
         return self.scaled.back(np.where(self.basis, x[:n], x[n:-1]))
 
-    def _polished(self, basic: IntArray) -> Array:
+    def _polished(self, basic: IntArray) -> tuple[Array, float]:
         """The values of the basic variables, or the basis solved for anew where that is better."""
         n = self.tableau.n
         z = self._z_of(basic, np.maximum(self.tableau.rhs, 0.0))
@@ -177,8 +177,8 @@ class _Path:
         theta = tableau.values()[2]
         candidate = self._z_of(tableau.basic, np.maximum(tableau.rhs, 0.0))
         if theta <= 1e-6 * self.largest_theta:
-            candidate = self._polished(tableau.basic)
-            if self.problem.residual(candidate).worst <= self.tolerance:
+            candidate, worst = self._polished(tableau.basic)
+            if worst <= self.tolerance:
                 note = f"{note} The path ended near theta = 0 in a tie; polished.".strip()
                 return Attempt(z=candidate, ending=Status.SOLVED, iterations=self.pivots, note=note)
         direction = np.zeros(2 * tableau.n + 1)
@@ -205,7 +205,7 @@ class _Path:
         rhs = self.tableau.rhs
         if not np.isfinite(rhs).all():
             return Attempt(z=None, ending=Status.NONFINITE, iterations=self.pivots, note=note)
-        z = self._polished(self.tableau.basic) if self.confirmed is None else self.confirmed
+        z = self._polished(self.tableau.basic)[0] if self.confirmed is None else self.confirmed
         return Attempt(z=z, ending=ending, iterations=self.pivots, note=note)
 
 

@@ -28,7 +28,7 @@ class ProjectedMultigrid:
     ----------
     max_rounds : limit on the rounds on the finest level
     inner : conjugate gradient steps a round, at most
-    coarse_rounds : rounds on every coarser level for the start
+    coarse_rounds : limit on the rounds on every coarser level, for the start
 
     References
     ----------
@@ -47,7 +47,7 @@ class ProjectedMultigrid:
 
     max_rounds: int = 100
     inner: int = 8
-    coarse_rounds: int = 25
+    coarse_rounds: int = 60
 
     def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:
         """See ``Method.attempt``."""
@@ -59,7 +59,7 @@ class ProjectedMultigrid:
         A = (sp.diags_array(scale) @ M @ sp.diags_array(scale)).tocsr()
         q = scale * problem.q
         levels = hierarchy(A)
-        z = self._nested(levels, q) if z0 is None else np.maximum(z0, 0.0) / scale
+        z = self._start(levels, q) if z0 is None else np.maximum(z0, 0.0) / scale
         for count in range(self.max_rounds + 1):
             if not np.isfinite(z).all():
                 return Attempt(z=None, ending=Status.NONFINITE, iterations=count)
@@ -68,16 +68,21 @@ class ProjectedMultigrid:
             z = self._round(levels, q, z)
         return Attempt(z=scale * z, ending=Status.MAX_ITERATIONS, iterations=self.max_rounds)
 
-    def _nested(self, levels: list[Level], q: Array) -> Array:
-        """A start from the coarser levels, whose prolongations keep z >= 0 where they have no negative entry."""
+    def _start(self, levels: list[Level], q: Array) -> Array:
+        """The answer of the next coarser level, prolonged; P >= 0 keeps it feasible for a Z-matrix."""
         P = levels[0].P
-        if P is None:
-            z = np.zeros(len(q))
+        return np.zeros(len(q)) if P is None else np.maximum(P @ self._coarse(levels[1:], P.T @ q), 0.0)
+
+    def _coarse(self, levels: list[Level], q: Array) -> Array:
+        """An approximate answer of a coarser level."""
+        z = self._start(levels, q)
+        if levels[0].P is None:
             levels[0].relax(q, z, lower=0.0, backwards=False, count=500)
             return z
-        z = np.maximum(P @ self._nested(levels[1:], P.T @ q), 0.0)
         for _ in range(self.coarse_rounds):
-            z = self._round(levels, q, z)
+            before, z = z, self._round(levels, q, z)
+            if np.abs(z - before).max() <= 1e-6 * np.abs(z).max():
+                break
         return z
 
     def _round(self, levels: list[Level], q: Array, z: Array) -> Array:

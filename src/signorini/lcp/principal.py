@@ -69,4 +69,4 @@ class LeastIndex:
         z = scaled.back(np.where(active, np.maximum(tableau.rhs, 0.0), 0.0))
         if not np.isfinite(z).all():
             return Attempt(z=None, ending=Status.NONFINITE, iterations=pivots)
-        return Attempt(z=polish(problem, M, z, active=active), ending=ending, iterations=pivots)
+        return Attempt(z=polish(problem, M, z, active=active)[0], ending=ending, iterations=pivots)

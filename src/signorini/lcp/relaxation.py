@@ -71,5 +71,5 @@ class ProjectedSOR:
             if problem.residual(z).worst <= 0.1 * tolerance:
                 ending = Status.SOLVED
                 break
-        z = polish(problem, problem.M, z) if self.polished else z
+        z = polish(problem, problem.M, z)[0] if self.polished else z
         return Attempt(z=z, ending=ending, iterations=done)
