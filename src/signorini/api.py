@@ -72,9 +72,7 @@ def solve(
     >>> sg.solve(model).contact("bottom").pressure.round(12)
     array([3., 3., 3.])
     """
-    return _answered(
-        lambda: solve_history(model, backend=backend, raise_on_failure=raise_on_failure, clock=clock)
-    )
+    return _answered(lambda: solve_history(model, backend=backend, raise_on_failure=raise_on_failure, clock=clock))
 
 
 class PreparedModel:
