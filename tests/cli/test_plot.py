@@ -59,7 +59,7 @@ def test_solution_draws_itself() -> None:
 def test_a_ring_is_drawn_over_the_angle() -> None:
     turn = np.linspace(0.0, 2.0 * np.pi, 40, endpoint=False)
     axis, angle = surface_coordinate(np.column_stack([3.0 + np.cos(turn), np.sin(turn)]))
-    assert axis == "angle, degrees"
+    assert axis == "angle in degrees"
     assert np.allclose(np.sort(angle.round(9) % 360.0), np.degrees(turn))
 
 

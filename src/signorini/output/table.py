@@ -56,8 +56,9 @@ def history_table(history: History) -> str:
 
 def _step_lines(step: StepResult, number: int) -> list[str]:
     count = f"{step.increments} increment{'s' if step.increments > 1 else ''}"
-    forces = [c.normal_force for c in step.contacts] + [c.tangential_force for c in step.contacts]
-    noise = _ROUNDING * max((float(abs(force).max()) for force in [*forces, *step.reactions.values()]), default=0.0)
+    pressed = [float((abs(contact.pressure) * contact.area).sum()) for contact in step.contacts]
+    held = [float(abs(force).max()) for force in step.reactions.values()]
+    noise = _ROUNDING * max([*pressed, *held], default=0.0)
     still = _ROUNDING * float(abs(step.displacement).max(initial=0.0))
     rows = [
         (
