@@ -24,11 +24,11 @@ from signorini.solution.history import History
 from signorini.solution.results import ContactResult, StepResult
 from signorini.solution.state import State, initial_state, next_state
 
-ONE_INCREMENT = (
-    "one increment: assumes that the final state was reached from zero slip; where the contact grows under friction "
-    "the tractions can be off by tens of percent (more increments follow the history)"
-)
+ONE_INCREMENT = "one increment: assumes that the final state was reached from zero slip"
 """What a step with friction says when it was solved in one increment (METHOD 5)."""
+
+GROWN = "the contact grew under friction: in one increment tractions can be off by tens of percent, take more"
+"""What it says further where pairs closed that were open before."""
 
 
 def solve(model: Model, *, backend: str = "auto", raise_on_failure: bool = True, clock: Clock | None = None) -> History:
@@ -192,8 +192,6 @@ def _step_result(
 ) -> StepResult:
     model, interface = prepared.model, prepared.interface
     compliance = np.concatenate([interface.normal_compliance, interface.tangential_compliance])
-    coulomb = (interface.friction > 0) & np.isfinite(interface.friction)
-    notes = (ONE_INCREMENT,) if step.increments == 1 and coulomb.any() else ()
     return StepResult(
         name=step.name or f"step {number}",
         path="single" if step.increments == 1 else "increments",
@@ -212,8 +210,18 @@ def _step_result(
         ),
         methods=tuple(dict.fromkeys(answer.method for answer in answers)),
         iterations=tuple(sum(attempt.iterations for attempt in answer.trace) for answer in answers),
-        notes=notes,
+        notes=_notes(prepared, step, before, state),
     )
+
+
+def _notes(prepared: Prepared, step: Step, before: State, state: State) -> tuple[str, ...]:
+    """What a reader should know of how the step was followed."""
+    friction = prepared.interface.friction
+    rubbing = (friction > 0) & np.isfinite(friction)
+    if step.increments > 1 or not rubbing.any():
+        return ()
+    closed = rubbing & (state.status != OPEN) & (before.gap > 1e-9 * prepared.scale.length)
+    return (ONE_INCREMENT, GROWN) if closed.any() else (ONE_INCREMENT,)
 
 
 def _reactions(prepared: Prepared, state: State) -> dict[str, Array]:
