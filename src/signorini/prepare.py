@@ -59,7 +59,8 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
     Raises
     ------
     InputError
-        If something in the model does not fit the mesh, or a body can move freely: it is named, with its motion.
+        If something in the model does not fit the mesh, or a body can move freely: it is named, with its motion;
+        or a compliance is so large that contact hardly holds a body.
     """
     clock = clock or Clock()
     with clock.phase("assembly"):
@@ -77,6 +78,12 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
         condensed = condense(reduced, relative, interface, constraints.nodes, backend=backend, clock=clock)
     except NotPositiveDefinite as error:
         raise _singular(model, constraints, parts, error) from error
+    except np.linalg.LinAlgError as error:
+        raise InputError(
+            "the compliance of the contacts is so large, or the moduli are so far apart, that contact hardly holds a "
+            "body; expected smaller compliances, or supports",
+            where=("contact",),
+        ) from error
     return Prepared(
         model=model,
         space=space,
