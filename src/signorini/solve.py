@@ -31,6 +31,10 @@ ONE_INCREMENT = (
 )
 """What a step with friction says when it was solved in one increment (METHOD 5)."""
 
+_BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
+_REFINEMENTS = 2
+_ROUNDING = 1e-4  # of the largest gap: times the solver's tolerance, 1e-10, a few roundings of it
+
 
 def solve(model: Model, *, backend: str = "auto", raise_on_failure: bool = True, clock: Clock | None = None) -> History:
     """Solve every step of a model and certify every increment.
@@ -90,12 +94,15 @@ def _law(prepared: Prepared) -> CoulombProblem:
     """The contact law on the condensed interface, with no load yet."""
     condensed, rows = prepared.condensed, prepared.condensed.active_rows
     seen = (prepared.interface.B @ prepared.motions @ prepared.floating)[rows]
+    gap = prepared.interface.gap[condensed.active]
     return CoulombProblem(
         W=frozen(condensed.W),
         b=np.zeros(len(rows)),
         friction=prepared.interface.friction[condensed.active],
-        motions=condensed.root[:, None] * seen,
-        scale=prepared.scale.length * float(condensed.root.max(initial=1.0)),
+        motions=condensed.root[:, None] * np.where(np.any(condensed.W, axis=1, keepdims=True), seen, 0.0),
+        # gaps far larger than the displacements leave their rounding in b: no solver can do better
+        scale=max(prepared.scale.length, _ROUNDING * float(np.abs(gap).max(initial=0.0)))
+        * float(condensed.root.max(initial=1.0)),
     )
 
 
@@ -109,19 +116,11 @@ def _advance(
     imposed = sum((factors[name] * u for name, u in constraints.prescribed.items()), np.zeros_like(loads))
     offset = np.concatenate([interface.gap, -state.tangential]) + interface.B @ imposed
     _refuse_overlap(prepared, offset[:n], where)
-    with prepared.clock.phase("complementarity"):
-        f = constraints.transform.T @ (loads - prepared.K @ imposed)
-        f_c = condensed.condensed_load(f)
-        b = condensed.right_hand_side(f_c, offset[rows])
-        started = bool(state.forces.any())
-        result = solve_coulomb(replace(problem, b=b), state.status[active] if started else None)
+    f = constraints.transform.T @ (loads - prepared.K @ imposed)
+    result, forces, moved, free = _balanced(prepared, problem, f, offset, state)
     if not result.solved:
         raise SolveFailed(f"{where}: {_explain(prepared, problem, result)}", status=result.outcome)
     with prepared.clock.phase("recovery"):
-        forces, moved = np.zeros(2 * n), np.zeros(2 * n)
-        forces[rows] = condensed.root * np.concatenate([result.normal_force, result.tangential_force])
-        moved[rows] = np.concatenate([result.gap, result.slip]) / condensed.root
-        free = condensed.displacement(f, f_c, moved[rows], forces[rows], offset[rows])
         displacement = constraints.transform @ free + imposed
         inactive = np.setdiff1d(np.arange(2 * n), rows)
         moved[inactive] = offset[inactive]
@@ -149,6 +148,50 @@ def _advance(
             status="not_found",
         )
     return new, certificate, result
+
+
+def _balanced(
+    prepared: Prepared, problem: CoulombProblem, f: Array, offset: Array, state: State
+) -> tuple[CoulombResult, Array, Array, Array]:
+    """The contact problem under the load f on the free displacements: result, forces, motions, free displacements.
+
+    What equilibrium and the motions of the pairs lack in the end, on the problem as posed, is given to the condensed
+    problem as a further load and offset: it was condensed with rounding, which gaps far larger than what the loads
+    move (an arc that leaves its foundation) magnify.
+    """
+    condensed, constraints, interface, scale = (
+        prepared.condensed,
+        prepared.constraints,
+        prepared.interface,
+        prepared.scale,
+    )
+    n, rows, T = len(interface), condensed.active_rows, constraints.transform
+    compliance = np.concatenate([interface.normal_compliance, interface.tangential_compliance])
+    compliance = (compliance / np.tile(interface.area, 2))[rows]
+    forces, moved, free = np.zeros(2 * n), np.zeros(2 * n), np.zeros_like(f)
+    load, start = f, state.status[condensed.active] if state.forces.any() else None
+    lacking = np.zeros(len(rows))
+    guided = np.tile(problem.locked, 2)
+    for _ in range(_REFINEMENTS + 1):
+        with prepared.clock.phase("complementarity"):
+            f_c = condensed.condensed_load(load)
+            b = condensed.right_hand_side(f_c, offset[rows], problem.motions) + condensed.root * lacking
+            result = solve_coulomb(replace(problem, b=b), start)
+        if not result.solved:
+            break
+        with prepared.clock.phase("recovery"):
+            forces[rows] = condensed.root * np.concatenate([result.normal_force, result.tangential_force])
+            moved[rows] = np.concatenate([result.gap, result.slip]) / condensed.root
+            free = condensed.displacement(load, f_c, moved[rows], forces[rows], offset[rows])
+            u = T @ free
+            residual = f + T.T @ (interface.B.T @ forces - prepared.K @ u)
+            misfit = (offset + interface.B @ u - moved)[rows] + compliance * forces[rows]
+            misfit[guided] = 0.0
+        size = max(np.abs(residual).max(initial=0.0) / scale.force, np.abs(misfit).max(initial=0.0) / scale.length)
+        if size <= _BALANCED:
+            break
+        load, lacking, start = load + residual, lacking + misfit, result.state
+    return result, forces, moved, free
 
 
 def _refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:

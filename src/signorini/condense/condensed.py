@@ -62,7 +62,7 @@ class Condensed:
         """Loads (z,) on the free displacements, condensed onto the contact dofs, (m,)."""
         return self.factorisation.reduce(f)
 
-    def right_hand_side(self, f_c: Array, offset: Array) -> Array:
+    def right_hand_side(self, f_c: Array, offset: Array, motions: Array) -> Array:
         """``b = E B_c (S + B_c^T D^ B_c)^-1 f_c + G h_0``, scaled.
 
         Parameters
@@ -70,10 +70,14 @@ class Condensed:
         f_c : (m,) condensed load
         offset : (2 a,) h_0, length: initial gaps and minus the tangential displacements of the step before, each plus
             the relative displacement that supports prescribe
+        motions : (2 a, k) what the pairs see of the rigid motions that supports leave free, scaled: ``W R = R``
         """
         response = self._softening * (self.B @ self._solve(f_c))
         scaled = self.root * offset
-        result: Array = self.root * response + scaled - self.W @ scaled
+        strain = scaled - self.W @ scaled
+        # no gap loads a rigid motion, R' G = 0; rounding would, where gaps are large beside what the loads move
+        strain -= motions @ np.linalg.lstsq(motions, strain)[0]
+        result: Array = self.root * response + strain
         return result
 
     def displacement(self, f: Array, f_c: Array, h: Array, r: Array, offset: Array) -> Array:
