@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from changed import mapped, renumbered, rescaled
+from changed_models import mapped, renumbered, rescaled
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from brute_force import follow
+from every_state import follow
 
 from signorini.fem.generators import rectangle
 from signorini.gallery.blocks import dragged_block, stacked_blocks
