@@ -26,6 +26,8 @@ from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.model.model import Model
 from signorini.solution.scale import Scale, data_scale
 
+_ROUNDING = 1e-4  # of the largest gap: times the tolerance of the law's solver, 1e-10, a few roundings of it
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Examined:
@@ -131,7 +133,7 @@ class Prepared(Examined):
             law=replace(
                 self.law,
                 friction=interface.friction[self.condensed.active],
-                scale=scale.length * float(self.condensed.root.max(initial=1.0)),
+                scale=_size(interface, self.condensed, scale),
             ),
             clock=Clock(),
         )
@@ -171,7 +173,7 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
     Raises
     ------
     InputError
-        See :func:`examine`.
+        See :func:`examine`; or a compliance is so large that contact hardly holds a body.
     """
     clock = clock or Clock()
     with clock.phase("assembly"):
@@ -192,6 +194,12 @@ def _condensed(examined: Examined, K: sp.csr_array, near: BoolArray, backend: st
         )
     except NotPositiveDefinite as error:
         raise _singular(examined, error) from error
+    except np.linalg.LinAlgError as error:
+        raise InputError(
+            "the compliance of the contacts is so large, or the moduli are so far apart, that contact hardly holds a "
+            "body; expected smaller compliances, or supports",
+            where=("contact",),
+        ) from error
     seen = interface.B @ examined.motions @ examined.floating
     return Prepared(
         **{field.name: getattr(examined, field.name) for field in fields(Examined)},
@@ -206,13 +214,20 @@ def _condensed(examined: Examined, K: sp.csr_array, near: BoolArray, backend: st
 def _law(interface: Interface, condensed: Condensed, floating: Array, scale: Scale) -> CoulombProblem:
     """The contact law of the active pairs, with no load yet; floating (2 n, k) rigid motions as the pairs see them."""
     rows = condensed.active_rows
+    seen = np.where(np.any(condensed.W, axis=1, keepdims=True), floating[rows], 0.0)
     return CoulombProblem(
         W=frozen(condensed.W),
         b=np.zeros(len(rows)),
         friction=interface.friction[condensed.active],
-        motions=condensed.root[:, None] * floating[rows],
-        scale=scale.length * float(condensed.root.max(initial=1.0)),
+        motions=condensed.root[:, None] * seen,
+        scale=_size(interface, condensed, scale),
     )
+
+
+def _size(interface: Interface, condensed: Condensed, scale: Scale) -> float:
+    """Of the right-hand side of the law; gaps far larger than the displacements leave their rounding in it."""
+    gap = float(np.abs(interface.gap[condensed.active]).max(initial=0.0))
+    return max(scale.length, _ROUNDING * gap) * float(condensed.root.max(initial=1.0))
 
 
 def _refuse_unknown(given: Mapping[str, float] | None, known: Sequence[str], what: str, key: str) -> None:

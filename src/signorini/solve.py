@@ -30,6 +30,9 @@ ONE_INCREMENT = "one increment: assumes that the final state was reached from ze
 GROWN = "the contact grew under friction: in one increment tractions can be off by tens of percent, take more"
 """What it says further where pairs closed that were open before."""
 
+_BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
+_REFINEMENTS = 2
+
 
 def solve(model: Model, *, backend: str = "auto", raise_on_failure: bool = True, clock: Clock | None = None) -> History:
     """Solve every step of a model and certify every increment.
@@ -106,19 +109,11 @@ def _advance(
     imposed = sum((factors[name] * u for name, u in constraints.prescribed.items()), np.zeros_like(loads))
     offset = np.concatenate([interface.gap, -state.tangential]) + interface.B @ imposed
     _refuse_overlap(prepared, offset[:n], where)
-    with prepared.clock.phase("complementarity"):
-        f = constraints.transform.T @ (loads - prepared.K @ imposed)
-        f_c = condensed.condensed_load(f)
-        b = condensed.right_hand_side(f_c, offset[rows])
-        started = bool(state.forces.any())
-        result = solve_coulomb(replace(prepared.law, b=b), state.status[active] if started else None)
+    f = constraints.transform.T @ (loads - prepared.K @ imposed)
+    result, forces, moved, free = _balanced(prepared, f, offset, state)
     if not result.solved:
         raise SolveFailed(f"{where}: {_explain(prepared, result)}", status=result.outcome)
     with prepared.clock.phase("recovery"):
-        forces, moved = np.zeros(2 * n), np.zeros(2 * n)
-        forces[rows] = condensed.root * np.concatenate([result.normal_force, result.tangential_force])
-        moved[rows] = np.concatenate([result.gap, result.slip]) / condensed.root
-        free = condensed.displacement(f, f_c, moved[rows], forces[rows], offset[rows])
         displacement = constraints.transform @ free + imposed
         outside = np.setdiff1d(np.arange(2 * n), rows)
         moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
@@ -158,6 +153,41 @@ def _certified(prepared: Prepared, loads: Array, state: State, before: Array, wh
         "of moduli, sizes or compliances) are the usual cause",
         status="not_found",
     )
+
+
+def _balanced(prepared: Prepared, f: Array, offset: Array, state: State) -> tuple[CoulombResult, Array, Array, Array]:
+    """The contact problem under the load f on the free displacements: result, forces, motions, free displacements.
+
+    What equilibrium and the motions of the pairs lack in the end, on the problem as posed, is given to the condensed
+    problem as a further load and offset: it was condensed with rounding, which gaps far larger than what the loads
+    move (an arc that leaves its foundation) magnify.
+    """
+    condensed, interface, scale, law = prepared.condensed, prepared.interface, prepared.scale, prepared.law
+    n, rows, T = len(interface), condensed.active_rows, prepared.constraints.transform
+    forces, moved, free = np.zeros(2 * n), np.zeros(2 * n), np.zeros_like(f)
+    load, start = f, state.status[condensed.active] if state.forces.any() else None
+    lacking = np.zeros(len(rows))
+    guided = np.tile(law.locked, 2)
+    for _ in range(_REFINEMENTS + 1):
+        with prepared.clock.phase("complementarity"):
+            f_c = condensed.condensed_load(load)
+            b = condensed.right_hand_side(f_c, offset[rows], law.motions) + condensed.root * lacking
+            result = solve_coulomb(replace(law, b=b), start)
+        if not result.solved:
+            break
+        with prepared.clock.phase("recovery"):
+            forces[rows] = condensed.root * np.concatenate([result.normal_force, result.tangential_force])
+            moved[rows] = np.concatenate([result.gap, result.slip]) / condensed.root
+            free = condensed.displacement(load, f_c, moved[rows], forces[rows], offset[rows])
+            u = T @ free
+            residual = f + T.T @ (interface.B.T @ forces - prepared.K @ u)
+            misfit = (offset + interface.B @ u - moved)[rows] + condensed.compliance * forces[rows]
+            misfit[guided] = 0.0
+        size = max(np.abs(residual).max(initial=0.0) / scale.force, np.abs(misfit).max(initial=0.0) / scale.length)
+        if size <= _BALANCED:
+            break
+        load, lacking, start = load + residual, lacking + misfit, result.state
+    return result, forces, moved, free
 
 
 def _refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:

@@ -41,6 +41,7 @@ class Condensed:
     held : (n,) pairs that cannot, because supports hold them
     root : (2 a,) square roots of D, force per length to the 1/2
     dofs : (m,) the contact dofs among the free displacements
+    compliance : (2 a,) of the interface, C, length per force
     B : (2 a, m) relative displacements of the active pairs in terms of them, B_c
     """
 
@@ -51,7 +52,7 @@ class Condensed:
     root: Array
     dofs: IntArray
     B: sp.csr_array
-    _compliance: Array
+    compliance: Array
     _cholesky: tuple[Array, bool]
 
     @property
@@ -64,7 +65,7 @@ class Condensed:
         """Loads (z,) on the free displacements, condensed onto the contact dofs, (m,)."""
         return self.factorisation.reduce(f)
 
-    def right_hand_side(self, f_c: Array, offset: Array) -> Array:
+    def right_hand_side(self, f_c: Array, offset: Array, motions: Array) -> Array:
         """``b = E B_c (S + B_c^T D^ B_c)^-1 f_c + G h_0``, scaled.
 
         Parameters
@@ -72,24 +73,28 @@ class Condensed:
         f_c : (m,) condensed load
         offset : (2 a,) h_0, length: initial gaps and minus the tangential displacements of the step before, each plus
             the relative displacement that supports prescribe
+        motions : (2 a, k) what the pairs see of the rigid motions that supports leave free, scaled: ``W R = R``
         """
         response = self._softening * (self.B @ self._solve(f_c))
         scaled = self.root * offset
-        result: Array = self.root * response + scaled - self.W @ scaled
+        strain = scaled - self.W @ scaled
+        # no gap loads a rigid motion, R' G = 0; rounding would, where gaps are large beside what the loads move
+        strain -= motions @ np.linalg.lstsq(motions, strain)[0]
+        result: Array = self.root * response + strain
         return result
 
     def displacement(self, f: Array, f_c: Array, h: Array, r: Array, offset: Array) -> Array:
         """Free displacements (z,) under the load f and the solution h, r (2 a,), in the units of the problem."""
         if not len(self.dofs):
             return self.factorisation.expand(f, f_c)
-        moved = h - self._compliance * r - offset
+        moved = h - self.compliance * r - offset
         springs = self.root**2 * self._softening
         contact = self._solve(f_c + self.B.T @ (r + springs * moved))
         return self.factorisation.expand(f, contact)
 
     @property
     def _softening(self) -> Array:
-        return 1.0 / (1.0 + self.root**2 * self._compliance)
+        return 1.0 / (1.0 + self.root**2 * self.compliance)
 
     def _solve(self, f_c: Array) -> Array:
         solved: Array = scipy.linalg.cho_solve(self._cholesky, f_c)
@@ -169,7 +174,7 @@ def _condense(
         root=root,
         dofs=dofs,
         B=B_c,
-        _compliance=compliance,
+        compliance=compliance,
         _cholesky=cholesky,
     )
 

@@ -14,9 +14,11 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-
-OPEN, STICK, SLIP_PLUS, SLIP_MINUS = 0, 1, 2, 3
-UNDECIDED = -1
+from signorini.pairstate import OPEN as OPEN
+from signorini.pairstate import SLIP_MINUS as SLIP_MINUS
+from signorini.pairstate import SLIP_PLUS as SLIP_PLUS
+from signorini.pairstate import STICK as STICK
+from signorini.pairstate import UNDECIDED as UNDECIDED
 
 STATE_NAMES = ("open", "stick", "slip, friction +", "slip, friction -")
 

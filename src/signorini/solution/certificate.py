@@ -41,8 +41,8 @@ class Certificate:
 
     @property
     def worst(self) -> float:
-        """The largest of the five."""
-        return max(getattr(self, field.name) for field in fields(self))
+        """The largest of the five; NaN, which passes nothing, where any is."""
+        return float(np.max([getattr(self, field.name) for field in fields(self)]))
 
     @property
     def passed(self) -> bool:
@@ -95,13 +95,13 @@ def certify(
     # where a pair is open, slip is free: the cone is a point and its room 0
     friction = np.maximum(np.minimum(np.abs(slip), np.maximum(room, 0.0)), along)
     return Certificate(
-        equilibrium=max(_largest(np.abs(residual)), _largest(np.abs(balance))) / scale.force,
+        equilibrium=_largest(np.abs(np.concatenate([residual, balance]))) / scale.force,
         penetration=_largest(-gap),
         tension=_largest(-normal),
         cone=_largest(-room),
-        complementarity=max(_largest(np.minimum(gap, normal)), _largest(friction)),
+        complementarity=_largest(np.concatenate([np.minimum(gap, normal), friction])),
     )
 
 
 def _largest(violation: Array) -> float:
-    return float(max(0.0, violation.max(initial=0.0)))
+    return float(np.maximum(violation.max(initial=0.0), 0.0)) + 0.0  # NaN stays NaN, -0 becomes 0

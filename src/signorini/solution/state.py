@@ -12,8 +12,8 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
 from signorini.fem.supports import Constraints
-from signorini.friction.law import OPEN
 from signorini.interface.interface import Interface
+from signorini.pairstate import OPEN
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -30,7 +30,7 @@ class State:
     tangential : (n,) tangential displacement of the contact law, length: where the next slip increment starts
     increment : (n,) slip increment of the last increment
     slip : (n,) accumulated while closed
-    status : (n,) codes of :mod:`signorini.friction.law`
+    status : (n,) codes of :mod:`signorini.pairstate`
     work : of loads and moving supports since the beginning, trapezoidal in time
     dissipation : (n,) frictional dissipation since the beginning
     """

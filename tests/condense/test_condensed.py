@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The condensed interface against dense equations of the whole body: held or floating, exact or compliant."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from signorini.errors import InputError
+from signorini.gallery.blocks import dragged_block, four_blocks
+from signorini.gallery.cylinder import zhu_cylinder
+from signorini.gallery.press_fit import press_fit
+from signorini.prepare import prepare
+from signorini.solve import solve
+
+
+def with_compliance(model, compliance):
+    contacts = [replace(c, normal_compliance=compliance, tangential_compliance=3 * compliance) for c in model.contacts]
+    return replace(model, contacts=contacts)
+
+
+def seen(prepared):
+    """Rigid motions that supports leave, as the active pairs see them, scaled."""
+    rows = prepared.condensed.active_rows
+    return prepared.condensed.root[:, None] * (prepared.interface.B @ prepared.motions @ prepared.floating)[rows]
+
+
+FLOATING = [four_blocks, zhu_cylinder, dragged_block]
+EXACT_TO_SOFT = [(make, c) for make in [press_fit, *FLOATING] for c in (0.0, 1e-16, 1e-6, 1e-2)]
+SOFTER_AND_HELD = [(press_fit, 1e6), (press_fit, 1e16)]
+
+
+@pytest.mark.parametrize(("make", "compliance"), EXACT_TO_SOFT + SOFTER_AND_HELD)
+def test_the_image_form_is_equilibrium(make, compliance):
+    """Any forces r and displacements u in equilibrium obey ``G h - W r = b`` with ``h = B u + C r + h_0``."""
+    prepared = prepare(with_compliance(make(), compliance))
+    condensed, interface, T = prepared.condensed, prepared.interface, prepared.constraints.transform
+    rows, rng = condensed.active_rows, np.random.default_rng(1)
+    u = rng.standard_normal(T.shape[1])
+    r = rng.standard_normal(len(rows))
+    offset = rng.standard_normal(len(rows))
+    B = (interface.B @ T).toarray()[rows]
+    f = T.T @ prepared.K @ T @ u - B.T @ r
+    C = np.concatenate([interface.normal_compliance, interface.tangential_compliance]) / np.tile(interface.area, 2)
+    h = B @ u + C[rows] * r + offset
+    b = condensed.right_hand_side(condensed.condensed_load(f), offset, seen(prepared))
+    H, R = condensed.root * h, r / condensed.root
+    size = np.abs(b).max() + np.abs(H).max() + np.abs(R).max()
+    np.testing.assert_allclose(H - condensed.W @ (H + R), b, rtol=0, atol=1e-11 * size)
+    found = condensed.displacement(f, condensed.condensed_load(f), h, r, offset)
+    np.testing.assert_allclose(found, u, rtol=0, atol=1e-8 * np.abs(u).max())
+
+
+@pytest.mark.parametrize(("make", "compliance"), EXACT_TO_SOFT + SOFTER_AND_HELD)
+def test_the_spectrum_lies_between_0_and_1(make, compliance):
+    """1 belongs to rigid motions alone, whatever the compliance: nothing becomes ill-conditioned."""
+    prepared = prepare(with_compliance(make(), compliance))
+    values, R = np.linalg.eigvalsh(prepared.condensed.W), seen(prepared)
+    assert values.min() > -1e-12
+    assert values.max() < 1 + 1e-12
+    np.testing.assert_allclose(prepared.condensed.W @ R, R, rtol=0, atol=1e-11 * np.abs(R).max(initial=1.0))
+    if compliance <= 1e-2:
+        assert (values > 1 - 1e-9).sum() == R.shape[1]
+
+
+@pytest.mark.parametrize("make", [four_blocks, dragged_block])
+def test_a_compliance_that_hardly_holds_a_body_is_refused_in_words(make):
+    with pytest.raises(InputError, match="contact: the compliance of the contacts is so large"):
+        prepare(with_compliance(make(), 1e16))
+
+
+@pytest.mark.parametrize("backend", ["superlu", "multifrontal"])
+def test_back_ends_agree(backend):
+    model = zhu_cylinder(refine=2)
+    here, there = solve(model).last, solve(model, backend=backend).last
+    np.testing.assert_allclose(there.contacts[0].pressure, here.contacts[0].pressure, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(there.displacement, here.displacement, rtol=0, atol=1e-11)
+
+
+def test_a_pair_held_on_both_sides_is_left_out():
+    """A pair that supports hold along its normal has no row; forces are found for the others."""
+    model = zhu_cylinder(friction=0.0)
+    held = model.mesh.points[model.mesh.nodes_of("arc")][1]
+    support = replace(model.supports[0], on=tuple(held), u=(None, 0.0), name="pin")
+    prepared = prepare(replace(model, supports=[*model.supports, support]))
+    node = prepared.interface.node[~prepared.condensed.active]
+    assert node.tolist() == [model.mesh.nodes_of("arc")[1]]
+    assert len(prepared.condensed.W) == 2 * (len(prepared.interface) - 1)
+
+
+@pytest.mark.parametrize("factor", [1e-3, 1e-5])
+def test_gaps_far_larger_than_the_displacements(factor):
+    """An arc that leaves its foundation by its radius, under a load that moves it by less than a millionth of that."""
+    model = zhu_cylinder(friction=0.0, force=156.0 * factor)
+    certificate = solve(model).last.certificate
+    assert certificate.passed

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pairs, frames, gaps and areas: signs of the contract, symmetry planes, surfaces paired from either side."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from signorini.fem.generators import annulus, half_disk, rectangle
+from signorini.gallery.cylinder import zhu_cylinder
+from signorini.gallery.press_fit import press_fit
+from signorini.model.body import Body, Elastic
+from signorini.model.conditions import Support
+from signorini.model.contact import Contact, Plane
+from signorini.model.mesh import join
+from signorini.model.model import Model
+from signorini.prepare import prepare
+
+STEEL = Elastic(E=1.0, nu=0.3)
+
+
+def test_a_plane_gives_its_own_frame():
+    interface = prepare(zhu_cylinder()).interface
+    assert (interface.normals == [0.0, 1.0]).all()
+    assert (interface.tangents == [1.0, 0.0]).all()  # t = (n_y, -n_x)
+    x = prepare(zhu_cylinder()).model.mesh.points[interface.node]
+    np.testing.assert_allclose(interface.gap, x[:, 1], atol=1e-14)
+    # half of each neighbouring facet; together the length of the arc's polygon
+    arc = x[np.argsort(x[:, 0])]
+    lengths = np.linalg.norm(np.diff(arc, axis=0), axis=1)
+    areas = interface.area[np.argsort(x[:, 0])]
+    np.testing.assert_allclose(areas, 0.5 * (np.append(lengths, 0) + np.append(0, lengths)))
+
+
+def test_curved_pairs_follow_the_averaged_normal_and_the_symmetry_planes():
+    prepared = prepare(press_fit(n_radial=2, n_angular=6, interference=0.01))
+    interface, points = prepared.interface, prepared.model.mesh.points
+    radial = points[interface.node] / 2.0
+    np.testing.assert_allclose(interface.normals, -radial, atol=1e-12)  # from the hub into the shaft
+    on_axis = np.isclose(points[interface.node], 0.0).any(axis=1)
+    assert on_axis.sum() == 2
+    assert np.isin(np.abs(interface.normals[on_axis]), [0.0, 1.0]).all()
+    np.testing.assert_allclose(interface.gap, -0.01, atol=1e-12)
+
+
+def test_the_relative_displacement_has_the_signs_of_the_contract():
+    prepared = prepare(press_fit(n_radial=1, n_angular=4))
+    interface, space = prepared.interface, prepared.space
+    n = len(interface)
+    u = np.zeros((len(space.mesh.points), 2))
+    u[space.mesh.nodes_of("shaft.outer")] = (0.3, -0.2)
+    u[space.mesh.nodes_of("hub.inner")] = (0.1, 0.4)
+    moved = interface.B @ u.ravel()
+    np.testing.assert_allclose(moved[:n], interface.normals @ (0.2, -0.6))
+    np.testing.assert_allclose(moved[n:], interface.tangents @ (0.2, -0.6))
+    # forces on either side are opposite: no resultant
+    forces = (interface.B.T @ np.arange(1.0, 2 * n + 1)).reshape(-1, 2)
+    np.testing.assert_allclose(forces.sum(axis=0), 0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("swap", [False, True])
+@pytest.mark.parametrize("lift", [0.0, 0.05])
+def test_a_curved_body_on_a_flat_one_pairs_from_either_side(swap, lift):
+    """The flat side's nodes stand below the disk's; seen from the flat side alone the nearest is not the partner."""
+    disk = half_disk(radius=8.0, contact_length=4.0, contact_spacing=0.5)
+    x = np.sort(disk.points[disk.nodes_of("arc"), 0])
+    near = np.abs(x) < 3.1
+    arc = disk.boundaries["arc"]
+    touching = (np.abs(disk.points[arc][..., 0]) < 3.1).all(axis=1)
+    disk = replace(
+        disk, points=disk.points + (0.0, lift), boundaries={"face": arc[touching], "cut": disk.boundaries["cut"]}
+    )
+    block = rectangle(x=x[near], y=[-2.0, -1.0, 0.0])
+    sides = ("block.top", "disk.face") if swap else ("disk.face", "block.top")
+    model = Model(
+        join({"disk": disk, "block": block}),
+        bodies=[Body("disk", STEEL), Body("block", STEEL)],
+        supports=[Support("block.bottom", u=(0, 0)), Support("disk.cut", u=(0, -0.1))],
+        contacts=[Contact(*sides)],
+    )
+    interface = prepare(model).interface
+    points = model.mesh.points
+    assert len(np.unique(interface.partner)) == len(interface)
+    np.testing.assert_allclose(points[interface.node][:, 0], points[interface.partner][:, 0], atol=1e-9)
+    assert (interface.gap >= lift - 1e-12).all()
+    assert interface.gap.min() == pytest.approx(lift, abs=1e-12)
+
+
+@pytest.mark.parametrize("thickness", [1.0, 2.5])
+def test_every_contact_keeps_its_own_data(thickness):
+    mesh = join(
+        {"ring": annulus(inner=1, outer=2, n_radial=2, n_angular=8), "block": rectangle(origin=(5.0, 0.0), nx=2, ny=1)}
+    )
+    model = Model(
+        mesh,
+        thickness=thickness,
+        bodies=[Body("ring", STEEL), Body("block", STEEL)],
+        supports=[Support("block.top", u=(0, 0)), Support("ring.inner", u=(0, 0))],
+        contacts=[
+            Contact("ring.outer", Plane((0, -2.5), (0, 3)), friction="stick", gap=0.25, interference=0.1),
+            Contact(
+                "block.bottom", Plane((0, -1), (0, 1)), friction=0.3, normal_compliance=2.0, tangential_compliance=3.0
+            ),
+        ],
+    )
+    interface = prepare(model).interface
+    ring, block = interface.contact == 0, interface.contact == 1
+    assert (ring.sum(), block.sum()) == (8, 3)
+    np.testing.assert_allclose(interface.gap[ring], 0.15)
+    np.testing.assert_allclose(interface.gap[block], 1.0)
+    assert np.isinf(interface.friction[ring]).all()
+    assert (interface.friction[block] == 0.3).all()
+    assert (interface.normal_compliance[ring] == 0).all()
+    assert (interface.normal_compliance[block] == 2.0).all()
+    assert (interface.tangential_compliance[block] == 3.0).all()
+    assert interface.area[block].sum() == pytest.approx(thickness)

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Patch tests P1, P2, P4: a uniform stress goes through matching interfaces exactly."""
+
+import numpy as np
+import pytest
+
+from signorini.fem.space import make_space
+from signorini.fem.stress import body_stresses
+from signorini.gallery.blocks import block_on_foundation, four_blocks, stacked_blocks
+from signorini.solve import solve
+
+EXACT = 1e-10
+
+both_cells = pytest.mark.parametrize("cells", ["quad", "triangle"])
+with_and_without_friction = pytest.mark.parametrize("friction", [0.0, 0.3, "stick"])
+
+
+def assert_uniform(history, expected, size):
+    """Every nodal stress of every body has the components xx, yy, zz, xy."""
+    model = history.model
+    for body in body_stresses(make_space(model.mesh), model, history.last.displacement):
+        for i, value in zip((0, 1, 2, 3), expected, strict=True):
+            np.testing.assert_allclose(body.stress[:, i], value, rtol=0, atol=EXACT * size)
+
+
+def assert_flat_contact(contact, pressure, length):
+    np.testing.assert_allclose(contact.pressure, pressure, rtol=EXACT)
+    np.testing.assert_allclose(contact.traction, 0.0, atol=EXACT * pressure)
+    np.testing.assert_allclose(contact.gap, 0.0, atol=EXACT * length)
+    assert contact.closed.all()
+
+
+@both_cells
+@with_and_without_friction
+def test_stacked_blocks(cells, friction):
+    history = solve(stacked_blocks(friction=friction, cells=cells))
+    contact = history.contact("interface")
+    assert_flat_contact(contact, 1e5, 0.1)
+    np.testing.assert_allclose(history.last.displacement[contact.node, 1], -0.05, rtol=EXACT)
+    np.testing.assert_allclose(history.last.displacement[:, 1], -0.05 * history.model.mesh.points[:, 1], atol=1e-12)
+    assert_uniform(history, (0.0, -1e5, 0.0, 0.0), 1e5)
+
+
+@both_cells
+@with_and_without_friction
+def test_block_on_foundation(cells, friction):
+    history = solve(block_on_foundation(friction=friction, cells=cells))
+    E, nu = 2000.0, 0.3
+    strain = -25.0 * (1 - nu**2) / E, 25.0 * nu * (1 + nu) / E  # yy and xx in plane strain, free sideways
+    contact = history.contact("interface")
+    assert_flat_contact(contact, 25.0, 0.01)
+    x, y = history.model.mesh.points.T
+    np.testing.assert_allclose(history.last.displacement[:, 1], strain[0] * y, atol=EXACT)
+    np.testing.assert_allclose(history.last.displacement[:, 0], strain[1] * (x - 1.0), atol=EXACT)
+    assert_uniform(history, (0.0, -25.0, -25.0 * nu, 0.0), 25.0)
+
+
+@both_cells
+def test_four_blocks(cells):
+    history = solve(four_blocks(cells=cells))
+    for contact, pressure in zip(history.last.contacts, (10.0, 10.0, 20.0, 20.0), strict=True):
+        assert_flat_contact(contact, pressure, 0.1)
+    assert_uniform(history, (-10.0, -20.0, 0.3 * -30.0, 0.0), 20.0)
+    x, y = history.model.mesh.points.T
+    E, nu = 1000.0, 0.3
+    xx, yy = ((1 - nu**2) * s - nu * (1 + nu) * t for s, t in ((-10.0, -20.0), (-20.0, -10.0)))
+    np.testing.assert_allclose(history.last.displacement, np.column_stack([xx * x, yy * y]) / E, atol=EXACT)
