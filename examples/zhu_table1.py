@@ -12,9 +12,9 @@ from __future__ import annotations
 import numpy as np
 
 from signorini import solve
+from signorini.engine.paper import formulate, solve_literally
+from signorini.engine.prepare import prepare
 from signorini.gallery.cylinder import HERTZ, E, zhu_cylinder
-from signorini.paper import formulate, solve_literally
-from signorini.prepare import prepare
 
 X = np.arange(6) * 0.5
 PAPER = {

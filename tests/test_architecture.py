@@ -13,9 +13,9 @@ import signorini
 ROOT = Path(signorini.__file__).parent
 FILES = sorted(ROOT.rglob("*.py"))
 
-BASE = {"errors", "arrays", "checks", "clock", "pairstate", "_version"}
+BASE = {"errors", "arrays", "checks", "clock", "memory", "pairstate", "_version"}
 CORE = {"model", "linalg", "lcp", "fem", "interface", "condense", "friction", "solution"}
-BELOW_CLI = BASE | CORE | {"prepare", "solve", "paper", "deck", "output", "plot", "reference"}
+BELOW_CLI = BASE | CORE | {"engine", "deck", "output", "plot", "reference"}
 
 # folder or file: what it may import besides itself and the base
 ALLOWED = {
@@ -27,9 +27,7 @@ ALLOWED = {
     "condense": {"linalg", "interface"},
     "friction": {"lcp", "condense"},
     "solution": {"model", "fem", "interface"},
-    "prepare": CORE,
-    "solve": CORE | {"prepare"},
-    "paper": CORE | {"prepare"},
+    "engine": CORE,
     "deck": {"model", "fem"},
     "output": {"solution", "model", "fem"},
     "plot": {"solution", "model"},

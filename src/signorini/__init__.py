@@ -8,8 +8,6 @@ answer at once.
 from __future__ import annotations
 
 import importlib
-import sys
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from signorini._version import __version__
@@ -18,6 +16,7 @@ if TYPE_CHECKING:
     from signorini import lcp
     from signorini.api import Solution, prepare, solve
     from signorini.deck import read
+    from signorini.engine import paper
     from signorini.errors import InputError, SignoriniError, SolveFailed
     from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
     from signorini.fem.read import read_mesh
@@ -47,6 +46,7 @@ __all__ = [
     "half_disk",
     "join",
     "lcp",
+    "paper",
     "prepare",
     "quarter_disk",
     "read",
@@ -68,12 +68,13 @@ _HOMES = {
     "signorini.model.model": ("Model",),
     "signorini.model.step": ("Step",),
 }
+_MODULES = {"lcp": "signorini.lcp", "paper": "signorini.engine.paper"}
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 
 
 def __getattr__(name: str) -> Any:
-    if name == "lcp":
-        return importlib.import_module("signorini.lcp")
+    if name in _MODULES:
+        return importlib.import_module(_MODULES[name])
     if name not in _HOME_OF:
         raise AttributeError(f"module 'signorini' has no attribute '{name}'")
     value = getattr(importlib.import_module(_HOME_OF[name]), name)
@@ -83,14 +84,3 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted(__all__)
-
-
-class _Package(ModuleType):
-    """Keeps ``signorini.solve`` the function, whoever imports the module of the same name, and when."""
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        if not (name in _HOME_OF and isinstance(value, ModuleType)):
-            super().__setattr__(name, value)
-
-
-sys.modules[__name__].__class__ = _Package

@@ -9,16 +9,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from signorini.clock import Clock
+from signorini.engine.prepare import Prepared
+from signorini.engine.prepare import prepare as prepare_model
+from signorini.engine.solve import solve as solve_history
+from signorini.engine.solve import solve_prepared
 from signorini.errors import SolveFailed
 from signorini.model.model import Model
 from signorini.output.table import history_table
 from signorini.output.vtu import write_vtu
 from signorini.plot.contact import plot_contact
-from signorini.prepare import Prepared
-from signorini.prepare import prepare as prepare_model
 from signorini.solution.history import History
-from signorini.solve import solve as solve_history
-from signorini.solve import solve_prepared
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

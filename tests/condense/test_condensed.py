@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from signorini.engine.prepare import prepare
+from signorini.engine.solve import solve
 from signorini.errors import InputError
 from signorini.gallery.blocks import dragged_block, four_blocks
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit
-from signorini.prepare import prepare
-from signorini.solve import solve
 
 
 def with_compliance(model, compliance):

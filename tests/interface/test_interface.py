@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from signorini.engine.prepare import prepare
 from signorini.fem.generators import annulus, half_disk, rectangle
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit
@@ -14,7 +15,6 @@ from signorini.model.conditions import Support
 from signorini.model.contact import Contact, Plane
 from signorini.model.mesh import join
 from signorini.model.model import Model
-from signorini.prepare import prepare
 
 STEEL = Elastic(E=1.0, nu=0.3)
 

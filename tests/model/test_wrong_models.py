@@ -6,6 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from signorini.engine.prepare import prepare
+from signorini.engine.solve import solve
 from signorini.errors import InputError, SolveFailed
 from signorini.fem.generators import quarter_disk, rectangle
 from signorini.model.body import Body, Elastic
@@ -14,8 +16,6 @@ from signorini.model.contact import Contact, Plane
 from signorini.model.mesh import Mesh, join
 from signorini.model.model import Model
 from signorini.model.step import Step
-from signorini.prepare import prepare
-from signorini.solve import solve
 
 SOFT = Elastic(E=100.0, nu=0.3)
 FLOOR = Plane((0.0, 0.0), (0.0, 1.0))
@@ -71,7 +71,7 @@ IN_THE_MODEL = [
         lambda: Support("left", u=(None, None)),
         "u: leaves every component free; expected at least one number",
     ),
-    (lambda: Support("left", u=0.0), "u: is 0.0; expected a list numbers or free components"),
+    (lambda: Support("left", u=0.0), 'u: is 0.0; expected a list of numbers or "free"'),
     (lambda: Support("", u=(0, 0)), "on: is ''; expected a name (text)"),
     (
         lambda: Load("top"),

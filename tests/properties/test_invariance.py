@@ -9,6 +9,7 @@ from changed_models import mapped, renumbered, rescaled
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from signorini.engine.solve import solve
 from signorini.fem.generators import rectangle
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit
@@ -18,7 +19,6 @@ from signorini.model.contact import Contact, Plane
 from signorini.model.mesh import join
 from signorini.model.model import Model
 from signorini.model.step import Step
-from signorini.solve import solve
 
 few = settings(max_examples=8, deadline=None, derandomize=True)
 powers = st.floats(-4, 4).map(lambda x: 10.0**x)

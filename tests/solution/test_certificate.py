@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from signorini.engine.prepare import prepare
+from signorini.engine.solve import solve_prepared
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.pairstate import OPEN, STICK
-from signorini.prepare import prepare
 from signorini.solution.certificate import TOLERANCE, Certificate, certify
 from signorini.solution.state import initial_state, next_state
-from signorini.solve import solve_prepared
 
 NUMBERS = ("equilibrium", "penetration", "tension", "cone", "complementarity")
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from every_state import follow
 
+from signorini.engine.solve import solve
 from signorini.fem.generators import rectangle
 from signorini.gallery.blocks import dragged_block, stacked_blocks
 from signorini.gallery.cylinder import zhu_cylinder
@@ -15,7 +16,6 @@ from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact, Plane
 from signorini.model.model import Model
 from signorini.model.step import Step
-from signorini.solve import solve
 
 FLOOR = Plane(point=(0.0, 0.0), normal=(0.0, 1.0))
 

@@ -6,9 +6,9 @@ import functools
 import numpy as np
 import pytest
 
+from signorini.engine.solve import solve
 from signorini.gallery.cylinder import FORCE, HERTZ, E, zhu_cylinder
 from signorini.reference.hertz import HertzLine
-from signorini.solve import solve
 
 # METHOD 9, another code on another mesh of 76 quadrilaterals: pressures at x = 0, 0.5, ..., 2.5
 OTHER = {

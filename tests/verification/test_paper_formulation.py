@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from signorini import lcp
+from signorini.engine.paper import formulate, solve_literally
+from signorini.engine.solve import solve
 from signorini.errors import InputError
 from signorini.gallery.blocks import dragged_block
 from signorini.gallery.cylinder import FORCE, E, zhu_cylinder
 from signorini.gallery.press_fit import press_fit
 from signorini.model.step import Step
-from signorini.paper import formulate, solve_literally
-from signorini.solve import solve
 
 
 def held_by_contact_alone(friction=0.4):
@@ -82,7 +82,7 @@ def test_a_penalty_too_large_is_said_not_hidden(friction):
     assert not answer.solved
     assert not answer.certificate.passed
     assert answer.condition > 1e14
-    assert "condition number of K_c is" in answer.message or "was not solved" in answer.message
+    assert "condition number of K_c" in answer.message or "was not solved" in answer.message
     # the same law without the penalty's conditioning is no trouble
     step = solve(compliant(model, 1e14 * E, 1e14 * E)).last
     assert step.certificate.passed

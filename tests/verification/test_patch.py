@@ -4,10 +4,10 @@
 import numpy as np
 import pytest
 
+from signorini.engine.solve import solve
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
 from signorini.gallery.blocks import block_on_foundation, four_blocks, stacked_blocks
-from signorini.solve import solve
 
 EXACT = 1e-10
 

@@ -4,9 +4,9 @@
 import numpy as np
 import pytest
 
+from signorini.engine.solve import solve
 from signorini.gallery.press_fit import press_fit
 from signorini.reference.lame import press_fit_pressure
-from signorini.solve import solve
 
 RINGS = {"inner": 1.0, "interface": 2.0, "outer": 3.0, "interference": 0.01}
 BODIES = {"inner_body": (2000.0, 0.3), "outer_body": (1000.0, 0.3)}

@@ -12,12 +12,12 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.clock import Clock
+from signorini.engine.prepare import Prepared, prepare
+from signorini.engine.solve import solve_prepared
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.linalg.registry import factorise
 from signorini.memory import peak_memory
 from signorini.model.model import Model
-from signorini.prepare import Prepared, prepare
-from signorini.solve import solve_prepared
 
 REPEATS = 5
 _LONG = 20.0  # seconds; above it one repeat has to do

@@ -13,7 +13,7 @@ def check(options: argparse.Namespace) -> int:
     """Print a deck as it was understood, and notes on it; 0 unless something is wrong."""
     deck = load(options.deck)
     from signorini.cli.describe import describe  # everything heavy: a wrong deck never waits for it
-    from signorini.prepare import examine
+    from signorini.engine.prepare import examine
 
     try:
         examined = examine(deck.model)

@@ -6,12 +6,12 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.deck import Deck
+from signorini.engine.prepare import Examined
 from signorini.fem.rigid import describe_motion
 from signorini.model.contact import Contact, Plane
 from signorini.model.model import Model
 from signorini.output.align import align
 from signorini.output.table import spell_vector
-from signorini.prepare import Examined
 
 Rows = list[tuple[str, ...]]
 

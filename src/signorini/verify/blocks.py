@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.engine.solve import solve
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
 from signorini.friction.problem import CoulombProblem
@@ -15,7 +16,6 @@ from signorini.friction.solve import solve_coulomb
 from signorini.gallery.blocks import block_on_foundation, four_blocks, stacked_blocks
 from signorini.model.model import Model
 from signorini.solution.history import History
-from signorini.solve import solve
 from signorini.verify.check import Check
 
 

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from signorini.engine.paper import formulate, solve_literally
+from signorini.engine.prepare import prepare
+from signorini.engine.solve import solve
 from signorini.gallery.cylinder import HERTZ, RADIUS, E, zhu_cylinder
-from signorini.paper import formulate, solve_literally
-from signorini.prepare import prepare
 from signorini.reference.hertz import HertzLine
-from signorini.solve import solve
 from signorini.verify.check import Check
 
 _REFINED = "refined independent computation"

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from signorini.engine.solve import solve
 from signorini.gallery.press_fit import press_fit
 from signorini.model.model import Kind
 from signorini.reference.lame import press_fit_pressure
-from signorini.solve import solve
 from signorini.verify.check import Check
 
 

@@ -12,11 +12,11 @@ import scipy.sparse.linalg
 from signorini import lcp
 from signorini.arrays import Array
 from signorini.checks import number
+from signorini.engine.prepare import Prepared, prepare
 from signorini.errors import InputError
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK
 from signorini.friction.paper import PaperProblem, paper_problem
 from signorini.model.model import Model
-from signorini.prepare import Prepared, prepare
 from signorini.solution.certificate import Certificate, certify
 from signorini.solution.state import initial_state, next_state
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from signorini.arrays import Array, frozen
 from signorini.clock import Clock
+from signorini.engine.prepare import Prepared, prepare
 from signorini.errors import SolveFailed
 from signorini.fem.rigid import describe_motion
 from signorini.friction.law import OPEN, STICK
@@ -17,7 +18,6 @@ from signorini.friction.result import CoulombResult
 from signorini.friction.solve import solve_coulomb
 from signorini.model.model import Model
 from signorini.model.step import Step
-from signorini.prepare import Prepared, prepare
 from signorini.solution import results
 from signorini.solution.certificate import Certificate, certify
 from signorini.solution.history import History
