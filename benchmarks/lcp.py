@@ -91,12 +91,12 @@ def timed(solve: Solver, posed: problems.PosedLCP) -> tuple[float, Array | None]
     return time.perf_counter() - start, z
 
 
-def compare(sizes: list[int], field: list[Contender]) -> None:
+def compare(sizes: list[int], families: list[str], field: list[Contender]) -> None:
     print("\n| problem | n | solver | right | median seconds | time / ours: lemke | time / ours: auto |")
     print("|---|---|---|---|---|---|---|")
     for n in sizes:
-        for family, make in FAMILIES.items():
-            cases = [make(n, np.random.default_rng(seed)) for seed in range(1 if n > 1000 else 5)]
+        for family in families:
+            cases = [FAMILIES[family](n, np.random.default_rng(seed)) for seed in range(1 if n > 1000 else 5)]
             running = [c for c in field if n <= c.largest]
             times: dict[str, list[float]] = {c.name: [] for c in running}
             right = dict.fromkeys(times, 0)
@@ -142,6 +142,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--large", action="store_true", help="also n = 3000 and the obstacle problem (minutes)")
     parser.add_argument("--sizes", type=int, nargs="*", default=[30, 300])
+    parser.add_argument("--families", nargs="*", default=list(FAMILIES), choices=list(FAMILIES))
     options = parser.parse_args()
     field = contenders()
     warm = problems.random_p(5, np.random.default_rng(0))
@@ -150,7 +151,7 @@ def main() -> None:
     bank_success(field)
     if options.large:
         large_obstacle()
-    compare([*options.sizes, 3000] if options.large else options.sizes, field)
+    compare([*options.sizes, 3000] if options.large else options.sizes, options.families, field)
 
 
 if __name__ == "__main__":
