@@ -13,7 +13,7 @@ import signorini
 ROOT = Path(signorini.__file__).parent
 FILES = sorted(ROOT.rglob("*.py"))
 
-BASE = {"errors", "arrays", "checks", "clock", "pairstate", "_version"}
+BASE = {"errors", "arrays", "checks", "clock", "memory", "pairstate", "_version"}
 CORE = {"model", "linalg", "lcp", "fem", "interface", "condense", "friction", "solution"}
 BELOW_CLI = BASE | CORE | {"prepare", "solve", "paper", "deck", "output", "plot", "reference"}
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,8 +14,11 @@ from signorini.model.model import Model
 from signorini.output.table import history_table
 from signorini.output.vtu import write_vtu
 from signorini.plot.contact import plot_contact
+from signorini.prepare import Prepared
+from signorini.prepare import prepare as prepare_model
 from signorini.solution.history import History
 from signorini.solve import solve as solve_history
+from signorini.solve import solve_prepared
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -68,11 +72,76 @@ def solve(
     >>> sg.solve(model).contact("bottom").pressure.round(12)
     array([3., 3., 3.])
     """
+    return _answered(lambda: solve_history(model, backend=backend, raise_on_failure=raise_on_failure, clock=clock))
+
+
+class PreparedModel:
+    """A model factorised once, for many loads, friction coefficients and interferences; see :func:`prepare`."""
+
+    def __init__(self, prepared: Prepared) -> None:
+        self._prepared = prepared
+
+    def solve(
+        self,
+        *,
+        friction: float | Mapping[str, float] | None = None,
+        interference: float | Mapping[str, float] | None = None,
+        loads: Mapping[str, float] | None = None,
+        raise_on_failure: bool = True,
+    ) -> Solution:
+        """Solve the load history, with another law or load where given; nothing is factorised again.
+
+        Parameters
+        ----------
+        friction, interference : one number for every contact, or contact to number
+        loads : load or moving support to what its value is multiplied by
+        raise_on_failure : see :func:`solve`
+
+        Raises
+        ------
+        InputError, SolveFailed
+            As :func:`solve`.
+        """
+        changed = self._prepared.changed(
+            friction=self._by_contact(friction), interference=self._by_contact(interference), loads=loads
+        )
+        return _answered(lambda: solve_prepared(changed, raise_on_failure=raise_on_failure))
+
+    def _by_contact(self, value: float | Mapping[str, float] | None) -> Mapping[str, float] | None:
+        if value is None or isinstance(value, Mapping):
+            return value
+        return {contact.label: value for contact in self._prepared.model.contacts}
+
+
+def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) -> PreparedModel:
+    """Assemble and condense a model once, to solve it many times.
+
+    Raises
+    ------
+    InputError
+        If the model is wrong; a body that nothing holds is named with its free motion.
+
+    Examples
+    --------
+    >>> from signorini.gallery.cylinder import zhu_cylinder
+    >>> prepared = prepare(zhu_cylinder())
+    >>> for mu in (0.0, 0.4):
+    ...     print(mu, prepared.solve(friction=mu).contact("foundation").pressure[0].round(2))
+    0.0 36.15
+    0.4 38.02
+    >>> light = prepared.solve(friction=0.0, loads={"cut": 0.25})
+    >>> print(light.contact("foundation").normal_force[1].round(9))
+    19.5
+    """
+    return PreparedModel(prepare_model(model, backend=backend, clock=clock))
+
+
+def _answered(run: Callable[[], History]) -> Solution:
+    """Dress what the engine returns, or what it had found when it failed."""
     try:
-        history = solve_history(model, backend=backend, raise_on_failure=raise_on_failure, clock=clock)
+        return _dressed(run())
     except SolveFailed as failure:
         raise SolveFailed(str(failure), status=failure.status, solution=_dressed(failure.solution)) from failure
-    return _dressed(history)
 
 
 def _dressed(history: object) -> Solution:

@@ -217,6 +217,6 @@ def _judge(found: lcp.LCPSolution, certificate: Certificate, condition: float) -
     if certificate.passed:
         return ""
     return (
-        f"not certified ({certificate}): the condition number of K_c is {condition:.1e}; "
-        "expected smaller penalties, or the exact law"
+        f"not certified: violations up to {certificate.worst:.0e}, condition number of K_c {condition:.0e}; expected "
+        "smaller penalties, or the exact law"
     )

@@ -3,101 +3,237 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array
+from signorini.arrays import Array, BoolArray, frozen
+from signorini.checks import number
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
-from signorini.errors import InputError
+from signorini.errors import InputError, one_of
 from signorini.fem.loads import nodal_loads
 from signorini.fem.rigid import Part, describe_motion, free_motions, make_parts, rigid_motions
 from signorini.fem.space import Space, make_space
 from signorini.fem.stiffness import stiffness
 from signorini.fem.supports import Constraints, make_constraints
+from signorini.friction.problem import CoulombProblem
+from signorini.interface.candidates import candidates
 from signorini.interface.interface import Interface, make_interface
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.model.model import Model
 from signorini.solution.scale import Scale, data_scale
 
+_ROUNDING = 1e-4  # of the largest gap: times the solver's tolerance, 1e-10, a few roundings of it
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Prepared:
-    """A model ready for any load.
+class Examined:
+    """A model on its mesh, checked; nothing is assembled yet.
 
     Attributes
     ----------
-    K : (dofs, dofs) stiffness, supports not applied
     loads : name to nodal forces at factor 1, each (dofs,)
     parts, motions : connected pieces and their rigid motions, (dofs, 3 parts)
     floating : (3 parts, k) rigid motions that supports leave free and contact must hold
-    condensed : the interface as the contact law sees it
     scale : sizes from the data
-    clock : seconds spent so far
     """
 
     model: Model
     space: Space
     constraints: Constraints
     interface: Interface
-    K: sp.csr_array
     loads: Mapping[str, Array]
     parts: tuple[Part, ...]
     motions: sp.csr_array
     floating: Array
-    condensed: Condensed
     scale: Scale
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Prepared(Examined):
+    """A model ready for any load.
+
+    Attributes
+    ----------
+    K : (dofs, dofs) stiffness, supports not applied
+    condensed : the interface as the bodies feel it
+    law : the contact law on it, without load; ``dataclasses.replace(law, b=...)`` shares what it has computed
+    clock : seconds spent so far
+    backend : of the factorisation, as asked for
+    """
+
+    K: sp.csr_array
+    condensed: Condensed
+    law: CoulombProblem
     clock: Clock
+    backend: str
+
+    @property
+    def limited(self) -> bool:
+        """Whether pairs that seemed too far apart were left out."""
+        return not (self.condensed.active | self.condensed.held).all()
+
+    def widened(self) -> Prepared:
+        """The same with every pair in the law, factorised anew."""
+        everything = np.ones(len(self.interface), bool)
+        return _condensed(self, self.K, everything, self.backend, self.clock)
+
+    def changed(
+        self,
+        *,
+        friction: Mapping[str, float] | None = None,
+        interference: Mapping[str, float] | None = None,
+        loads: Mapping[str, float] | None = None,
+    ) -> Prepared:
+        """The same bodies under another law or load; nothing is factorised again.
+
+        Parameters
+        ----------
+        friction : contact to Coulomb's coefficient
+        interference : contact to its overlap beyond the geometry, length
+        loads : load or moving support to what its value is multiplied by
+
+        Raises
+        ------
+        InputError
+            For an unknown name, a wrong value, or a body that is left with nothing but frictionless contact.
+        """
+        contacts = list(self.model.contacts)
+        _refuse_unknown(friction, [c.label for c in contacts], "contact", "friction")
+        _refuse_unknown(interference, [c.label for c in contacts], "contact", "interference")
+        _refuse_unknown(loads, self.model.scaled_names, "load or moving support", "loads")
+        gap = self.interface.gap.copy()
+        for i, contact in enumerate(contacts):
+            if friction is not None and contact.label in friction:
+                contacts[i] = replace(contacts[i], friction=friction[contact.label])
+            if interference is not None and contact.label in interference:
+                contacts[i] = replace(contacts[i], interference=interference[contact.label])
+                gap[self.interface.contact == i] += contact.interference - contacts[i].interference
+        factor = {name: number(value, ("loads", name)) for name, value in (loads or {}).items()}
+        mu = np.array([contact.coefficient for contact in contacts], float)[self.interface.contact]
+        interface = replace(self.interface, gap=gap, friction=mu)
+        constraints = replace(
+            self.constraints,
+            prescribed={name: factor.get(name, 1.0) * u for name, u in self.constraints.prescribed.items()},
+        )
+        forces = {name: factor.get(name, 1.0) * f for name, f in self.loads.items()}
+        _refuse_free_motions(self.space, constraints, interface, self.parts, self.motions)
+        model = replace(self.model, contacts=contacts)
+        scale = data_scale(model, forces, constraints, interface)
+        return replace(
+            self,
+            model=model,
+            interface=interface,
+            constraints=constraints,
+            loads=forces,
+            scale=scale,
+            law=replace(
+                self.law,
+                friction=interface.friction[self.condensed.active],
+                scale=_law_scale(interface, self.condensed, scale),
+            ),
+            clock=Clock(),
+        )
 
 
-def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) -> Prepared:
-    """Assemble, check and condense.
+def examine(model: Model) -> Examined:
+    """Put a model on its mesh and check what can be checked without solving.
 
     Raises
     ------
     InputError
-        If something in the model does not fit the mesh, or a body can move freely: it is named, with its motion;
-        or a compliance is so large that contact hardly holds a body.
+        If something in the model does not fit the mesh, or a body can move freely: it is named, with its motion.
+    """
+    space = make_space(model.mesh)
+    constraints = make_constraints(space, model)
+    loads = nodal_loads(space, model)
+    interface = make_interface(space, model, constraints)
+    parts = make_parts(space, model)
+    motions = rigid_motions(space, parts)
+    _refuse_free_motions(space, constraints, interface, parts, motions)
+    return Examined(
+        model=model,
+        space=space,
+        constraints=constraints,
+        interface=interface,
+        loads=loads,
+        parts=parts,
+        motions=motions,
+        floating=free_motions(motions, constraints, sp.csr_array((0, space.number_of_dofs))),
+        scale=data_scale(model, loads, constraints, interface),
+    )
+
+
+def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) -> Prepared:
+    """Examine, assemble and condense; pairs that seem too far apart to touch are left out.
+
+    Raises
+    ------
+    InputError
+        See :func:`examine`; or a compliance is so large that contact hardly holds a body.
     """
     clock = clock or Clock()
     with clock.phase("assembly"):
-        space = make_space(model.mesh)
-        constraints = make_constraints(space, model)
-        loads = nodal_loads(space, model)
-        interface = make_interface(space, model, constraints)
-        parts = make_parts(space, model)
-        motions = rigid_motions(space, parts)
-        _refuse_free_motions(space, constraints, interface, parts, motions)
-        K = stiffness(space, model)
-        T = constraints.transform
+        examined = examine(model)
+        K = stiffness(examined.space, model)
+    near = candidates(examined.interface, examined.scale.length)
+    return _condensed(examined, K, near, backend, clock)
+
+
+def _condensed(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, clock: Clock) -> Prepared:
+    """Factorise the bodies with the nodes of the candidates last, and put the law on them."""
+    interface, T = examined.interface, examined.constraints.transform
+    with clock.phase("assembly"):
         reduced, relative = sp.csr_array(T.T @ K @ T), sp.csr_array(interface.B @ T)
     try:
-        condensed = condense(reduced, relative, interface, constraints.nodes, backend=backend, clock=clock)
+        condensed = condense(
+            reduced, relative, interface, examined.constraints.nodes, candidates=near, backend=backend, clock=clock
+        )
     except NotPositiveDefinite as error:
-        raise _singular(model, constraints, parts, error) from error
+        raise _singular(examined, error) from error
     except np.linalg.LinAlgError as error:
         raise InputError(
             "the compliance of the contacts is so large, or the moduli are so far apart, that contact hardly holds a "
             "body; expected smaller compliances, or supports",
             where=("contact",),
         ) from error
+    seen = interface.B @ examined.motions @ examined.floating
     return Prepared(
-        model=model,
-        space=space,
-        constraints=constraints,
-        interface=interface,
+        **{field.name: getattr(examined, field.name) for field in fields(Examined)},
         K=K,
-        loads=loads,
-        parts=parts,
-        motions=motions,
-        floating=free_motions(motions, constraints, sp.csr_array((0, space.number_of_dofs))),
         condensed=condensed,
-        scale=data_scale(model, loads, constraints, interface),
+        law=_law(interface, condensed, seen, examined.scale),
         clock=clock,
+        backend=backend,
     )
+
+
+def _law(interface: Interface, condensed: Condensed, floating: Array, scale: Scale) -> CoulombProblem:
+    """The contact law of the active pairs, with no load yet; floating (2 n, k) rigid motions as the pairs see them."""
+    rows = condensed.active_rows
+    return CoulombProblem(
+        W=frozen(condensed.W),
+        b=np.zeros(len(rows)),
+        friction=interface.friction[condensed.active],
+        # where supports guide a pair the law sees no motion at all, not even its rounding
+        motions=condensed.root[:, None] * np.where(np.any(condensed.W, axis=1, keepdims=True), floating[rows], 0.0),
+        scale=_law_scale(interface, condensed, scale),
+    )
+
+
+def _law_scale(interface: Interface, condensed: Condensed, scale: Scale) -> float:
+    """Size of the motions that tolerances refer to; gaps far larger leave rounding that no solver can mend."""
+    gap = float(np.abs(interface.gap[condensed.active]).max(initial=0.0))
+    return max(scale.length, _ROUNDING * gap) * float(condensed.root.max(initial=1.0))
+
+
+def _refuse_unknown(given: Mapping[str, float] | None, known: Sequence[str], what: str, key: str) -> None:
+    for name in given or {}:
+        if name not in known:
+            raise InputError(one_of(name, known, what), where=(key,))
 
 
 def _refuse_free_motions(
@@ -122,12 +258,10 @@ def _say(parts: tuple[Part, ...], motions: Array) -> str:
     return ", and ".join(describe_motion(parts, motion) for motion in motions.T)
 
 
-def _singular(
-    model: Model, constraints: Constraints, parts: tuple[Part, ...], error: NotPositiveDefinite
-) -> InputError:
-    node = constraints.nodes[error.dof]
-    label = next(part.label for part in parts if node in part.nodes)
-    at = tuple(float(x) for x in model.mesh.points[node].round(6))
+def _singular(examined: Examined, error: NotPositiveDefinite) -> InputError:
+    node = examined.constraints.nodes[error.dof]
+    label = next(part.label for part in examined.parts if node in part.nodes)
+    at = tuple(float(x) for x in examined.model.mesh.points[node].round(6))
     return InputError(
         f"{label} has no stiffness against some motion of node {node + 1} at {at}, though no rigid motion is free; "
         "expected cells that are joined by edges (a hinge at a single node?) and moduli that are not extremely apart"

@@ -13,7 +13,6 @@ from signorini.clock import Clock
 from signorini.errors import SolveFailed
 from signorini.fem.rigid import describe_motion
 from signorini.friction.law import OPEN, STICK
-from signorini.friction.problem import CoulombProblem
 from signorini.friction.result import CoulombResult
 from signorini.friction.solve import solve_coulomb
 from signorini.model.model import Model
@@ -33,7 +32,6 @@ ONE_INCREMENT = (
 
 _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
 _REFINEMENTS = 2
-_ROUNDING = 1e-4  # of the largest gap: times the solver's tolerance, 1e-10, a few roundings of it
 
 
 def solve(model: Model, *, backend: str = "auto", raise_on_failure: bool = True, clock: Clock | None = None) -> History:
@@ -57,27 +55,38 @@ def solve(model: Model, *, backend: str = "auto", raise_on_failure: bool = True,
 
 
 def solve_prepared(prepared: Prepared, *, raise_on_failure: bool = True) -> History:
-    """Solve the load history of a prepared model; see :func:`solve`."""
+    """Solve the load history of a prepared model; see :func:`solve`.
+
+    Pairs that were left out as too far apart are looked at after every increment; where one has met the other side, or
+    nothing was found without them, everything is solved again with all pairs.
+    """
+    history = _follow(prepared)
+    if prepared.limited and not history.solved:
+        prepared.clock.tell("again with all pairs")
+        history = _follow(prepared.widened())
+    if raise_on_failure and not history.solved:
+        raise SolveFailed(history.message, status=history.status, solution=history)
+    return history
+
+
+def _follow(prepared: Prepared) -> History:
+    """Step after step, increment after increment, up to the end or to what stops it."""
     model = prepared.model
     factors = model.factors()
     state = initial_state(factors[0], prepared.space.number_of_dofs, prepared.interface.gap)
-    problem = _law(prepared)
     steps: list[StepResult] = []
     try:
         for number, (step, end) in enumerate(zip(model.steps, factors[1:], strict=True), start=1):
-            first, certificates, methods = state, [], []
+            first, certificates, answers = state, [], []
             for fraction, target in _increments(step, state.factors, end):
                 where = f"step '{step.name}' at {fraction:.0%}" if step.name else f"step {number} at {fraction:.0%}"
                 prepared.clock.tell(where)
-                state, certificate, result = _advance(prepared, problem, state, target, where)
+                state, certificate, result = _advance(prepared, state, target, where)
                 certificates.append(certificate)
-                methods.append(result.method)
-            steps.append(_step_result(prepared, step, number, first, state, certificates, methods))
+                answers.append(result)
+            steps.append(_step_result(prepared, step, number, first, state, certificates, answers))
     except SolveFailed as failure:
-        history = _history(prepared, failure.status, str(failure), steps)
-        if raise_on_failure:
-            raise SolveFailed(str(failure), status=failure.status, solution=history) from failure.__cause__
-        return history
+        return _history(prepared, failure.status, str(failure), steps)
     return _history(prepared, "solved", "", steps)
 
 
@@ -90,24 +99,8 @@ def _increments(
         yield t, {name: (1.0 - t) * start[name] + t * end[name] for name in end} if t < 1.0 else end
 
 
-def _law(prepared: Prepared) -> CoulombProblem:
-    """The contact law on the condensed interface, with no load yet."""
-    condensed, rows = prepared.condensed, prepared.condensed.active_rows
-    seen = (prepared.interface.B @ prepared.motions @ prepared.floating)[rows]
-    gap = prepared.interface.gap[condensed.active]
-    return CoulombProblem(
-        W=frozen(condensed.W),
-        b=np.zeros(len(rows)),
-        friction=prepared.interface.friction[condensed.active],
-        motions=condensed.root[:, None] * np.where(np.any(condensed.W, axis=1, keepdims=True), seen, 0.0),
-        # gaps far larger than the displacements leave their rounding in b: no solver can do better
-        scale=max(prepared.scale.length, _ROUNDING * float(np.abs(gap).max(initial=0.0)))
-        * float(condensed.root.max(initial=1.0)),
-    )
-
-
 def _advance(
-    prepared: Prepared, problem: CoulombProblem, state: State, factors: Mapping[str, float], where: str
+    prepared: Prepared, state: State, factors: Mapping[str, float], where: str
 ) -> tuple[State, Certificate, CoulombResult]:
     """One increment: from a state to the next at given load factors."""
     condensed, constraints, interface = prepared.condensed, prepared.constraints, prepared.interface
@@ -117,13 +110,13 @@ def _advance(
     offset = np.concatenate([interface.gap, -state.tangential]) + interface.B @ imposed
     _refuse_overlap(prepared, offset[:n], where)
     f = constraints.transform.T @ (loads - prepared.K @ imposed)
-    result, forces, moved, free = _balanced(prepared, problem, f, offset, state)
+    result, forces, moved, free = _balanced(prepared, f, offset, state)
     if not result.solved:
-        raise SolveFailed(f"{where}: {_explain(prepared, problem, result)}", status=result.outcome)
+        raise SolveFailed(f"{where}: {_explain(prepared, result)}", status=result.outcome)
     with prepared.clock.phase("recovery"):
         displacement = constraints.transform @ free + imposed
-        inactive = np.setdiff1d(np.arange(2 * n), rows)
-        moved[inactive] = offset[inactive]
+        outside = np.setdiff1d(np.arange(2 * n), rows)
+        moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
         status = np.full(n, OPEN)
         status[active] = result.state
         new = next_state(
@@ -138,21 +131,31 @@ def _advance(
             moved=moved,
             status=status,
         )
-        certificate = certify(
-            prepared.K, loads, prepared.motions, constraints, interface, new, state.tangential, prepared.scale
-        )
-    if not certificate.passed:
-        raise SolveFailed(
-            f"{where}: the solver's answer did not pass the certificate ({certificate}); badly "
-            "scaled data (extreme ratios of moduli, sizes or compliances) are the usual cause",
-            status="not_found",
-        )
-    return new, certificate, result
+    return new, _certified(prepared, loads, new, state.tangential, where), result
 
 
-def _balanced(
-    prepared: Prepared, problem: CoulombProblem, f: Array, offset: Array, state: State
-) -> tuple[CoulombResult, Array, Array, Array]:
+def _certified(prepared: Prepared, loads: Array, state: State, before: Array, where: str) -> Certificate:
+    """Measure a state; what does not pass is no solution."""
+    certificate = certify(
+        prepared.K,
+        loads,
+        prepared.motions,
+        prepared.constraints,
+        prepared.interface,
+        state,
+        before,
+        prepared.scale,
+    )
+    if certificate.passed:
+        return certificate
+    raise SolveFailed(
+        f"{where}: the solver's answer did not pass the certificate ({certificate}); badly scaled data (extreme ratios "
+        "of moduli, sizes or compliances) are the usual cause",
+        status="not_found",
+    )
+
+
+def _balanced(prepared: Prepared, f: Array, offset: Array, state: State) -> tuple[CoulombResult, Array, Array, Array]:
     """The contact problem under the load f on the free displacements: result, forces, motions, free displacements.
 
     What equilibrium and the motions of the pairs lack in the end, on the problem as posed, is given to the condensed
@@ -171,12 +174,12 @@ def _balanced(
     forces, moved, free = np.zeros(2 * n), np.zeros(2 * n), np.zeros_like(f)
     load, start = f, state.status[condensed.active] if state.forces.any() else None
     lacking = np.zeros(len(rows))
-    guided = np.tile(problem.locked, 2)
+    guided = np.tile(prepared.law.locked, 2)
     for _ in range(_REFINEMENTS + 1):
         with prepared.clock.phase("complementarity"):
             f_c = condensed.condensed_load(load)
-            b = condensed.right_hand_side(f_c, offset[rows], problem.motions) + condensed.root * lacking
-            result = solve_coulomb(replace(problem, b=b), start)
+            b = condensed.right_hand_side(f_c, offset[rows], prepared.law.motions) + condensed.root * lacking
+            result = solve_coulomb(replace(prepared.law, b=b), start)
         if not result.solved:
             break
         with prepared.clock.phase("recovery"):
@@ -196,7 +199,7 @@ def _balanced(
 
 def _refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
     """Supports that hold both sides of a pair decide its gap; no force can mend an overlap there."""
-    held = np.nonzero(~prepared.condensed.active & (gap < -1e-12 * prepared.scale.length))[0]
+    held = np.nonzero(prepared.condensed.held & (gap < -1e-12 * prepared.scale.length))[0]
     if len(held):
         pair = held[np.argmin(gap[held])]
         contact = prepared.model.contacts[prepared.interface.contact[pair]]
@@ -207,11 +210,11 @@ def _refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
         )
 
 
-def _explain(prepared: Prepared, problem: CoulombProblem, result: CoulombResult) -> str:
+def _explain(prepared: Prepared, result: CoulombResult) -> str:
     """The reason, and the bodies that leave by name."""
-    if result.escape is None or not problem.motions.shape[1]:
+    if result.escape is None or not prepared.law.floating:
         return result.message
-    coefficients, *_ = np.linalg.lstsq(problem.motions, result.escape, rcond=None)
+    coefficients, *_ = np.linalg.lstsq(prepared.law.motions, result.escape, rcond=None)
     return f"{describe_motion(prepared.parts, prepared.floating @ coefficients)}: {result.message}"
 
 
@@ -222,7 +225,7 @@ def _step_result(
     before: State,
     state: State,
     certificates: list[Certificate],
-    methods: list[str],
+    answers: list[CoulombResult],
 ) -> StepResult:
     model, interface = prepared.model, prepared.interface
     compliance = np.concatenate([interface.normal_compliance, interface.tangential_compliance])
@@ -244,7 +247,8 @@ def _step_result(
         contacts=tuple(
             _contact_result(prepared, i, before, state, interface.contact == i) for i in range(len(model.contacts))
         ),
-        methods=tuple(dict.fromkeys(methods)),
+        methods=tuple(dict.fromkeys(answer.method for answer in answers)),
+        iterations=tuple(sum(attempt.iterations for attempt in answer.trace) for answer in answers),
         notes=notes,
     )
 

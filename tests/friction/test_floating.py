@@ -75,8 +75,16 @@ def test_a_pair_given_twice_shares_its_force():
     np.testing.assert_allclose(result.normal_force[0], result.normal_force[1], atol=1e-12)
 
 
-def test_bonded_pairs_may_open():
-    result = solve_coulomb(block_on_floor(8, (-1.0, 50.0, 0.9), friction=np.inf))
+def test_pairs_of_unlimited_friction_stick_or_open():
+    result = solve_coulomb(block_on_floor(8, (-1.0, 0.5, 0.9), friction=np.inf))
     assert result.solved
     assert set(result.state.tolist()) == {OPEN, STICK}
-    np.testing.assert_allclose(result.tangential_force.sum(), -50.0, rtol=1e-10)
+    np.testing.assert_allclose(result.tangential_force.sum(), -0.5, rtol=1e-10)
+
+
+def test_unlimited_friction_on_the_verge_of_opening_is_said():
+    result = solve_coulomb(block_on_floor(8, (-1.0, 50.0, 0.9), friction=np.inf))
+    assert result.solved
+    assert "verge of opening" in result.message
+    verge = result.state > STICK
+    np.testing.assert_allclose(result.normal_force[verge], np.abs(result.tangential_force[verge]) / 1e6, rtol=1e-9)

@@ -20,16 +20,17 @@ def test_ties_do_not_cycle_on_kostreva():
     np.testing.assert_allclose(solution.z, 1 / 3, rtol=1e-14)
 
 
-def test_a_ray_is_a_ray_and_can_be_checked():
+@pytest.mark.parametrize("z0", [None, [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [1.0, 0.0, 1.0]])
+def test_a_ray_is_a_ray_and_can_be_checked(z0):
     M, q = KOSTREVA_UNSOLVABLE, -np.ones(3)
-    solution = lcp.solve(M, q, method=lcp.Lemke(covering=np.ones(3)))
+    solution = lcp.solve(M, q, method=lcp.Lemke(covering=np.ones(3)), z0=z0)
     assert solution.status is lcp.Status.RAY_TERMINATION
     assert solution.z is None
     assert solution.w is None
     ray = solution.ray
     for t in (0.0, 1.0, 7.0):
         z = ray.point + t * ray.direction
-        w = M @ z + q + (ray.theta + t * ray.slope)
+        w = M @ z + q + (ray.theta + t * ray.slope) * ray.covering
         assert min(z.min(), w.min()) > -1e-12
         assert abs(z @ w) < 1e-12
 

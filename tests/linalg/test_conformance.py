@@ -7,7 +7,8 @@ from problems import dense_schur, lattice, rigid_motions, together
 from scipy import sparse
 
 from signorini.errors import InputError
-from signorini.linalg import BACKENDS, Factorisation, NotPositiveDefinite, factorise
+from signorini.linalg import AUTOMATIC, BACKENDS, Factorisation, NotPositiveDefinite, factorise, pardiso
+from signorini.linalg._blas import get_threads
 
 PROBLEMS = {
     "2d": lattice((17, 12)),
@@ -24,6 +25,8 @@ PROBLEMS = {
 
 @pytest.fixture(params=sorted(BACKENDS))
 def backend(request):
+    if request.param == "pardiso" and not pardiso.available():
+        pytest.skip("pypardiso is not installed")
     return request.param
 
 
@@ -103,6 +106,38 @@ def test_rigid_motions_need_no_force(backend, name):
     R = rigid_motions(p)[p.interface]
     assert np.abs(S @ R).max() <= 1e-12 * np.abs(S).max() * np.abs(R).max()
     assert np.linalg.eigvalsh(S)[R.shape[1]] > 1e-4 * np.abs(S).max()
+
+
+def test_automatic_choice_is_reported():
+    assert factorise(sparse.eye_array(3, format="csr"), [0]).name == AUTOMATIC == "multifrontal"
+
+
+def test_a_back_end_that_is_not_installed_says_how_to_get_it(monkeypatch):
+    monkeypatch.setattr(pardiso, "available", lambda: False)
+    with pytest.raises(InputError, match="pip install"):
+        factorise(sparse.eye_array(3, format="csr"), [0], backend="pardiso")
+
+
+def test_the_plan_counts_what_is_stored():
+    p = lattice((30, 20))
+    plan = factorise(p.K, p.interface, nodes=p.nodes, backend="multifrontal").plan
+    K_ii = np.delete(np.delete(p.K.toarray(), p.interface, axis=0), p.interface, axis=1)
+    assert np.count_nonzero(np.tril(K_ii)) < plan.nnz_factor < len(K_ii) ** 2 / 4
+    assert plan.peak_bytes >= 8 * (plan.nnz_factor + len(p.interface) ** 2)
+    assert sorted(plan.order) == list(range(p.K.shape[0]))
+
+
+def test_repeats_to_the_last_bit():
+    p = lattice((6, 7, 5))
+    one, two = (factorise(p.K, p.interface, nodes=p.nodes, backend="multifrontal") for _ in range(2))
+    assert np.array_equal(one.schur(), two.schur())
+
+
+def test_blas_keeps_its_threads():
+    p = lattice((8, 8))
+    before = get_threads()
+    factorise(p.K, p.interface, nodes=p.nodes, backend="multifrontal").reduce(np.ones(p.K.shape[0]))
+    assert get_threads() == before
 
 
 @pytest.mark.parametrize(

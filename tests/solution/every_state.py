@@ -68,10 +68,9 @@ def _increment(K, B, T, loads, imposed, gap, friction, before):
                 matrix[tangent, :z], right[tangent] = B[n + i] @ T, before.anchor[i] - offset[n + i]
             else:
                 matrix[tangent, tangent], matrix[tangent, normal] = 1.0, -SLIPS[state] * friction[i]
-        try:
-            x = np.linalg.solve(matrix, right)
-        except np.linalg.LinAlgError:
+        if np.linalg.cond(matrix) > 1e10:  # a state that leaves a motion or a force undetermined
             continue
+        x = np.linalg.solve(matrix, right)
         u, p, t = T @ x[:z] + imposed, x[z : z + n], x[z + n :]
         moved = B @ u
         g, s = gap + moved[:n], moved[n:] - before.anchor

@@ -82,7 +82,7 @@ def test_a_penalty_too_large_is_said_not_hidden(friction):
     assert not answer.solved
     assert not answer.certificate.passed
     assert answer.condition > 1e14
-    assert "condition number of K_c is" in answer.message or "was not solved" in answer.message
+    assert "condition number of K_c" in answer.message or "was not solved" in answer.message
     # the same law without the penalty's conditioning is no trouble
     step = solve(compliant(model, 1e14 * E, 1e14 * E)).last
     assert step.certificate.passed

@@ -9,7 +9,7 @@ pulled; friction 0 to 8; histories of up to five steps. ``python -m signorini.be
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,7 +26,7 @@ FAMILIES = ("block", "two blocks", "skew block", "wedge", "peg", "corner", "punc
 FRICTION = (0.0, 0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 3.0)
 SEED = 1993
 
-METHODS = ("newton", "path open", "path press", "springs", "tree")
+METHODS = ("newton", "path open", "path press", "path among touching", "springs", "tree")
 PROOFS = ("proved: rigid motions", "proved: tree")
 OTHER = ("escape named", "no answer")
 
@@ -201,7 +201,7 @@ class _Block:
 
     K: sparse.csr_matrix
     x: Array
-    sides: dict[str, IntArray]
+    sides: Mapping[str, IntArray]
     dofs: IntArray
 
 

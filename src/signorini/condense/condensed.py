@@ -37,7 +37,8 @@ class Condensed:
     ----------
     factorisation : of the bodies, with the contact dofs last
     W : (2 a, 2 a) for the a active pairs, symmetric, spectrum in [0, 1]
-    active : (n,) pairs that can move along their normal; supports hold the others
+    active : (n,) pairs that the law is asked of: candidates that can move along their normal
+    held : (n,) pairs that cannot, because supports hold them
     root : (2 a,) square roots of D, force per length to the 1/2
     dofs : (m,) the contact dofs among the free displacements
     B : (2 a, m) relative displacements of the active pairs in terms of them, B_c
@@ -46,6 +47,7 @@ class Condensed:
     factorisation: Factorisation
     W: Array
     active: BoolArray
+    held: BoolArray
     root: Array
     dofs: IntArray
     B: sp.csr_array
@@ -99,7 +101,14 @@ class Condensed:
 
 
 def condense(
-    K: sp.csr_array, B: sp.csr_array, interface: Interface, nodes: IntArray, *, backend: str, clock: Clock
+    K: sp.csr_array,
+    B: sp.csr_array,
+    interface: Interface,
+    nodes: IntArray,
+    *,
+    candidates: BoolArray,
+    backend: str,
+    clock: Clock,
 ) -> Condensed:
     """Factorise the bodies once and condense them onto the contact pairs.
 
@@ -109,6 +118,7 @@ def condense(
     B : (2 n, z) relative displacements of the pairs in terms of them
     interface : the pairs
     nodes : (z,) node of each free displacement
+    candidates : (n,) pairs that may touch; the nodes of the others are eliminated like any other
     backend : of the factorisation, "auto" or a name
     clock : counts the factorisation and the condensation apart
 
@@ -121,18 +131,24 @@ def condense(
     size = np.sqrt(np.asarray(B.multiply(B).sum(axis=1)).ravel())
     B = sp.csr_array(sp.diags_array(np.where(size > _HELD, 1.0, 0.0)) @ B)
     B.eliminate_zeros()
-    active = size[:n] > _HELD
+    held = size[:n] <= _HELD
+    active = candidates & ~held
     pairs = np.nonzero(active)[0]
     B = B[np.concatenate([pairs, n + pairs])]
     dofs = np.unique(B.indices)
     with clock.phase("factorisation"):
         factorisation = factorise(K, dofs, nodes=nodes, backend=backend)
     with clock.phase("condensation"):
-        return _condense(factorisation, sp.csr_array(B[:, dofs]), interface, active, dofs)
+        return _condense(factorisation, sp.csr_array(B[:, dofs]), interface, active, held, dofs)
 
 
 def _condense(
-    factorisation: Factorisation, B_c: sp.csr_array, interface: Interface, active: BoolArray, dofs: IntArray
+    factorisation: Factorisation,
+    B_c: sp.csr_array,
+    interface: Interface,
+    active: BoolArray,
+    held: BoolArray,
+    dofs: IntArray,
 ) -> Condensed:
     """From the contact dofs to the pairs."""
     pairs = np.nonzero(active)[0]
@@ -141,10 +157,10 @@ def _condense(
     area = np.tile(interface.area[pairs], 2)
     compliance = np.concatenate([interface.normal_compliance[pairs], interface.tangential_compliance[pairs]]) / area
     softening = 1.0 / (1.0 + stiffness * compliance)
-    held = S + (B_c.T @ sp.diags_array(stiffness * softening) @ B_c).toarray()
+    springs = S + (B_c.T @ sp.diags_array(stiffness * softening) @ B_c).toarray()
     cholesky, A = (S, True), np.zeros((0, 0))
     if len(dofs):
-        cholesky = scipy.linalg.cho_factor(held, lower=True, overwrite_a=True, check_finite=False)
+        cholesky = scipy.linalg.cho_factor(springs, lower=True, overwrite_a=True, check_finite=False)
         A = B_c @ scipy.linalg.cho_solve(cholesky, B_c.T.toarray(), check_finite=False)
     root = np.sqrt(stiffness)
     W = (root * softening)[:, None] * A * (root * softening)
@@ -153,6 +169,7 @@ def _condense(
         factorisation=factorisation,
         W=0.5 * (W + W.T),
         active=active,
+        held=held,
         root=root,
         dofs=dofs,
         B=B_c,

@@ -12,7 +12,6 @@ from signorini.checks import choice, text, vector
 from signorini.deck.table import check_keys, table
 from signorini.errors import InputError, Where
 from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
-from signorini.fem.read import read_mesh
 from signorini.model.mesh import Mesh, join
 
 GENERATORS: Mapping[str, Callable[..., Mesh]] = {
@@ -61,6 +60,8 @@ def _one(data: dict[str, Any], where: Where, folder: Path) -> Mesh:
 
 
 def _from_file(data: Mapping[str, Any], folder: Path) -> Mesh:
+    from signorini.fem.read import read_mesh  # brings every format of meshio with it
+
     check_keys(data, ("mesh",), known=["file", "name"])
     path = folder / text(data["file"], ("mesh", "file"))
     try:

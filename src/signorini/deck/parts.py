@@ -30,7 +30,9 @@ _CONTACT_KEYS = (
 def deck_materials(data: Mapping[str, Any]) -> dict[str, Elastic]:
     """``[material.NAME]`` by name."""
     materials = table(data.get("material", {}), ("material",))
-    return {name: make(Elastic, table(entry, ("material", name)), ("material", name)) for name, entry in materials.items()}
+    return {
+        name: make(Elastic, table(entry, ("material", name)), ("material", name)) for name, entry in materials.items()
+    }
 
 
 def deck_bodies(data: Mapping[str, Any], materials: Mapping[str, Elastic]) -> list[Body]:

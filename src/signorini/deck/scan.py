@@ -84,6 +84,7 @@ class _Scanner:
         table: Where = ()
         for part in outer:
             table = self._inside((*table, part))
+            self._lines.setdefault(table, line)
         table = (*table, last)
         if double:
             number = self._entries.get(table, 0)

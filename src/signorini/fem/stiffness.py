@@ -7,6 +7,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array
+from signorini.fem.assembly import Cells
+from signorini.fem.assembly import stiffness as assemble
 from signorini.fem.space import Space
 from signorini.model.model import Model
 
@@ -29,17 +31,17 @@ def stiffness(space: Space, model: Model) -> sp.csr_array:
     """``K_ij = int (lambda div phi_i div phi_j + 2 G eps(phi_i):eps(phi_j)) dx`` times the thickness, (dofs, dofs)."""
     lame, shear = lame_parameters(model)
     owner = model.body_of_cells()
-    total = sp.csr_array((space.number_of_dofs, space.number_of_dofs))
-    for block, volumes in zip(space.blocks, space.volumes, strict=True):
+    blocks = []
+    for block in space.blocks:
         own = owner[block.first : block.first + len(block.cells)]
-        g = space.gradients(block, block.gradients)
-        volumes = volumes * model.thickness
-        first = np.einsum("mq,mqai,mqbj->maibj", volumes * lame[own, None], g, g, optimize=True)
-        second = np.einsum("mq,mqaj,mqbi->maibj", volumes * shear[own, None], g, g, optimize=True)
-        third = np.einsum("mq,mqak,mqbk->mab", volumes * shear[own, None], g, g, optimize=True)
-        cell = first + second + third[:, :, None, :, None] * np.eye(space.dimension)[None, None, :, None, :]
-        dofs = space.dofs(block.cells).reshape(len(block.cells), -1)
-        size = dofs.shape[1]
-        rows, columns = np.repeat(dofs, size, axis=1).ravel(), np.tile(dofs, (1, size)).ravel()
-        total = total + sp.csr_array((cell.ravel(), (rows, columns)), shape=total.shape)
-    return total
+        blocks.append(
+            Cells(
+                nodes=block.cells,
+                shape_gradients=block.gradients,
+                weights=block.weights,
+                lame_lambda=lame[own],
+                lame_mu=shear[own],
+                thickness=model.thickness,
+            )
+        )
+    return assemble(space.mesh.points, blocks)

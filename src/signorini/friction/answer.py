@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from signorini.arrays import Array, frozen
+from signorini.arrays import Array, IntArray, frozen
 from signorini.friction.candidate import Candidate
-from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, UNDECIDED, split, states
+from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED, split, states
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.result import Attempt, CoulombResult, Outcome
 
@@ -16,6 +16,7 @@ UNDETERMINED = (
     " repeats another): the solution of least change was taken"
 )
 SEVERAL = "; its index is -1: at least two more solutions exist, and the load history decides which one is taken"
+VERGE = "; pairs of unlimited friction slip on the verge of opening: {pairs}"
 PULLED_AWAY = (
     "no equilibrium: the loads pull a body away along a rigid motion that contact cannot resist, whatever its state;"
     " hold the body, or change the loads"
@@ -38,7 +39,6 @@ def solved(problem: CoulombProblem, found: Candidate, trace: tuple[Attempt, ...]
     state = states(y, problem.mu, problem.closed)
     frictionless = (state != OPEN) & (problem.mu == 0)
     state = np.where(frictionless & (h[n:] > 0), SLIP_MINUS, np.where(frictionless, SLIP_PLUS, state))
-    how = f"solved by {trace[-1].method}, {trace[-1].iterations} steps" if trace else "no pairs, nothing to solve"
     return CoulombResult(
         outcome="solved",
         gap=frozen(h[:n]),
@@ -49,10 +49,22 @@ def solved(problem: CoulombProblem, found: Candidate, trace: tuple[Attempt, ...]
         trace=trace,
         residual=found.residual,
         index=found.index,
-        message=how
-        + ("" if found.index else UNDETERMINED)
-        + (SEVERAL if found.index < 0 and not problem.floating else ""),
+        message=_how(problem, found, state, trace),
     )
+
+
+def _how(problem: CoulombProblem, found: Candidate, state: IntArray, trace: tuple[Attempt, ...]) -> str:
+    if not trace:
+        return "no pairs, nothing to solve"
+    words = f"solved by {trace[-1].method}, {trace[-1].iterations} steps"
+    if not found.index:
+        words += UNDETERMINED
+    if found.index < 0 and not problem.floating:
+        words += SEVERAL
+    verge = np.flatnonzero(np.isinf(problem.friction) & (state > STICK))
+    if len(verge):
+        words += VERGE.format(pairs=", ".join(map(str, verge)))
+    return words
 
 
 def impossible(problem: CoulombProblem, found: Candidate, trace: tuple[Attempt, ...]) -> CoulombResult:

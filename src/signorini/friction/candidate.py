@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.friction.law import UNDECIDED
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.result import Attempt
@@ -25,6 +25,7 @@ class Candidate:
     residual : `certify` of y; infinite where the method has no candidate
     index : sign of the determinant of the system that gave y, 0 where it is singular
     attempt : how it went
+    touched : (n,) pairs that were closed in some of the last states tried, or None
     proof : what proves that there is no equilibrium, or None
     escape : (2n,) motion along which the bodies run away, or None
     """
@@ -34,6 +35,7 @@ class Candidate:
     residual: float
     index: int
     attempt: Attempt
+    touched: BoolArray | None = None
     proof: Literal["rigid motion", "tree"] | None = None
     escape: Array | None = None
 

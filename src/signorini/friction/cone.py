@@ -25,6 +25,9 @@ from signorini.friction.problem import CoulombProblem
 SINGULAR = 1e-13
 """Reciprocal condition below which a cone's system counts as singular."""
 
+REFINE = 1e-13
+"""Misfit, relative to scale, above which a solution is refined."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class ConeSystem:
@@ -59,6 +62,8 @@ class ConeSystem:
         if least is None:
             for _ in range(2):
                 error = self.problem.misfit(h, r)
+                if np.abs(error).max(initial=0.0) <= REFINE * self.problem.scale:
+                    break
                 dh, dr = self._expand(self._unknowns(error), error)
                 h, r = h + dh, r + dr
         return r - h
@@ -87,7 +92,7 @@ def cone_system(problem: CoulombProblem, state: IntArray) -> ConeSystem:
     >>> problem = CoulombProblem(
     ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.2]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
-    >>> cone_system(problem, np.array([STICK])).solve(near=np.zeros(2)).tolist()
+    >>> cone_system(problem, np.array([STICK])).solve(near=np.zeros(2)).round(12).tolist()
     [2.0, -0.4]
     """
     matrix = _matrix(problem, state)
@@ -130,7 +135,7 @@ def _matrix(problem: CoulombProblem, state: IntArray) -> Array:
 
 def _right_hand_side(problem: CoulombProblem, state: IntArray, b: Array) -> Array:
     closed, stick = _unknown_rows(state)
-    c = problem.interface.free_motion(b)
+    c = problem.free_motion(b)
     return -np.concatenate([c[closed], c[problem.pairs + stick], problem.interface.R.T @ b])
 
 
@@ -143,7 +148,8 @@ def _expand(problem: CoulombProblem, state: IntArray, x: Array, b: Array) -> tup
     r[closed] = x[: len(closed)]
     r[n:] = np.where(_signed_friction(problem, state) == 0, 0.0, _signed_friction(problem, state) * r[:n])
     r[n + stick] = x[len(closed) : size]
-    h = m.A @ r + m.free_motion(b) + m.R @ x[size:]
+    acting = np.flatnonzero(r)
+    h = r[acting] @ m.A[acting] + problem.free_motion(b) + m.R @ x[size:]
     h[closed] = 0.0
     h[n + stick] = 0.0
     return h, r

@@ -43,6 +43,11 @@ class Interface:
     motions: Array
 
     @classmethod
+    def none(cls) -> Interface:
+        """An interface without pairs."""
+        return cls(W=np.zeros((0, 0)), motions=np.zeros((0, 0)))
+
+    @classmethod
     def exact(cls, W: Array, motions: Array) -> Interface:
         """The interface with ``W R = R`` to rounding, whatever the accuracy of W: ``P W P + R R'``, P = I - R R'.
 
@@ -82,19 +87,16 @@ class Interface:
         G = np.asfortranarray(self.R @ self.R.T - self.W)
         G[np.diag_indices(len(G))] += 1.0
         factor, failed = lapack.dpotrf(G, lower=1, overwrite_a=1, clean=0)
-        if not failed and np.diag(factor).min(initial=1.0) ** 2 > UNRESISTED:
-            factor, failed = lapack.dpotri(factor, lower=1, overwrite_c=1)
-        else:
-            failed = 1
-        if failed:
+        if failed or np.diag(factor).min(initial=1.0) ** 2 <= UNRESISTED:
             raise InputError(
                 "has an eigenvalue 1 (a motion that nothing resists) beyond the rigid motions given; add that motion",
                 where=("W",),
             )
+        factor, _ = lapack.dpotri(factor, lower=1, overwrite_c=1)
         A = np.tril(factor)
         A += np.tril(factor, -1).T
         A[np.diag_indices(len(A))] -= 1.0
-        return np.asarray(A, dtype=np.float64)
+        return np.ascontiguousarray(A, dtype=np.float64)
 
     def free_motion(self, b: Array) -> Array:
         """(2n,) Motion c of the pairs under the load alone, without its rigid part."""

@@ -29,7 +29,7 @@ def split(y: Array, friction: Array) -> tuple[Array, Array]:
     Parameters
     ----------
     y : (2n,) n normals, then n tangents
-    friction : (n,) mu >= 0, ``inf`` for pairs that never slip
+    friction : (n,) mu >= 0, finite
 
     Returns
     -------
@@ -43,8 +43,7 @@ def split(y: Array, friction: Array) -> tuple[Array, Array]:
     """
     n = len(friction)
     pressure = np.maximum(y[:n], 0.0)
-    bound = np.zeros(n)
-    np.multiply(friction, pressure, out=bound, where=pressure > 0)
+    bound = friction * pressure
     r = np.concatenate([pressure, np.clip(y[n:], -bound, bound)])
     return r - y, r
 
@@ -65,27 +64,23 @@ def states(y: Array, friction: Array, closed: IntArray) -> IntArray:
     """
     n = len(friction)
     y_n, y_t = y[:n], y[n:]
-    bound = np.zeros(n)
-    np.multiply(friction, y_n, out=bound, where=y_n > 0)
-    state = np.where(np.abs(y_t) <= bound, STICK, np.where(y_t >= 0, SLIP_PLUS, SLIP_MINUS))
+    state = np.where(np.abs(y_t) <= friction * y_n, STICK, np.where(y_t >= 0, SLIP_PLUS, SLIP_MINUS))
     state = np.where(closed == UNDECIDED, state, closed)
     return np.where(y_n <= 0, OPEN, state).astype(np.int64)
 
 
 def closed_states(friction: Array, locked: BoolArray, b_t: Array) -> IntArray:
-    """What a closed pair can only be: stick without limit, slip without friction, slip as its support drags it.
+    """What a closed pair can only be: slip without friction, slip as its support drags it.
 
     A locked pair (its tangential motion is that of its supports, whatever the forces) slips by b_t, known beforehand,
     and friction opposes it. UNDECIDED everywhere else.
 
     Examples
     --------
-    >>> locked = np.array([False, False, True, False])
-    >>> closed_states(np.array([np.inf, 0.0, 0.3, 0.3]), locked, np.full(4, 0.1)).tolist()
-    [1, 2, 3, -1]
+    >>> closed_states(np.array([0.0, 0.3, 0.3]), np.array([False, True, False]), np.full(3, 0.1)).tolist()
+    [2, 3, -1]
     """
     closed = np.full(len(friction), UNDECIDED)
-    closed[np.isinf(friction)] = STICK
     closed[locked] = np.where(b_t[locked] > 0, SLIP_MINUS, SLIP_PLUS)
     closed[friction == 0] = SLIP_PLUS
     return closed.astype(np.int64)

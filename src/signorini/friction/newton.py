@@ -23,7 +23,7 @@ def newton(
     start: IntArray | None = None,
     *,
     near: Array | None = None,
-    limit: int = 40,
+    limit: int = 200,
     tolerance: float = 1e-10,
 ) -> Candidate:
     """Newton from given states; ends at a solution, a repeated state, a singular state or the limit.
@@ -42,16 +42,16 @@ def newton(
     ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.5]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
     >>> end = newton(problem)
-    >>> end.y.tolist(), end.attempt.end, end.attempt.changes
+    >>> end.y.round(12).tolist(), end.attempt.end, end.attempt.changes
     ([2.0, -1.0], 'certified', (1,))
     """
     state = admissible(problem, start)
     y = np.zeros(2 * problem.pairs) if near is None else near
-    seen: set[bytes] = set()
+    seen: dict[bytes, IntArray] = {}
     changes: list[int] = []
     end, index, residual = "limit reached", 0, np.inf
     for _ in range(limit):
-        seen.add(state.tobytes())
+        seen[state.tobytes()] = state
         system = cone_system(problem, state)
         answer = system.solve(y)
         if answer is None:
@@ -68,7 +68,9 @@ def newton(
             end = "states repeat"
             break
     attempt = Attempt(method="newton", iterations=len(changes), changes=tuple(changes), end=end)
-    return Candidate(y=y, state=state, residual=residual, index=index, attempt=attempt)
+    late = list(seen.values())[len(seen) // 2 :] + [state]
+    touched = np.any([tried != OPEN for tried in late], axis=0)
+    return Candidate(y=y, state=state, residual=residual, index=index, attempt=attempt, touched=touched)
 
 
 def admissible(problem: CoulombProblem, start: IntArray | None) -> IntArray:

@@ -196,5 +196,5 @@ def _cross(course: _Course, X: Array, before: IntArray, state: IntArray, pair: i
     X = blas.dger(-1.0 / pivot, X[:, -1].copy(), row, a=X, overwrite_a=1)
     change = columns(course.G, course.W, mu, int(state[pair]), pair)
     change -= columns(course.G, course.W, mu, int(before[pair]), pair)
-    X[:, -1] -= X[:, :-1] @ (change @ wall / (wall @ wall))
+    X[:, -1] -= X[:, :-1] @ (change @ wall)
     return np.asarray(X)

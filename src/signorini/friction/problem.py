@@ -13,6 +13,9 @@ from signorini.errors import InputError
 from signorini.friction.interface import Interface
 from signorini.friction.law import closed_states
 
+STICKY = 1e6
+"""Friction that stands for ``inf``: without bound the law is not continuous, and need not have a solution."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class CoulombProblem:
@@ -29,7 +32,8 @@ class CoulombProblem:
     W : (2n, 2n) symmetric, spectrum in [0, 1]; 1 belongs to rigid motions alone. An exactly zero tangential row says
         that supports lock the pair's tangential motion. Kept with W R = R restored to rounding
     b : (2n,) load: motion of the pairs under the loads plus ``G h0``, h0 = (initial gap, -slip of the step before)
-    friction : (n,) mu >= 0; ``inf`` never slips, but may open
+    friction : (n,) mu >= 0; ``inf`` sticks wherever it is closed. A pair on the verge of opening may be in equilibrium
+        neither sticking nor open; it slips then, under a normal force of 1e-6 of its friction
     motions : (2n, k) rigid motions seen by the pairs, W R = R; k = 0 where supports hold every body
     scale : size of b's entries, from the data, that tolerances refer to; in the units of b
     interface : what does not depend on the load. ``dataclasses.replace(problem, b=...)`` shares it, with its
@@ -55,14 +59,13 @@ class CoulombProblem:
     friction: Array
     motions: Array
     scale: float
-    interface: Interface = field(default=None, repr=False, compare=False)  # type: ignore[assignment]
+    interface: Interface = field(default_factory=Interface.none, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         for name in ("W", "b", "friction", "motions"):
             object.__setattr__(self, name, _read_only(getattr(self, name)))
         _check(self)
-        known = self.interface
-        if known is None or known.W is not self.W or known.motions is not self.motions:
+        if self.interface.W is not self.W or self.interface.motions is not self.motions:
             interface = Interface.exact(self.W, self.motions)
             object.__setattr__(self, "W", interface.W)
             object.__setattr__(self, "interface", interface)
@@ -84,13 +87,21 @@ class CoulombProblem:
 
     @cached_property
     def mu(self) -> Array:
-        """(n,) Friction that can act: none at a locked pair that is not dragged."""
-        return np.where(self.locked & (self.b[self.pairs :] == 0), 0.0, self.friction)
+        """(n,) Friction that can act: none at a locked pair that is not dragged, 1e6 for ``inf``."""
+        return np.where(self.locked & (self.b[self.pairs :] == 0), 0.0, np.minimum(self.friction, STICKY))
 
     @cached_property
     def closed(self) -> IntArray:
         """(n,) State of each pair where it is closed, UNDECIDED where the solution decides."""
         return closed_states(self.mu, self.locked, self.b[self.pairs :])
+
+    @cached_property
+    def _free(self) -> Array:
+        return self.interface.free_motion(self.b)
+
+    def free_motion(self, b: Array) -> Array:
+        """(2n,) Motion of the pairs under a load alone, without its rigid part; that of the problem's b is kept."""
+        return self._free if b is self.b else self.interface.free_motion(b)
 
     def misfit(self, h: Array, r: Array) -> Array:
         """(2n,) ``b - (G h - W r)``, the motion that equilibrium lacks."""

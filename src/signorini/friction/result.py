@@ -17,7 +17,8 @@ class Attempt:
 
     Attributes
     ----------
-    method : ``"newton"``, ``"path open"``, ``"path press"``, ``"springs"``, ``"rigid motions"``, ``"tree"``
+    method : ``"newton"``, ``"path open"``, ``"path press"``, ``"path among touching"``, ``"springs"``,
+        ``"rigid motions"``, ``"tree"``
     iterations : linear systems solved (Newton), pivots (paths), linear programs (proofs)
     changes : pairs that changed their state, one number for each iteration; a pivot always changes one pair, so that
         paths leave this empty

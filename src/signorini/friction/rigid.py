@@ -36,13 +36,13 @@ def pulled_away(problem: CoulombProblem) -> Array | None:
     R, n, mu = problem.interface.R, problem.pairs, problem.mu
     if not R.shape[1]:
         return None
-    slips = np.isfinite(mu)
-    normal, tangential = R[:n], R[n:]
-    bound = mu[slips, None] * tangential[slips]
-    sticks = [normal[~slips], tangential[~slips], -tangential[~slips]]
-    C = np.concatenate([normal[slips] - bound, normal[slips] + bound, *sticks])
+    normal, bound = R[:n], mu[:, None] * R[n:]
+    C = np.concatenate([normal - bound, normal + bound]) / np.sqrt(1.0 + np.tile(mu, 2) ** 2)[:, None]
     load = R.T @ problem.b / (problem.scale or 1.0)
-    multipliers, _ = nnls(C.T, -load)
+    try:
+        multipliers, _ = nnls(C.T, -load)
+    except RuntimeError:  # its iteration limit: nothing proved
+        return None
     a = load + C.T @ multipliers
     size = float(np.linalg.norm(a))
     if size <= GAIN * np.sqrt(n) or (C @ a).min() < -GAIN * size or load @ a <= 0.5 * size**2:

@@ -3,7 +3,8 @@
 
 1. Newton from the previous states (see `newton`), then from every pair sticking. Nearly always enough.
 2. Floating bodies: proof that the loads pull them away (see `rigid`).
-3. Paths (see `path`), first with a budget of 10 pivots a pair, then of 100. Held bodies: open, then press; one of them
+3. Paths (see `path`); of many pairs first among those that Newton found touching (see `release`); then of all, with a
+   budget of 10 pivots a pair, then of 100. Held bodies: open, then press; one of them
    ends in a solution. Floating bodies: press, then "open" with springs of falling stiffness at every pair.
 4. Up to 25 pairs: proof or solution by a tree of linear programs (see `tree`).
 
@@ -18,14 +19,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
 from signorini.friction.answer import impossible, not_found, solved
 from signorini.friction.candidate import Candidate
-from signorini.friction.law import SLIP_MINUS, UNDECIDED, split
+from signorini.friction.law import OPEN, SLIP_MINUS, UNDECIDED, split
 from signorini.friction.newton import newton
 from signorini.friction.path import Covering, PathEnd, follow
 from signorini.friction.problem import CoulombProblem
+from signorini.friction.release import released
 from signorini.friction.result import Attempt, CoulombResult
 from signorini.friction.rigid import pulled_away
 from signorini.friction.tree import search
@@ -41,13 +43,15 @@ class CoulombSettings:
     newton_steps : most linear systems of one Newton run
     pivots_per_pair : most pivots of a path, in rounds
     springs : stiffness of the springs, falling, in units of the interface stiffness
+    many_pairs : pairs from which a path is first followed among the pairs alone that Newton found touching
     tree_pairs, tree_programs : most pairs and most linear programs of the tree
     """
 
     tolerance: float = 1e-10
-    newton_steps: int = 40
+    newton_steps: int = 200
     pivots_per_pair: tuple[int, ...] = (10, 100)
     springs: tuple[float, ...] = (1e-3, 1e-6, 1e-9)
+    many_pairs: int = 200
     tree_pairs: int = 25
     tree_programs: int = 2000
 
@@ -74,8 +78,8 @@ def solve_coulomb(
     ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.5]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
     >>> result = solve_coulomb(problem)
-    >>> result.outcome, result.normal_force.tolist(), result.tangential_force.tolist(), result.slip.round(12).tolist()
-    ('solved', [2.0], [-0.6], [0.4])
+    >>> result.outcome, result.normal_force.round(12).tolist(), result.tangential_force.round(12).tolist()
+    ('solved', [2.0], [-0.6])
     """
     settings = settings or CoulombSettings()
     _check_start(problem, start)
@@ -105,9 +109,12 @@ def _candidates(problem: CoulombProblem, start: IntArray | None, settings: Coulo
     """What the methods find, one after the other, each tried only when it is asked for."""
     if start is not None:
         yield newton(problem, start, limit=settings.newton_steps, tolerance=settings.tolerance)
-    yield newton(problem, limit=settings.newton_steps, tolerance=settings.tolerance)
+    plain = newton(problem, limit=settings.newton_steps, tolerance=settings.tolerance)
+    yield plain
     if problem.floating:
         yield _proof_by_rigid_motion(problem)
+    if plain.touched is not None and 2 * np.count_nonzero(plain.touched) < problem.pairs >= settings.many_pairs:
+        yield _among_touched(problem, plain.touched, settings)
     for round_, per_pair in enumerate(settings.pivots_per_pair):
         budget = per_pair * max(problem.pairs, 5)
         if not problem.floating:
@@ -125,6 +132,20 @@ def _proof_by_rigid_motion(problem: CoulombProblem) -> Candidate:
         return Candidate.without(problem, Attempt(method="rigid motions", iterations=1, end="nothing proved"))
     attempt = Attempt(method="rigid motions", iterations=1, end="pulled away")
     return replace(Candidate.without(problem, attempt), proof="rigid motion", escape=rho)
+
+
+def _among_touched(problem: CoulombProblem, touched: BoolArray, settings: CoulombSettings) -> Candidate:
+    """The end of a path of the touching pairs alone, made exact with all pairs."""
+    few = released(problem, touched)
+    if few is None:
+        attempt = Attempt(method="path among touching", iterations=0, end="touching pairs do not hold the bodies")
+        return Candidate.without(problem, attempt)
+    budget = settings.pivots_per_pair[0] * max(few.pairs, 5)
+    path = follow(few, "press" if problem.floating else "open", budget=budget)
+    state = np.full(problem.pairs, OPEN)
+    state[touched] = path.state
+    exact = newton(problem, state, limit=settings.newton_steps, tolerance=settings.tolerance)
+    return replace(exact, attempt=Attempt(method="path among touching", iterations=path.pivots, end=path.end))
 
 
 def _along_path(
@@ -146,19 +167,22 @@ def _polished(problem: CoulombProblem, path: PathEnd, method: str, settings: Cou
 
 def _with_springs(problem: CoulombProblem, budget: int, seed: int, settings: CoulombSettings) -> Iterator[Candidate]:
     """Held by springs a path always ends; in an answer that stays as the springs weaken, or in one that runs away."""
+    before = np.inf
     for springs in settings.springs:
         path = follow(problem, "open", budget=budget, seed=seed, springs=springs)
         found = _polished(problem, path, "springs", settings)
         motion = split(path.y, problem.mu)[0]
-        size = np.abs(motion).max(initial=0.0)
-        away = path.end == "solution" and size * springs > 1e-3 * problem.scale and springs == settings.springs[-1]
-        yield replace(found, escape=motion / size if away else None)
+        size = float(np.abs(motion).max(initial=0.0))
+        grows = path.end == "solution" and size > 10.0 * max(before, problem.scale)
+        yield replace(found, escape=motion / size if grows else None)
+        before = size
 
 
 def _in_tree(problem: CoulombProblem, settings: CoulombSettings) -> Candidate:
     tree = search(problem, budget=settings.tree_programs)
     attempt = Attempt(method="tree", iterations=tree.programs, end=tree.end)
     if tree.state is None:
-        return replace(Candidate.without(problem, attempt), proof="tree" if tree.end == "impossible" else None)
+        proved = tree.end == "impossible" and problem.floating  # held bodies have a solution: refusals are rounding
+        return replace(Candidate.without(problem, attempt), proof="tree" if proved else None)
     exact = newton(problem, tree.state, limit=settings.newton_steps, tolerance=settings.tolerance)
     return replace(exact, attempt=attempt)

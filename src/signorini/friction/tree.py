@@ -84,13 +84,12 @@ def search(problem: CoulombProblem, *, budget: int = 2000) -> TreeEnd:
 def _generators(problem: CoulombProblem) -> Array:
     """(2n, 4n) columns of h_n, h_t and two forces a pair, the edges (1, mu) and (1, -mu) of its friction cone.
 
-    Pairs that never slip have the edges (1, 0) and (0, 1), the second of either sign.
+    Edges are scaled to length 1.
     """
     n, W = problem.pairs, problem.W
-    stick = np.isinf(problem.mu)
-    mu = np.where(stick, 0.0, problem.mu)
-    plus, minus = W[:, :n] + W[:, n:] * mu, W[:, :n] - W[:, n:] * mu
-    minus[:, stick] = W[:, n:][:, stick]
+    length = np.hypot(1.0, problem.mu)
+    plus = (W[:, :n] + W[:, n:] * problem.mu) / length
+    minus = (W[:, :n] - W[:, n:] * problem.mu) / length
     return np.concatenate([np.eye(2 * n) - W, -plus, -minus], axis=1)
 
 
@@ -126,29 +125,21 @@ def _bounds(problem: CoulombProblem, node: IntArray) -> tuple[Array, Array]:
     high[0, (node != UNDECIDED) & (node != OPEN)] = 0.0
     low[1, (node == STICK) | (node == SLIP_MINUS)] = 0.0
     high[1, (node == STICK) | (node == SLIP_PLUS)] = 0.0
-    stick = np.isinf(problem.mu)
-    low[3, stick] = -inf
     high[3, (node == SLIP_PLUS) & (problem.mu > 0)] = 0.0
     high[2, (node == SLIP_MINUS) & (problem.mu > 0)] = 0.0
     high[2:, node == OPEN] = 0.0
-    low[3, node == OPEN] = 0.0
     return low.ravel(), high.ravel()
 
 
 def _worst(problem: CoulombProblem, node: IntArray, h: Array, c: Array) -> tuple[int | None, IntArray]:
     """The pair that breaks the law worst (None where none does), and the state that each pair comes nearest to."""
-    n, mu = problem.pairs, problem.mu
-    stick = np.isinf(mu)
-    gap, slip = h[:n], h[n:]
-    pressure = np.where(stick, c[:n], c[:n] + c[n:])
-    plus, minus = np.where(mu == 0, 0.0, c[:n]), np.where(mu == 0, 0.0, c[n:])
-    force = np.where(stick, pressure + np.abs(c[n:]), pressure)
-    opening = np.minimum(gap, force)
-    slipping = np.where(stick, np.minimum(np.abs(slip), force), np.where(slip > 0, np.minimum(slip, plus), 0.0))
-    slipping = np.where(~stick & (slip < 0), np.minimum(-slip, minus), slipping)
-    wrong = np.maximum(opening, np.where(node == OPEN, 0.0, slipping))
+    n = problem.pairs
+    gap, slip, plus, minus = h[:n], h[n:], c[:n], c[n:]
+    against = np.where(problem.mu == 0, 0.0, np.where(slip > 0, plus, minus))
+    slipping = np.where(node == OPEN, 0.0, np.minimum(np.abs(slip), against))
+    wrong = np.maximum(np.minimum(gap, plus + minus), slipping)
     nearest = np.where(np.abs(slip) <= 1e-9, STICK, np.where(slip < 0, SLIP_PLUS, SLIP_MINUS))
-    nearest = np.where(force <= 1e-9, OPEN, np.where(problem.closed == UNDECIDED, nearest, problem.closed))
+    nearest = np.where(plus + minus <= 1e-9, OPEN, np.where(problem.closed == UNDECIDED, nearest, problem.closed))
     decided = (node != UNDECIDED) & (node != CLOSED)
     nearest = np.where(decided, node, nearest).astype(np.int64)
     pair = int(np.where(decided, 0.0, wrong).argmax())

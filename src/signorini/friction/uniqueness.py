@@ -48,7 +48,7 @@ def mu_low(problem: CoulombProblem) -> float | None:
 
     Returns
     -------
-    mu_low : compare with the largest finite friction; ``inf`` where no pair can slip against friction
+    mu_low : compare with the largest friction; ``inf`` where no pair can slip against friction
 
     Examples
     --------
@@ -60,7 +60,7 @@ def mu_low(problem: CoulombProblem) -> float | None:
     if problem.floating:
         return None
     n = problem.pairs
-    rubs = np.flatnonzero(np.isfinite(problem.friction) & (problem.friction > 0) & ~problem.locked)
+    rubs = np.flatnonzero((problem.friction > 0) & ~problem.locked)
     if not len(rubs):
         return np.inf
     moves = np.concatenate([np.full(n, True), ~problem.locked])

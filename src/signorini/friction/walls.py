@@ -6,7 +6,7 @@ A pair's state is a cone of its plane (y_n, y_t); each cone has at most two wall
     open         -y_n >= 0
     stick        mu y_n - y_t >= 0  and  mu y_n + y_t >= 0
     slip s       y_n >= 0           and  s y_t - mu y_n >= 0
-    never slips, never sticks, or dragged by its support: y_n >= 0 alone
+    without friction, or dragged by its support: y_n >= 0 alone
 """
 
 from __future__ import annotations
@@ -20,10 +20,12 @@ from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 def walls(state: IntArray, mu: Array, closed: IntArray) -> Array:
     """(2, n, 2) coefficients (a_n, a_t) of the first and second wall of every pair; zeros where there is none.
 
+    Scaled to length 1.
+
     Examples
     --------
-    >>> walls(np.array([SLIP_MINUS]), np.array([0.3]), np.array([UNDECIDED])).tolist()
-    [[[1.0, 0.0]], [[-0.3, -1.0]]]
+    >>> walls(np.array([SLIP_MINUS]), np.array([0.75]), np.array([UNDECIDED])).tolist()
+    [[[1.0, 0.0]], [[-0.6, -0.8]]]
     """
     wall = np.zeros((2, len(state), 2))
     wall[0, :, 0] = np.where(state == OPEN, -1.0, 1.0)
@@ -33,7 +35,8 @@ def walls(state: IntArray, mu: Array, closed: IntArray) -> Array:
     wall[0, stick, 1], wall[1, stick, 1] = -1.0, 1.0
     wall[1, slip, 0] = -mu[slip]
     wall[1, slip, 1] = np.where(state[slip] == SLIP_PLUS, 1.0, -1.0)
-    return wall
+    length = np.hypot(wall[:, :, :1], wall[:, :, 1:])
+    return np.asarray(wall / np.where(length > 0, length, 1.0), dtype=np.float64)
 
 
 def beyond(state: int, slot: int, y_t: float, closed: int) -> tuple[int, int]:

@@ -11,6 +11,8 @@ from signorini.lcp.linear import factorised
 from signorini.lcp.problem import LCP
 from signorini.lcp.residual import Matrix
 
+ROUNDING = 1e-12
+
 
 def solve_on(
     M: Matrix, q: Array, active: BoolArray, *, refinements: int = 2, shift: Array | None = None
@@ -42,8 +44,10 @@ def solve_on(
     return z if np.isfinite(x).all() else None
 
 
-def polish(problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None, attempts: int = 3) -> Array:
-    """The best of z and a few steps of the active-set Newton method started there, never below 0.
+def polish(
+    problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None, attempts: int = 3
+) -> tuple[Array, float]:
+    """The best of z and a few steps of the active-set Newton method started there, never below 0, with its natural residual.
 
     A step solves for the given basis first, then for ``z_i > w_i`` (both as shares, see ``natural_residual``); it is
     exact as soon as that is the right one.
@@ -55,8 +59,10 @@ def polish(problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None
     best = np.maximum(z, 0.0)
     least = problem.residual(best).worst
     for attempt in range(attempts):
+        if least <= ROUNDING:
+            break
         if active is None:
-            share, w = problem.relative(best)
+            share, w = problem.yardstick.shares(best)
             active = share > w
         z = np.maximum(_or_nan(solve_on(M, problem.q, active), problem.n), 0.0)
         worst = problem.residual(z).worst
@@ -65,7 +71,7 @@ def polish(problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None
         if worst < least:
             best, least = z, worst
         active = None
-    return best
+    return best, least
 
 
 def _or_nan(z: Array | None, n: int) -> Array:

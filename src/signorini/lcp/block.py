@@ -63,10 +63,10 @@ class BlockPivoting:
                 return Attempt(z=z, ending=Status.SINGULAR, iterations=step)
             infeasible = self._infeasible(problem, found, active)
             z = np.maximum(found, 0.0)
-            count = np.count_nonzero(infeasible)
+            count = int(np.count_nonzero(infeasible))
             if count == 0 or (count < 8 and problem.residual(z).worst <= 1e-3 * tolerance):
                 ending = Status.SOLVED if regular else Status.SINGULAR
-                return Attempt(z=polish(problem, problem.M, z, active=active), ending=ending, iterations=step)
+                return Attempt(z=polish(problem, problem.M, z, active=active)[0], ending=ending, iterations=step)
             if count < least:
                 least, patience = count, self.patience
             elif patience > 0:

@@ -57,7 +57,8 @@ class InteriorPoint:
         q = problem.q * scale / unit
         z, w = np.ones(problem.n), np.ones(problem.n)
         ending, steps = Status.MAX_ITERATIONS, 0
-        for steps in range(1, self.max_steps + 1):
+        while steps < self.max_steps:
+            steps += 1
             moved = self._step(M, q, z, w)
             if moved is None:
                 ending = Status.SINGULAR
@@ -73,7 +74,7 @@ class InteriorPoint:
         if not np.isfinite(z).all():
             return Attempt(z=None, ending=Status.NONFINITE, iterations=steps)
         inner = np.where(z > w, z, 0.0) if ending is Status.SOLVED else z
-        candidate = polish(problem, problem.M, unit * scale * inner, active=z > w)
+        candidate = polish(problem, problem.M, unit * scale * inner, active=z > w)[0]
         return Attempt(z=candidate, ending=ending, iterations=steps, note=_about(ending))
 
     def _step(self, M: Any, q: Array, z: Array, w: Array) -> tuple[Array, Array] | None:

@@ -1,52 +1,144 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The one compiled loop: a projected relaxation sweep over the rows of a sparse matrix."""
+"""The compiled loops: relaxation sweeps, aggregation of a graph, and the pivot of a tableau with its ratio test."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
 from functools import cache
+from typing import Any
 
 from signorini.arrays import Array, IntArray
 
-Sweep = Callable[[IntArray, IntArray, Array, Array, Array, float, int, bool], float]
-
 
 @cache
-def compiled_sweeps() -> Sweep:
-    """The compiled ``sweeps``; Numba is imported here because it takes longer than most problems."""
+def compiled(loop: Any) -> Any:
+    """The machine code of a loop of this file; Numba is imported here because that takes longer than most problems."""
     from numba import njit
 
-    kernel: Sweep = njit(cache=True, nogil=True)(sweeps)
-    return kernel
+    return njit(cache=True, nogil=True)(loop)
 
 
 def sweeps(
-    start: IntArray, index: IntArray, value: Array, q: Array, z: Array, omega: float, count: int, symmetric: bool
-) -> float:
-    """Relax z in place: ``z_i = max(0, z_i - omega (M z + q)_i / M_ii)`` in row order; returns the last largest change.
+    start: IntArray,
+    index: IntArray,
+    value: Array,
+    q: Array,
+    z: Array,
+    omega: float,
+    lower: float,
+    count: int,
+    backwards: bool,
+) -> None:
+    """Relax z in place: ``z_i = max(lower, z_i - omega (M z + q)_i / M_ii)``, row after row.
 
     Parameters
     ----------
-    start, index, value : M by rows (CSR), every M_ii > 0
+    start, index, value : M by rows (CSR); a row without positive diagonal is passed over
     omega : relaxation factor
+    lower : 0, or minus infinity for a linear system
     count : number of sweeps
-    symmetric : whether every second sweep runs backwards
+    backwards : whether they run from the last row to the first
     """
     n = len(q)
-    change = 0.0
-    for sweep in range(count):
-        backwards = symmetric and sweep % 2 == 1
-        change = 0.0
+    for _ in range(count):
         for k in range(n):
             i = n - 1 - k if backwards else k
             w = q[i]
-            diagonal = 1.0
+            diagonal = 0.0
             for entry in range(start[i], start[i + 1]):
                 j = index[entry]
                 w += value[entry] * z[j]
                 if j == i:
                     diagonal = value[entry]
-            new = max(0.0, z[i] - omega * w / diagonal)
-            change = max(change, abs(new - z[i]) * diagonal)
-            z[i] = new
-    return change
+            if diagonal > 0.0:
+                z[i] = max(lower, z[i] - omega * w / diagonal)
+
+
+def aggregate(start: IntArray, index: IntArray, label: IntArray) -> int:
+    """Group the vertices of a graph into neighbourhoods; writes the group of every vertex, returns their number.
+
+    Vanek, Mandel, Brezina (1996), Computing 56:179-196, algorithm 5.1: whole free neighbourhoods first, then the rest
+    joins a neighbour's group.
+
+    Parameters
+    ----------
+    start, index : neighbours of every vertex (CSR), itself included or not
+    label : (n,) filled with -1 on entry
+    """
+    n = len(start) - 1
+    groups = 0
+    for i in range(n):
+        free = label[i] < 0
+        for entry in range(start[i], start[i + 1]):
+            free = free and label[index[entry]] < 0
+        if free:
+            label[i] = groups
+            for entry in range(start[i], start[i + 1]):
+                label[index[entry]] = groups
+            groups += 1
+    cores = groups
+    for i in range(n):
+        if label[i] < 0:
+            for entry in range(start[i], start[i + 1]):
+                if 0 <= label[index[entry]] < cores:
+                    label[i] = label[index[entry]]
+                    break
+        if label[i] < 0:
+            label[i] = groups
+            groups += 1
+    return groups
+
+
+def exchange(T: Array, row: int, at: int) -> None:
+    """Pivot a Fortran-ordered condensed tableau in place on ``T[row, at]``.
+
+    Parameters
+    ----------
+    T : (n, m) with ``x_B + T x_N = rhs`` in its columns, rhs among them
+    row, at : the basic and the nonbasic variable that change places
+    """
+    n, m = T.shape
+    column = T[:, at].copy()
+    pivot = column[row]
+    column[row] = 0.0
+    T[:, at] = 0.0
+    T[row, at] = 1.0
+    for j in range(m):
+        factor = T[row, j] / pivot
+        if factor != 0.0:
+            for i in range(n):
+                T[i, j] -= factor * column[i]
+            T[row, j] = factor
+
+
+def blocking_rows(
+    T: Array, at: int, pivot_tolerance: float, tie_tolerance: float, size: float, rows: IntArray
+) -> tuple[int, float]:
+    """Write the rows that stop the entering variable first, ties included; returns their number and the step.
+
+    Parameters
+    ----------
+    T, at : the tableau and the column of the entering variable; its last column holds the values of the basic ones
+    pivot_tolerance : rates below it, relative to the largest, do not count
+    tie_tolerance, size : values left over below their product, less at small rates, are ties
+    rows : (n,) filled from the front
+    """
+    n = len(T)
+    column, rhs = T[:, at], T[:, -1]
+    largest, highest = 1.0, size
+    for i in range(n):
+        largest = max(largest, abs(column[i]))
+        highest = max(highest, abs(rhs[i]))
+    step = math.inf
+    for i in range(n):
+        if column[i] > pivot_tolerance * largest:
+            step = min(step, max(rhs[i], 0.0) / column[i])
+    count = 0
+    for i in range(n):
+        rate = column[i]
+        if rate > pivot_tolerance * largest:
+            left = max(rhs[i], 0.0) - step * rate
+            if left <= tie_tolerance * highest * min(1.0, rate):
+                rows[count] = i
+                count += 1
+    return count, step

@@ -67,7 +67,7 @@ class Lemke:
         M = problem.dense()
         if M is None:
             return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note="Lemke needs the entries of M.")
-        scaled = equilibrate(M, problem.q)
+        scaled = equilibrate(M, problem.q, *problem.sizes)
         d = np.ones(problem.n) if self.covering is None else scaled.rows * self._covering(problem)
         basis: BoolArray = np.zeros(problem.n, dtype=bool) if z0 is None else z0 > 0
         turned = principal_transform(scaled.M, scaled.q, basis)
@@ -95,7 +95,7 @@ class _Path:
         self.pivots = 0
         self.largest_theta = 0.0
         self.theta = 2 * tableau.n
-        self.refused = -1
+        self.confirmed: Array | None = None
 
     def follow(self, problem: LCP, M: Array, scaled: Equilibrated, note: str) -> Attempt:
         """From the first ratio test to a solution, a ray or the limit."""
@@ -134,31 +134,27 @@ class _Path:
     def _leaving_row(self, entering: int) -> int:
         """Row of the lexicographic ratio test, with theta first in ties; -1 where nothing blocks."""
         tableau, options = self.tableau, self.options
-        column = tableau.column(entering)
-        rows: IntArray = np.flatnonzero(column > options.pivot_tolerance * max(1.0, float(np.abs(column).max())))
-        if not len(rows):
-            return -1
-        values, rates = np.maximum(tableau.rhs[rows], 0.0), column[rows]
-        ratios = values / rates
-        step = float(ratios.min())
-        slack = options.tie_tolerance * max(float(np.abs(tableau.rhs).max()), self.largest_theta)
-        tied = values - step * rates <= slack * np.minimum(1.0, rates)
+        rows, step = tableau.blocking(entering, options.pivot_tolerance, options.tie_tolerance, self.largest_theta)
+        if len(rows) <= 1:
+            return int(rows[0]) if len(rows) else -1
+        rates = tableau.column(entering)[rows]
         theta_row = int(tableau.row_of[self.theta])
-        position = np.flatnonzero(rows[tied] == theta_row)
-        if len(position):
-            strict = ratios[tied][position[0]] <= step
+        theta_tied = rows == theta_row
+        if theta_tied.any():
+            strict = max(tableau.rhs[theta_row], 0.0) <= step * float(rates[theta_tied][0])
             if strict or self._would_solve(entering, theta_row):
                 return theta_row
-            tied[np.flatnonzero(tied)[position[0]]] = False
-        return tableau.least_lexicographic(rows[tied], rates[tied], options.tie_tolerance)
+            rows, rates = rows[~theta_tied], rates[~theta_tied]
+        return tableau.least_lexicographic(rows, rates, options.tie_tolerance)
 
     def _would_solve(self, entering: int, row: int) -> bool:
         """Whether the basis with theta gone is a solution, or theta is tied only within the tolerance."""
         tableau = self.tableau
         basic = tableau.basic.copy()
         basic[row] = entering
-        z = self._polished(basic)
-        return self.problem.residual(z).worst <= self.tolerance
+        z, worst = self._polished(basic)
+        self.confirmed = z if worst <= self.tolerance else None
+        return self.confirmed is not None
 
     def _z_of(self, basic: IntArray, values: Array) -> Array:
         """z of the problem as posed, from values of basic variables of the turned, scaled problem."""
@@ -167,7 +163,7 @@ class _Path:
         x[basic] = values
         return self.scaled.back(np.where(self.basis, x[:n], x[n:-1]))
 
-    def _polished(self, basic: IntArray) -> Array:
+    def _polished(self, basic: IntArray) -> tuple[Array, float]:
         """The values of the basic variables, or the basis solved for anew where that is better."""
         n = self.tableau.n
         z = self._z_of(basic, np.maximum(self.tableau.rhs, 0.0))
@@ -181,8 +177,8 @@ class _Path:
         theta = tableau.values()[2]
         candidate = self._z_of(tableau.basic, np.maximum(tableau.rhs, 0.0))
         if theta <= 1e-6 * self.largest_theta:
-            candidate = self._polished(tableau.basic)
-            if self.problem.residual(candidate).worst <= self.tolerance:
+            candidate, worst = self._polished(tableau.basic)
+            if worst <= self.tolerance:
                 note = f"{note} The path ended near theta = 0 in a tie; polished.".strip()
                 return Attempt(z=candidate, ending=Status.SOLVED, iterations=self.pivots, note=note)
         direction = np.zeros(2 * tableau.n + 1)
@@ -192,18 +188,24 @@ class _Path:
         ray = Ray(
             point=candidate,
             direction=self._z_of(basic, direction),
+            covering=self._covering(),
             theta=theta / self.scaled.unit,
             slope=float(direction[-1]) / self.scaled.unit,
         )
         note = f"{note} theta is {theta / self.largest_theta:.1e} of its largest value at the ray.".strip()
         return Attempt(z=candidate, ending=Status.RAY_TERMINATION, iterations=self.pivots, note=note, ray=ray)
 
+    def _covering(self) -> Array:
+        """The covering vector in the rows of the problem as posed (of the turned problem, after a warm start)."""
+        d, swapped = self.tableau.d, self.basis
+        return (np.where(swapped, 0.0, d) - self.scaled.M[:, swapped] @ d[swapped]) / self.scaled.rows
+
     def _ended(self, ending: Status, note: str) -> Attempt:
         """The candidate of the present basis, solved for anew on the problem as posed."""
         rhs = self.tableau.rhs
         if not np.isfinite(rhs).all():
             return Attempt(z=None, ending=Status.NONFINITE, iterations=self.pivots, note=note)
-        z = self._polished(self.tableau.basic)
+        z = self._polished(self.tableau.basic)[0] if self.confirmed is None else self.confirmed
         return Attempt(z=z, ending=ending, iterations=self.pivots, note=note)
 
 

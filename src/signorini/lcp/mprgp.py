@@ -36,8 +36,8 @@ class MPRGP:
     Examples
     --------
     >>> from signorini.lcp import solve
-    >>> print(solve([[2.0, 1.0], [1.0, 2.0]], [-5.0, -6.0], method=MPRGP()).z.round(9))
-    [1.333333333 2.333333333]
+    >>> print(solve([[2.0, 1.0], [1.0, 2.0]], [-5.0, -6.0], method=MPRGP()).z.round(5))
+    [1.33333 2.33333]
     """
 
     name: ClassVar[str] = "mprgp"

@@ -77,7 +77,7 @@ class SemismoothNewton:
                 ending = Status.STAGNATION
                 break
             x = following
-        z = polish(problem, problem.M, np.maximum(x, 0.0) * columns * unit)
+        z = polish(problem, problem.M, np.maximum(x, 0.0) * columns * unit)[0]
         note = ", ".join(f"{count} {word} steps" for word, count in replaced.items() if count)
         return Attempt(z=z, ending=ending, iterations=step, note=f"Replaced by {note}." if note else "")
 

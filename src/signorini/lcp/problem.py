@@ -14,7 +14,9 @@ from scipy.sparse.linalg import LinearOperator
 
 from signorini.arrays import Array
 from signorini.errors import InputError
-from signorini.lcp.residual import Matrix, Residual, balance, natural_residual, relative_sizes
+from signorini.lcp.residual import Matrix, Residual, Yardstick
+
+LARGEST_DENSE = 30_000
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,23 +38,26 @@ class LCP:
         return len(self.q)
 
     @cached_property
+    def yardstick(self) -> Yardstick:
+        """What candidates are measured with."""
+        return Yardstick.of(self.M, self.q)
+
+    @property
     def sizes(self) -> tuple[Array, Array]:
         """Balanced sizes of rows and columns of M (``balance``)."""
-        return balance(self.M)
+        return self.yardstick.rows, self.yardstick.columns
 
     def residual(self, z: Array) -> Residual:
         """The natural residual of a candidate."""
-        return natural_residual(self.M, self.q, z, rows=self.sizes[0])
-
-    def relative(self, z: Array) -> tuple[Array, Array]:
-        """z and w over the sizes by which the natural residual divides."""
-        return relative_sizes(self.M, self.q, z, self.sizes[0])
+        return self.yardstick.residual(z)
 
     def dense(self) -> Array | None:
         """M as a dense array, None where it is a linear operator or too large (more than 30000 rows)."""
-        if isinstance(self.M, LinearOperator) or (sp.issparse(self.M) and self.n > 30_000):
+        if isinstance(self.M, np.ndarray):
+            return self.M
+        if isinstance(self.M, LinearOperator) or self.n > LARGEST_DENSE:
             return None
-        return self.M.toarray() if sp.issparse(self.M) else self.M
+        return np.asarray(self.M.toarray())
 
 
 def read_problem(M: Any, q: ArrayLike) -> LCP:

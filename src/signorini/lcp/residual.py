@@ -7,6 +7,7 @@ What a residual is stands here and nowhere else, so that solvers, tests and user
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any, TypeAlias
 
 import numpy as np
 import scipy.sparse as sp
@@ -15,7 +16,7 @@ from scipy.sparse.linalg import LinearOperator
 from signorini.arrays import Array
 from signorini.errors import InputError
 
-Matrix = Array | sp.csr_array | LinearOperator
+Matrix: TypeAlias = Array | sp.csr_array | LinearOperator
 
 NOISE_FLOOR = 1e-5
 LARGEST_GROWTH = 1e4
@@ -36,7 +37,7 @@ class Residual:
         return float(numbers.max()) if np.isfinite(numbers).all() else np.inf
 
 
-def natural_residual(M: Matrix, q: Array, z: Array, *, rows: Array | None = None) -> Residual:
+def natural_residual(M: Matrix, q: Array, z: Array) -> Residual:
     """Evaluate ``min(z, M z + q)`` on the problem as posed, never on a scaled copy.
 
     With ``w = M z + q``, every w_i is divided by ``s_i = |q_i| + sum_j |M_ij z_j|``, the size of the terms that cancel
@@ -51,7 +52,6 @@ def natural_residual(M: Matrix, q: Array, z: Array, *, rows: Array | None = None
     M : (n, n) array, sparse array or linear operator
     q : (n,) array, in the units of w
     z : (n,) array, the candidate
-    rows : (n,) the sizes of the rows, ``balance(M)[0]`` where None
 
     Raises
     ------
@@ -77,63 +77,99 @@ def natural_residual(M: Matrix, q: Array, z: Array, *, rows: Array | None = None
     if M.shape != (len(q), len(q)) or z.shape != q.shape:
         raise InputError(f"M {M.shape}, q {q.shape} and z {z.shape} do not fit: expected (n, n), (n,), (n,)")
 
-    share, w = relative_sizes(M, q, z, balance(M)[0] if rows is None else rows)
-    return Residual(
-        primal=_largest(-share),
-        dual=_largest(-w),
-        complementarity=_largest(np.minimum(share, w)),
-    )
+    return Yardstick.of(M, q).residual(z)
 
 
-def relative_sizes(M: Matrix, q: Array, z: Array, rows: Array) -> tuple[Array, Array]:
-    """z and w divided by the sizes that ``natural_residual`` states: what is compared with 0, and with each other."""
-    with np.errstate(over="ignore", invalid="ignore"):
-        product = M @ z
-        size = np.abs(q) + (np.abs(product).max() if isinstance(M, LinearOperator) else abs(M) @ np.abs(z))
-        data = float((np.abs(q) / rows).max(initial=0.0))
-        size = np.minimum(size / rows, LARGEST_GROWTH * data if data > 0 else np.inf)
-        size = _or_one(rows * np.maximum(size, NOISE_FLOOR * size.max(initial=0.0)))
-        w = (product + q) / size
-        share = z / _or_one(np.abs(z).max(initial=0.0, keepdims=True))
-        if not isinstance(M, LinearOperator):
-            column = _largest_in_columns(M, 1.0 / size)
-            share = np.where(column > 0, z * column, share)
-    return share, w
+@dataclass(frozen=True, kw_only=True)
+class Yardstick:
+    """What the sizes of ``natural_residual`` are made of, computed once for many candidates.
+
+    Attributes
+    ----------
+    M, q : the problem as posed
+    magnitude : ``|M|``, None for an operator
+    rows, columns : (n,) balanced sizes (``balance``)
+    """
+
+    M: Matrix
+    q: Array
+    magnitude: Any
+    rows: Array
+    columns: Array
+
+    @staticmethod
+    def of(M: Matrix, q: Array) -> Yardstick:
+        """The yardstick of a problem."""
+        magnitude = None if isinstance(M, LinearOperator) else abs(M)
+        rows, columns = balance(magnitude, len(q))
+        return Yardstick(M=M, q=q, magnitude=magnitude, rows=rows, columns=columns)
+
+    def residual(self, z: Array) -> Residual:
+        """The natural residual of a candidate."""
+        share, w = self.shares(z)
+        return Residual(
+            primal=_largest(-share),
+            dual=_largest(-w),
+            complementarity=_largest(np.minimum(share, w)),
+        )
+
+    def shares(self, z: Array) -> tuple[Array, Array]:
+        """z and w over their sizes: what is compared with 0, and with each other."""
+        unit, w = self.sizes(z)
+        return unit * z, w
+
+    def sizes(self, z: Array) -> tuple[Array, Array]:
+        """(unit, w): what z is multiplied by in ``natural_residual``, and w divided by its sizes."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            product = self.M @ z
+            terms = np.abs(product).max() if self.magnitude is None else self.magnitude @ np.abs(z)
+            data = float((np.abs(self.q) / self.rows).max(initial=0.0))
+            size = (np.abs(self.q) + terms) / self.rows
+            size = np.minimum(size, LARGEST_GROWTH * data if data > 0 else np.inf)
+            size = _or_one(self.rows * np.maximum(size, NOISE_FLOOR * size.max(initial=0.0)))
+            w = (product + self.q) / size
+            unit = 1.0 / _or_one(np.abs(z).max(initial=0.0, keepdims=True)) * np.ones(len(z))
+            if self.magnitude is not None:
+                column = _largest_in_columns(self.magnitude, 1.0 / size)
+                unit = np.where(column > 0, column, unit)
+        return unit, w
 
 
-def balance(M: Matrix, *, sweeps: int = 6) -> tuple[Array, Array]:
-    """Sizes (rows, columns) such that ``M_ij columns_j / rows_i`` has rows and columns of comparable sums (Sinkhorn).
+def balance(magnitude: Any, n: int, *, sweeps: int = 12) -> tuple[Array, Array]:
+    """Sizes (rows, columns) such that ``|M_ij| columns_j / rows_i`` has rows and columns of comparable sums (Sinkhorn).
 
     The rows follow a rescaling of the rows and, for all but nearly empty matrices, ignore one of the columns; the
-    columns likewise. An operator and an empty row or column have size 1.
+    columns likewise. An operator (None for ``|M|``) and an empty row or column have size 1.
 
     Examples
     --------
     >>> M = np.array([[2.0, 1.0], [0.0, 2.0]])
-    >>> sizes = balance(M * np.array([[1.0], [1e6]]))[0] / balance(M)[0]
+    >>> sizes = balance(M * np.array([[1.0], [1e6]]), 2)[0] / balance(M, 2)[0]
     >>> print(sizes / sizes[0])
     [1.e+00 1.e+06]
     """
-    rows, columns = np.ones(M.shape[0]), np.ones(M.shape[0])
-    if isinstance(M, LinearOperator):
+    rows, columns = np.ones(n), np.ones(n)
+    if magnitude is None:
         return rows, columns
-    size = abs(M)
-    for _ in range(sweeps):
-        rows = _or_one(size @ columns)
-        columns = 1.0 / _or_one(size.T @ (1.0 / rows))
+    for sweep in range(sweeps):
+        before, rows = rows, _or_one(magnitude @ columns)
+        if sweep > 0 and np.abs(np.log2(rows / before)).max() < 0.5:
+            break
+        columns = 1.0 / _or_one(magnitude.T @ (1.0 / rows))
     return rows, columns
 
 
-def _largest_in_columns(M: Array | sp.csr_array, weights: Array) -> Array:
+def _largest_in_columns(magnitude: Any, weights: Array) -> Array:
     """``max_i |M_ij| weights_i`` for every column j."""
-    if sp.issparse(M):
-        largest = abs(M).multiply(weights[:, None]).tocsc().max(axis=0)
-        return np.asarray(largest.toarray(), dtype=float).ravel()
-    return np.asarray((np.abs(M) * weights[:, None]).max(axis=0), dtype=float)
+    if isinstance(magnitude, np.ndarray):
+        return np.asarray((magnitude * weights[:, None]).max(axis=0), dtype=float)
+    largest = np.zeros(magnitude.shape[1])
+    np.maximum.at(largest, magnitude.indices, magnitude.data * np.repeat(weights, np.diff(magnitude.indptr)))
+    return largest
 
 
 def _largest(violation: Array) -> float:
-    return float(violation.max(initial=0.0))
+    return 0.0 + float(violation.max(initial=0.0))
 
 
 def _or_one(size: Array) -> Array:

@@ -33,51 +33,27 @@ class Equilibrated:
         return self.columns * z / self.unit
 
 
-def equilibrate(M: Array, q: Array, *, sweeps: int = 8) -> Equilibrated:
-    """Scale every row and column of M to a largest entry of about 1.
+def equilibrate(M: Array, q: Array, row_sizes: Array, column_sizes: Array) -> Equilibrated:
+    """Divide every row by its size and multiply every column by its, then all by one factor: largest entry about 1.
 
     Parameters
     ----------
     M : (n, n) array
     q : (n,) array
-    sweeps : rounds of dividing rows and columns by the root of their largest entry
-
-    References
-    ----------
-    Ruiz (2001), A scaling algorithm to equilibrate both rows and columns norms in matrices, RAL-TR-2001-034.
+    row_sizes, column_sizes : (n,) balanced sizes (``balance``), rounded here to powers of two
 
     Examples
     --------
-    >>> scaled = equilibrate(np.array([[4e9, 0.0], [0.0, 2e-9]]), np.array([1.0, 1.0]))
-    >>> bool((abs(np.diag(scaled.M)) <= 2).all() and (abs(np.diag(scaled.M)) >= 0.25).all())
-    True
+    >>> scaled = equilibrate(np.diag([4e9, 2e-9]), np.array([1.0, 1.0]), np.array([4e9, 2e-9]), np.ones(2))
+    >>> print(np.round(np.diag(scaled.M), 1))
+    [0.9 1.1]
     """
-    rows, columns = equilibrating_factors(np.abs(M), sweeps=sweeps)
-    q = rows * q
+    rows, columns = _power_of_two(1.0 / row_sizes), _power_of_two(column_sizes)
+    scaled = M * rows[:, None] * columns
+    factor = _power_of_two(1.0 / _or_one(np.abs(scaled).max(keepdims=True)).ravel())
+    rows, q = rows * factor, rows * factor * q
     unit = float(_power_of_two(1.0 / _or_one(np.abs(q).max(keepdims=True)))[0])
-    return Equilibrated(M=M * rows[:, None] * columns, q=q * unit, rows=rows, columns=columns, unit=unit)
-
-
-def equilibrating_factors(sizes: Array, *, sweeps: int) -> tuple[Array, Array]:
-    """Powers of two (rows, columns) that bring the largest entries of rows and columns near 1."""
-    exponents = _log2(sizes)
-    rows, columns = np.zeros(len(exponents)), np.zeros(len(exponents))
-    for _ in range(sweeps):
-        row = _finite_or_zero((exponents + columns).max(axis=1) + rows)
-        column = _finite_or_zero((exponents + rows[:, None]).max(axis=0) + columns)
-        if max(np.abs(row).max(), np.abs(column).max()) <= 0.5:
-            break
-        rows, columns = rows - row / 2, columns - column / 2
-    return np.exp2(np.round(rows)), np.exp2(np.round(columns))
-
-
-def _log2(sizes: Array) -> Array:
-    with np.errstate(divide="ignore"):
-        return np.log2(sizes)
-
-
-def _finite_or_zero(values: Array) -> Array:
-    return np.where(np.isfinite(values), values, 0.0)
+    return Equilibrated(M=scaled * factor, q=q * unit, rows=rows, columns=columns, unit=unit)
 
 
 def _power_of_two(values: Array) -> Array:

@@ -16,10 +16,12 @@ class Ray:
 
     Attributes
     ----------
+    covering : (n,) the d of the path
     point, direction : (n,) arrays, in the units of z
     theta, slope : value of the artificial variable at the point, and its change along the direction (>= 0)
     """
 
+    covering: Array
     point: Array
     direction: Array
     theta: float

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,13 +11,36 @@ from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, frozen
 from signorini.errors import InputError, one_of
+from signorini.lcp.auto import methods_for
+from signorini.lcp.block import BlockPivoting
+from signorini.lcp.enumeration import Enumeration
+from signorini.lcp.interior import InteriorPoint
 from signorini.lcp.lemke import Lemke
 from signorini.lcp.method import Method
+from signorini.lcp.mprgp import MPRGP
+from signorini.lcp.multigrid import ProjectedMultigrid
+from signorini.lcp.newton import SemismoothNewton
+from signorini.lcp.principal import LeastIndex
 from signorini.lcp.problem import LCP, read_problem, read_vector
+from signorini.lcp.relaxation import ProjectedSOR
 from signorini.lcp.solution import Attempt, LCPSolution
 from signorini.lcp.status import Status
 
-METHODS: dict[str, Method] = {method.name: method for method in (Lemke(),)}
+METHODS: dict[str, Method] = {
+    method.name: method
+    for method in (
+        Lemke(),
+        LeastIndex(),
+        BlockPivoting(),
+        SemismoothNewton(),
+        ProjectedSOR(),
+        MPRGP(),
+        ProjectedMultigrid(),
+        InteriorPoint(),
+        Enumeration(),
+    )
+}
+"""The methods by name, with their default options."""
 
 
 def solve(
@@ -59,34 +83,36 @@ def solve(
     start = None if z0 is None else read_vector(z0, "z0", problem.n)
     if not tolerance > 0:
         raise InputError(f"is {tolerance}; expected a positive number", where=("tolerance",))
-    return _judge(problem, _chain(method), start, tolerance)
+    return _judge(problem, _chain(method, problem), start, tolerance)
 
 
-def _chain(method: str | Method) -> list[Method]:
+def _chain(method: str | Method, problem: LCP) -> list[Method]:
     if not isinstance(method, str):
         return [method]
     if method == "auto":
-        return [METHODS["lemke"]]
+        return methods_for(problem)
     if method not in METHODS:
         raise InputError(one_of(method, (*METHODS, "auto"), "method"), where=("method",))
     return [METHODS[method]]
 
 
 def _judge(problem: LCP, methods: list[Method], z0: Array | None, tolerance: float) -> LCPSolution:
-    """Run the methods in order until one is confirmed by the residual of the problem as posed."""
-    lines: list[str] = []
-    solution: LCPSolution | None = None
+    """Run the methods in order until one is confirmed by the residual of the problem as posed.
+
+    Where none is, the first ray says more than the last failure.
+    """
+    tried: list[LCPSolution] = []
     for method in methods:
         attempt = method.attempt(problem, z0, tolerance)
-        solution = _tested(problem, method, attempt, tolerance, lines)
-        lines.append(f"{method.name}: {solution.status.name} after {attempt.iterations} iterations")
-        if solution.solved:
+        tried.append(_tested(problem, method, attempt, tolerance))
+        if tried[-1].status in (Status.SOLVED, Status.NO_SOLUTION):
             break
-    assert solution is not None
-    return solution
+    rays = [solution for solution in tried if solution.ray is not None]
+    ended = rays[0] if rays and tried[-1].status not in (Status.SOLVED, Status.NO_SOLUTION) else tried[-1]
+    return replace(ended, chain=tuple(line for solution in tried for line in solution.chain))
 
 
-def _tested(problem: LCP, method: Method, attempt: Attempt, tolerance: float, lines: list[str]) -> LCPSolution:
+def _tested(problem: LCP, method: Method, attempt: Attempt, tolerance: float) -> LCPSolution:
     """Replace the method's claim by what the natural residual says."""
     z = attempt.z if attempt.z is not None and np.isfinite(attempt.z).all() else None
     residual = None if z is None else problem.residual(z)
@@ -109,6 +135,6 @@ def _tested(problem: LCP, method: Method, attempt: Attempt, tolerance: float, li
         candidate=None if confirmed or z is None else frozen(z),
         message=f"{said} {attempt.note}".strip(),
         method=method.name,
-        chain=(*lines, line),
+        chain=(line,),
         ray=None if confirmed else attempt.ray,
     )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The condensed tableau of Lemke's method: one BLAS rank-one update a pivot, in place.
+"""The condensed tableau of Lemke's method: one rank-one update a pivot, in place.
 
 The basic variables are ``x_B = rhs - T x_N`` with n + 1 nonbasic ones in N. Variables are numbered: w_i is i, z_i is
 n + i, the artificial theta is 2 n. At the start B = (w_1 .. w_n), ``T = (-M, -d)`` and ``rhs = q``.
@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.linalg as la
-from scipy.linalg.blas import dger
 
 from signorini.arrays import Array, IntArray
+from signorini.lcp.kernels import blocking_rows, compiled, exchange
 
 
 class Tableau:
@@ -35,6 +35,8 @@ class Tableau:
         self.column_of[self.nonbasic] = np.arange(n + 1)
         self.row_of = np.full(2 * n + 1, -1)
         self.row_of[self.basic] = np.arange(n)
+        self._exchange, self._blocking_rows = compiled(exchange), compiled(blocking_rows)
+        self._rows: IntArray = np.empty(n, dtype=np.int64)
 
     @property
     def rhs(self) -> Array:
@@ -45,17 +47,18 @@ class Tableau:
         """Column of a nonbasic variable, a view: the basic ones fall at these rates as it grows."""
         return self.T[:, self.column_of[variable]]
 
+    def blocking(
+        self, variable: int, pivot_tolerance: float, tie_tolerance: float, size: float
+    ) -> tuple[IntArray, float]:
+        """Rows that stop an entering variable first, and how far it comes (``blocking_rows``)."""
+        at = self.column_of[variable]
+        count, step = self._blocking_rows(self.T, at, pivot_tolerance, tie_tolerance, size, self._rows)
+        return self._rows[:count], float(step)
+
     def pivot(self, row: int, variable: int) -> int:
         """Exchange the basic variable of the row with a nonbasic one; returns the variable that left."""
         at = int(self.column_of[variable])
-        column = self.T[:, at].copy()
-        new_row = self.T[row] / column[row]
-        new_row[at] = 1.0 / column[row]
-        column[row] = 0.0
-        self.T[:, at] = 0.0
-        self.T = dger(-1.0, column, new_row, a=self.T, overwrite_a=1)
-        self.T[row] = new_row
-
+        self._exchange(self.T, row, at)
         left = int(self.basic[row])
         self.basic[row], self.nonbasic[at] = variable, left
         self.row_of[variable], self.row_of[left] = row, -1
@@ -69,11 +72,10 @@ class Tableau:
         return x[: self.n], x[self.n : -1], float(x[-1])
 
     def drift(self) -> float:
-        """Largest ``|w - M z - d theta - q|`` relative to the terms of its row: what rounding has done so far."""
+        """Largest ``|w - M z - d theta - q|`` over the largest variable or q: what rounding has done so far."""
         w, z, theta = self.values()
-        size = np.abs(w) + np.abs(self.M) @ np.abs(z) + np.abs(self.d * theta) + np.abs(self.q)
-        error = np.abs(w - self.M @ z - self.d * theta - self.q)
-        return float((error / np.where(size > 0, size, 1.0)).max())
+        error = np.abs(w - self.M @ z - self.d * theta - self.q).max()
+        return float(error / max(np.abs(self.rhs).max(), np.abs(self.q).max()))
 
     def refresh(self) -> bool:
         """Recompute T from the data and the basis by a new factorisation; False where the basis is singular."""

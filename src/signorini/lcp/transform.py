@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.linalg as la
 
 from signorini.arrays import Array, BoolArray
+from signorini.lcp.linear import factorised
 
 
 def principal_transform(M: Array, q: Array, swapped: BoolArray) -> tuple[Array, Array] | None:
@@ -21,10 +21,10 @@ def principal_transform(M: Array, q: Array, swapped: BoolArray) -> tuple[Array, 
     A, B = np.flatnonzero(swapped), np.flatnonzero(~swapped)
     if not len(A):
         return M, q
-    factors = la.lu_factor(M[np.ix_(A, A)], check_finite=False) if np.isfinite(M).all() else None
-    if factors is None or not np.abs(np.diag(factors[0])).min() > 0:
+    solved = factorised(M[np.ix_(A, A)])
+    if solved is None:
         return None
-    inverse = la.lu_solve(factors, np.eye(len(A)))
+    inverse = solved(np.eye(len(A)))
     turned, vector = np.empty_like(M), np.empty_like(q)
     coupling = M[np.ix_(B, A)] @ inverse
     turned[np.ix_(A, A)] = inverse

@@ -2,6 +2,6 @@
 """Sparse direct factorisation that condenses onto the contact interface."""
 
 from signorini.linalg.protocol import Factorisation, NotPositiveDefinite
-from signorini.linalg.registry import BACKENDS, factorise
+from signorini.linalg.registry import AUTOMATIC, BACKENDS, factorise
 
-__all__ = ["BACKENDS", "Factorisation", "NotPositiveDefinite", "factorise"]
+__all__ = ["AUTOMATIC", "BACKENDS", "Factorisation", "NotPositiveDefinite", "factorise"]

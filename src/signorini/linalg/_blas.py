@@ -8,13 +8,17 @@ of its own. Matrices are stored by columns.
 
 from __future__ import annotations
 
+import ctypes
+import itertools
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
-import llvmlite.binding
+import llvmlite.binding  # type: ignore[import-untyped]
 import numpy as np
-from numba import njit, types
+from numba import cfunc, njit, types
 from numba.extending import get_cython_function_address
 from numpy.typing import NDArray
+from scipy.linalg import cython_blas
 
 from signorini.arrays import Array
 from signorini.linalg.system import Int32Array
@@ -30,6 +34,34 @@ _dpotrf = _external("cython_lapack", "dpotrf", 5)
 _dtrsm = _external("cython_blas", "dtrsm", 11)
 _dsyrk = _external("cython_blas", "dsyrk", 10)
 _dgemm = _external("cython_blas", "dgemm", 13)
+
+
+def _thread_functions() -> tuple[Any, Callable[[], int]]:
+    """Find how many threads SciPy's OpenBLAS may use, and the address of the function that says so.
+
+    Another BLAS, or a system whose loader does not look into the libraries of a library, keeps its own counsel.
+    """
+    library = ctypes.CDLL(cython_blas.__file__)
+    for prefix, suffix in itertools.product(("scipy_openblas", "openblas"), ("", "64_")):
+        setter = getattr(library, f"{prefix}_set_num_threads{suffix}", None)
+        getter = getattr(library, f"{prefix}_get_num_threads{suffix}", None)
+        if setter and getter:
+            return int(ctypes.cast(setter, ctypes.c_void_p).value or 0), getter
+    ignore = cfunc(types.void(types.int32))(lambda _: None)
+    _KEPT_ALIVE.append(ignore)
+    return ignore.address, lambda: 1
+
+
+_KEPT_ALIVE: list[Any] = []
+_address, get_threads = _thread_functions()
+llvmlite.binding.add_symbol("signorini_set_threads", _address)
+_set_threads: Any = types.ExternalFunction("signorini_set_threads", types.void(types.int32))
+
+
+@njit(cache=True)
+def set_threads(threads: int) -> None:
+    """Say how many threads BLAS may use from now on, in the whole process."""
+    _set_threads(threads)
 
 
 class Scratch(NamedTuple):
@@ -51,7 +83,7 @@ def potrf(k: int, A: int, ld: int, s: Scratch) -> int:
     s.size[0], s.size[1] = k, ld
     z, c = s.size.ctypes.data, s.letter.ctypes.data
     _dpotrf(c, z, A, z + 4, z + 8)
-    return s.size[2]
+    return int(s.size[2])
 
 
 @njit(cache=True)

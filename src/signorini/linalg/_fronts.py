@@ -12,9 +12,12 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import Array
-from signorini.linalg._blas import Scratch, gemm, potrf, syrk, trsm
+from signorini.linalg._blas import Scratch, gemm, potrf, set_threads, syrk, trsm
 from signorini.linalg.plan import Fronts
 from signorini.linalg.system import Int32Array
+
+LARGE = 1e9
+"""Operations of a front from which several threads share it: tens of milliseconds of one thread."""
 
 
 @njit(cache=True)
@@ -30,6 +33,8 @@ def factorise_fronts(
     stack: Array,
     work: Array,
     condensed: Array,
+    widest: int,
+    threads: int,
     s: Scratch,
 ) -> int:
     """Factorise; give -1, or the place in the order of elimination where a pivot is not positive.
@@ -40,13 +45,16 @@ def factorise_fronts(
     order, place : order of elimination of the unknowns, and its inverse
     slot : for every unknown of the interface, in order of elimination, its row in the condensed matrix
     factor, condensed : zero on entry
+    widest : unknowns below the largest front
+    threads : of BLAS in large fronts; in small ones they cost more than they give
     """
     inside = len(order) - len(slot)
     local = np.empty(len(order), np.int32)
-    target = np.empty(max(1, fronts.below.max() if len(fronts.below) else 0), np.int32)
+    target = np.empty(widest, np.int32)
     waiting = np.empty(len(fronts.parent) + 1, np.int32)
     offset = np.empty(len(fronts.parent) + 1, np.int64)
     count = 0
+    many = False
     for t in range(len(fronts.parent)):
         a = fronts.unknown[fronts.first[t]]
         k = fronts.unknown[fronts.first[t + 1]] - a
@@ -65,16 +73,20 @@ def factorise_fronts(
             child = waiting[count]
             _list_rows(fronts, child, local, target)
             _extend_add(stack[offset[count] :], target, fronts.below[child], k, factor[panel:], ld, work, r)
+        if (k * float(ld) * ld > LARGE) != many:
+            many = not many
+            set_threads(threads if many else 1)
         top = factor.ctypes.data + 8 * panel
         failed = potrf(k, top, ld, s)
         if failed != 0:
-            return a + failed - 1
+            return int(a + failed - 1)
         if r == 0:
             continue
         trsm(True, True, r, k, top, ld, top + 8 * k, ld, s)
         syrk(r, k, top + 8 * k, ld, not leaf, work.ctypes.data, r, s)
         if fronts.parent[t] == -1:
-            local[inside:] = slot
+            for u in range(len(slot)):
+                local[inside + u] = slot[u]
             _list_rows(fronts, t, local, target)
             _add_condensed(work, target, r, condensed)
         else:
@@ -191,10 +203,12 @@ def _add_interface(
 
 
 @njit(cache=True)
-def forward(fronts: Fronts, factor: Array, y: Array, s: Scratch) -> None:
-    """Overwrite the inside of y, (k, n) with one load per row, by ``L_ii^-1 y``; the interface gathers what is left."""
+def forward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) -> None:
+    """Overwrite the inside of y, (k, n) with one load per row, by ``L_ii^-1 y``; the interface gathers what is left.
+
+    `work` holds k numbers for every unknown below the largest front.
+    """
     columns, n = y.shape
-    work = np.empty(columns * max(1, fronts.below.max() if len(fronts.below) else 0), np.float64)
     for t in range(len(fronts.parent)):
         a = fronts.unknown[fronts.first[t]]
         k = fronts.unknown[fronts.first[t + 1]] - a
@@ -211,14 +225,12 @@ def forward(fronts: Fronts, factor: Array, y: Array, s: Scratch) -> None:
                 for u in range(fronts.unknown[fronts.row[p]], fronts.unknown[fronts.row[p] + 1]):
                     y[c, u] += work[at]
                     at += 1
-    work[0] = 0.0
 
 
 @njit(cache=True)
-def backward(fronts: Fronts, factor: Array, y: Array, s: Scratch) -> None:
+def backward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) -> None:
     """Overwrite the inside of y, (k, n) with one load per row, by ``L_ii^-T (y_i - L_ci^T y_c)``."""
     columns, n = y.shape
-    work = np.empty(columns * max(1, fronts.below.max() if len(fronts.below) else 0), np.float64)
     for t in range(len(fronts.parent) - 1, -1, -1):
         a = fronts.unknown[fronts.first[t]]
         k = fronts.unknown[fronts.first[t + 1]] - a
@@ -234,7 +246,6 @@ def backward(fronts: Fronts, factor: Array, y: Array, s: Scratch) -> None:
                         at += 1
             gemm(True, k, columns, r, top + 8 * k, k + r, work.ctypes.data, r, True, x, n, s)
         trsm(False, True, k, columns, top, k + r, x, n, s)
-    work[0] = 0.0
 
 
 @njit(cache=True)

@@ -7,6 +7,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from signorini.arrays import Array, BoolArray, IntArray
+
 Int32Array = NDArray[np.int32]
 
 
@@ -14,7 +16,7 @@ Int32Array = NDArray[np.int32]
 def quotient(
     indptr: Int32Array, indices: Int32Array, start: Int32Array, member: Int32Array, group: Int32Array
 ) -> tuple[Int32Array, Int32Array]:
-    """Merge the vertices of every group: the graph of the groups, sorted, without loops."""
+    """Merge the vertices of every group: the graph of the groups, without loops."""
     count = len(start) - 1
     mark = np.full(count, -1, np.int32)
     rows = np.zeros(count + 1, np.int32)
@@ -29,11 +31,11 @@ def quotient(
                     mark[h] = g
                     if top == len(columns):
                         longer = np.empty(2 * top, np.int32)
-                        longer[:top] = columns
+                        for q in range(top):
+                            longer[q] = columns[q]
                         columns = longer
                     columns[top] = h
                     top += 1
-        columns[rows[g] : top].sort()
         rows[g + 1] = top
     return rows, columns[:top].copy()
 
@@ -51,3 +53,64 @@ def subgraph(indptr: Int32Array, indices: Int32Array, count: int) -> tuple[Int32
                 top += 1
         rows[v + 1] = top
     return rows, columns[:top].copy()
+
+
+@njit(cache=True)
+def sort_lists(begin: IntArray, entry: Int32Array, vertices: int) -> None:
+    """Sort every list ``entry[begin[s]:begin[s + 1]]`` of vertices: by buckets, in linear time."""
+    first = np.zeros(vertices + 1, np.int64)
+    for p in range(len(entry)):
+        first[entry[p] + 1] += 1
+    for v in range(vertices):
+        first[v + 1] += first[v]
+    owner = np.empty(len(entry), np.int32)
+    for s in range(len(begin) - 1):
+        for p in range(begin[s], begin[s + 1]):
+            owner[first[entry[p]]] = s
+            first[entry[p]] += 1
+    top = begin.copy()
+    p = 0
+    for v in range(vertices):
+        while p < first[v]:
+            entry[top[owner[p]]] = v
+            top[owner[p]] += 1
+            p += 1
+
+
+@njit(cache=True)
+def components(indptr: Int32Array, indices: Int32Array, inside: BoolArray) -> Int32Array:
+    """Number the connected parts of the vertices inside; -1 outside."""
+    part = np.full(len(inside), -1, np.int32)
+    stack = np.empty(len(inside), np.int32)
+    count = 0
+    for seed in range(len(inside)):
+        if not inside[seed] or part[seed] != -1:
+            continue
+        part[seed] = count
+        stack[0] = seed
+        top = 1
+        while top > 0:
+            top -= 1
+            v = stack[top]
+            for p in range(indptr[v], indptr[v + 1]):
+                w = indices[p]
+                if inside[w] and part[w] == -1:
+                    part[w] = count
+                    stack[top] = w
+                    top += 1
+        count += 1
+    return part
+
+
+@njit(cache=True)
+def absolute_energies(
+    indptr: Int32Array, indices: Int32Array, data: Array, part: Int32Array, parts: int, x: Array
+) -> Array:
+    """Sum ``|x_i| |K_ij| |x_j|`` over every part."""
+    energy = np.zeros(parts)
+    for i in range(len(part)):
+        if part[i] != -1:
+            for p in range(indptr[i], indptr[i + 1]):
+                if part[indices[p]] == part[i]:
+                    energy[part[i]] += abs(x[i] * data[p] * x[indices[p]])
+    return energy

@@ -16,6 +16,7 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import IntArray
+from signorini.linalg._graph import sort_lists
 from signorini.linalg.system import Int32Array
 
 
@@ -150,7 +151,8 @@ def front_rows(
     of = np.empty(interior, np.int32)
     for s in range(total):
         begin[s + 1] = begin[s] + count[first[s + 1] - 1] - 1
-        of[first[s] : first[s + 1]] = s
+        for j in range(first[s], first[s + 1]):
+            of[j] = s
     rows = np.empty(begin[total], np.int32)
     parent = np.full(total, -1, np.int32)
     child = np.full(total, -1, np.int32)
@@ -175,11 +177,14 @@ def front_rows(
                     rows[top] = i
                     top += 1
             c = sibling[c]
-        rows[begin[s] : top].sort()
-        if top > begin[s] and rows[begin[s]] < interior:
-            parent[s] = of[rows[begin[s]]]
+        next_one = interior
+        for p in range(begin[s], top):
+            next_one = min(next_one, rows[p])
+        if next_one < interior:
+            parent[s] = of[next_one]
             sibling[s] = child[parent[s]]
             child[parent[s]] = s
+    sort_lists(begin, rows, len(order))
     return begin, rows, parent
 
 

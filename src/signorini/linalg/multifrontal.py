@@ -12,17 +12,30 @@ Liu (1992), The multifrontal method for sparse matrix solution: theory and pract
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from signorini.arrays import Array
 from signorini.linalg import _fronts
-from signorini.linalg._blas import scratch
+from signorini.linalg._blas import get_threads, scratch, set_threads
 from signorini.linalg.definite import SUSPICIOUS, check_energy
 from signorini.linalg.plan import Plan, analyse
 from signorini.linalg.protocol import NotPositiveDefinite
-from signorini.linalg.system import System, columns, like
+from signorini.linalg.system import Int32Array, System, columns, like
+
+
+@contextmanager
+def one_thread() -> Iterator[int]:
+    """Hold BLAS to one thread inside; give the number outside."""
+    threads = get_threads()
+    set_threads(1)
+    try:
+        yield threads
+    finally:
+        set_threads(threads)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,6 +47,7 @@ class MultifrontalFactorisation:
     plan : order, fronts and cost
     factor : the columns of every front
     condensed : (m, m) S, read-only
+    slots : (m,) the place in `interface` of every unknown there, in order of elimination
     """
 
     n: int
@@ -41,7 +55,7 @@ class MultifrontalFactorisation:
     plan: Plan
     factor: Array = field(repr=False)
     condensed: Array = field(repr=False)
-    slots: Array = field(repr=False)
+    slots: Int32Array = field(repr=False)
     name: str = "multifrontal"
 
     @property
@@ -56,7 +70,7 @@ class MultifrontalFactorisation:
     def reduce(self, f: Array) -> Array:
         """Give ``f_c - K_ci K_ii^-1 f_i``."""
         y = self._rows(f)
-        _fronts.forward(self.plan.fronts, self.factor, y, scratch())
+        self._solve(_fronts.forward, y)
         g = np.empty((self.m, len(y)))
         g[self.slots] = y[:, self.n - self.m :].T
         return like(f, g)
@@ -64,12 +78,16 @@ class MultifrontalFactorisation:
     def expand(self, f: Array, u_c: Array) -> Array:
         """Give u from the load inside and the displacement of the interface."""
         y = self._rows(f)
-        _fronts.forward(self.plan.fronts, self.factor, y, scratch())
+        self._solve(_fronts.forward, y)
         y[:, self.n - self.m :] = columns(u_c, self.m)[self.slots].T
-        _fronts.backward(self.plan.fronts, self.factor, y, scratch())
+        self._solve(_fronts.backward, y)
         u = np.empty((self.n, len(y)))
         u[self.plan.order] = y.T
         return like(f, u)
+
+    def _solve(self, half: Callable[..., None], y: Array) -> None:
+        with one_thread():
+            half(self.plan.fronts, self.factor, y, np.empty(self.plan.widest * len(y)), scratch())
 
     def _rows(self, f: Array) -> Array:
         return np.ascontiguousarray(columns(f, self.n).T[:, self.plan.order])
@@ -91,11 +109,11 @@ def factorise(system: System) -> MultifrontalFactorisation:
     slots[place[system.interface] - inside] = np.arange(system.m, dtype=np.int32)
     factor = np.zeros(plan.fronts.panel[-1])
     condensed = np.zeros((system.m, system.m))
-    widest = int(plan.fronts.below.max(initial=0))
-    failed = _fronts.factorise_fronts(
-        plan.fronts, system.indptr, system.indices, system.data, plan.order, place, slots,
-        factor, np.empty(plan.stack + widest), np.empty(widest * widest), condensed, scratch(),
-    )  # fmt: skip
+    with one_thread() as threads:
+        failed = _fronts.factorise_fronts(
+            plan.fronts, system.indptr, system.indices, system.data, plan.order, place, slots,
+            factor, np.empty(plan.stack), np.empty(plan.widest**2), condensed, plan.widest, threads, scratch(),
+        )  # fmt: skip
     if failed >= 0:
         raise NotPositiveDefinite(int(plan.order[failed]))
     condensed.flags.writeable = False

@@ -16,7 +16,7 @@ from signorini.linalg import _symbolic
 from signorini.linalg.ordering import nested_dissection, unknowns
 from signorini.linalg.system import Int32Array, NodeGraph, System, node_graph
 
-RELAX = (8, 0.5, 32, 0.15, 0.05)
+RELAX = (8, 0.8, 24, 0.3, 0.02)
 """When supernodes are joined though zeros are stored for it; see `_symbolic.supernodes`. Found by measurement."""
 
 
@@ -51,6 +51,7 @@ class Plan:
     order : (n,) unknowns in their order of elimination, the interface last
     fronts : see `Fronts`
     stack : entries that wait for their parents at the worst time
+    widest : unknowns below the largest front
     nnz_factor : entries of the factor
     flops : multiplications and additions of the factorisation
     peak_bytes : factor, stack, largest front and condensed matrix together
@@ -59,6 +60,7 @@ class Plan:
     order: Int32Array
     fronts: Fronts
     stack: int
+    widest: int
     nnz_factor: int
     flops: float
     peak_bytes: int
@@ -75,16 +77,17 @@ def analyse(system: System) -> Plan:
     begin, row, parent = _symbolic.front_rows(*arguments, first, count)
 
     size = (graph.start[1:] - graph.start[:-1])[order]
-    unknown = _offsets(size, np.int32)
-    below = np.diff(_offsets(size[row], np.int64)[begin])
+    unknown = _offsets(size).astype(np.int32)
+    below = np.diff(_offsets(size[row])[begin])
     width = np.diff(unknown[first]).astype(np.int64)
-    panel = _offsets(width * (width + below), np.int64)
+    panel = _offsets(width * (width + below))
     stack = _symbolic.stack_peak(parent, below * (below + 1) // 2)
     widest = int(below.max(initial=0))
     return Plan(
         order=unknowns(graph, order),
         fronts=Fronts(first, unknown, begin, row, below.astype(np.int32), parent, panel),
         stack=stack,
+        widest=widest,
         nnz_factor=int((width * (width + 1) // 2 + width * below).sum()),
         flops=float((width**3 / 3 + width**2 * below + width * below.astype(np.float64) ** 2).sum()),
         peak_bytes=8 * (int(panel[-1]) + stack + widest**2 + system.m**2),
@@ -102,5 +105,5 @@ def _postordered(graph: NodeGraph, nodes: Int32Array) -> tuple[Int32Array, Int32
     return order, place
 
 
-def _offsets(size: IntArray | Int32Array, dtype: type) -> IntArray:
-    return np.concatenate([[0], np.cumsum(size, dtype=np.int64)]).astype(dtype)
+def _offsets(size: IntArray | Int32Array) -> IntArray:
+    return np.concatenate([np.zeros(1, dtype=np.int64), np.cumsum(size, dtype=np.int64)])

@@ -22,7 +22,7 @@ from signorini.linalg._triangular import backward, forward
 from signorini.linalg.definite import SUSPICIOUS, check_energy
 from signorini.linalg.ordering import elimination_order
 from signorini.linalg.protocol import NotPositiveDefinite
-from signorini.linalg.system import Int32Array, System, columns, like, node_graph
+from signorini.linalg.system import Int32Array, System, columns, interface_lift, like, node_graph
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,8 +91,7 @@ def factorise(system: System) -> SuperLUFactorisation:
     if np.any(bad := (diagonal <= 0) & system.inside):
         raise NotPositiveDefinite(int(np.argmax(bad)))
     order = np.concatenate([elimination_order(node_graph(system)), system.interface.astype(np.int32)])
-    shift = np.zeros(system.n)
-    shift[system.interface] = np.maximum(np.abs(diagonal), 1e-8 * np.abs(diagonal).max(initial=1.0))[system.interface]
+    shift = interface_lift(system)
     lu = _without_pivoting(system, order, shift)
     if lu is None:  # a pivot was exactly 0: lift it just enough to find the motion without resistance
         lu = _without_pivoting(system, order, shift + np.finfo(np.float64).eps * np.abs(diagonal))

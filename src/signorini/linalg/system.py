@@ -113,6 +113,13 @@ def _checked(K: sparse.csr_array, interface: ArrayLike, nodes: ArrayLike | None)
     )
 
 
+def interface_lift(system: System) -> Array:
+    """Give a diagonal, 0 inside, of the size of K_cc: added to K, it makes S positive definite where K_ii is."""
+    diagonal = np.abs(system.matrix.diagonal())
+    floor = 1e-8 * diagonal.max(initial=0.0) or 1.0
+    return np.where(system.inside, 0.0, np.maximum(diagonal, floor))
+
+
 def columns(values: ArrayLike, rows: int) -> Array:
     """Read a vector as one column.
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 from signorini.arrays import Array
 from signorini.output.align import align
@@ -25,6 +25,7 @@ _HEAD = (
     "max slip",
 )
 _NUMBERS = (6, 7, 8)
+_ROUNDING = 1e-12  # of the largest of its kind: what is smaller is rounding, and printed as 0
 
 
 def history_table(history: History) -> str:
@@ -55,20 +56,24 @@ def history_table(history: History) -> str:
 
 def _step_lines(step: StepResult, number: int) -> list[str]:
     count = f"{step.increments} increment{'s' if step.increments > 1 else ''}"
+    pressed = [float((abs(contact.pressure) * contact.area).sum()) for contact in step.contacts]
+    held = [float(abs(force).max()) for force in step.reactions.values()]
+    noise = _ROUNDING * max([*pressed, *held], default=0.0)
+    still = _ROUNDING * float(abs(step.displacement).max(initial=0.0))
     rows = [
         (
             contact.name,
-            spell_vector(contact.normal_force),
-            spell_vector(contact.tangential_force),
+            spell_vector(contact.normal_force, noise),
+            spell_vector(contact.tangential_force, noise),
             f"{contact.pressure.max(initial=0.0):.5g}",
             spell_vector(contact.points[contact.pressure.argmax()]),
             f"{contact.closed_area:.5g}",
             *(str(contact.count(status)) for status in (OPEN, STICK, SLIP)),
-            f"{abs(contact.slip).max(initial=0.0):.4g}",
+            spell_number(float(abs(contact.slip).max(initial=0.0)), still),
         )
         for contact in step.contacts
     ]
-    reactions = ", ".join(f"{name} {spell_vector(force)}" for name, force in step.reactions.items())
+    reactions = ", ".join(f"{name} {spell_vector(force, noise)}" for name, force in step.reactions.items())
     certificate = step.certificate
     verdict = "passed" if certificate.passed else "NOT passed"
     return [
@@ -79,10 +84,15 @@ def _step_lines(step: StepResult, number: int) -> list[str]:
     ]
 
 
-def spell_vector(vector: Array | Sequence[float] | Iterable[float]) -> str:
-    """A vector in five digits.
+def spell_vector(vector: Array | Sequence[float], noise: float = 0.0) -> str:
+    """A vector in five digits; components of at most ``noise`` are 0.
 
-    >>> spell_vector([0.0, -78.0])
+    >>> spell_vector([1e-15, -78.0], noise=1e-10)
     '(0, -78)'
     """
-    return f"({', '.join(f'{part + 0.0:.5g}' for part in vector)})"
+    return f"({', '.join(spell_number(float(part), noise) for part in vector)})"
+
+
+def spell_number(value: float, noise: float = 0.0) -> str:
+    """A number in five digits; 0 if its size is at most ``noise``."""
+    return "0" if abs(value) <= noise else f"{value:.5g}"

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
+_DOTTED = 100  # nodes that can be told apart as dots
+
 
 def plot_contact(history: History) -> Figure:
     """Draw every contact at the end of the last finished step.
@@ -49,15 +51,19 @@ def draw_contacts(curves: Sequence[Curve], title: str) -> Figure:
 def _draw(axes: Axes, curve: Curve) -> None:
     shades = shade_status(axes, curve)
     single = len(curve.s) == 1
-    lines = axes.plot(curve.s, curve.pressure, "o-", color=PRESSURE, ms=4, lw=1.8, label="pressure p")
+    dots, squares = ("o-", "s-") if len(curve.s) <= _DOTTED else ("-", "-")
+    lines = axes.plot(curve.s, curve.pressure, dots, color=PRESSURE, ms=4, lw=1.8, label="pressure p")
     if curve.friction > 0:
         name = "friction traction, along the tangent"
-        lines += axes.plot(curve.s, curve.traction, "s-", color=TRACTION, ms=3.5, lw=1.5, label=name)
+        lines += axes.plot(curve.s, curve.traction, squares, color=TRACTION, ms=3.5, lw=1.5, label=name)
     if curve.has_bound:
         bound = curve.friction * curve.pressure
-        name = rf"$\pm\mu p$, $\mu$ = {curve.friction:g}"
-        lines += axes.plot(curve.s, bound, "--", color=BOUND, lw=1.0, alpha=0.8, label=name)
-        axes.plot(curve.s, -bound, "--", color=BOUND, lw=1.0, alpha=0.8)
+        signs = [sign for sign in (1.0, -1.0) if (sign * curve.traction > 0.01 * bound.max()).any()] or [1.0]
+        name = {1: r"$\mu p$", 2: r"$\pm\mu p$"}[len(signs)] if signs[0] > 0 else r"$-\mu p$"
+        for sign in signs:
+            line = axes.plot(curve.s, sign * bound, "--", color=BOUND, lw=1.0, alpha=0.8)
+        line[0].set_label(rf"{name}, $\mu$ = {curve.friction:g}")
+        lines += line
     axes.axhline(0.0, color=INK, lw=0.8)
     if not single:
         axes.set_xlim(*closed_range(curve))

@@ -23,7 +23,7 @@ class Curve:
     Attributes
     ----------
     contact, step : names
-    axis : what the coordinate is: "x", "y", or "angle, degrees" about the middle of a closed surface
+    axis : what the coordinate is: "x", "y", or "angle in degrees" about the middle of a closed surface
     s : (n,) increasing coordinate
     pressure, traction : (n,) force per area; traction is friction on the nonmortar body along the tangent
     status : (n,) "open", "stick" or "slip"
@@ -101,7 +101,7 @@ def surface_coordinate(points: Array) -> tuple[str, Array]:
         if length <= _FOLDED * np.hypot(*extent):
             return "xy"[axis], points[:, axis]
     arm = points - points.mean(axis=0)
-    return "angle, degrees", np.degrees(np.arctan2(arm[:, 1], arm[:, 0]))
+    return "angle in degrees", np.degrees(np.arctan2(arm[:, 1], arm[:, 0]))
 
 
 def closed_range(curve: Curve) -> tuple[float, float]:
@@ -112,5 +112,5 @@ def closed_range(curve: Curve) -> tuple[float, float]:
         return low, high
     first, last = max(closed[0] - 1, 0), min(closed[-1] + 1, len(curve.s) - 1)
     start, end = float(curve.s[first]), float(curve.s[last])
-    margin = 0.35 * (end - start)
-    return max(low, start - margin), min(high, end + margin)
+    margin, edge = 0.35 * (end - start), 0.015 * (end - start)
+    return max(low - edge, start - margin), min(high + edge, end + margin)

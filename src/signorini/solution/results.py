@@ -91,6 +91,7 @@ class StepResult:
     certificate : the worst of every increment
     contacts : in the order of the model
     methods : how the increments were solved, each once
+    iterations : of every increment
     notes : what a reader should know
     """
 
@@ -106,6 +107,7 @@ class StepResult:
     certificate: Certificate
     contacts: tuple[ContactResult, ...]
     methods: tuple[str, ...]
+    iterations: tuple[int, ...]
     notes: tuple[str, ...]
 
     @property

@@ -44,12 +44,12 @@ def frictional_contact(m: int, rng: np.random.Generator, *, friction: float = 0.
     """
     A_nn, A_nt, A_tt = half_plane_compliance(m)
     g, t = _punch(m, rng)
-    I, zero = np.eye(m), np.zeros((m, m))
+    eye, zero = np.eye(m), np.zeros((m, m))
     M = np.block(
         [
             [A_nn - friction * A_nt, A_nt, zero],
-            [A_nt.T - friction * A_tt, A_tt, I],
-            [2 * friction * I, -I, zero],
+            [A_nt.T - friction * A_tt, A_tt, eye],
+            [2 * friction * eye, -eye, zero],
         ]
     )
     q = np.concatenate([g, t, np.zeros(m)])

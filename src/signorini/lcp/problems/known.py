@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -119,8 +121,9 @@ def _coulomb() -> list[PosedLCP]:
 
 def _one_node(mu: float, f_t: float, answer: ArrayLike | None) -> PosedLCP:
     k, c, f_n = 2.0, 1.0, 1.0
-    # gap = -u_n, u_t = s_plus - s_minus; N = f_n - k u_n - c u_t, r_t = f_t - c u_n - k u_t, friction is -r_t
-    M = np.array([[k, -c, c], [mu * k + c, -mu * c + k, mu * c - k], [mu * k - c, -mu * c - k, mu * c + k]])
+    # gap = -u_n, u_t = s_plus - s_minus, N = f_n - k u_n - c u_t, p_t = -(f_t - c u_n - k u_t)
+    plus, minus = k - mu * c, k + mu * c
+    M = np.array([[k, -c, c], [mu * k - c, plus, -plus], [mu * k + c, -minus, minus]])
     q = np.array([f_n, mu * f_n - f_t, mu * f_n + f_t])
     return _posed(
         f"one Coulomb node, mu = {mu:g}",
@@ -137,7 +140,7 @@ def _one_node(mu: float, f_t: float, answer: ArrayLike | None) -> PosedLCP:
 def _posed(
     name: str,
     source: str,
-    M: ArrayLike,
+    M: Any,
     q: ArrayLike,
     answer: ArrayLike | None,
     *traits: str,

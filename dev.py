@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Set up and run: needs nothing but Python 3.11 or later. Everything goes into the folder .venv beside this file.
+
+python3 dev.py example     install the package and run the paper's example
+python3 dev.py test        install the development tools and run every check: lint, types, tests, examples
+python3 dev.py figures     draw the pictures of README and docs again
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+import venv
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent
+BIN = ROOT / ".venv" / ("Scripts" if os.name == "nt" else "bin")
+
+
+def install(extras: str = "") -> None:
+    """Make .venv if there is none and install this folder into it."""
+    if sys.version_info < (3, 11):
+        sys.exit(f"signorini needs Python 3.11 or later; this is {sys.version.split()[0]}")
+    if not (BIN / ("python.exe" if os.name == "nt" else "python")).exists():
+        say("making .venv")
+        venv.create(ROOT / ".venv", with_pip=True)
+    say("installing signorini and what it needs into .venv")
+    run("python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--editable", f"{ROOT}{extras}")
+
+
+def run(program: str, *arguments: str, **environment: str) -> None:
+    """Run a program of .venv and end with its exit code if it fails."""
+    code = subprocess.call([str(BIN / program), *arguments], cwd=ROOT, env={**os.environ, **environment})
+    if code:
+        sys.exit(code)
+
+
+def say(words: str) -> None:
+    """Tell what goes on."""
+    print(f"-- {words}", flush=True)
+
+
+def example() -> None:
+    """The paper's cylinder: table, files and picture in out/."""
+    install()
+    run("signorini", "run", "examples/zhu_cylinder.toml", "-o", "out")
+    run("signorini", "plot", "out", "--what", "contact", "-o", "out/contact.png")
+    say("the same cylinder without friction, beside Hertz and the paper's table 1")
+    run("python", "examples/zhu_table1.py")
+    say("the contact tractions are drawn in out/contact.png")
+
+
+def test() -> None:
+    """Everything that must hold before a change lands."""
+    install("[dev]")
+    for words, *command in (
+        ("lint", "ruff", "check"),
+        ("format", "ruff", "format", "--check"),
+        ("types", "mypy"),
+    ):
+        say(words)
+        run(*command)
+    say("tests and doctests")
+    run("python", "-m", "pytest", "-n", "2", "--dist", "worksteal", OMP_NUM_THREADS="1")
+    with tempfile.TemporaryDirectory() as folder:
+        for deck in sorted((ROOT / "examples").glob("*.toml")):
+            say(f"examples/{deck.name}")
+            run("signorini", "run", str(deck), "-o", str(Path(folder) / deck.stem), "--quiet")
+        say("examples/zhu_table1.py, zhu_figures.py, zhu_convergence.py, readme_picture.py")
+        run("python", "examples/zhu_table1.py")
+        run("python", "examples/zhu_figures.py", folder)
+        run("python", "examples/zhu_convergence.py")
+        run("python", "examples/readme_picture.py", str(Path(folder) / "cylinder.png"))
+    say("verification suite")
+    run("signorini", "verify", "--all")
+    say("all checks passed")
+
+
+def figures() -> None:
+    """The pictures of README and docs."""
+    install()
+    run("python", "examples/zhu_figures.py")
+    run("python", "examples/readme_picture.py")
+
+
+if __name__ == "__main__":
+    commands = {"example": example, "test": test, "figures": figures}
+    if len(sys.argv) != 2 or sys.argv[1] not in commands:
+        sys.exit(__doc__)
+    commands[sys.argv[1]]()

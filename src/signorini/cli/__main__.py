@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``python -m signorini.cli``."""
+
+import sys
+
+from signorini.cli.main import main
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``signorini check``: what would be solved, and what looks wrong; solves nothing."""
+
+from __future__ import annotations
+
+import argparse
+
+from signorini.deck import load
+from signorini.errors import InputError
+
+
+def check(options: argparse.Namespace) -> int:
+    """Print a deck as it was understood, and notes on it; 0 unless something is wrong."""
+    deck = load(options.deck)
+    from signorini.cli.describe import describe  # everything heavy: a wrong deck never waits for it
+    from signorini.prepare import examine
+
+    try:
+        examined = examine(deck.model)
+    except InputError as error:
+        raise deck.locate(error) from error
+    print("\n".join(describe(deck, examined)))
+    return 0

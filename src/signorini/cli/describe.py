@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A deck as it was understood, in words: what would be solved, and what looks wrong."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from signorini.deck import Deck
+from signorini.fem.rigid import describe_motion
+from signorini.model.contact import Contact, Plane
+from signorini.model.model import Model
+from signorini.output.align import align
+from signorini.output.table import spell_vector
+from signorini.prepare import Examined
+
+Rows = list[tuple[str, ...]]
+
+
+def describe(deck: Deck, examined: Examined) -> list[str]:
+    """Lines on everything that the deck holds."""
+    model, mesh = deck.model, deck.model.mesh
+    families = ", ".join(f"{len(cells)} {family}s" for family, cells in mesh.cells.items())
+    free = examined.constraints.transform.shape[1]
+    lines = [
+        f"{deck.path}: {model.title or 'untitled'}",
+        f"{model.kind}, thickness {model.thickness:g}, units: {model.units}",
+        f"{len(mesh.points)} nodes, {mesh.number_of_cells} elements ({families}), "
+        f"{mesh.points.size} dofs, {free} of them free",
+    ]
+    for title, rows in (
+        ("bodies", _bodies(model)),
+        ("supports", _supports(examined)),
+        ("loads", _loads(examined)),
+        ("contacts", _contacts(examined)),
+        ("steps", _steps(model)),
+    ):
+        lines += ["", title, *(align(rows) if rows else ["  none"])]
+    notes = [*_notes(deck), *_contact_notes(examined), *_motion_notes(examined)]
+    return [*lines, "", "notes", *(f"  {note}" for note in notes or ["nothing looks wrong"])]
+
+
+def _bodies(model: Model) -> Rows:
+    return [
+        (
+            body.name,
+            f"E {body.material.E:g}",
+            f"nu {body.material.nu:g}",
+            f"{len(model.mesh.bodies[body.name])} elements",
+        )
+        for body in model.bodies
+    ]
+
+
+def _supports(examined: Examined) -> Rows:
+    rows: Rows = []
+    for i, support in enumerate(examined.model.supports):
+        parts = ", ".join("free" if part is None else f"{part:g}" for part in support.u)
+        held = int((examined.constraints.owner == i).sum())
+        rows.append((support.label, f"u = ({parts})", f"holds {held} dofs"))
+    return rows
+
+
+def _loads(examined: Examined) -> Rows:
+    rows: Rows = []
+    for load_ in examined.model.loads:
+        total = examined.loads[load_.label].reshape(-1, examined.model.dimension).sum(axis=0)
+        rows.append((load_.label, load_.kind.replace("_", " "), f"total force {spell_vector(total)} at factor 1"))
+    return rows
+
+
+def _contacts(examined: Examined) -> Rows:
+    rows: Rows = []
+    for i, contact in enumerate(examined.model.contacts):
+        gap = examined.interface.gap[examined.interface.contact == i]
+        sides = f"{contact.nonmortar} on {_obstacle(contact)}"
+        friction = "sticks" if contact.friction == "stick" else f"friction {contact.friction:g}"
+        initial = f"initial gap {gap.min():.5g} to {gap.max():.5g}"
+        rows.append((contact.label, sides, friction, f"{len(gap)} pairs", initial))
+    return rows
+
+
+def _obstacle(contact: Contact) -> str:
+    if isinstance(contact.mortar, Plane):
+        return f"a plane through {spell_vector(contact.mortar.point)}, normal {spell_vector(contact.mortar.normal)}"
+    return contact.mortar
+
+
+def _steps(model: Model) -> Rows:
+    rows: Rows = []
+    for number, (step, factors) in enumerate(zip(model.steps, model.factors()[1:], strict=True), start=1):
+        ends = ", ".join(f"{name} {factor:g}" for name, factor in factors.items())
+        rows.append(
+            (
+                str(number),
+                step.name,
+                "1 increment" if step.increments == 1 else f"{step.increments} increments",
+                f"ends at {ends or 'no load'}",
+            )
+        )
+    return rows
+
+
+def _notes(deck: Deck) -> list[str]:
+    model = deck.model
+    notes = [f"material '{name}' is not used" for name in deck.unused_materials]
+    if not model.contacts:
+        notes.append("there is no contact: this is a linear problem")
+    if not model.scaled_names and all(contact.interference == 0.0 for contact in model.contacts):
+        notes.append("nothing is loaded or moved")
+    return notes
+
+
+def _contact_notes(examined: Examined) -> list[str]:
+    notes, interface, model = [], examined.interface, examined.model
+    size = float(np.ptp(model.mesh.points, axis=0).max())
+    for i, contact in enumerate(model.contacts):
+        gap = interface.gap[interface.contact == i]
+        if gap.min() > 0.0:
+            notes.append(f"contact '{contact.label}' is open everywhere at the start, by at least {gap.min():.4g}")
+        if gap.min() < -1e-9 * size and contact.interference == 0.0 and contact.gap == "geometry":
+            notes.append(
+                f"contact '{contact.label}' overlaps by up to {-gap.min():.4g} at the start; it will be pressed"
+            )
+        coulomb = contact.friction != "stick" and contact.friction > 0.0
+        if coulomb and any(step.increments == 1 for step in model.steps):
+            notes.append(f"contact '{contact.label}' has friction, and a step one increment: it starts from zero slip")
+    return notes
+
+
+def _motion_notes(examined: Examined) -> list[str]:
+    return [f"{describe_motion(examined.parts, motion)}: only contact can hold that" for motion in examined.floating.T]

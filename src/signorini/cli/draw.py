@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``signorini plot``: pictures from a result folder."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from signorini.errors import InputError
+from signorini.output.replacing import replacing
+from signorini.plot.contact import draw_contacts
+from signorini.plot.field import draw_mesh, draw_stress
+from signorini.plot.files import ResultFolder
+from signorini.plot.history import draw_history
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_FORMATS = (".png", ".pdf", ".svg")
+
+
+def plot(options: argparse.Namespace) -> int:
+    """Draw, write the picture and say where it is."""
+    folder = ResultFolder(path=Path(options.folder))
+    file = Path(options.file) if options.file else folder.path / f"{options.what}.png"
+    if file.suffix.lower() not in _FORMATS:
+        raise InputError(f"is '{file}'; expected a name that ends in {', '.join(_FORMATS)}", where=("-o",))
+    if options.file and not file.parent.is_dir():
+        raise InputError(f"there is no folder '{file.parent}'", where=("-o",))
+    figure = _draw(folder, options.what)
+    with replacing(file) as aside:
+        figure.savefig(aside, dpi=150)
+    print(file)
+    return 0
+
+
+def _draw(folder: ResultFolder, what: str) -> Figure:
+    if what == "stress":
+        return draw_stress(folder)
+    if what == "mesh":
+        return draw_mesh(folder)
+    if not folder.rows:
+        raise InputError(f"the results in '{folder.path}' have no contact to draw")
+    return draw_history(folder) if what == "history" else draw_contacts(folder.steps[-1], folder.title)

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From arguments to an exit code: 0 done, 2 the input is wrong, 3 no certified solution; never a traceback."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+
+from signorini.cli.parser import make_parser
+from signorini.errors import InputError, SolveFailed
+
+DONE, FAILED, WRONG_INPUT, NO_SOLUTION, INTERRUPTED = 0, 1, 2, 3, 130
+
+_COMMANDS = {
+    "run": "signorini.cli.run",
+    "check": "signorini.cli.check",
+    "plot": "signorini.cli.draw",
+    "verify": "signorini.cli.suites",
+    "bench": "signorini.cli.suites",
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command; every failure is one message on standard error.
+
+    Parameters
+    ----------
+    arguments : without the program's name; those of the process by default
+
+    Returns
+    -------
+    The exit code; wrong options leave by ``SystemExit(2)``, as is usual
+    """
+    options = make_parser().parse_args(arguments)
+    try:
+        code = int(getattr(importlib.import_module(_COMMANDS[options.command]), options.command)(options))
+        sys.stdout.flush()
+        return code
+    except InputError as error:
+        return _say(f"signorini: {error}", WRONG_INPUT)
+    except SolveFailed as failure:
+        return _say(f"signorini: no certified solution ({failure.status}): {failure}", NO_SOLUTION)
+    except KeyboardInterrupt:
+        return _say("signorini: interrupted", INTERRUPTED)
+    except BrokenPipeError:
+        # whoever read the output has left; nothing is to be said, and nothing more to be written at exit
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
+    except Exception as error:  # the last resort: a user never sees a traceback unasked
+        if options.debug:
+            traceback.print_exc()
+        words = " ".join(str(error).split()) or "no message"
+        again = "" if options.debug else " (--debug shows where)"
+        return _say(f"signorini: internal error: {type(error).__name__}: {words}; please report it{again}", FAILED)
+
+
+def _say(words: str, code: int) -> int:
+    print(words, file=sys.stderr)
+    return code

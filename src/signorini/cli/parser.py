@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The commands and their options."""
+
+from __future__ import annotations
+
+import argparse
+
+from signorini._version import __version__
+
+_ABOUT = "Frictional elastic contact by finite elements and linear complementarity."
+_EXIT = """exit codes: 0 done (run: solved and certified), 2 the input is wrong, 3 no certified solution,
+1 a check failed or an internal error, 130 interrupted"""
+
+
+def make_parser() -> argparse.ArgumentParser:
+    """The parser of ``signorini``; the chosen command is in ``command``."""
+    parser = argparse.ArgumentParser(
+        prog="signorini", description=_ABOUT, epilog=_EXIT, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--version", action="version", version=f"signorini {__version__}")
+    shared = argparse.ArgumentParser(add_help=False)
+    shared.add_argument("--debug", action="store_true", help="show where an internal error happened")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    run = commands.add_parser("run", parents=[shared], help="solve a deck and write the results")
+    run.add_argument("deck", metavar="DECK", help="a TOML file")
+    run.add_argument("-o", dest="folder", metavar="DIR", help="result folder (default: out/ and the deck's name)")
+    run.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    run.add_argument("--backend", default="auto", metavar="NAME", help="of the factorisation (default: auto)")
+
+    check = commands.add_parser("check", parents=[shared], help="say what would be solved, and what looks wrong")
+    check.add_argument("deck", metavar="DECK", help="a TOML file")
+
+    plot = commands.add_parser("plot", parents=[shared], help="draw the results in a folder")
+    plot.add_argument("folder", metavar="DIR", help="a folder that 'run' has written")
+    plot.add_argument("--what", choices=("contact", "stress", "mesh", "history"), default="contact")
+    plot.add_argument("-o", dest="file", metavar="FILE", help="PNG, PDF or SVG file (default: WHAT.png in DIR)")
+
+    verify = commands.add_parser("verify", parents=[shared], help="compare with known answers")
+    verify.add_argument("--all", action="store_true", help="the slow cases too")
+    verify.add_argument("--json", metavar="FILE", help="write the table as JSON")
+
+    bench = commands.add_parser("bench", parents=[shared], help="time contact against one linear solve")
+    bench.add_argument("names", nargs="*", metavar="NAME", help="problems (default: all)")
+    bench.add_argument("--dofs", type=int, metavar="N", help="size of the problems")
+    bench.add_argument("--json", metavar="FILE", help="write the table as JSON")
+    return parser

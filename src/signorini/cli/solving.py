@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From a deck that was read to files and a table."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from pathlib import Path
+
+from signorini.api import solve
+from signorini.cli.progress import progress
+from signorini.clock import Clock
+from signorini.deck import Deck
+from signorini.errors import InputError, SolveFailed, one_of
+from signorini.linalg.registry import BACKENDS
+from signorini.output.folder import open_folder, publish
+from signorini.output.table import history_table
+from signorini.solution.history import History
+
+
+def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: float) -> int:
+    """Solve, write, print.
+
+    Parameters
+    ----------
+    options : ``folder``, ``backend`` and ``quiet`` of the command line
+    clock : with the seconds of reading
+    started : ``time.perf_counter()`` at the beginning of the command
+
+    Returns
+    -------
+    The exit code, 0 or 3
+    """
+    if options.backend not in ("auto", *BACKENDS):
+        raise InputError(one_of(options.backend, ["auto", *BACKENDS], "back end"), where=("--backend",))
+    folder = open_folder(Path(options.folder) if options.folder else Path("out", deck.path.stem))
+    with progress(quiet=options.quiet, seconds=clock.seconds) as clock:
+        history = _solve(deck, options.backend, clock)
+        files = publish(history, folder, clock, started=started)
+    if not options.quiet:
+        if history.solved or history.steps:
+            print(history_table(history), end="\n\n")
+        print(f"{', '.join(file.name for file in files)} in {folder} ({time.perf_counter() - started:.2f} s)")
+    if history.solved:
+        return 0
+    sys.stdout.flush()
+    print(f"signorini: {deck.path}: no certified solution ({history.status}): {history.message}", file=sys.stderr)
+    return 3
+
+
+def _solve(deck: Deck, backend: str, clock: Clock) -> History:
+    """The history, finished or not; what is wrong with the deck is told with its line."""
+    try:
+        return solve(deck.model, backend=backend, raise_on_failure=False, clock=clock)
+    except InputError as error:
+        raise deck.locate(error) from error
+    except SolveFailed as failure:  # before there was any history
+        return History(
+            model=deck.model,
+            status=failure.status,
+            message=str(failure),
+            steps=(),
+            backend=backend,
+            timings=dict(clock.seconds),
+            pairs=0,
+        )

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``signorini verify`` and ``signorini bench``: run a suite, print its table, write it as JSON."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from signorini.errors import InputError
+from signorini.output.replacing import replacing
+
+_VERIFY = ("case", "quantity", "computed", "reference", "error", "tolerance", "passed", "source")
+_BENCH = (
+    "name",
+    "dofs",
+    "contact_pairs",
+    "friction",
+    "path",
+    "backend",
+    "assembly_seconds",
+    "contact_seconds",
+    "linear_seconds",
+    "ratio",
+    "cpu_seconds",
+    "peak_memory_bytes",
+    "iterations",
+)
+
+
+def verify(options: argparse.Namespace) -> int:
+    """0 only if every case passed."""
+    file = _json_file(options.json)
+    from signorini.verify.suite import run
+
+    cases = run(slow=options.all)
+    _print(cases, _VERIFY)
+    _write(cases, file)
+    failed = sum(not case["passed"] for case in cases)
+    print(f"{len(cases)} quantities, {failed} failed" if failed else f"{len(cases)} quantities, all passed")
+    return 1 if failed or not cases else 0
+
+
+def bench(options: argparse.Namespace) -> int:
+    """0 if everything could be timed."""
+    file = _json_file(options.json)
+    from signorini.bench.suite import run
+
+    results = run(options.names, options.dofs)
+    timed = [result for result in results if "counts" not in result]
+    if timed:
+        _print(timed, _BENCH)
+    for result in results:
+        if "counts" in result:
+            counts = ", ".join(f"{what} {count}" for what, count in result["counts"].items())
+            print(f"{result['name']}, {result['bodies']} bodies: {counts}")
+    _write(results, file)
+    return 0
+
+
+def _json_file(name: str | None) -> Path | None:
+    """Refuse a file that cannot be written before minutes are spent on what goes there."""
+    if name is None:
+        return None
+    file = Path(name)
+    if file.is_dir() or not file.absolute().parent.is_dir():
+        raise InputError(f"cannot write '{file}'; expected a file in a folder that exists", where=("--json",))
+    return file
+
+
+def _write(results: Sequence[Mapping[str, Any]], file: Path | None) -> None:
+    if file is not None:
+        with replacing(file) as aside:
+            aside.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
+
+
+def _print(results: Sequence[Mapping[str, Any]], columns: Sequence[str]) -> None:
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE)
+    for column in columns:
+        table.add_column(column.replace("_", " "), overflow="fold")
+    for result in results:
+        table.add_row(*(Text(_word(result.get(column))) for column in columns))
+    console = Console()
+    if not console.is_terminal:
+        console.width = 200  # a file has no width
+    console.print(table)
+
+
+def _word(value: Any) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "NO"
+    return f"{value:.6g}" if isinstance(value, float) else "" if value is None else str(value)

@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Compiled loops of the stiffness assembly: the pattern of the nodes, and the blocks added into it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from signorini.arrays import Array, IntArray
+
+Int32Array = NDArray[np.int32]
+
+
+@njit(cache=True)
+def node_pattern(start: IntArray, corner: Int32Array, nodes: int) -> tuple[IntArray, Int32Array]:
+    """Give the sorted rows of the graph that joins all nodes of an element; a node is its own neighbour.
+
+    Parameters
+    ----------
+    start, corner : element e has the nodes ``corner[start[e]:start[e + 1]]``
+    """
+    first = np.zeros(nodes + 1, np.int64)
+    for p in range(len(corner)):
+        first[corner[p] + 1] += 1
+    for i in range(nodes):
+        first[i + 1] += first[i]
+    element = np.empty(len(corner), np.int32)
+    fill = first[:-1].copy()
+    for e in range(len(start) - 1):
+        for p in range(start[e], start[e + 1]):
+            element[fill[corner[p]]] = e
+            fill[corner[p]] += 1
+
+    mark = np.full(nodes, -1, np.int32)
+    rows = np.zeros(nodes + 1, np.int64)
+    columns = np.empty(max(16, len(corner) * 3), np.int32)
+    top = 0
+    for i in range(nodes):
+        for q in range(first[i], first[i + 1]):
+            for p in range(start[element[q]], start[element[q] + 1]):
+                j = corner[p]
+                if mark[j] != i:
+                    mark[j] = i
+                    if top == len(columns):
+                        longer = np.empty(2 * top, np.int32)
+                        for r in range(top):
+                            longer[r] = columns[r]
+                        columns = longer
+                    columns[top] = j
+                    top += 1
+        rows[i + 1] = top
+    return rows, _transposed(rows, columns[:top])
+
+
+@njit(cache=True)
+def _transposed(rows: IntArray, columns: Int32Array) -> Int32Array:
+    """Give the columns of the transposed pattern; of a symmetric one: the same, but sorted."""
+    top = rows.copy()
+    out = np.empty(len(columns), np.int32)
+    for i in range(len(rows) - 1):
+        for p in range(rows[i], rows[i + 1]):
+            out[top[columns[p]]] = i
+            top[columns[p]] += 1
+    return out
+
+
+@njit(cache=True)
+def unknown_pattern(rows: IntArray, columns: Int32Array, d: int) -> tuple[Int32Array, Int32Array]:
+    """Give every node d unknowns, ``d * node + component``."""
+    nodes = len(rows) - 1
+    indptr = np.empty(nodes * d + 1, np.int32)
+    indices = np.empty(len(columns) * d * d, np.int32)
+    indptr[0] = 0
+    top = 0
+    for i in range(nodes):
+        for r in range(d):
+            for p in range(rows[i], rows[i + 1]):
+                for s in range(d):
+                    indices[top] = columns[p] * d + s
+                    top += 1
+            indptr[i * d + r + 1] = top
+    return indptr, indices
+
+
+@njit(cache=True)
+def add_block(
+    points: Array,
+    cells: Int32Array,
+    gradients: Array,
+    values: Array,
+    weights: Array,
+    lame_lambda: Array,
+    lame_mu: Array,
+    rows: IntArray,
+    columns: Int32Array,
+    data: Array,
+) -> tuple[int, int]:
+    """Add the stiffness of the elements of one kind; give (-1, 0), or the first bad element and what is wrong with it.
+
+    The products ``C = sum_q w g g^T`` of all gradient components are summed first, which is one rank-one update per
+    point; the constitutive law then combines their entries once per element. With `values`, (nq, k), the body is
+    axisymmetric: ``N_a / r`` joins the gradients as a further component. Wrong may be: 1 the element is folded or has
+    no volume, 2 it reaches over the axis.
+    """
+    nodes, d = cells.shape[1], points.shape[1]
+    ring = len(values) > 0
+    e = d + 1 if ring else d
+    C = np.empty((nodes * e, nodes * e))
+    g = np.empty(nodes * e)
+    x = np.empty((nodes, d))
+    J, I = np.eye(3), np.empty((3, 3))  # noqa: E741
+    for t in range(len(cells)):
+        for a in range(nodes):
+            for r in range(d):
+                x[a, r] = points[cells[t, a], r]
+        C[:] = 0.0
+        sign = 0.0
+        for q in range(len(weights)):
+            w, det = weights[q], _gradients(x, gradients[q], J, I, g, e)
+            if det == 0.0 or det * sign < 0.0:
+                return t, 1
+            sign = det
+            w *= abs(det)
+            if ring:
+                radius = 0.0
+                for a in range(nodes):
+                    radius += values[q, a] * x[a, 0]
+                if radius <= 0.0:
+                    return t, 2
+                for a in range(nodes):
+                    g[a * e + d] = values[q, a] / radius
+                w *= 2.0 * np.pi * radius
+            for i in range(nodes * e):
+                wg = w * g[i]
+                for j in range(nodes * e):
+                    C[i, j] += wg * g[j]
+        _scatter(C, cells[t], d, ring, lame_lambda[t], lame_mu[t], rows, columns, data)
+    return -1, 0
+
+
+@njit(cache=True)
+def _gradients(x: Array, reference: Array, J: Array, I: Array, g: Array, e: int) -> float:  # noqa: E741
+    """Write the gradients at one point, e components a node; give the Jacobian, 0 where it is only round-off.
+
+    J is scratch for the Jacobian matrix, I for its inverse; in the plane the last row and column of J are those of a
+    unit matrix.
+    """
+    nodes, d = x.shape
+    size = 1.0
+    for s in range(d):
+        length = 0.0
+        for r in range(d):
+            v = 0.0
+            for a in range(nodes):
+                v += x[a, r] * reference[a, s]
+            J[r, s] = v
+            length += v * v
+        size *= np.sqrt(length)
+    I00 = J[1, 1] * J[2, 2] - J[1, 2] * J[2, 1]
+    I10 = J[1, 2] * J[2, 0] - J[1, 0] * J[2, 2]
+    I20 = J[1, 0] * J[2, 1] - J[1, 1] * J[2, 0]
+    det = J[0, 0] * I00 + J[0, 1] * I10 + J[0, 2] * I20
+    if not abs(det) > 1e-12 * size:
+        return 0.0
+    I[0, 0], I[1, 0], I[2, 0] = I00 / det, I10 / det, I20 / det
+    I[0, 1] = (J[0, 2] * J[2, 1] - J[0, 1] * J[2, 2]) / det
+    I[1, 1] = (J[0, 0] * J[2, 2] - J[0, 2] * J[2, 0]) / det
+    I[2, 1] = (J[0, 1] * J[2, 0] - J[0, 0] * J[2, 1]) / det
+    I[0, 2] = (J[0, 1] * J[1, 2] - J[0, 2] * J[1, 1]) / det
+    I[1, 2] = (J[0, 2] * J[1, 0] - J[0, 0] * J[1, 2]) / det
+    I[2, 2] = (J[0, 0] * J[1, 1] - J[0, 1] * J[1, 0]) / det
+    for a in range(nodes):
+        for r in range(d):
+            v = 0.0
+            for s in range(d):
+                v += reference[a, s] * I[s, r]
+            g[a * e + r] = v
+    return float(det)
+
+
+@njit(cache=True)
+def _scatter(
+    C: Array,
+    cell: Int32Array,
+    d: int,
+    ring: bool,
+    lam: float,
+    mu: float,
+    rows: IntArray,
+    columns: Int32Array,
+    data: Array,
+) -> None:
+    """Combine the products of gradients by Hooke's law and add them to the matrix."""
+    e = d + 1 if ring else d
+    for a in range(len(cell)):
+        low, high = rows[cell[a]], rows[cell[a] + 1]
+        for b in range(len(cell)):
+            p, end = low, high
+            while p < end:
+                middle = (p + end) >> 1
+                if columns[middle] < cell[b]:
+                    p = middle + 1
+                else:
+                    end = middle
+            dot = 0.0
+            for r in range(d):
+                dot += C[a * e + r, b * e + r]
+            for r in range(d):
+                at = d * d * low + r * d * (high - low) + d * (p - low)
+                for s in range(d):
+                    v = lam * C[a * e + r, b * e + s] + mu * C[a * e + s, b * e + r]
+                    if r == s:
+                        v += mu * dot
+                    if ring and r == 0:
+                        v += lam * C[a * e + d, b * e + s]
+                    if ring and s == 0:
+                        v += lam * C[a * e + r, b * e + d]
+                    if ring and r == 0 and s == 0:
+                        v += (lam + 2.0 * mu) * C[a * e + d, b * e + d]
+                    data[at + s] += v

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The stiffness matrix of linear elasticity, for any Lagrange elements in two and three dimensions.
+
+    K_(a r)(b s) = sum_e int_e  lambda d_r N_a d_s N_b + mu (d_s N_a d_r N_b + delta_rs grad N_a . grad N_b)
+
+The unknown of node a and component r is ``d a + r``, which is the numbering of scikit-fem's `ElementVector`. Geometry
+and displacement share the shape functions (isoparametric elements); an element whose edges are straight has its
+higher nodes on them. Pattern and values are written once, in rows; no list of all element entries ever exists.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy import sparse
+
+from signorini.arrays import Array
+from signorini.errors import InputError
+from signorini.fem import _kernels
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cells:
+    """Elements of one kind, with their material.
+
+    Attributes
+    ----------
+    nodes : (M, k) the nodes of every element
+    shape_gradients : (nq, k, d) reference gradients of the shape functions at the points of a quadrature
+    weights : (nq,) weights of the quadrature on the reference element
+    lame_lambda, lame_mu : (M,) or one number, Lame's constants, force / length^2; plane stress is a matter of lambda
+    thickness : (M,) or one number, length; multiplies the stiffness (1 in space and in axisymmetric bodies)
+    shape_values : (nq, k) the shape functions themselves; only axisymmetric bodies need them
+    """
+
+    nodes: ArrayLike
+    shape_gradients: Array
+    weights: Array
+    lame_lambda: ArrayLike
+    lame_mu: ArrayLike
+    thickness: ArrayLike = 1.0
+    shape_values: Array | None = None
+
+
+def stiffness(points: Array, blocks: Cells | Sequence[Cells], *, axisymmetric: bool = False) -> sparse.csr_array:
+    """Assemble the stiffness matrix.
+
+    Elements may be numbered in either orientation; scikit-fem's own meshes mix both.
+
+    Parameters
+    ----------
+    points : (N, d) coordinates of the nodes, length; axisymmetric: (radius, height)
+    blocks : the elements, one block per kind; all share the numbering of the nodes
+    axisymmetric : integrate over the whole circumference, with the hoop strain u_r / r
+
+    Returns
+    -------
+    (d N, d N) csr_array, symmetric, both triangles, sorted int32 indices; nodes without elements have empty rows
+
+    Raises
+    ------
+    InputError
+        If shapes do not fit, a node does not exist, the matrix would have 2^31 entries, or the Jacobian of an element
+        vanishes or changes sign inside it; the message names the element.
+
+    Examples
+    --------
+    One linear triangle of unit legs with lambda = 0, mu = 1/2 stretched along x: the energy is half its area.
+
+    >>> import numpy as np
+    >>> corner = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    >>> gradients = np.array([[[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]]])
+    >>> triangle = Cells(nodes=[[0, 1, 2]], shape_gradients=gradients, weights=np.array([0.5]), lame_lambda=0.0,
+    ...                  lame_mu=0.5)
+    >>> K = stiffness(corner, triangle)
+    >>> u = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
+    >>> float(u @ K @ u)
+    0.5
+    """
+    blocks = [blocks] if isinstance(blocks, Cells) else list(blocks)
+    points = np.ascontiguousarray(points, dtype=np.float64)
+    count, d = points.shape
+    nodes = [_nodes(block, points, number) for number, block in enumerate(blocks)]
+    sizes = np.concatenate([np.zeros(1, dtype=np.int64), *[np.full(len(c), c.shape[1]) for c in nodes]])
+    flat = np.concatenate([c.ravel() for c in nodes]) if nodes else np.empty(0, dtype=np.int32)
+    rows, columns = _kernels.node_pattern(np.cumsum(sizes), flat, count)
+    if len(columns) * d * d >= 2**31:
+        raise InputError(f"the stiffness matrix would have {len(columns) * d * d} entries; expected fewer than 2^31")
+    indptr, indices = _kernels.unknown_pattern(rows, columns, d)
+    data = np.zeros(len(indices))
+    for number, (block, cells) in enumerate(zip(blocks, nodes, strict=True)):
+        values = _values(block, number) if axisymmetric else np.empty((0, 0))
+        element, wrong = _kernels.add_block(
+            points,
+            cells,
+            np.ascontiguousarray(block.shape_gradients, dtype=np.float64),
+            values,
+            np.ascontiguousarray(block.weights, dtype=np.float64),
+            _per_element(block.lame_lambda, block.thickness, len(cells)),
+            _per_element(block.lame_mu, block.thickness, len(cells)),
+            rows,
+            columns,
+            data,
+        )
+        if wrong:
+            raise InputError(_complaint(element, number, wrong, points[cells[element]]))
+    return sparse.csr_array((data, indices, indptr), shape=(count * d, count * d))
+
+
+def _nodes(block: Cells, points: Array, number: int) -> _kernels.Int32Array:
+    """Read the nodes of a block, after a look at its shapes."""
+    cells = np.ascontiguousarray(block.nodes, dtype=np.int32)
+    expected = (len(block.weights), cells.shape[-1], points.shape[1])
+    if cells.ndim != 2 or block.shape_gradients.shape != expected:
+        raise InputError(
+            f"block {number}: nodes {cells.shape}, shape_gradients {block.shape_gradients.shape} and weights "
+            f"{block.weights.shape} do not fit points {points.shape}; expected (M, k), (nq, k, d), (nq,) and (N, d)"
+        )
+    if cells.size and (cells.min() < 0 or cells.max() >= len(points)):
+        raise InputError(f"block {number} names nodes {cells.min()} .. {cells.max()}; there are 0 .. {len(points) - 1}")
+    return cells
+
+
+def _values(block: Cells, number: int) -> Array:
+    expected = block.shape_gradients.shape[:2]
+    if block.shape_values is None or block.shape_values.shape != expected:
+        raise InputError(f"block {number}: an axisymmetric body needs shape_values of shape {expected}")
+    return np.ascontiguousarray(block.shape_values, dtype=np.float64)
+
+
+def _per_element(constant: ArrayLike, thickness: ArrayLike, count: int) -> Array:
+    return np.ascontiguousarray(np.broadcast_to(np.multiply(constant, thickness), (count,)), dtype=np.float64)
+
+
+def _complaint(element: int, block: int, wrong: int, corners: Array) -> str:
+    where = f"element {element} of block {block}, around {np.array2string(corners.mean(axis=0), precision=6)}"
+    if wrong == 1:
+        return f"{where}, is folded or has no volume: its Jacobian vanishes or changes sign"
+    return f"{where}, reaches over the axis: expected radii >= 0"

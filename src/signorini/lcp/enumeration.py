@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""All solutions of a small problem: every support is tried, the referee of all other methods."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations, islice
+from typing import Any, ClassVar
+
+import numpy as np
+import scipy.linalg as la
+from numpy.typing import ArrayLike
+from scipy.optimize import linprog
+
+from signorini.arrays import Array, BoolArray, IntArray, frozen
+from signorini.errors import InputError
+from signorini.lcp.problem import LCP, read_problem
+from signorini.lcp.solution import Attempt
+from signorini.lcp.status import Status
+
+LARGEST = 20
+
+
+@dataclass(frozen=True, kw_only=True)
+class Face:
+    """All solutions whose positive components are exactly the support: a point, or the inside of a polyhedron.
+
+    Attributes
+    ----------
+    support : indices with z_i > 0
+    z : (n,) the solution, or one in the inside of the face
+    directions : (n, k) orthonormal basis of the directions in which z may move; k = 0 for an isolated point of the face
+    """
+
+    support: tuple[int, ...]
+    z: Array
+    directions: Array
+
+    @property
+    def dimension(self) -> int:
+        """0 for a point, 1 for an edge or a ray, and so on."""
+        return int(self.directions.shape[1])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Enumeration:
+    """Solve by trying every support; exponential, offered to n = 20.
+
+    Examples
+    --------
+    >>> from signorini.lcp import solve
+    >>> solve([[-1.0]], [-1.0], method=Enumeration()).status.name
+    'NO_SOLUTION'
+    """
+
+    name: ClassVar[str] = "enumeration"
+    matrices: ClassVar[str] = "any, n <= 20"
+
+    tolerance: float = 1e-11
+
+    def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:  # noqa: ARG002
+        """See ``Method.attempt``."""
+        if problem.n > LARGEST or problem.dense() is None:
+            note = f"It needs the entries of M and n <= {LARGEST}; n is {problem.n}."
+            return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note=note)
+        faces = _faces(problem, self.tolerance, only_first=True)
+        if not faces:
+            return Attempt(z=None, ending=Status.NO_SOLUTION, iterations=2**problem.n)
+        return Attempt(z=faces[0].z, ending=Status.SOLVED, iterations=2**problem.n)
+
+
+def all_solutions(M: Any, q: ArrayLike, *, tolerance: float = 1e-11) -> tuple[Face, ...]:
+    """Every solution of ``0 <= z  _|_  M z + q >= 0``, sorted by support; empty where there is none.
+
+    Parameters
+    ----------
+    M : (n, n) array or sparse matrix, n <= 20
+    q : (n,) array
+    tolerance : balanced values below it, relative to the largest, count as 0
+
+    Raises
+    ------
+    InputError
+        For malformed data, an operator, or n > 20.
+
+    Notes
+    -----
+    Regular principal blocks are solved in batches. A singular block is kept where q is in its range and a linear
+    program finds a point with z > 0 on the support; the solutions then form a face, given by a point and directions.
+
+    Examples
+    --------
+    >>> [face.z.tolist() for face in all_solutions([[-1.0]], [1.0])]
+    [[0.0], [1.0]]
+    >>> line = all_solutions([[1.0, 1.0], [1.0, 1.0]], [-1.0, -1.0])
+    >>> [(face.support, face.dimension) for face in line]
+    [((0,), 0), ((0, 1), 1), ((1,), 0)]
+    """
+    problem = read_problem(M, q)
+    if problem.n > LARGEST or problem.dense() is None:
+        raise InputError(f"has n = {problem.n}; enumeration is offered to n = {LARGEST} with entries", where=("M",))
+    return tuple(sorted(_faces(problem, tolerance, only_first=False), key=lambda face: face.support))
+
+
+def _faces(problem: LCP, tolerance: float, *, only_first: bool) -> list[Face]:
+    rows, columns = problem.sizes
+    M = problem.dense()
+    assert M is not None
+    A, q = M * columns / rows[:, None], problem.q / rows
+    unit = float(np.abs(q).max()) or 1.0
+    q = q / unit
+    faces = []
+    for size in range(problem.n + 1):
+        remaining = combinations(range(problem.n), size)
+        while chunk := tuple(islice(remaining, 4096)):
+            supports = np.array(chunk, dtype=np.int64).reshape(len(chunk), size)
+            for face in _on_supports(A, q, supports, tolerance):
+                z = columns * face.z * unit
+                directions = la.orth(columns[:, None] * face.directions) if face.dimension else face.directions
+                faces.append(Face(support=face.support, z=frozen(z), directions=frozen(directions)))
+                if only_first:
+                    return faces
+    return faces
+
+
+def _on_supports(A: Array, q: Array, supports: IntArray, tolerance: float) -> list[Face]:
+    """Faces on supports of one size."""
+    size = supports.shape[1]
+    none = np.zeros((len(q), 0))
+    if size == 0:
+        return [Face(support=(), z=np.zeros(len(q)), directions=none)] if (q >= -tolerance).all() else []
+    blocks, right = A[supports[:, :, None], supports[:, None, :]], -q[supports]
+    regular = _regular(blocks)
+    faces = []
+    chosen = np.flatnonzero(regular)
+    x = np.linalg.solve(blocks[chosen], right[chosen][:, :, None])[:, :, 0]
+    z = np.zeros((len(chosen), len(q)))
+    np.put_along_axis(z, supports[chosen], x, axis=1)
+    scale = np.maximum(1.0, np.abs(z).max(axis=1))
+    fits = (x > tolerance * scale[:, None]).all(axis=1) & (z @ A.T + q >= -tolerance * scale[:, None]).all(axis=1)
+    faces += [Face(support=tuple(supports[chosen[k]].tolist()), z=z[k], directions=none) for k in np.flatnonzero(fits)]
+    singular = np.flatnonzero(~regular)
+    for k in singular[_consistent(blocks[singular], right[singular])]:
+        face = _singular_face(A, q, supports[k], tolerance)
+        faces += [] if face is None else [face]
+    return faces
+
+
+def _regular(blocks: Array) -> BoolArray:
+    """Whether the blocks are regular: by the determinant where it is large for the rows, else by singular values."""
+    with np.errstate(divide="ignore"):
+        size = np.log(np.linalg.norm(blocks, axis=2)).sum(axis=1)
+    regular = np.asarray(np.linalg.slogdet(blocks)[1] > size + np.log(1e-9))
+    doubtful = np.flatnonzero(~regular)
+    values = np.linalg.svd(blocks[doubtful], compute_uv=False)
+    regular[doubtful] = values[:, -1] > 1e-12 * np.maximum(values[:, 0], 1e-300)
+    return regular
+
+
+def _consistent(blocks: Array, right: Array) -> BoolArray:
+    """Whether the right-hand sides are in the ranges of the singular blocks."""
+    if not len(blocks):
+        return np.zeros(0, dtype=bool)
+    x = np.linalg.pinv(blocks, rcond=1e-11) @ right[:, :, None]
+    error = np.abs(blocks @ x - right[:, :, None]).max(axis=(1, 2))
+    return np.asarray(error <= 1e-9 * np.maximum(1.0, np.abs(x).max(axis=(1, 2))))
+
+
+def _singular_face(A: Array, q: Array, support: IntArray, tolerance: float) -> Face | None:
+    """A point of the relative inside and the directions that stay on the face; None where no z > 0 is on it.
+
+    The point is the mean of one with the largest least component on the support (at most 1) and, for every other row
+    that is 0 there, of one where that row is largest.
+    """
+    inside, outside = A[np.ix_(support, support)], np.delete(A, support, axis=0)[:, support]
+    q_outside = np.delete(q, support)
+    size = len(support)
+    cost = np.append(np.zeros(size), -1.0)
+    upper = np.vstack([np.hstack([-np.eye(size), np.ones((size, 1))]), np.pad(-outside, ((0, 0), (0, 1)))])
+    bound = np.concatenate([np.zeros(size), q_outside])
+    equal = np.pad(inside, ((0, 0), (0, 1)))
+    found = linprog(
+        cost, A_ub=upper, b_ub=bound, A_eq=equal, b_eq=-q[support], bounds=[(None, None)] * size + [(None, 1)]
+    )
+    if found.status != 0 or not found.x[-1] > 1e3 * tolerance:
+        return None
+    x = found.x[:-1]
+    tight, points = [], [x]
+    for row, value in zip(outside, q_outside, strict=True):
+        if row @ x + value > 1e-7:
+            continue
+        room = (0, 10 * (1 + np.abs(x).max()))
+        most = linprog(-row, A_ub=upper[:, :-1], b_ub=bound, A_eq=inside, b_eq=-q[support], bounds=room)
+        if most.status == 0 and row @ most.x + value > 1e-7:
+            points.append(most.x)
+        else:
+            tight.append(row)
+    x = np.mean(points, axis=0)
+    null = la.null_space(np.vstack([inside, *tight]), rcond=1e-11)
+    z, directions = np.zeros(len(q)), np.zeros((len(q), null.shape[1]))
+    z[support], directions[support] = x, null
+    return Face(support=tuple(support.tolist()), z=z, directions=directions)

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Projected multigrid: large sparse symmetric problems at a cost proportional to their size."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array, BoolArray
+from signorini.lcp.hierarchy import Level, hierarchy, v_cycle
+from signorini.lcp.mprgp import symmetric_in_products
+from signorini.lcp.problem import LCP
+from signorini.lcp.solution import Attempt
+from signorini.lcp.status import Status
+
+
+@dataclass(frozen=True, kw_only=True)
+class ProjectedMultigrid:
+    """Truncated nonsmooth Newton with multigrid inside, started from the same problem on coarser levels.
+
+    A round is: projected Gauss-Seidel forth and back; conjugate gradients on the free variables, preconditioned by a
+    V-cycle of smoothed aggregation; projection; the step that minimises the energy on the way.
+
+    Parameters
+    ----------
+    max_rounds : limit on the rounds on the finest level
+    inner : conjugate gradient steps a round, at most
+    coarse_rounds : limit on the rounds on every coarser level, for the start
+
+    References
+    ----------
+    Graser, Kornhuber (2009), Multigrid methods for obstacle problems, Journal of Computational Mathematics 27:1-44.
+
+    Examples
+    --------
+    >>> from signorini.lcp import problems, solve
+    >>> posed = problems.obstacle(30)
+    >>> solve(posed.M, posed.q, method=ProjectedMultigrid()).status.name
+    'SOLVED'
+    """
+
+    name: ClassVar[str] = "multigrid"
+    matrices: ClassVar[str] = "sparse, symmetric positive definite; made for Z-matrices and discretised operators"
+
+    max_rounds: int = 100
+    inner: int = 8
+    coarse_rounds: int = 60
+
+    def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:
+        """See ``Method.attempt``."""
+        M = problem.M
+        if not sp.issparse(M) or not (M.diagonal() > 0).all() or not symmetric_in_products(problem):
+            note = "It needs a sparse symmetric matrix with a positive diagonal."
+            return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note=note)
+        scale = 1.0 / np.sqrt(M.diagonal())
+        A = (sp.diags_array(scale) @ M @ sp.diags_array(scale)).tocsr()
+        q = scale * problem.q
+        levels = hierarchy(A)
+        z = self._start(levels, q) if z0 is None else np.maximum(z0, 0.0) / scale
+        for count in range(self.max_rounds + 1):
+            if not np.isfinite(z).all():
+                return Attempt(z=None, ending=Status.NONFINITE, iterations=count)
+            if problem.residual(scale * z).worst <= 0.1 * tolerance:
+                return Attempt(z=scale * z, ending=Status.SOLVED, iterations=count)
+            z = self._round(levels, q, z)
+        return Attempt(z=scale * z, ending=Status.MAX_ITERATIONS, iterations=self.max_rounds)
+
+    def _start(self, levels: list[Level], q: Array) -> Array:
+        """The answer of the next coarser level, prolonged; P >= 0 keeps it feasible for a Z-matrix."""
+        P = levels[0].P
+        return np.zeros(len(q)) if P is None else np.maximum(P @ self._coarse(levels[1:], P.T @ q), 0.0)
+
+    def _coarse(self, levels: list[Level], q: Array) -> Array:
+        """An approximate answer of a coarser level."""
+        z = self._start(levels, q)
+        if levels[0].P is None:
+            levels[0].relax(q, z, lower=0.0, backwards=False, count=500)
+            return z
+        for _ in range(self.coarse_rounds):
+            before, z = z, self._round(levels, q, z)
+            if np.abs(z - before).max() <= 1e-6 * np.abs(z).max():
+                break
+        return z
+
+    def _round(self, levels: list[Level], q: Array, z: Array) -> Array:
+        fine, z = levels[0], z.copy()
+        for backwards in (False, True):
+            fine.relax(q, z, lower=0.0, backwards=backwards)
+        gradient = fine.A @ z + q
+        free = z > 0
+        ahead = np.maximum(z + self._correction(levels, -gradient * free, free), 0.0)
+        move = ahead - z
+        curvature = float(move @ (fine.A @ move))
+        if not curvature > 0:
+            return z
+        return z + min(1.0, max(0.0, -float(gradient @ move) / curvature)) * move
+
+    def _correction(self, levels: list[Level], r: Array, free: BoolArray) -> Array:
+        """Conjugate gradients for ``A c = r`` on the free variables."""
+        c, p, energy = np.zeros(len(r)), np.zeros(len(r)), 0.0
+        first = float(np.linalg.norm(r))
+        for _ in range(self.inner):
+            if not np.linalg.norm(r) > 1e-2 * first:
+                break
+            y = v_cycle(levels, r) * free
+            before, energy = energy, float(r @ y)
+            p = y + (energy / before if before > 0 else 0.0) * p
+            Ap = (levels[0].A @ p) * free
+            curvature = float(p @ Ap)
+            if not curvature > 0:
+                break
+            c = c + energy / curvature * p
+            r = r - energy / curvature * Ap
+        return c

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A result folder: all files of a run appear in it together, and none of an earlier run stays."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import tempfile
+import time
+from collections.abc import Mapping
+from pathlib import Path
+
+from signorini.clock import Clock
+from signorini.errors import InputError
+from signorini.output.replacing import replacing
+from signorini.output.rows import write_rows
+from signorini.output.series import series
+from signorini.output.summary import summary
+from signorini.output.vtu import write_step
+from signorini.solution.history import History
+
+_OURS = re.compile(
+    r"(summary\.json|contact\.csv|solution(_\d{4,})?\.vtu|solution\.pvd|(contact|stress|mesh|history)\.png)"
+)
+
+
+def open_folder(path: Path) -> Path:
+    """Make the folder if need be, and find out before a long solve whether it can be written to.
+
+    Raises
+    ------
+    InputError
+        If it cannot.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=path):
+            pass
+    except OSError as error:
+        raise InputError(f"cannot write to the folder '{path}': {error.strerror}") from error
+    return path
+
+
+def publish(history: History, folder: Path, clock: Clock, *, started: float) -> list[Path]:
+    """Write a history, finished or not, in place of whatever an earlier run left in the folder.
+
+    Everything is written aside first; then earlier results go, and the new files come under their names, the summary
+    last: a summary in the folder means that the files beside it belong to it and are complete.
+
+    Parameters
+    ----------
+    history : with no finished step, only a summary is written, which says why
+    folder : that :func:`open_folder` opened
+    clock : its seconds go into the summary, and those of the output are added to it
+    started : ``time.perf_counter()`` at the beginning of the run
+
+    Returns
+    -------
+    The files, in the order of their appearance
+    """
+    with tempfile.TemporaryDirectory(dir=folder, prefix=".writing-") as name:
+        aside = Path(name)
+        with clock.phase("output"):
+            names = _write_fields(history, aside)
+        seconds = clock.seconds | {"total": time.perf_counter() - started}
+        write_summary(history, aside / "summary.json", seconds)
+        for old in folder.iterdir():
+            if _OURS.fullmatch(old.name):
+                old.unlink()
+        for file in [*names, "summary.json"]:
+            os.replace(aside / file, folder / file)
+    return [folder / file for file in [*names, "summary.json"]]
+
+
+def write_summary(history: History, path: Path, seconds: Mapping[str, float]) -> None:
+    """Write ``summary.json``; see :func:`signorini.output.summary.summary`."""
+    words = json.dumps(summary(history, seconds), indent=2, allow_nan=False, ensure_ascii=False)
+    with replacing(path) as aside:
+        aside.write_text(words + "\n", encoding="utf-8")
+
+
+def _write_fields(history: History, folder: Path) -> list[str]:
+    """Rows and fields of the finished steps; their names."""
+    if not history.steps:
+        return []
+    write_rows(history, folder / "contact.csv")
+    names = ["contact.csv"]
+    if len(history.steps) > 1:
+        parts = [f"solution_{number:04d}.vtu" for number in range(1, len(history.steps) + 1)]
+        for part, step in zip(parts, history.steps, strict=True):
+            write_step(history.model, step, folder / part)
+        (folder / "solution.pvd").write_text(series(parts) + "\n", encoding="utf-8")
+        names += [*parts, "solution.pvd"]
+    write_step(history.model, history.last, folder / "solution.vtu")
+    return [*names, "solution.vtu"]

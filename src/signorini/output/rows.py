@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contact nodes as rows: what ``contact.csv`` holds. Other programs read it: its columns do not change."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator
+from pathlib import Path
+
+from signorini.output.replacing import replacing
+from signorini.solution.history import History
+from signorini.solution.results import ContactResult
+
+COLUMNS = (
+    "step",
+    "contact",
+    "node",
+    "x",
+    "y",
+    "z",
+    "area",
+    "gap",
+    "pressure",
+    "traction_1",
+    "traction_2",
+    "slip_1",
+    "slip_2",
+    "status",
+)
+
+
+def write_rows(history: History, path: Path) -> None:
+    """Write the end of every finished step, one row a nonmortar node with area."""
+    with replacing(path) as aside, aside.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        for number, step in enumerate(history.steps, start=1):
+            for contact in step.contacts:
+                writer.writerows(contact_rows(number, contact))
+
+
+def contact_rows(step: int, contact: ContactResult) -> Iterator[tuple[str, ...]]:
+    """Rows of one contact in the order of COLUMNS; numbers are written so that they read back exactly.
+
+    Parameters
+    ----------
+    step : number of the step, from 1
+    contact : at the end of that step
+    """
+    for i in range(len(contact.node)):
+        if contact.area[i] > 0:
+            x, y = contact.points[i]
+            yield (
+                str(step),
+                contact.name,
+                str(contact.node[i] + 1),
+                *(_number(value) for value in (x, y, 0.0, contact.area[i], contact.gap[i], contact.pressure[i])),
+                *(_number(value) for value in (contact.traction[i], 0.0, contact.slip[i], 0.0)),
+                str(contact.status[i]),
+            )
+
+
+def _number(value: float) -> str:
+    return repr(float(value) + 0.0)  # + 0.0: no "-0.0"

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A solution as plain data: what ``summary.json`` holds. Other programs read it: keys are added, never changed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from signorini._version import __version__
+from signorini.arrays import Array
+from signorini.memory import peak_memory
+from signorini.model.contact import Contact
+from signorini.model.model import Model
+from signorini.solution.certificate import Certificate
+from signorini.solution.history import PHASES, History
+from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, StepResult
+
+
+def summary(history: History, seconds: Mapping[str, float]) -> dict[str, Any]:
+    """Everything but the fields, in the order in which a reader wants it.
+
+    Parameters
+    ----------
+    history : solved or not; only its finished steps appear
+    seconds : by phase; phases that did not happen count 0
+    """
+    model = history.model
+    steps, stored = [], 0.0
+    for step in history.steps:
+        now = step.strain_energy + step.interface_energy
+        steps.append(_step(model, step, now - stored))
+        stored = now
+    return {
+        "signorini": __version__,
+        "title": model.title,
+        "status": history.status,
+        "message": history.message,
+        "kind": model.kind,
+        "thickness": model.thickness,
+        "units": model.units,
+        "size": {
+            "nodes": len(model.mesh.points),
+            "elements": model.mesh.number_of_cells,
+            "dofs": model.mesh.points.size,
+            "contact_pairs": history.pairs,
+        },
+        "bodies": [body.name for body in model.bodies],
+        "timings": {phase: float(seconds.get(phase, 0.0)) for phase in PHASES},
+        "backend": history.backend,
+        "peak_memory_bytes": peak_memory(),
+        "steps": steps,
+    }
+
+
+def _step(model: Model, step: StepResult, stored: float) -> dict[str, Any]:
+    """One finished step; ``stored`` is the change of the energy in bodies and interfaces."""
+    return {
+        "name": step.name,
+        "load_factor": step.load_factor,
+        "path": step.path,
+        "increments": step.increments,
+        "method": ", ".join(step.methods),
+        "notes": list(step.notes),
+        "reactions": {name: _list(force) for name, force in step.reactions.items()},
+        "strain_energy": step.strain_energy,
+        "interface_energy": step.interface_energy,
+        "work": step.work,
+        "dissipation": float(step.dissipation),
+        "energy_defect": float(step.work - stored - step.dissipation),
+        "certificate": _certificate(step.certificate),
+        "contacts": [_contact(*pair) for pair in zip(model.contacts, step.contacts, strict=True)],
+    }
+
+
+def _certificate(certificate: Certificate) -> dict[str, Any]:
+    numbers = {key: getattr(certificate, key) for key in Certificate.__dataclass_fields__}
+    return numbers | {"passed": certificate.passed}
+
+
+def _contact(contact: Contact, result: ContactResult) -> dict[str, Any]:
+    worst = int(result.pressure.argmax())
+    return {
+        "name": result.name,
+        "friction": contact.friction,
+        "normal_force": _list(result.normal_force),
+        "tangential_force": _list(result.tangential_force),
+        "max_pressure": float(result.pressure[worst]),
+        "max_pressure_at": _list(result.points[worst]),
+        "area": result.closed_area,
+        "open": result.count(OPEN),
+        "stick": result.count(STICK),
+        "slip": result.count(SLIP),
+        "max_slip": float(abs(result.slip).max()),
+        "dissipation": result.dissipation,
+    }
+
+
+def _list(vector: Array) -> list[float]:
+    return [float(part) + 0.0 for part in vector]  # + 0.0: no "-0.0"

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures of the bodies: von Mises stress on the deformed mesh, and the mesh with its contact nodes."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray
+from signorini.plot.files import Grid, ResultFolder
+from signorini.plot.style import INK, STATUS_INK
+from signorini.solution.results import OPEN
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_BODIES = ("#e4ecf4", "#f6ead9", "#e3efe2", "#f0e3ec", "#ececea")
+_MOST = 0.4  # of the size of the bodies: a window larger than this shows nothing new
+Window = tuple[Array, Array]  # lower left and upper right corner
+_SEEN = 0.01  # of the size of what is shown: displacements at least as large are drawn as they are
+
+
+def draw_stress(folder: ResultFolder) -> Figure:
+    """Von Mises stress of the last state on the deformed bodies, whole and at the contact.
+
+    The title says by what the displacements are multiplied. Colours end at the largest stress at the contact.
+    """
+    from matplotlib.ticker import MaxNLocator
+    from matplotlib.tri import Triangulation
+
+    grid = folder.grid
+    window = _window(folder, grid.points + grid.displacement)
+    shown = grid.points if window is None else np.array(window)
+    factor = drawn_factor(float(np.ptp(shown, axis=0).max()), grid.displacement)
+    moved = grid.points + factor * grid.displacement
+    inside = _inside(window, moved)
+    top, largest = float(grid.von_mises[inside].max()), float(grid.von_mises.max())
+    levels = np.linspace(0.0, max(top, 1e-300), 25)
+    mesh = Triangulation(moved[:, 0], moved[:, 1], grid.triangles)
+    figure, panels = _canvas(moved, window)
+    for axes in panels:
+        extend = "max" if largest > top else "neither"
+        field = axes.tricontourf(mesh, grid.von_mises, levels=levels, cmap="viridis", extend=extend)
+        _edges(axes, grid, moved, colour="#ffffff", alpha=0.35)
+    bar = figure.colorbar(field, ax=panels, shrink=0.85, pad=0.02, spacing="proportional")
+    beyond = f" (elsewhere up to {largest:.4g})" if largest > top else ""
+    bar.set_label(f"von Mises stress, force per area{beyond}", fontsize=10, color=INK)
+    bar.outline.set_visible(False)
+    bar.ax.tick_params(labelsize=9, colors=INK)
+    bar.ax.yaxis.set_major_locator(MaxNLocator(nbins=7, steps=[1, 2, 2.5, 5, 10]))
+    words = "deformed, true displacements" if factor == 1.0 else f"deformed, displacements x {factor:g}"
+    _finish(figure, panels, folder.title, f"{words}; end of step '{folder.summary['steps'][-1]['name']}'")
+    return figure
+
+
+def draw_mesh(folder: ResultFolder) -> Figure:
+    """The undeformed mesh, a colour a body, and the contact nodes with their status after the last step."""
+    from matplotlib.collections import PolyCollection
+    from matplotlib.patches import Patch
+
+    grid = folder.grid
+    figure, panels = _canvas(grid.points, _window(folder, grid.points))
+    names = folder.summary.get("bodies", [])
+    handles: list[Artist] = [
+        Patch(facecolor=_BODIES[i % len(_BODIES)], edgecolor="#7d7d7d", label=name) for i, name in enumerate(names)
+    ]
+    last = str(len(folder.summary["steps"]))
+    for axes in panels:
+        for cells, body in zip(grid.cells, grid.body, strict=True):
+            faces = [_BODIES[i % len(_BODIES)] for i in body]
+            axes.add_collection(PolyCollection(list(grid.points[cells]), facecolors=faces, edgecolors="none"))
+        _edges(axes, grid, grid.points, colour="#7d7d7d", alpha=1.0)
+        for status, colour in STATUS_INK.items():
+            own = [row for row in folder.rows if row["step"] == last and row["status"] == status]
+            x, y = [float(row["x"]) for row in own], [float(row["y"]) for row in own]
+            dots = axes.plot(x, y, "o", ms=4, color=colour, label=f"contact node, {status}", zorder=3)
+            handles += dots if own and axes is panels[-1] else []
+    figure.legend(handles=handles, fontsize=9, frameon=False, loc="outside lower center", ncols=len(handles))
+    size = folder.summary["size"]
+    words = f"{size['nodes']} nodes, {size['elements']} elements, {size['contact_pairs']} contact pairs"
+    _finish(figure, panels, folder.title, words)
+    return figure
+
+
+def drawn_factor(size: float, displacement: Array) -> float:
+    """What displacements are multiplied with: 1 where they can be seen, otherwise 1, 2 or 5 times a power of ten.
+
+    Parameters
+    ----------
+    size : of what is shown, length
+    displacement : (n, 2) length
+
+    Examples
+    --------
+    >>> drawn_factor(10.0, np.array([[0.0, 0.001], [0.0, 0.0]]))
+    200.0
+    """
+    largest = float(np.linalg.norm(displacement, axis=1).max())
+    if largest == 0.0 or largest >= _SEEN * size:
+        return 1.0
+    wanted = 2.0 * _SEEN * size / largest
+    power = 10.0 ** math.floor(math.log10(wanted))
+    return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= wanted * (1.0 + 1e-12))
+
+
+def _window(folder: ResultFolder, points: Array) -> Window | None:
+    """The part around the closed contact nodes; None if that is much of the picture."""
+    last = str(len(folder.summary["steps"]))
+    closed = [int(row["node"]) for row in folder.rows if row["step"] == last and row["status"] != OPEN]
+    here = points[np.isin(folder.grid.node, closed)]
+    size = float(np.ptp(points, axis=0).max())
+    if not len(here):
+        return None
+    half = max(0.85 * float(np.ptp(here, axis=0).max()), 0.02 * size)
+    if 2.0 * half >= _MOST * size:
+        return None
+    middle = 0.5 * (here.max(axis=0) + here.min(axis=0))
+    edge = 0.03 * half
+    return np.maximum(middle - half, points.min(axis=0) - edge), np.minimum(middle + half, points.max(axis=0) + edge)
+
+
+def _inside(window: Window | None, points: Array) -> BoolArray:
+    if window is None:
+        return np.ones(len(points), bool)
+    return np.asarray(((points >= window[0]) & (points <= window[1])).all(axis=1))
+
+
+def _canvas(points: Array, window: Window | None) -> tuple[Figure, list[Axes]]:
+    """A figure of the shape of the bodies, with a second panel for the window if there is one."""
+    from matplotlib.figure import Figure
+
+    width, height = np.maximum(np.ptp(points, axis=0), 1e-300)
+    shape = float(np.clip(height / width, 0.25, 4.0))
+    across, up = (6.2, 6.2 * shape) if shape < 1.0 else (6.2 / shape, 6.2)
+    if window is None:
+        figure = Figure(figsize=(max(across, 3.5) + 2.0, up + 1.4), layout="constrained")
+        panels = [figure.add_subplot()]
+    else:
+        low, high = window
+        beside = 4.6 * (high - low) / (high - low).max()
+        up = max(up, beside[1])
+        figure = Figure(figsize=(max(across, 2.0) + beside[0] + 2.4, up + 1.4), layout="constrained")
+        panels = list(figure.subplots(1, 2, width_ratios=[max(across, 2.0), beside[0]]))
+        panels[1].set_xlim(low[0], high[0])
+        panels[1].set_ylim(low[1], high[1])
+        panels[0].indicate_inset((*low, *(high - low)), edgecolor=INK, lw=1.0, alpha=0.9)
+    margin = 0.02 * max(width, height)
+    panels[0].set_xlim(points[:, 0].min() - margin, points[:, 0].max() + margin)
+    panels[0].set_ylim(points[:, 1].min() - margin, points[:, 1].max() + margin)
+    for axes in panels:
+        axes.set_aspect("equal")
+    return figure, panels
+
+
+def _edges(axes: Axes, grid: Grid, points: Array, *, colour: str, alpha: float) -> None:
+    """Edges of the cells: thinner lines where more cells are in view, none to speak of where they would cover all."""
+    from matplotlib.collections import PolyCollection
+
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    x, y = points[:, 0], points[:, 1]
+    seen = int(((x >= left) & (x <= right) & (y >= low) & (y <= high)).sum())
+    width = 0.7 if seen < 500 else 0.4 if seen < 3000 else 0.15 if seen < 20000 else 0.0
+    for cells in grid.cells:
+        axes.add_collection(
+            PolyCollection(list(points[cells]), facecolors="none", edgecolors=colour, linewidths=width, alpha=alpha),
+            autolim=False,
+        )
+
+
+def _finish(figure: Figure, panels: list[Axes], title: str, words: str) -> None:
+    for axes in panels:
+        for side in axes.spines.values():
+            side.set_visible(axes is not panels[0])
+            side.set_color(INK)
+        axes.tick_params(colors=INK, labelsize=9)
+        axes.set_xlabel("x", fontsize=10, color=INK)
+    panels[0].set_ylabel("y", fontsize=10, color=INK)
+    for axes in panels[1:]:
+        axes.set_title("at the contact", fontsize=10, color=INK, loc="left")
+    figure.suptitle(f"{title}\n{words}" if title else words, fontsize=10.5, color=INK)

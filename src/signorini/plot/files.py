@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Read a result folder back for drawing."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.errors import InputError
+from signorini.plot.curve import Curve, make_curve
+
+_CORNERS = {"triangle": 3, "quad": 4}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Grid:
+    """The last state of all bodies.
+
+    Attributes
+    ----------
+    points, displacement : (n, 2) length
+    von_mises : (n,) force per area
+    node : (n,) number in the mesh
+    cells : each (m, k), corners in order
+    body : each (m,) which body the cells belong to
+    """
+
+    points: Array
+    displacement: Array
+    von_mises: Array
+    node: IntArray
+    cells: tuple[IntArray, ...]
+    body: tuple[IntArray, ...]
+
+    @property
+    def triangles(self) -> IntArray:
+        """Cells as triangles, (m, 3)."""
+        return np.vstack([cells[:, corners] for cells in self.cells for corners in _triangles(cells.shape[1])])
+
+
+@dataclass(frozen=True, kw_only=True)
+class ResultFolder:
+    """The files that ``signorini run`` leaves, read when asked for.
+
+    Parameters
+    ----------
+    path : of the folder
+    """
+
+    path: Path
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """``summary.json``."""
+        file = self._file("summary.json")
+        try:
+            return dict(json.loads(file.read_text(encoding="utf-8")))
+        except ValueError as error:
+            raise InputError(f"'{file}' is not a summary: {error}") from error
+
+    @cached_property
+    def rows(self) -> list[dict[str, str]]:
+        """``contact.csv``."""
+        with self._file("contact.csv").open(newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    @cached_property
+    def grid(self) -> Grid:
+        """``solution.vtu``."""
+        import meshio
+
+        file = self._file("solution.vtu")
+        found = meshio.read(file)
+        blocks = [i for i, block in enumerate(found.cells) if block.type in _CORNERS]
+        return Grid(
+            points=found.points[:, :2],
+            displacement=found.point_data["displacement"][:, :2],
+            von_mises=found.point_data["von_mises"],
+            node=found.point_data["node"],
+            cells=tuple(found.cells[i].data for i in blocks),
+            body=tuple(found.cell_data["body"][i] for i in blocks),
+        )
+
+    @property
+    def title(self) -> str:
+        """Of the model."""
+        return str(self.summary.get("title", ""))
+
+    @cached_property
+    def steps(self) -> list[list[Curve]]:
+        """For every finished step its contacts."""
+        numbers = range(1, len(self.summary["steps"]) + 1)
+        return [self._curves(number, step) for number, step in zip(numbers, self.summary["steps"], strict=True)]
+
+    def _curves(self, number: int, step: dict[str, Any]) -> list[Curve]:
+        curves = []
+        for contact in step["contacts"]:
+            own = [row for row in self.rows if row["step"] == str(number) and row["contact"] == contact["name"]]
+            friction = contact.get("friction", 0.0)
+            curves.append(
+                make_curve(
+                    contact=contact["name"],
+                    step=step["name"],
+                    points=_columns(own, "x", "y"),
+                    pressure=_columns(own, "pressure")[:, 0],
+                    traction=_columns(own, "traction_1")[:, 0],
+                    status=np.array([row["status"] for row in own]),
+                    friction=math.inf if friction == "stick" else float(friction),
+                )
+            )
+        return curves
+
+    def _file(self, name: str) -> Path:
+        file = self.path / name
+        if not self.path.is_dir():
+            raise InputError(f"there is no folder '{self.path}'; expected one that 'signorini run' has written")
+        if not file.is_file():
+            why = "" if name == "summary.json" else self._why_not()
+            raise InputError(f"the folder '{self.path}' has no '{name}'{why}")
+        return file
+
+    def _why_not(self) -> str:
+        """Words on a run that left no results."""
+        status = self.summary.get("status")
+        return "" if status == "solved" else f": the run ended with '{status}': {self.summary.get('message')}"
+
+
+def _columns(rows: list[dict[str, str]], *names: str) -> Array:
+    return np.array([[float(row[name]) for name in names] for row in rows])
+
+
+def _triangles(corners: int) -> list[list[int]]:
+    return [[0, 1, 2]] if corners == 3 else [[0, 1, 2], [0, 2, 3]]

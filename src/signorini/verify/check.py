@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One line of the verification table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, kw_only=True)
+class Check:
+    """A computed value, what it should be, and how far it may be off.
+
+    Attributes
+    ----------
+    case, quantity : in words
+    computed, reference : in the units of the case
+    tolerance : of the error, relative where the reference is not 0
+    source : of the reference
+
+    Examples
+    --------
+    >>> Check(case="P1", quantity="pressure", computed=1.01, reference=1.0, tolerance=0.02, source="exact").passed
+    True
+    """
+
+    case: str
+    quantity: str
+    computed: float
+    reference: float
+    tolerance: float
+    source: str
+
+    @property
+    def error(self) -> float:
+        """Relative to the reference, absolute where that is 0."""
+        return abs(self.computed - self.reference) / (abs(self.reference) or 1.0)
+
+    @property
+    def passed(self) -> bool:
+        """Whether the error is within the tolerance (not a number: no)."""
+        return bool(self.error <= self.tolerance)
+
+    def row(self) -> dict[str, str | float | bool]:
+        """As written to JSON."""
+        return {
+            "case": self.case,
+            "quantity": self.quantity,
+            "computed": float(self.computed),
+            "reference": float(self.reference),
+            "error": float(self.error),
+            "tolerance": self.tolerance,
+            "source": self.source,
+            "passed": self.passed,
+        }

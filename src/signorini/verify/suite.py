@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Run the verification cases."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from signorini.verify import blocks, cylinder, rings
+from signorini.verify.check import Check
+
+Case = Callable[[], Iterator[Check]]
+
+QUICK: tuple[Case, ...] = (
+    blocks.patch_p1,
+    blocks.patch_p2,
+    blocks.patch_p4,
+    blocks.one_node,
+    rings.press_fit_plane_stress,
+    rings.press_fit_plane_strain,
+    cylinder.paper_mesh,
+    cylinder.refined,
+    cylinder.literal_equals_compliance,
+)
+SLOW: tuple[Case, ...] = (
+    cylinder.small_load,
+    cylinder.history,
+)
+
+
+def run(slow: bool = False) -> list[dict[str, str | float | bool]]:
+    """Run the quick cases, or all of them, and return the rows of the table.
+
+    Returns
+    -------
+    rows with case, quantity, computed, reference, error, tolerance, source, passed
+    """
+    return [check.row() for case in (QUICK + SLOW if slow else QUICK) for check in case()]

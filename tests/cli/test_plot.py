@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures from result folders."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.cli import main
+from signorini.plot.curve import curves_of, surface_coordinate
+from signorini.plot.files import ResultFolder
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("drag")
+    assert main(["run", str(EXAMPLES / "block_drag.toml"), "-o", str(path), "--quiet"]) == 0
+    return path
+
+
+@pytest.mark.parametrize("what", ["contact", "stress", "mesh", "history"])
+def test_pictures_are_written(what: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plot", str(folder), "--what", what]) == 0
+    file = folder / f"{what}.png"
+    assert capsys.readouterr().out == f"{file}\n"
+    assert file.read_bytes().startswith(b"\x89PNG")
+    assert file.stat().st_size > 20_000
+
+
+def test_vector_formats_and_names(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plot", str(folder), "-o", str(tmp_path / "a.svg")]) == 0
+    text = (tmp_path / "a.svg").read_text()
+    assert "<svg" in text
+    assert main(["plot", str(folder), "-o", str(tmp_path / "a.doc")]) == 2
+    assert "expected a name that ends in .png, .pdf, .svg" in capsys.readouterr().err
+    assert main(["plot", str(folder), "-o", str(tmp_path / "none" / "a.png")]) == 2
+
+
+def test_curves_from_files_are_those_of_the_solution(folder: Path) -> None:
+    solution = sg.solve(sg.read(EXAMPLES / "block_drag.toml"))
+    for step, found in zip(solution.steps, ResultFolder(path=folder).steps, strict=True):
+        (curve,), (other,) = curves_of(solution, step), found
+        assert (curve.contact, curve.step, curve.axis) == (other.contact, other.step, other.axis)
+        assert curve.friction == other.friction == 0.3
+        for key in ("s", "pressure", "traction", "status"):
+            assert (getattr(curve, key) == getattr(other, key)).all()
+
+
+def test_solution_draws_itself() -> None:
+    figure = sg.solve(sg.read(EXAMPLES / "zhu_cylinder.toml")).plot()
+    (axes,) = figure.axes
+    line = next(line for line in axes.get_lines() if line.get_label() == "pressure p")
+    assert max(line.get_ydata()) == pytest.approx(38.0163, abs=1e-3)
+
+
+def test_a_ring_is_drawn_over_the_angle() -> None:
+    turn = np.linspace(0.0, 2.0 * np.pi, 40, endpoint=False)
+    axis, angle = surface_coordinate(np.column_stack([3.0 + np.cos(turn), np.sin(turn)]))
+    assert axis == "angle in degrees"
+    assert np.allclose(np.sort(angle.round(9) % 360.0), np.degrees(turn))
+
+
+def test_folders_without_results_are_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plot", str(tmp_path / "none")]) == 2
+    assert "there is no folder" in capsys.readouterr().err
+    assert main(["plot", str(tmp_path)]) == 2
+    assert f"the folder '{tmp_path}' has no 'summary.json'" in capsys.readouterr().err

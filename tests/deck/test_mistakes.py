@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every mistake in a deck is told with file, line, key, what was found and what is expected."""
+
+from pathlib import Path
+
+import pytest
+
+from signorini.cli import main
+from signorini.deck import DeckError, read
+
+DECK = """\
+title = "Disk on a plane"
+kind = "plane strain"
+
+[mesh]
+generator = "quarter_disk"
+radius = 8.0
+contact_length = 4.0
+contact_spacing = 0.5
+
+[material.soft]
+E = 200.0
+nu = 0.3
+
+[[body]]
+name = "disk"
+material = "soft"
+
+[[support]]
+on = "axis"
+u = [0.0, "free"]
+
+[[load]]
+on = "cut"
+force = [0.0, -78.0]
+
+[[contact]]
+nonmortar = "arc"
+plane = { point = [0.0, 0.0], normal = [0.0, 1.0] }
+friction = 0.4
+
+[[step]]
+name = "press"
+increments = 1
+"""
+
+MISTAKES = {
+    # what is replaced, by what, and what is said after "deck.toml"
+    "unknown key": (
+        "friction = 0.4",
+        "fricton = 0.4",
+        ":29: contact[0].fricton: unknown key; did you mean 'friction'? Known: name, nonmortar, mortar, plane, "
+        "friction, gap, interference, normal_compliance, tangential_compliance",
+    ),
+    "unknown table": (
+        "[[step]]",
+        "[[stepp]]",
+        ":31: stepp: unknown key; did you mean 'step'? Known: title, kind, thickness, units, mesh, material, body, "
+        "support, load, contact, step",
+    ),
+    "unknown boundary": (
+        'on = "axis"',
+        'on = "axes"',
+        ":19: support[0].on: unknown boundary or node set 'axes'; did you mean 'axis'? Known: arc, axis, cut",
+    ),
+    "unknown material": (
+        'material = "soft"',
+        'material = "sotf"',
+        ":16: body[0].material: unknown material 'sotf'; did you mean 'soft'? Known: soft",
+    ),
+    "no material": (
+        'material = "soft"\n',
+        "",
+        ":14: body[0]: has no 'material'; expected it",
+    ),
+    "wrong type": ("E = 200.0", 'E = "200"', ":11: material.soft.E: is '200'; expected a number > 0"),
+    "E zero": ("E = 200.0", "E = 0.0", ":11: material.soft.E: is 0.0; expected a number > 0"),
+    "nu too large": ("nu = 0.3", "nu = 0.5", ":12: material.soft.nu: is 0.5; expected a number > -1 and < 0.5"),
+    "friction negative": (
+        "friction = 0.4",
+        "friction = -0.1",
+        ":29: contact[0].friction: is -0.1; expected a number >= 0",
+    ),
+    "empty contact": (
+        'nonmortar = "arc"\nplane = { point = [0.0, 0.0], normal = [0.0, 1.0] }\nfriction = 0.4\n',
+        "",
+        ":26: contact[0]: has no 'nonmortar'; expected it",
+    ),
+    "contact with nothing": (
+        "plane = { point = [0.0, 0.0], normal = [0.0, 1.0] }\n",
+        "",
+        ":26: contact[0]: has neither 'mortar' nor 'plane'; expected one of them, the other side of the contact",
+    ),
+    "plane without direction": (
+        "normal = [0.0, 1.0]",
+        "normal = [0.0, 0.0]",
+        ":28: contact[0].plane.normal: is zero; expected a direction",
+    ),
+    "plane turned over": (
+        "normal = [0.0, 1.0]",
+        "normal = [0.0, -1.0]",
+        ":28: contact[0].plane: 'arc' faces away from the plane; its normal (0.0, -1.0) must point from the obstacle "
+        "towards the body",
+    ),
+    "no such mesh file": (
+        'generator = "quarter_disk"\nradius = 8.0\ncontact_length = 4.0\ncontact_spacing = 0.5',
+        'file = "disk.msh"',
+        ":5: mesh.file: there is no file '{folder}disk.msh'",
+    ),
+    "unknown generator": (
+        '"quarter_disk"',
+        '"quarterdisk"',
+        ":5: mesh.generator: unknown generator 'quarterdisk'; did you mean 'quarter_disk'? Known: annulus, half_disk, "
+        "quarter_disk, rectangle",
+    ),
+    "parameter missing": ("radius = 8.0\n", "", ":4: mesh: has no 'radius'; expected it"),
+    "parameter wrong": (
+        "contact_length = 4.0",
+        "contact_length = 7.0",
+        ":7: mesh.contact_length: is 7; expected at most 0.7 radius = 5.6",
+    ),
+    "later kind": (
+        '"plane strain"',
+        '"axisymmetric"',
+        ":2: kind: is 'axisymmetric', which this version does not have; expected plane strain or plane stress",
+    ),
+    "single brackets": (
+        "[[load]]",
+        "[load]",
+        ":22: load: is a single table; expected [[load]], in double brackets, for each",
+    ),
+    "two loads in one": (
+        "force = [0.0, -78.0]",
+        "force = [0.0, -78.0]\npressure = 3.0",
+        ":22: load[0]: has force and pressure; expected exactly one of force, traction, pressure, body_force",
+    ),
+    "no node there": (
+        'on = "cut"',
+        "on = [50.0, 0.0]",
+        ":23: load[0].on: no node at (50.0, 0.0); the nearest is node 65 at (8.0, 8.0)",
+    ),
+    "unknown factor": (
+        "increments = 1",
+        "scale = { cat = 1.0 }",
+        ":33: step[0].scale: unknown load or moving support 'cat'; did you mean 'cut'? Known: cut",
+    ),
+    "TOML": ("E = 200.0", "E = ", ":11: not valid TOML: Invalid value at column 5, in 'E ='"),
+    "free motion": (
+        '[[contact]]\nnonmortar = "arc"\nplane = { point = [0.0, 0.0], normal = [0.0, 1.0] }\nfriction = 0.4\n',
+        "",
+        ": body 'disk' can move along y: no support or contact holds it; add a support",
+    ),
+    "slides away": (
+        '[[support]]\non = "axis"\nu = [0.0, "free"]\n\n[[load]]\non = "cut"\nforce = [0.0, -78.0]\n\n'
+        '[[contact]]\nnonmortar = "arc"\nplane = { point = [0.0, 0.0], normal = [0.0, 1.0] }\nfriction = 0.4\n',
+        '[[load]]\non = "cut"\nforce = [0.0, -78.0]\n\n'
+        '[[contact]]\nnonmortar = "arc"\nplane = { point = [0.0, 0.0], normal = [0.0, 1.0] }\n',
+        ": body 'disk' can move along x: nothing but frictionless contact, which cannot resist; add a support or "
+        "friction",
+    ),
+}
+
+
+@pytest.mark.parametrize(("old", "new", "said"), MISTAKES.values(), ids=MISTAKES)
+def test_message_and_exit_code(
+    old: str, new: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert DECK.count(old) == 1
+    path = tmp_path / "deck.toml"
+    path.write_text(DECK.replace(old, new))
+    assert main(["run", str(path), "-o", str(tmp_path / "out")]) == 2
+    assert capsys.readouterr().err == f"signorini: {path}{said.replace('{folder}', f'{tmp_path}/')}\n"
+    assert not list((tmp_path / "out").glob("*"))
+
+
+def test_the_deck_without_mistakes_is_right(tmp_path: Path) -> None:
+    path = tmp_path / "deck.toml"
+    path.write_text(DECK)
+    model = read(path)
+    assert [contact.friction for contact in model.contacts] == [0.4]
+    assert [step.name for step in model.steps] == ["press"]
+    assert model.title == "Disk on a plane"
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "said"),
+    [
+        ("deck.toml", None, "file not found"),
+        ("deck.toml", b"\xff\xfe", "is not a text file (UTF-8); expected a deck, a TOML file"),
+        ("deck.inp", b"*NODE", "Abaqus and CalculiX decks are not supported yet; expected a TOML deck"),
+        ("deck.toml", b"", "there is no mesh; expected [mesh] with a generator or a file"),
+    ],
+)
+def test_files_that_are_no_deck(name: str, content: bytes | None, said: str, tmp_path: Path) -> None:
+    path = tmp_path / name
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(DeckError) as caught:
+        read(path)
+    assert str(caught.value) == f"{path}: {said}"
+
+
+def test_meshes_are_joined_under_their_names(tmp_path: Path) -> None:
+    path = tmp_path / "deck.toml"
+    path.write_text(
+        '[[mesh]]\nname = "left"\ngenerator = "rectangle"\n\n[[mesh]]\nname = "right"\ngenerator = "rectangle"\n'
+        'origin = [1.0, 0.0]\n\n[material.m]\nE = 1.0\nnu = 0.0\n\n[[body]]\nname = "left"\nmaterial = "m"\n\n'
+        '[[body]]\nname = "right"\nmaterial = "m"\n\n[[support]]\non = "left.left"\nu = [0.0, 0.0]\n'
+    )
+    assert sorted(read(path).mesh.boundaries)[:2] == ["left.bottom", "left.left"]
+    wrong = path.read_text().replace("origin = [1.0, 0.0]", "origin = [1.0]")
+    path.write_text(wrong)
+    with pytest.raises(DeckError, match=r"deck\.toml:8: mesh\[1\]\.origin: has 1 components"):
+        read(path)

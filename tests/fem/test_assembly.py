@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The stiffness matrix against scikit-fem's own form, and against what elasticity says about it."""
+
+import numpy as np
+import pytest
+import skfem
+from skfem.helpers import ddot, sym_grad, trace
+from skfem.models.elasticity import linear_elasticity
+
+from signorini.errors import InputError
+from signorini.fem.assembly import Cells, stiffness
+
+
+def distorted(mesh, amount=0.04):
+    """Move all nodes by a smooth map: elements differ, none folds."""
+    p = mesh.p
+    return type(mesh)(p + amount * np.sin(3.0 * p[::-1] + np.arange(len(p))[:, None]), mesh.t)
+
+
+TRI = distorted(skfem.MeshTri.init_tensor(np.linspace(0, 1, 4), np.linspace(0, 1, 3)))
+QUAD = distorted(skfem.MeshQuad.init_tensor(np.linspace(0, 1, 4), np.linspace(0, 1, 3)))
+TET = distorted(skfem.MeshTet.init_tensor(*[np.linspace(0, 1, 3)] * 3))
+HEX = distorted(skfem.MeshHex.init_tensor(*[np.linspace(0, 1, 3)] * 3))
+DISK = skfem.MeshTri2.init_circle(2)
+
+ELEMENTS = {
+    "tri3": (TRI, skfem.ElementTriP1()),
+    "tri6": (TRI, skfem.ElementTriP2()),
+    "tri10": (TRI, skfem.ElementTriP3()),
+    "tri15": (TRI, skfem.ElementTriP4()),
+    "tri6 curved": (DISK, skfem.ElementTriP2()),
+    "quad4": (QUAD, skfem.ElementQuad1()),
+    "quad8": (QUAD, skfem.ElementQuadS2()),
+    "quad9": (QUAD, skfem.ElementQuad2()),
+    "tet4": (TET, skfem.ElementTetP1()),
+    "tet10": (TET, skfem.ElementTetP2()),
+    "hex8": (HEX, skfem.ElementHex1()),
+    "hex20": (HEX, skfem.ElementHexS2()),
+    "hex27": (HEX, skfem.ElementHex2()),
+}
+
+
+def cells_of(mesh, element, **constants):
+    """A block of cells from a scalar scikit-fem element, with the coordinates of its nodes."""
+    basis = skfem.Basis(mesh, element)
+    X, weights = basis.quadrature
+    shape = [element.lbasis(X, i) for i in range(basis.element_dofs.shape[0])]
+    return basis.doflocs.T, Cells(
+        nodes=basis.element_dofs.T,
+        shape_gradients=np.moveaxis(np.stack([dphi for _, dphi in shape]), 2, 0),
+        shape_values=np.stack([phi for phi, _ in shape]).T,
+        weights=weights,
+        **constants,
+    )
+
+
+def same(K, reference, tolerance=1e-14):
+    return abs(K - reference).max() <= tolerance * abs(reference).max()
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_agrees_with_scikit_fem(name):
+    mesh, element = ELEMENTS[name]
+    points, cells = cells_of(mesh, element, lame_lambda=1.3, lame_mu=0.7)
+    K = stiffness(points, cells)
+    reference = linear_elasticity(1.3, 0.7).assemble(skfem.Basis(mesh, skfem.ElementVector(element)))
+    assert K.has_sorted_indices
+    assert K.indices.dtype == K.indptr.dtype == np.int32
+    assert same(K, reference, 1e-13 if name == "tri15" else 1e-14)  # scikit-fem's quartic polynomials lose a digit
+
+
+def test_constants_and_thickness_per_element():
+    mesh, element = ELEMENTS["quad4"]
+    lam, mu = np.random.default_rng(0).uniform(1, 2, (2, mesh.nelements))
+    points, cells = cells_of(mesh, element, lame_lambda=lam, lame_mu=mu, thickness=2.5)
+    basis = skfem.Basis(mesh, skfem.ElementVector(element))
+    reference = linear_elasticity(lam[:, None], mu[:, None]).assemble(basis)
+    assert same(stiffness(points, cells), 2.5 * reference)
+
+
+def test_axisymmetric():
+    mesh, element = ELEMENTS["quad9"]
+    points, cells = cells_of(mesh.translated((0.3, 0.0)), element, lame_lambda=1.3, lame_mu=0.7)
+
+    @skfem.BilinearForm
+    def ring(u, v, w):
+        r = w.x[0]
+        du, dv = sym_grad(u), sym_grad(v)
+        hoop_u, hoop_v = u[0] / r, v[0] / r
+        spread = (trace(du) + hoop_u) * (trace(dv) + hoop_v)
+        return 2 * np.pi * r * (1.3 * spread + 2 * 0.7 * (ddot(du, dv) + hoop_u * hoop_v))
+
+    reference = ring.assemble(skfem.Basis(mesh.translated((0.3, 0.0)), skfem.ElementVector(element)))
+    assert same(stiffness(points, cells, axisymmetric=True), reference)
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_rigid_motions_cost_nothing_and_constant_strains_their_energy(name):
+    mesh, element = ELEMENTS[name]
+    points, cells = cells_of(mesh, element, lame_lambda=1.3, lame_mu=0.7)
+    K = stiffness(points, cells)
+    d = points.shape[1]
+    volume = stiffness(points, cells_of(mesh, element, lame_lambda=1.0, lame_mu=0.0)[1])
+    stretch = np.zeros_like(points)
+    stretch[:, 0] = points[:, 0]
+    turn = np.zeros_like(points)
+    turn[:, 0], turn[:, 1] = -points[:, 1], points[:, 0]
+    for motion in [np.ones_like(points), turn]:
+        assert np.abs(K @ motion.ravel()).max() <= 1e-13 * abs(K).max()
+    energy = stretch.ravel() @ K @ stretch.ravel()
+    assert energy == pytest.approx((1.3 + 2 * 0.7) * (stretch.ravel() @ volume @ stretch.ravel()), rel=1e-12)
+    assert K.shape == (d * len(points),) * 2
+
+
+def test_blocks_share_one_pattern():
+    points, triangles = cells_of(TRI, skfem.ElementTriP1(), lame_lambda=1.0, lame_mu=1.0)
+    far, squares = cells_of(QUAD, skfem.ElementQuad1(), lame_lambda=2.0, lame_mu=0.5)
+    shifted = Cells(**{**vars(squares), "nodes": squares.nodes + len(points)})
+    K = stiffness(np.concatenate([points, far, [[9.0, 9.0]]]), [triangles, shifted])
+    n = 2 * len(points)
+    assert same(K[:n, :n], stiffness(points, triangles))
+    assert same(K[n:-2, n:-2], stiffness(far, squares))
+    assert K[:n, n:].nnz == 0
+    assert np.diff(K.indptr)[-2:].tolist() == [0, 0]
+
+
+def test_either_orientation():
+    points, cells = cells_of(TRI, skfem.ElementTriP1(), lame_lambda=1.0, lame_mu=1.0)
+    turned = Cells(**{**vars(cells), "nodes": cells.nodes[:, [1, 0, 2]]})
+    assert same(stiffness(points, turned), stiffness(points, cells))
+
+
+def _bad(change):
+    points, cells = cells_of(QUAD, skfem.ElementQuad1(), lame_lambda=1.0, lame_mu=1.0)
+    return change(points.copy(), cells)
+
+
+def _folded(points, cells):
+    nodes = cells.nodes.copy()
+    nodes[3, [0, 1]] = nodes[3, [1, 0]]
+    return points, Cells(**{**vars(cells), "nodes": nodes})
+
+
+def _flat(points, cells):
+    points[cells.nodes[0]] = [[0, 0], [1, 1], [2, 2], [3, 3]]
+    return points, cells
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (_folded, r"element 3 of block 0, around .* is folded or has no volume"),
+        (_flat, "element 0 of block 0"),
+        (lambda p, c: (p, Cells(**{**vars(c), "nodes": c.nodes + 1})), "names nodes 1 .. 12; there are 0 .. 11"),
+        (lambda p, c: (p, Cells(**{**vars(c), "weights": c.weights[1:]})), "do not fit points"),
+    ],
+)
+def test_bad_elements_are_named(change, message):
+    with pytest.raises(InputError, match=message):
+        stiffness(*_bad(change))
+
+
+def test_the_axis_is_watched():
+    points, cells = cells_of(QUAD, skfem.ElementQuad1(), lame_lambda=1.0, lame_mu=1.0)
+    with pytest.raises(InputError, match="reaches over the axis"):
+        stiffness(points - [0.5, 0.0], cells, axisymmetric=True)
+    with pytest.raises(InputError, match="needs shape_values"):
+        stiffness(points, Cells(**{**vars(cells), "shape_values": None}), axisymmetric=True)

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The order of the methods, their budgets, and what each says."""
+
+import numpy as np
+import pytest
+from coulomb_samples import answer, block_on_floor, random_problem
+
+from signorini.bench.hard import hard_set
+from signorini.friction import CoulombSettings, certify, solve_coulomb
+from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED, split, states
+from signorini.friction.newton import newton
+from signorini.friction.path import follow
+from signorini.friction.release import released
+from signorini.friction.walls import beyond, columns, jacobian, walls
+
+
+@pytest.fixture(scope="module")
+def cycling():
+    """A held problem on which Newton repeats its states."""
+    return next(
+        step
+        for problem in hard_set(100)
+        for step in [problem.step(0, np.zeros(problem.first.pairs))]
+        if not step.floating and newton(step).attempt.end == "states repeat"
+    )
+
+
+def test_newton_cycles_and_the_path_takes_over(cycling):
+    result = solve_coulomb(cycling)
+    assert result.solved
+    assert [attempt.method for attempt in result.trace] == ["newton", "path open"]
+    assert result.trace[0].end == "states repeat"
+    assert result.index == 1
+    assert result.residual <= 1e-10
+
+
+def test_previous_states_come_first(cycling):
+    solution = solve_coulomb(cycling)
+    again = solve_coulomb(cycling, solution.state)
+    assert [attempt.method for attempt in again.trace] == ["newton"]
+    np.testing.assert_allclose(answer(again), answer(solution), atol=1e-9 * cycling.scale)
+
+
+def test_budget_is_kept(cycling):
+    assert follow(cycling, "press", budget=2).end == "budget spent"
+    assert follow(cycling, "press", budget=2).pivots == 2
+
+
+def test_long_paths_survive_their_refactorisations(cycling):
+    path = follow(cycling, "press", budget=10**4)
+    assert path.end == "solution"
+    assert certify(cycling, path.y) < 1e-6
+
+
+def wedged_out():
+    """The first small floating step of the hard set whose forces can balance, but in no state of the pairs."""
+    for problem in hard_set(200):
+        step = problem.step(0, np.zeros(problem.first.pairs))
+        if step.floating and step.pairs < 9:
+            result = solve_coulomb(step)
+            if result.method == "tree":
+                return step, result
+    raise AssertionError("no such step")
+
+
+def test_tree_proves_and_springs_name_the_escape():
+    step, proved = wedged_out()
+    assert proved.outcome == "no_equilibrium"
+    assert "no state of the pairs" in proved.message
+    named = solve_coulomb(step, settings=CoulombSettings(tree_pairs=0))
+    assert named.outcome == "not_found"
+    assert named.escape is not None
+    np.testing.assert_allclose(np.abs(named.escape).max(), 1.0)
+    R = step.interface.R
+    np.testing.assert_allclose(R @ (R.T @ named.escape), named.escape, atol=1e-3)
+    assert (named.escape[: step.pairs] > -1e-3).all()
+    assert "run away" in named.message
+
+
+def test_press_path_of_a_floating_block():
+    path = follow(block_on_floor(6, (-1.0, 0.2, 0.0)), "press", budget=100)
+    assert path.end == "solution"
+
+
+def test_press_path_of_a_lifted_block_is_a_ray():
+    problem = block_on_floor(6, (1.0, 0.0, 0.0))
+    path = follow(problem, "press", budget=100)
+    assert path.end == "ray"
+    assert (split(path.y, problem.mu)[0][:6] > 0).all()
+
+
+def test_crossing_a_wall_changes_the_jacobian_by_rank_one():
+    problem = random_problem(5, 3, friction=0.7)
+    G = np.eye(6) - problem.W
+    closed = np.full(3, UNDECIDED)
+    for state in (OPEN, STICK, SLIP_PLUS, SLIP_MINUS):
+        before = np.array([STICK, state, OPEN])
+        for slot, wall in enumerate(walls(before, problem.mu, closed)[:, 1]):
+            if not wall.any():
+                continue
+            after = before.copy()
+            after[1], back = beyond(state, slot, 1.0, UNDECIDED)
+            np.testing.assert_allclose(walls(after, problem.mu, closed)[back, 1], -wall, atol=1e-15)
+            change = columns(G, problem.W, 0.7, int(after[1]), 1) - columns(G, problem.W, 0.7, state, 1)
+            np.testing.assert_allclose(change, np.outer(change @ wall, wall), atol=1e-14)
+
+
+def test_jacobian_is_the_derivative():
+    problem = random_problem(6, 4, friction=0.7)
+    y = np.random.default_rng(0).normal(size=8)
+    h, r = split(y, problem.mu)
+    state = states(y, problem.mu, problem.closed)
+    G = np.eye(8) - problem.W
+    np.testing.assert_allclose(jacobian(G, problem.W, problem.mu, state) @ y, G @ h - problem.W @ r, atol=1e-13)
+
+
+def test_a_path_among_touching_pairs_finds_the_same(cycling):
+    whole = solve_coulomb(cycling)
+    few = solve_coulomb(cycling, settings=CoulombSettings(many_pairs=0))
+    assert few.solved
+    np.testing.assert_allclose(answer(few), answer(whole), atol=1e-9 * cycling.scale)
+
+
+def test_releasing_open_pairs_changes_nothing():
+    problem = block_on_floor(8, (-1.0, 0.2, 0.9))
+    whole = solve_coulomb(problem)
+    kept = whole.state != OPEN
+    few = solve_coulomb(released(problem, kept))
+    assert 0 < np.count_nonzero(kept) < 8
+    np.testing.assert_allclose(few.normal_force, whole.normal_force[kept], atol=1e-9)
+    np.testing.assert_allclose(few.tangential_force, whole.tangential_force[kept], atol=1e-9)
+
+
+def test_pairs_that_hold_nothing_cannot_be_kept_alone():
+    problem = block_on_floor(8, (-1.0, 0.2, 0.0))
+    assert released(problem, np.zeros(8, dtype=bool)) is None

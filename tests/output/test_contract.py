@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What ``signorini run`` leaves for other programs: every key, column and type, and the law of contact row by row."""
+
+import csv
+import json
+import math
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import meshio
+import numpy as np
+import pytest
+
+from signorini.cli import main
+from signorini.solution.certificate import TOLERANCE
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
+NUMBER = (int, float)
+TOP = {
+    "signorini": str,
+    "title": str,
+    "status": str,
+    "message": str,
+    "kind": str,
+    "units": str,
+    "size": dict,
+    "timings": dict,
+    "backend": str,
+    "peak_memory_bytes": int,
+    "steps": list,
+}
+SIZE = dict.fromkeys(("nodes", "elements", "dofs", "contact_pairs"), int)
+PHASES = "read assembly factorisation condensation complementarity recovery output total"
+TIMINGS = dict.fromkeys(PHASES.split(), NUMBER)
+STEP = {
+    "name": str,
+    "load_factor": NUMBER,
+    "path": str,
+    "increments": int,
+    "reactions": dict,
+    "strain_energy": NUMBER,
+    "work": NUMBER,
+    "notes": list,
+    "certificate": dict,
+    "contacts": list,
+    "dissipation": NUMBER,
+    "interface_energy": NUMBER,
+    "energy_defect": NUMBER,
+    "method": str,
+}
+FIVE = ("equilibrium", "penetration", "tension", "cone", "complementarity")
+CONTACT = {
+    "name": str,
+    "normal_force": list,
+    "tangential_force": list,
+    "max_pressure": NUMBER,
+    "max_pressure_at": list,
+    "area": NUMBER,
+    "open": int,
+    "stick": int,
+    "slip": int,
+    "max_slip": NUMBER,
+    "dissipation": NUMBER,
+}
+COLUMNS = "step,contact,node,x,y,z,area,gap,pressure,traction_1,traction_2,slip_1,slip_2,status"
+NUMBERS = [column for column in COLUMNS.split(",") if column not in ("contact", "status")]
+
+
+class Results:
+    """A result folder, read with nothing of the package."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.summary: dict[str, Any] = json.loads((folder / "summary.json").read_text())
+        text = (folder / "contact.csv").read_text()
+        self.header = text.split("\n", 1)[0]
+        rows = list(csv.DictReader(text.splitlines()))
+        self.values = {name: np.array([float(row[name]) for row in rows]) for name in NUMBERS}
+        self.contact = np.array([row["contact"] for row in rows])
+        self.status = np.array([row["status"] for row in rows])
+        self.fields = meshio.read(folder / "solution.vtu")
+
+
+@pytest.fixture(scope="module", params=EXAMPLES, ids=lambda path: path.stem)
+def results(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[Results, dict[str, Any]]:
+    """Every example of the repository, run, and its deck as plain data."""
+    folder = tmp_path_factory.mktemp(request.param.stem)
+    assert main(["run", str(request.param), "-o", str(folder), "--quiet"]) == 0
+    return Results(folder), tomllib.loads(request.param.read_text())
+
+
+def assert_types(where: str, found: dict[str, Any], expected: dict[str, Any]) -> None:
+    for key, kind in expected.items():
+        assert key in found, f"{where} has no {key}"
+        assert isinstance(found[key], kind), f"{where}.{key} is {found[key]!r}"
+        assert not isinstance(found[key], bool)
+
+
+def test_summary(results: tuple[Results, dict[str, Any]]) -> None:
+    found, deck = results
+    summary = found.summary
+    assert_types("summary", summary, TOP)
+    assert_types("size", summary["size"], SIZE)
+    assert_types("timings", summary["timings"], TIMINGS)
+    assert (summary["status"], summary["message"]) == ("solved", "")
+    assert summary["timings"]["total"] >= 0.99 * sum(summary["timings"][key] for key in PHASES.split()[:-1])
+    assert summary["peak_memory_bytes"] > 10_000_000
+    assert len(summary["steps"]) == len(deck.get("step", [{}]))
+    for number, step in enumerate(summary["steps"], start=1):
+        assert_types(f"step {number}", step, STEP)
+        assert step["load_factor"] == number
+        assert set(step["reactions"]) == {support.get("name", support["on"]) for support in deck["support"]}
+        certificate = step["certificate"]
+        assert certificate["passed"] is True
+        assert all(0.0 <= certificate[key] <= TOLERANCE == 1e-8 for key in FIVE)
+        for contact in step["contacts"]:
+            assert_types(contact["name"], contact, CONTACT)
+
+
+def test_energy_is_accounted_for(results: tuple[Results, dict[str, Any]]) -> None:
+    stored = 0.0
+    for step in results[0].summary["steps"]:
+        now = step["strain_energy"] + step["interface_energy"]
+        defect = step["work"] - (now - stored) - step["dissipation"]
+        assert step["energy_defect"] == pytest.approx(defect, abs=1e-12 * (abs(step["work"]) + now + stored))
+        stored = now
+
+
+def test_rows_obey_the_law_of_contact(results: tuple[Results, dict[str, Any]]) -> None:
+    found, deck = results
+    assert found.header == COLUMNS
+    value = found.values
+    assert all(np.isfinite(column).all() for column in value.values())
+    assert sorted(set(value["step"])) == list(range(1, len(found.summary["steps"]) + 1))
+    assert (value["area"] > 0).all()
+    assert not value["z"].any()
+    assert not value["traction_2"].any()
+    assert not value["slip_2"].any()
+    assert set(found.status) <= {"open", "stick", "slip"}
+    friction = {contact.get("name", contact["nonmortar"]): contact.get("friction", 0.0) for contact in deck["contact"]}
+    mu = np.array([friction[name] for name in found.contact])
+    p, t, peak = value["pressure"], np.abs(value["traction_1"]), value["pressure"].max()
+    size = max(np.abs(value[axis]).max() for axis in "xy")
+    assert p.min() >= -1e-9 * peak
+    assert np.abs(value["gap"] * p).max() <= 1e-9 * peak * size
+    assert value["gap"].min() >= -1e-9 * size
+    assert (t <= mu * p + 1e-9 * peak).all()
+    assert not p[found.status == "open"].any()
+    slips = (found.status == "slip") & (mu > 0)
+    assert np.abs(t - mu * p)[slips].max(initial=0.0) <= 1e-9 * peak
+
+
+def test_summary_and_rows_say_the_same(results: tuple[Results, dict[str, Any]]) -> None:
+    found, _ = results
+    value = found.values
+    for number, step in enumerate(found.summary["steps"], start=1):
+        for contact in step["contacts"]:
+            own = (value["step"] == number) & (found.contact == contact["name"])
+            assert own.any()
+            for status in ("open", "stick", "slip"):
+                assert contact[status] == (found.status[own] == status).sum()
+            pressed = (value["pressure"] * value["area"])[own].sum()
+            rubbed = (value["traction_1"] * value["area"])[own]
+            force = math.hypot(*contact["normal_force"])
+            assert force <= pressed * (1.0 + 1e-12)  # equal on a plane, less where normals turn
+            assert math.hypot(*contact["tangential_force"]) <= np.abs(rubbed).sum() + 1e-12 * pressed
+            assert contact["max_pressure"] == value["pressure"][own].max()
+            worst = np.flatnonzero(own)[value["pressure"][own].argmax()]
+            assert contact["max_pressure_at"] == [value["x"][worst], value["y"][worst]]
+            assert contact["area"] == pytest.approx(value["area"][own & (found.status != "open")].sum())
+    assert found.summary["size"]["contact_pairs"] == (value["step"] == 1).sum()
+
+
+def test_fields(results: tuple[Results, dict[str, Any]]) -> None:
+    found, deck = results
+    fields = found.fields
+    count = len(fields.points)
+    assert fields.point_data["displacement"].shape == (count, 3)
+    assert fields.point_data["stress"].shape == (count, 6)
+    assert fields.point_data["von_mises"].shape == (count,)
+    bodies = np.concatenate(fields.cell_data["body"])
+    assert set(bodies) == set(range(len(deck["body"])))
+    assert len(bodies) == found.summary["size"]["elements"]
+    # points of the bodies one after the other: no point belongs to two
+    last = -1
+    for body in range(len(deck["body"])):
+        own = [block.data[part == body] for block, part in zip(fields.cells, fields.cell_data["body"], strict=True)]
+        points = np.unique(np.concatenate([cells.ravel() for cells in own]))
+        assert points.tolist() == list(range(last + 1, last + 1 + len(points)))
+        last = int(points[-1])
+    assert last == count - 1
+    # rows and fields speak of the same nodes
+    where = {int(node): point for node, point in zip(fields.point_data["node"], fields.points, strict=True)}
+    for node, x, y in zip(found.values["node"], found.values["x"], found.values["y"], strict=True):
+        assert where[int(node)].tolist() == [x, y, 0.0]
+
+
+def test_series(results: tuple[Results, dict[str, Any]]) -> None:
+    found, _ = results
+    steps = len(found.summary["steps"])
+    names = [f"solution_{number:04d}.vtu" for number in range(1, steps + 1)] if steps > 1 else []
+    expected = {"summary.json", "contact.csv", "solution.vtu", *names} | ({"solution.pvd"} if names else set())
+    assert {file.name for file in found.folder.iterdir()} == expected
+    if names:
+        text = (found.folder / "solution.pvd").read_text()
+        assert [text.index(f'file="{name}"') for name in names] == sorted(text.index(f'"{name}"') - 5 for name in names)
+        last = meshio.read(found.folder / names[-1])
+        assert (last.point_data["displacement"] == found.fields.point_data["displacement"]).all()
+
+
+def test_cylinder_carries_its_load(results: tuple[Results, dict[str, Any]]) -> None:
+    found, deck = results
+    if "cylinder on a rigid" not in deck["title"]:
+        pytest.skip("another example")
+    assert found.summary["steps"][0]["contacts"][0]["normal_force"] == pytest.approx([0.0, 78.0], abs=1e-9)
