@@ -16,7 +16,7 @@ from signorini._version import __version__
 
 if TYPE_CHECKING:
     from signorini import lcp
-    from signorini.api import Solution, solve
+    from signorini.api import Solution, prepare, solve
     from signorini.deck import read
     from signorini.errors import InputError, SignoriniError, SolveFailed
     from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
@@ -47,6 +47,7 @@ __all__ = [
     "half_disk",
     "join",
     "lcp",
+    "prepare",
     "quarter_disk",
     "read",
     "read_mesh",
@@ -55,7 +56,7 @@ __all__ = [
 ]
 
 _HOMES = {
-    "signorini.api": ("Solution", "solve"),
+    "signorini.api": ("Solution", "prepare", "solve"),
     "signorini.deck": ("read",),
     "signorini.errors": ("InputError", "SignoriniError", "SolveFailed"),
     "signorini.fem.generators": ("annulus", "half_disk", "quarter_disk", "rectangle"),

@@ -64,12 +64,18 @@ def components(
     >>> components([0.0, None], ("u",), dimension=2)
     (0.0, None)
     """
-    size = "a list" if dimension is None else f"a list of {dimension}"
-    kind = "numbers or free components" if free else "numbers"
+    size = "a list of" if dimension is None else f"a list of {dimension}"
+    kind = 'numbers or "free"' if free else "numbers"
     if isinstance(value, str) or (not isinstance(value, Sequence) and not hasattr(value, "__array__")):
         raise InputError(f"is {value!r}; expected {size} {kind}", where=where)
     if dimension is not None and len(value) != dimension:
         raise InputError(f"has {len(value)} components, {list(value)!r}; expected {size} {kind}", where=where)
-    return tuple(
-        None if free and (part is None or part == "free") else number(part, (*where, i)) for i, part in enumerate(value)
-    )
+    parts: list[float | None] = []
+    for i, part in enumerate(value):
+        if free and (part is None or part == "free"):
+            parts.append(None)
+        elif free and isinstance(part, str):
+            raise InputError(f'is {part!r}; expected a number or "free"', where=(*where, i))
+        else:
+            parts.append(number(part, (*where, i)))
+    return tuple(parts)

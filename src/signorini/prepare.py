@@ -26,7 +26,7 @@ from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.model.model import Model
 from signorini.solution.scale import Scale, data_scale
 
-_ROUNDING = 1e-4  # of the largest gap: times the solver's tolerance, 1e-10, a few roundings of it
+_ROUNDING = 1e-4  # of the largest gap: times the tolerance of the law's solver, 1e-10, a few roundings of it
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -133,7 +133,7 @@ class Prepared(Examined):
             law=replace(
                 self.law,
                 friction=interface.friction[self.condensed.active],
-                scale=_law_scale(interface, self.condensed, scale),
+                scale=_size(interface, self.condensed, scale),
             ),
             clock=Clock(),
         )
@@ -214,18 +214,18 @@ def _condensed(examined: Examined, K: sp.csr_array, near: BoolArray, backend: st
 def _law(interface: Interface, condensed: Condensed, floating: Array, scale: Scale) -> CoulombProblem:
     """The contact law of the active pairs, with no load yet; floating (2 n, k) rigid motions as the pairs see them."""
     rows = condensed.active_rows
+    seen = np.where(np.any(condensed.W, axis=1, keepdims=True), floating[rows], 0.0)
     return CoulombProblem(
         W=frozen(condensed.W),
         b=np.zeros(len(rows)),
         friction=interface.friction[condensed.active],
-        # where supports guide a pair the law sees no motion at all, not even its rounding
-        motions=condensed.root[:, None] * np.where(np.any(condensed.W, axis=1, keepdims=True), floating[rows], 0.0),
-        scale=_law_scale(interface, condensed, scale),
+        motions=condensed.root[:, None] * seen,
+        scale=_size(interface, condensed, scale),
     )
 
 
-def _law_scale(interface: Interface, condensed: Condensed, scale: Scale) -> float:
-    """Size of the motions that tolerances refer to; gaps far larger leave rounding that no solver can mend."""
+def _size(interface: Interface, condensed: Condensed, scale: Scale) -> float:
+    """Of the right-hand side of the law; gaps far larger than the displacements leave their rounding in it."""
     gap = float(np.abs(interface.gap[condensed.active]).max(initial=0.0))
     return max(scale.length, _ROUNDING * gap) * float(condensed.root.max(initial=1.0))
 

@@ -24,11 +24,11 @@ from signorini.solution.history import History
 from signorini.solution.results import ContactResult, StepResult
 from signorini.solution.state import State, initial_state, next_state
 
-ONE_INCREMENT = (
-    "one increment: assumes that the final state was reached from zero slip; where the contact grows under friction "
-    "the tractions can be off by tens of percent (more increments follow the history)"
-)
+ONE_INCREMENT = "one increment: assumes that the final state was reached from zero slip"
 """What a step with friction says when it was solved in one increment (METHOD 5)."""
+
+GROWN = "the contact grew under friction: in one increment tractions can be off by tens of percent, take more"
+"""What it says further where pairs closed that were open before."""
 
 _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
 _REFINEMENTS = 2
@@ -162,24 +162,17 @@ def _balanced(prepared: Prepared, f: Array, offset: Array, state: State) -> tupl
     problem as a further load and offset: it was condensed with rounding, which gaps far larger than what the loads
     move (an arc that leaves its foundation) magnify.
     """
-    condensed, constraints, interface, scale = (
-        prepared.condensed,
-        prepared.constraints,
-        prepared.interface,
-        prepared.scale,
-    )
-    n, rows, T = len(interface), condensed.active_rows, constraints.transform
-    compliance = np.concatenate([interface.normal_compliance, interface.tangential_compliance])
-    compliance = (compliance / np.tile(interface.area, 2))[rows]
+    condensed, interface, scale, law = prepared.condensed, prepared.interface, prepared.scale, prepared.law
+    n, rows, T = len(interface), condensed.active_rows, prepared.constraints.transform
     forces, moved, free = np.zeros(2 * n), np.zeros(2 * n), np.zeros_like(f)
     load, start = f, state.status[condensed.active] if state.forces.any() else None
     lacking = np.zeros(len(rows))
-    guided = np.tile(prepared.law.locked, 2)
+    guided = np.tile(law.locked, 2)
     for _ in range(_REFINEMENTS + 1):
         with prepared.clock.phase("complementarity"):
             f_c = condensed.condensed_load(load)
-            b = condensed.right_hand_side(f_c, offset[rows], prepared.law.motions) + condensed.root * lacking
-            result = solve_coulomb(replace(prepared.law, b=b), start)
+            b = condensed.right_hand_side(f_c, offset[rows], law.motions) + condensed.root * lacking
+            result = solve_coulomb(replace(law, b=b), start)
         if not result.solved:
             break
         with prepared.clock.phase("recovery"):
@@ -188,7 +181,7 @@ def _balanced(prepared: Prepared, f: Array, offset: Array, state: State) -> tupl
             free = condensed.displacement(load, f_c, moved[rows], forces[rows], offset[rows])
             u = T @ free
             residual = f + T.T @ (interface.B.T @ forces - prepared.K @ u)
-            misfit = (offset + interface.B @ u - moved)[rows] + compliance * forces[rows]
+            misfit = (offset + interface.B @ u - moved)[rows] + condensed.compliance * forces[rows]
             misfit[guided] = 0.0
         size = max(np.abs(residual).max(initial=0.0) / scale.force, np.abs(misfit).max(initial=0.0) / scale.length)
         if size <= _BALANCED:
@@ -229,8 +222,6 @@ def _step_result(
 ) -> StepResult:
     model, interface = prepared.model, prepared.interface
     compliance = np.concatenate([interface.normal_compliance, interface.tangential_compliance])
-    coulomb = (interface.friction > 0) & np.isfinite(interface.friction)
-    notes = (ONE_INCREMENT,) if step.increments == 1 and coulomb.any() else ()
     return StepResult(
         name=step.name or f"step {number}",
         path="single" if step.increments == 1 else "increments",
@@ -249,8 +240,18 @@ def _step_result(
         ),
         methods=tuple(dict.fromkeys(answer.method for answer in answers)),
         iterations=tuple(sum(attempt.iterations for attempt in answer.trace) for answer in answers),
-        notes=notes,
+        notes=_notes(prepared, step, before, state),
     )
+
+
+def _notes(prepared: Prepared, step: Step, before: State, state: State) -> tuple[str, ...]:
+    """What a reader should know of how the step was followed."""
+    friction = prepared.interface.friction
+    rubbing = (friction > 0) & np.isfinite(friction)
+    if step.increments > 1 or not rubbing.any():
+        return ()
+    closed = rubbing & (state.status != OPEN) & (before.gap > 1e-9 * prepared.scale.length)
+    return (ONE_INCREMENT, GROWN) if closed.any() else (ONE_INCREMENT,)
 
 
 def _reactions(prepared: Prepared, state: State) -> dict[str, Array]:

@@ -71,7 +71,7 @@ IN_THE_MODEL = [
         lambda: Support("left", u=(None, None)),
         "u: leaves every component free; expected at least one number",
     ),
-    (lambda: Support("left", u=0.0), "u: is 0.0; expected a list numbers or free components"),
+    (lambda: Support("left", u=0.0), 'u: is 0.0; expected a list of numbers or "free"'),
     (lambda: Support("", u=(0, 0)), "on: is ''; expected a name (text)"),
     (
         lambda: Load("top"),

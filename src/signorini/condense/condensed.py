@@ -41,6 +41,7 @@ class Condensed:
     held : (n,) pairs that cannot, because supports hold them
     root : (2 a,) square roots of D, force per length to the 1/2
     dofs : (m,) the contact dofs among the free displacements
+    compliance : (2 a,) of the interface, C, length per force
     B : (2 a, m) relative displacements of the active pairs in terms of them, B_c
     """
 
@@ -51,7 +52,7 @@ class Condensed:
     root: Array
     dofs: IntArray
     B: sp.csr_array
-    _compliance: Array
+    compliance: Array
     _cholesky: tuple[Array, bool]
 
     @property
@@ -86,14 +87,14 @@ class Condensed:
         """Free displacements (z,) under the load f and the solution h, r (2 a,), in the units of the problem."""
         if not len(self.dofs):
             return self.factorisation.expand(f, f_c)
-        moved = h - self._compliance * r - offset
+        moved = h - self.compliance * r - offset
         springs = self.root**2 * self._softening
         contact = self._solve(f_c + self.B.T @ (r + springs * moved))
         return self.factorisation.expand(f, contact)
 
     @property
     def _softening(self) -> Array:
-        return 1.0 / (1.0 + self.root**2 * self._compliance)
+        return 1.0 / (1.0 + self.root**2 * self.compliance)
 
     def _solve(self, f_c: Array) -> Array:
         solved: Array = scipy.linalg.cho_solve(self._cholesky, f_c)
@@ -173,7 +174,7 @@ def _condense(
         root=root,
         dofs=dofs,
         B=B_c,
-        _compliance=compliance,
+        compliance=compliance,
         _cholesky=cholesky,
     )
 

@@ -47,7 +47,7 @@ def solve_on(
 def polish(
     problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None, attempts: int = 3
 ) -> tuple[Array, float]:
-    """The best of z and a few steps of the active-set Newton method started there, never below 0, with its natural residual.
+    """The best of z and a few steps of the active-set Newton method started there, never below 0, with its residual.
 
     A step solves for the given basis first, then for ``z_i > w_i`` (both as shares, see ``natural_residual``); it is
     exact as soon as that is the right one.

@@ -19,6 +19,8 @@ from signorini.lcp.status import Status
 from signorini.lcp.tableau import Tableau
 from signorini.lcp.transform import principal_transform
 
+NOISE = 1e-14
+
 
 @dataclass(frozen=True, kw_only=True)
 class Lemke:
@@ -152,7 +154,11 @@ class _Path:
         tableau = self.tableau
         basic = tableau.basic.copy()
         basic[row] = entering
-        z, worst = self._polished(basic)
+        column = tableau.column(entering)
+        step = max(float(tableau.rhs[row]), 0.0) / float(column[row])
+        values = tableau.rhs - step * column
+        values[row] = step
+        z, worst = self._polished(basic, values)
         self.confirmed = z if worst <= self.tolerance else None
         return self.confirmed is not None
 
@@ -163,10 +169,10 @@ class _Path:
         x[basic] = values
         return self.scaled.back(np.where(self.basis, x[:n], x[n:-1]))
 
-    def _polished(self, basic: IntArray) -> tuple[Array, float]:
+    def _polished(self, basic: IntArray, values: Array) -> tuple[Array, float]:
         """The values of the basic variables, or the basis solved for anew where that is better."""
         n = self.tableau.n
-        z = self._z_of(basic, np.maximum(self.tableau.rhs, 0.0))
+        z = self._z_of(basic, np.where(values > NOISE * np.abs(values).max(), values, 0.0))
         is_basic = np.zeros(2 * n + 1, dtype=bool)
         is_basic[basic] = True
         return polish(self.problem, self.M, z, active=np.where(self.basis, is_basic[:n], is_basic[n:-1]))
@@ -177,7 +183,7 @@ class _Path:
         theta = tableau.values()[2]
         candidate = self._z_of(tableau.basic, np.maximum(tableau.rhs, 0.0))
         if theta <= 1e-6 * self.largest_theta:
-            candidate, worst = self._polished(tableau.basic)
+            candidate, worst = self._polished(tableau.basic, tableau.rhs)
             if worst <= self.tolerance:
                 note = f"{note} The path ended near theta = 0 in a tie; polished.".strip()
                 return Attempt(z=candidate, ending=Status.SOLVED, iterations=self.pivots, note=note)
@@ -205,7 +211,7 @@ class _Path:
         rhs = self.tableau.rhs
         if not np.isfinite(rhs).all():
             return Attempt(z=None, ending=Status.NONFINITE, iterations=self.pivots, note=note)
-        z = self._polished(self.tableau.basic)[0] if self.confirmed is None else self.confirmed
+        z = self._polished(self.tableau.basic, rhs)[0] if self.confirmed is None else self.confirmed
         return Attempt(z=z, ending=ending, iterations=self.pivots, note=note)
 
 
