@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.prepare import prepare
+from signorini.engine.prepare import prepare
 
 SLIPS = {"slip+": 1.0, "slip-": -1.0}
 

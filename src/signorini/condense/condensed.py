@@ -140,11 +140,13 @@ def condense(
     with clock.phase("factorisation"):
         factorisation = factorise(K, dofs, nodes=nodes, backend=backend)
     with clock.phase("condensation"):
-        return _condense(factorisation, sp.csr_array(B[:, dofs]), interface, active, held, dofs)
+        K_c = sp.csr_array(K[dofs][:, dofs])
+        return _condense(factorisation, K_c, sp.csr_array(B[:, dofs]), interface, active, held, dofs)
 
 
 def _condense(
     factorisation: Factorisation,
+    K_c: sp.csr_array,
     B_c: sp.csr_array,
     interface: Interface,
     active: BoolArray,
@@ -154,7 +156,7 @@ def _condense(
     """From the contact dofs to the pairs."""
     pairs = np.nonzero(active)[0]
     S = factorisation.schur()
-    stiffness = _interface_stiffness(S, B_c, interface, pairs)
+    stiffness = _interface_stiffness(K_c, B_c, interface, pairs)
     area = np.tile(interface.area[pairs], 2)
     compliance = np.concatenate([interface.normal_compliance[pairs], interface.tangential_compliance[pairs]]) / area
     softening = 1.0 / (1.0 + stiffness * compliance)
@@ -179,16 +181,16 @@ def _condense(
     )
 
 
-def _interface_stiffness(S: Array, B_c: sp.csr_array, interface: Interface, pairs: IntArray) -> Array:
+def _interface_stiffness(K_c: sp.csr_array, B_c: sp.csr_array, interface: Interface, pairs: IntArray) -> Array:
     """D, (2 a,) force per length: of the size that makes Newton's method most robust, equal in both directions.
 
-    The mean stiffness that a pair of the contact feels, spread like the areas and divided by the root of their number
-    (between the stiffness of a node and that of the whole surface).
+    Half the mean stiffness that a pair of the contact feels where only its own nodes move, spread like the areas and
+    divided by the root of their number (between the stiffness of a node and that of the whole surface).
     """
-    felt = np.asarray((B_c @ S) * B_c.toarray()).sum(axis=1)[: len(pairs)] if len(pairs) else np.zeros(0)
+    felt = (B_c @ K_c).multiply(B_c).sum(axis=1)[: len(pairs)]
     result = np.zeros(len(pairs))
     for contact in np.unique(interface.contact[pairs]):
         own = interface.contact[pairs] == contact
         area = interface.area[pairs][own]
-        result[own] = felt[own].mean() / np.sqrt(own.sum()) * area / area.mean()
+        result[own] = 0.5 * felt[own].mean() / np.sqrt(own.sum()) * area / area.mean()
     return np.tile(result, 2)

@@ -179,8 +179,16 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
     with clock.phase("assembly"):
         examined = examine(model)
         K = stiffness(examined.space, model)
+    return _condensed(examined, K, _near(examined), backend, clock)
+
+
+def _near(examined: Examined) -> BoolArray:
+    """Pairs that can touch, or all of them where those alone would not hold a body."""
     near = candidates(examined.interface, examined.scale.length)
-    return _condensed(examined, K, near, backend, clock)
+    holding = examined.interface.B[np.tile(near, 2)]
+    if free_motions(examined.motions, examined.constraints, holding).shape[1]:
+        return np.ones_like(near)
+    return near
 
 
 def _condensed(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, clock: Clock) -> Prepared:

@@ -90,7 +90,7 @@ def four_blocks(*, cells: Cells = "quad") -> Model:
     )
 
 
-def dragged_block(*, friction: float = 0.5, increments: int = 10, cells: Cells = "quad") -> Model:
+def dragged_block(*, friction: float = 0.2, increments: int = 10, cells: Cells = "quad") -> Model:
     """A block held by contact alone: pressed, pushed from the side, and let go.
 
     The push is less than friction can carry, so that the block comes to rest with tractions that only history explains.

@@ -10,7 +10,6 @@ from signorini.interface.interface import Interface
 
 # of force / (E thickness): in Hertz contact the gap that closes at the edge of contact is 0.64 of it
 _REACH = 3.0
-_FEW = 64
 
 
 def candidates(interface: Interface, length: float) -> BoolArray:
@@ -22,8 +21,8 @@ def candidates(interface: Interface, length: float) -> BoolArray:
 
     Notes
     -----
-    Slender or tilting bodies may reach farther: whoever leaves pairs out looks at their gaps afterwards. Contacts of
-    few pairs are kept whole.
+    Slender or tilting bodies may reach farther: whoever leaves pairs out looks at their gaps afterwards. Leaving out
+    what is far away also keeps gaps that are large beside the displacements out of the equations.
 
     References
     ----------
@@ -32,7 +31,6 @@ def candidates(interface: Interface, length: float) -> BoolArray:
     inside = np.ones(len(interface), bool)
     for contact in np.unique(interface.contact):
         own = np.nonzero(interface.contact == contact)[0]
-        if len(own) > _FEW:
-            gap: Array = interface.gap[own]
-            inside[own] = gap <= max(gap.min(), 0.0) + _REACH * length
+        gap: Array = interface.gap[own]
+        inside[own] = gap <= max(gap.min(), 0.0) + _REACH * length
     return inside

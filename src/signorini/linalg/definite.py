@@ -45,7 +45,7 @@ def check_energy(system: System, solve: Callable[[Array], Array]) -> None:
         return
     rng = np.random.default_rng(0)
     scale = np.sqrt(np.abs(system.matrix.diagonal()))
-    load = np.where(system.inside, scale * rng.choice([-1.0, 1.0], system.n), 0.0)
+    load = np.where(system.inside, scale * rng.uniform(0.5, 1.5, system.n) * rng.choice([-1.0, 1.0], system.n), 0.0)
     x = solve(load)
     if not np.isfinite(x).all():
         raise NotPositiveDefinite(int(np.argmin(np.isfinite(x))))
