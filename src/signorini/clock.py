@@ -7,23 +7,30 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-Listener = Callable[[str], None]
+Listener = Callable[[str, float], None]
+
+BEGINS = {"read": 0.0, "assembly": 0.02, "factorisation": 0.15, "condensation": 0.6, "output": 0.95}
+"""Share of the whole that is done when a phase begins, as large models have it; increments fill what is between."""
+
+INCREMENTS = (0.65, 0.95)
 
 
 class Clock:
-    """Adds up seconds by phase; nested phases are not counted twice.
+    """Adds up seconds by phase, and tells what is being done and how much of the whole is behind.
 
     Parameters
     ----------
-    listener : called with words whenever something begins, to show progress
+    listener : called with words and the share that is done, to show progress
 
     Examples
     --------
-    >>> clock = Clock()
-    >>> with clock.phase("assembly"):
-    ...     pass
+    >>> clock = Clock(lambda words, done: print(f"{done:.0%} {words}"))
+    >>> with clock.phase("factorisation"):
+    ...     clock.increment("step 1", 0, 4)
+    15% factorisation
+    65% step 1
     >>> sorted(clock.seconds)
-    ['assembly']
+    ['factorisation']
     """
 
     def __init__(self, listener: Listener | None = None) -> None:
@@ -33,14 +40,19 @@ class Clock:
     @contextmanager
     def phase(self, name: str) -> Iterator[None]:
         """Time a block under a name."""
-        self.tell(name)
+        if name in BEGINS:
+            self._tell(name, BEGINS[name])
         start = time.perf_counter()
         try:
             yield
         finally:
             self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - start
 
-    def tell(self, words: str) -> None:
-        """Say what is being done."""
+    def increment(self, words: str, done: int, total: int) -> None:
+        """Say that ``done`` of ``total`` increments are behind, and which comes next."""
+        first, last = INCREMENTS
+        self._tell(words, first + (last - first) * done / total)
+
+    def _tell(self, words: str, done: float) -> None:
         if self._listener is not None:
-            self._listener(words)
+            self._listener(words, done)

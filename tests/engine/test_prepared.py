@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pairs that are left out, and one factorisation for many laws and loads."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -35,10 +33,8 @@ def test_a_pair_left_out_that_meets_the_other_side_is_noticed(monkeypatch):
     monkeypatch.setattr("signorini.interface.candidates._REACH", 0.3)
     prepared = prepare(zhu_cylinder(refine=4))
     assert prepared.condensed.active.sum() < right.contact("foundation").closed.sum()
-    said = []
-    prepared = replace(prepared, clock=sg.api.Clock(said.append))
     found = solve_prepared(prepared)
-    assert "again with all pairs" in said
+    assert prepared.widened().condensed.active.all()
     assert found.solved
     np.testing.assert_allclose(pressures(found), pressures(right), rtol=0, atol=1e-9 * pressures(right).max())
 

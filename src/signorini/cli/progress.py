@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is being done, on one changing line of a terminal; nothing in a pipe."""
+"""A progress bar with what is being done, on a terminal; nothing in a pipe."""
 
 from __future__ import annotations
 
@@ -18,9 +18,17 @@ def progress(*, quiet: bool, seconds: Mapping[str, float] | None = None) -> Iter
         yield _clock(None, seconds)
         return
     from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-    with Console(stderr=True).status("starting") as line:
-        yield _clock(lambda words: line.update(words), seconds)
+    columns = (
+        BarColumn(),
+        TextColumn("{task.percentage:>3.0f} %"),
+        TimeElapsedColumn(),
+        TextColumn("{task.description}"),
+    )
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("starting", total=1.0)
+        yield _clock(lambda words, done: bar.update(task, description=words, completed=done), seconds)
 
 
 def _clock(listener: Listener | None, seconds: Mapping[str, float] | None) -> Clock:

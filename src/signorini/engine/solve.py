@@ -62,7 +62,6 @@ def solve_prepared(prepared: Prepared, *, raise_on_failure: bool = True) -> Hist
     """
     history = _follow(prepared)
     if prepared.limited and not history.solved:
-        prepared.clock.tell("again with all pairs")
         history = _follow(prepared.widened())
     if raise_on_failure and not history.solved:
         raise SolveFailed(history.message, status=history.status, solution=history)
@@ -75,12 +74,14 @@ def _follow(prepared: Prepared) -> History:
     factors = model.factors()
     state = initial_state(factors[0], prepared.space.number_of_dofs, prepared.interface.gap)
     steps: list[StepResult] = []
+    increments_done, total = 0, sum(step.increments for step in model.steps)
     try:
         for number, (step, end) in enumerate(zip(model.steps, factors[1:], strict=True), start=1):
             first, certificates, answers = state, [], []
             for fraction, target in _increments(step, state.factors, end):
                 where = f"step '{step.name}' at {fraction:.0%}" if step.name else f"step {number} at {fraction:.0%}"
-                prepared.clock.tell(where)
+                prepared.clock.increment(where, increments_done, total)
+                increments_done += 1
                 state, certificate, result = _advance(prepared, state, target, where)
                 certificates.append(certificate)
                 answers.append(result)
@@ -238,8 +239,7 @@ def _step_result(
         contacts=tuple(
             _contact_result(prepared, i, before, state, interface.contact == i) for i in range(len(model.contacts))
         ),
-        methods=tuple(dict.fromkeys(answer.method for answer in answers)),
-        iterations=tuple(sum(attempt.iterations for attempt in answer.trace) for answer in answers),
+        trace=tuple(answer.trace for answer in answers),
         notes=_notes(prepared, step, before, state),
     )
 

@@ -249,7 +249,8 @@ def _sides(grid: Array) -> dict[str, list[Array]]:
 def _assemble(grids: list[Array], sides: Mapping[str, list[Array]], body: str, cells: str) -> Mesh:
     """One mesh from grids whose common points coincide."""
     choice(cells, ("quad", "triangle"), ("mesh", "cells"), "cells")
-    every = np.vstack([grid.reshape(-1, 2) for grid in grids])
+    lines = [line for parts in sides.values() for line in parts]
+    every = np.vstack([grid.reshape(-1, 2) for grid in grids] + lines)
     unit = 1e-9 * np.ptp(every, axis=0).max()
     _, first, number_of = np.unique(np.round(every / unit), axis=0, return_index=True, return_inverse=True)
     order = np.argsort(first)  # nodes are numbered as they first appear
@@ -266,11 +267,14 @@ def _assemble(grids: list[Array], sides: Mapping[str, list[Array]], body: str, c
     nodes = np.vstack(quads)
     if cells == "triangle":
         nodes = np.vstack([nodes[:, [0, 1, 2]], nodes[:, [0, 2, 3]]])
-    lookup = {tuple(key): i for i, key in enumerate(np.round(points / unit))}
     boundaries = {}
     for name, parts in sides.items():
-        lines = [np.array([lookup[tuple(key)] for key in np.round(part / unit)]) for part in parts]
-        boundaries[name] = np.vstack([np.column_stack([line[:-1], line[1:]]) for line in lines])
+        facets = []
+        for line in parts:
+            index = number_of[start : start + len(line)]
+            start += len(line)
+            facets.append(np.column_stack([index[:-1], index[1:]]))
+        boundaries[name] = np.vstack(facets)
     return Mesh(
         points=points,
         cells={cells: _counterclockwise(points, nodes)},

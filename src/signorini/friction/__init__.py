@@ -5,9 +5,10 @@ from signorini.friction.certificate import certify
 from signorini.friction.interface import Interface
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STATE_NAMES, STICK, UNDECIDED
 from signorini.friction.problem import CoulombProblem
-from signorini.friction.result import Attempt, CoulombResult
+from signorini.friction.result import CoulombResult
 from signorini.friction.solve import CoulombSettings, solve_coulomb
 from signorini.friction.uniqueness import index, mu_low
+from signorini.trace import Attempt
 
 __all__ = [
     "OPEN",

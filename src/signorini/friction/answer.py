@@ -9,7 +9,8 @@ from signorini.arrays import Array, IntArray, frozen
 from signorini.friction.candidate import Candidate
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED, split, states
 from signorini.friction.problem import CoulombProblem
-from signorini.friction.result import Attempt, CoulombResult, Outcome
+from signorini.friction.result import CoulombResult, Outcome
+from signorini.trace import Attempt
 
 UNDETERMINED = (
     "; the state leaves a motion or a force undetermined (nothing resists a motion along the contact, or one pair"

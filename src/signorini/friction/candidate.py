@@ -11,7 +11,7 @@ import numpy as np
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.friction.law import UNDECIDED
 from signorini.friction.problem import CoulombProblem
-from signorini.friction.result import Attempt
+from signorini.trace import Attempt
 
 
 @dataclass(frozen=True, kw_only=True)

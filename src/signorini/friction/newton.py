@@ -15,7 +15,7 @@ from signorini.friction.certificate import certify
 from signorini.friction.cone import cone_system
 from signorini.friction.law import OPEN, STICK, UNDECIDED, states
 from signorini.friction.problem import CoulombProblem
-from signorini.friction.result import Attempt
+from signorini.trace import Attempt
 
 
 def newton(

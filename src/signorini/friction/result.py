@@ -7,28 +7,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 from signorini.arrays import Array, IntArray
+from signorini.trace import Attempt
 
 Outcome = Literal["solved", "no_equilibrium", "not_found"]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Attempt:
-    """One method tried.
-
-    Attributes
-    ----------
-    method : ``"newton"``, ``"path open"``, ``"path press"``, ``"path among touching"``, ``"springs"``,
-        ``"rigid motions"``, ``"tree"``
-    iterations : linear systems solved (Newton), pivots (paths), linear programs (proofs)
-    changes : pairs that changed their state, one number for each iteration; a pivot always changes one pair, so that
-        paths leave this empty
-    end : how it ended, in a few words
-    """
-
-    method: str
-    iterations: int
-    changes: tuple[int, ...] = ()
-    end: str
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -28,9 +28,10 @@ from signorini.friction.newton import newton
 from signorini.friction.path import Covering, PathEnd, follow
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.release import released
-from signorini.friction.result import Attempt, CoulombResult
+from signorini.friction.result import CoulombResult
 from signorini.friction.rigid import pulled_away
 from signorini.friction.tree import search
+from signorini.trace import Attempt
 
 
 @dataclass(frozen=True, kw_only=True)

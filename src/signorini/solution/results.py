@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.solution.certificate import Certificate
+from signorini.trace import Attempt
 
 OPEN, STICK, SLIP = "open", "stick", "slip"
 
@@ -90,8 +91,7 @@ class StepResult:
     work : of loads and moving supports in this step
     certificate : the worst of every increment
     contacts : in the order of the model
-    methods : how the increments were solved, each once
-    iterations : of every increment
+    trace : for every increment the methods tried, in order: iterations, status changes, how each ended
     notes : what a reader should know
     """
 
@@ -106,9 +106,18 @@ class StepResult:
     work: float
     certificate: Certificate
     contacts: tuple[ContactResult, ...]
-    methods: tuple[str, ...]
-    iterations: tuple[int, ...]
+    trace: tuple[tuple[Attempt, ...], ...]
     notes: tuple[str, ...]
+
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """What solved the increments, each method once."""
+        return tuple(dict.fromkeys(attempts[-1].method if attempts else "none" for attempts in self.trace))
+
+    @property
+    def iterations(self) -> tuple[int, ...]:
+        """Of all methods tried, for every increment."""
+        return tuple(sum(attempt.iterations for attempt in attempts) for attempts in self.trace)
 
     @property
     def dissipation(self) -> float:
