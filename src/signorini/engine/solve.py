@@ -35,22 +35,7 @@ _REFINEMENTS = 2
 
 
 def solve(model: Model, *, backend: str = "auto", raise_on_failure: bool = True, clock: Clock | None = None) -> History:
-    """Solve every step of a model and certify every increment.
-
-    Parameters
-    ----------
-    model : the problem
-    backend : of the sparse factorisation, "auto" or a name
-    raise_on_failure : otherwise a history whose ``status`` says why is returned, with the steps finished before
-    clock : counts the seconds and tells progress
-
-    Raises
-    ------
-    InputError
-        If the model is wrong; a body that nothing holds is named with its free motion.
-    SolveFailed
-        If no certified solution was found; ``.solution`` is the history so far.
-    """
+    """Solve every step of a model and certify every increment; see :func:`signorini.api.solve`, which dresses it."""
     return solve_prepared(prepare(model, backend=backend, clock=clock), raise_on_failure=raise_on_failure)
 
 
