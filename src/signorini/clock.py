@@ -26,7 +26,8 @@ class Clock:
     --------
     >>> clock = Clock(lambda words, done: print(f"{done:.0%} {words}"))
     >>> with clock.phase("factorisation"):
-    ...     clock.increment("step 1", 0, 4)
+    ...     clock.expect(4)
+    ...     clock.increment("step 1")
     15% factorisation
     65% step 1
     >>> sorted(clock.seconds)
@@ -36,6 +37,7 @@ class Clock:
     def __init__(self, listener: Listener | None = None) -> None:
         self.seconds: dict[str, float] = {}
         self._listener = listener
+        self._total, self._done = 1, 0
 
     @contextmanager
     def phase(self, name: str) -> Iterator[None]:
@@ -48,10 +50,15 @@ class Clock:
         finally:
             self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - start
 
-    def increment(self, words: str, done: int, total: int) -> None:
-        """Say that ``done`` of ``total`` increments are behind, and which comes next."""
+    def expect(self, increments: int) -> None:
+        """Say how many increments will follow."""
+        self._total, self._done = increments, 0
+
+    def increment(self, words: str) -> None:
+        """Say which increment comes next."""
         first, last = INCREMENTS
-        self._tell(words, first + (last - first) * done / total)
+        self._tell(words, first + (last - first) * min(1.0, self._done / self._total))
+        self._done += 1
 
     def _tell(self, words: str, done: float) -> None:
         if self._listener is not None:

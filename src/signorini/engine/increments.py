@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Follow a step in equal increments, each one Coulomb problem on the condensed interface, certified."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.engine.leg import Leg
+from signorini.engine.prepare import Prepared
+from signorini.errors import SolveFailed
+from signorini.fem.rigid import describe_motion
+from signorini.friction.law import OPEN
+from signorini.friction.result import CoulombResult
+from signorini.friction.solve import solve_coulomb
+from signorini.model.step import Step
+from signorini.solution.certificate import Certificate, certify
+from signorini.solution.state import State, next_state
+
+_BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
+_REFINEMENTS = 2
+
+
+def follow_increments(prepared: Prepared, step: Step, name: str, state: State, end: Mapping[str, float]) -> Leg:
+    """Follow a step from a state to the load factors at its end.
+
+    Parameters
+    ----------
+    name : of the step, for messages
+
+    Raises
+    ------
+    SolveFailed
+        If an increment has no certified solution.
+    """
+    before, certificates, trace = state, [], []
+    for fraction, target in _increments(step, state.factors, end):
+        where = f"{name} at {fraction:.0%}"
+        prepared.clock.increment(where)
+        state, certificate, result = _advance(prepared, state, target, where)
+        certificates.append(certificate)
+        trace.append(result.trace)
+    return Leg(
+        path="single" if step.increments == 1 else "increments",
+        before=before,
+        after=state,
+        certificates=tuple(certificates),
+        trace=tuple(trace),
+    )
+
+
+def _increments(
+    step: Step, start: Mapping[str, float], end: Mapping[str, float]
+) -> Iterator[tuple[float, Mapping[str, float]]]:
+    """Equal parts of the straight segment between two sets of load factors: fraction and factors at the end of each."""
+    for k in range(1, step.increments + 1):
+        t = k / step.increments
+        yield t, {name: (1.0 - t) * start[name] + t * end[name] for name in end} if t < 1.0 else end
+
+
+def _advance(
+    prepared: Prepared, state: State, factors: Mapping[str, float], where: str
+) -> tuple[State, Certificate, CoulombResult]:
+    """One increment: from a state to the next at given load factors."""
+    condensed, constraints, interface = prepared.condensed, prepared.constraints, prepared.interface
+    n, rows, active = len(interface), condensed.active_rows, condensed.active
+    loads = sum((factors[name] * f for name, f in prepared.loads.items()), np.zeros(prepared.space.number_of_dofs))
+    imposed = sum((factors[name] * u for name, u in constraints.prescribed.items()), np.zeros_like(loads))
+    offset = np.concatenate([interface.gap, -state.tangential]) + interface.B @ imposed
+    _refuse_overlap(prepared, offset[:n], where)
+    f = constraints.transform.T @ (loads - prepared.K @ imposed)
+    result, forces, moved, free = _balanced(prepared, f, offset, state)
+    if not result.solved:
+        raise SolveFailed(f"{where}: {_explain(prepared, result)}", status=result.outcome)
+    with prepared.clock.phase("recovery"):
+        displacement = constraints.transform @ free + imposed
+        outside = np.setdiff1d(np.arange(2 * n), rows)
+        moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
+        status = np.full(n, OPEN)
+        status[active] = result.state
+        new = next_state(
+            state,
+            prepared.K,
+            constraints,
+            interface,
+            factors=factors,
+            loads=loads,
+            displacement=displacement,
+            forces=forces,
+            moved=moved,
+            status=status,
+        )
+    return new, _certified(prepared, loads, new, state.tangential, where), result
+
+
+def _certified(prepared: Prepared, loads: Array, state: State, before: Array, where: str) -> Certificate:
+    """Measure a state; what does not pass is no solution."""
+    certificate = certify(
+        prepared.K,
+        loads,
+        prepared.motions,
+        prepared.constraints,
+        prepared.interface,
+        state,
+        before,
+        prepared.scale,
+    )
+    if certificate.passed:
+        return certificate
+    raise SolveFailed(
+        f"{where}: the solver's answer did not pass the certificate ({certificate}); badly scaled data (extreme ratios "
+        "of moduli, sizes or compliances) are the usual cause",
+        status="not_found",
+    )
+
+
+def _balanced(prepared: Prepared, f: Array, offset: Array, state: State) -> tuple[CoulombResult, Array, Array, Array]:
+    """The contact problem under the load f on the free displacements: result, forces, motions, free displacements.
+
+    What equilibrium and the motions of the pairs lack in the end, on the problem as posed, is given to the condensed
+    problem as a further load and offset: it was condensed with rounding, which gaps far larger than what the loads
+    move (an arc that leaves its foundation) magnify.
+    """
+    condensed, interface, scale, law = prepared.condensed, prepared.interface, prepared.scale, prepared.law
+    n, rows, T = len(interface), condensed.active_rows, prepared.constraints.transform
+    forces, moved, free = np.zeros(2 * n), np.zeros(2 * n), np.zeros_like(f)
+    load, start = f, state.status[condensed.active] if state.forces.any() else None
+    lacking = np.zeros(len(rows))
+    guided = np.tile(law.locked, 2)
+    for _ in range(_REFINEMENTS + 1):
+        with prepared.clock.phase("complementarity"):
+            f_c = condensed.condensed_load(load)
+            b = condensed.right_hand_side(f_c, offset[rows], law.motions) + condensed.root * lacking
+            result = solve_coulomb(replace(law, b=b), start)
+        if not result.solved:
+            break
+        with prepared.clock.phase("recovery"):
+            forces[rows] = condensed.root * np.concatenate([result.normal_force, result.tangential_force])
+            moved[rows] = np.concatenate([result.gap, result.slip]) / condensed.root
+            free = condensed.displacement(load, f_c, moved[rows], forces[rows], offset[rows])
+            u = T @ free
+            residual = f + T.T @ (interface.B.T @ forces - prepared.K @ u)
+            misfit = (offset + interface.B @ u - moved)[rows] + condensed.compliance * forces[rows]
+            misfit[guided] = 0.0
+        size = max(np.abs(residual).max(initial=0.0) / scale.force, np.abs(misfit).max(initial=0.0) / scale.length)
+        if size <= _BALANCED:
+            break
+        load, lacking, start = load + residual, lacking + misfit, result.state
+    return result, forces, moved, free
+
+
+def _refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
+    """Supports that hold both sides of a pair decide its gap; no force can mend an overlap there."""
+    held = np.nonzero(prepared.condensed.held & (gap < -1e-12 * prepared.scale.length))[0]
+    if len(held):
+        pair = held[np.argmin(gap[held])]
+        contact = prepared.model.contacts[prepared.interface.contact[pair]]
+        raise SolveFailed(
+            f"{where}: contact '{contact.label}': supports press node {prepared.interface.node[pair] + 1} "
+            f"{-gap[pair]:.4g} into the other side and leave it no way out",
+            status="no_equilibrium",
+        )
+
+
+def _explain(prepared: Prepared, result: CoulombResult) -> str:
+    """The reason, and the bodies that leave by name."""
+    if result.escape is None or not prepared.law.floating:
+        return result.message
+    coefficients, *_ = np.linalg.lstsq(prepared.law.motions, result.escape, rcond=None)
+    return f"{describe_motion(prepared.parts, prepared.floating @ coefficients)}: {result.message}"
