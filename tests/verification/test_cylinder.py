@@ -88,6 +88,14 @@ def test_half_width_under_refinement():
     assert HERTZ.half_width < widths[8] + spacing < 1.03 * HERTZ.half_width
 
 
+@pytest.mark.parametrize("refine", [2, 4, 8])
+def test_stick_boundary_under_refinement(refine):
+    """One increment: the boundary of a mesh of edge 0.03 (between 1.50 and 1.53) lies within two elements."""
+    contact = solve(zhu_cylinder(friction=0.4, refine=refine)).contact("foundation")
+    last = contact.points[contact.status == "stick", 0].max()
+    assert last - 1e-9 <= 1.53 <= last + 2 * 0.5 / refine
+
+
 def test_one_increment_is_noted():
     assert any("one increment" in note for note in solved(friction=0.4).last.notes)
     assert not solved(friction=0.0).last.notes
