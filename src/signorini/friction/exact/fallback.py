@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The rates without those before: Newton on the states, Lemke on the pairs that may change, every combination."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini import lcp
+from signorini.arrays import Array, IntArray
+from signorini.friction.exact.rates import CORNER, RATE, SIGN, RateLaw, Rates
+from signorini.friction.exact.responses import Responses, SingularState
+from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
+
+COMBINATIONS = 256
+"""Most combinations of states that are tried one by one."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class NoRates:
+    """Why there are no rates, or why none were found.
+
+    Attributes
+    ----------
+    proof : in words
+    proved : False where the search ended without an answer
+    """
+
+    proof: str
+    proved: bool
+
+
+def find_rates(
+    responses: Responses, law: RateLaw, load: Array, state: IntArray, guesses: list[IntArray]
+) -> Rates | NoRates:
+    """Rates under a load rate that obey the law.
+
+    Parameters
+    ----------
+    responses : of the interface
+    law : of the rates at this load
+    load : (2n,) rate of b
+    state : (n,) states so far, which pairs that cannot change keep
+    guesses : states to start Newton's method from, in order
+    """
+    for guess in guesses:
+        found = _newton(responses, law, load, guess)
+        if found is not None:
+            return found
+    found, ending = _lemke(responses, law, load, state)
+    if found is not None:
+        return found
+    return _enumerate(responses, law, load, state, ending)
+
+
+def certified(responses: Responses, law: RateLaw, load: Array, state: IntArray) -> Rates | None:
+    """The rates of a state where they obey the law, else None."""
+    try:
+        h, r = responses.respond(state, load)
+    except SingularState:
+        return None
+    rates = Rates(state=state, h=h, r=r)
+    return rates if law.violation(rates) <= 10.0 * RATE else None
+
+
+def _newton(responses: Responses, law: RateLaw, load: Array, guess: IntArray, limit: int = 25) -> Rates | None:
+    state, seen = guess, set()
+    for _ in range(limit):
+        seen.add(state.tobytes())
+        try:
+            h, r = responses.respond(state, load)
+        except SingularState:
+            return None
+        rates = Rates(state=state, h=h, r=r)
+        state = law.proposal(rates)
+        if np.array_equal(state, rates.state):
+            return rates
+        if state.tobytes() in seen:
+            return None
+    return None
+
+
+def _lemke(responses: Responses, law: RateLaw, load: Array, state: IntArray) -> tuple[Rates | None, str]:
+    """A complementarity problem in the motions that the pairs may make, from the state in which they all hold.
+
+    At a corner z = (slip rate +, slip rate -, gap rate) meets w = (mu p' + r_t', mu p' - r_t', p'); on an edge the slip
+    rate against the friction meets the friction to spare.
+    """
+    n = len(law.mu)
+    undecided = np.flatnonzero(law.undecided).tolist()
+    base = state.copy()
+    base[undecided] = np.where(law.forced[undecided] == UNDECIDED, STICK, law.forced[undecided])
+    columns = [(k, *moving) for k in undecided for moving in _moves(law, k)]
+    if not columns:
+        return None, "no pair can change its state"
+    M, q = np.zeros((len(columns), len(columns))), np.zeros(len(columns))
+
+    def forces(r: Array) -> Array:
+        return np.array([r[k] if not s else law.mu[k] * r[k] + s * r[n + k] for k, _, s in columns])
+
+    try:
+        q[:] = forces(responses.respond(base, load)[1])
+        for j, (_, dof, sign) in enumerate(columns):
+            motion = np.zeros(2 * n)
+            motion[dof] = sign or 1.0
+            M[:, j] = forces(responses.respond(base, responses.problem.W @ motion - motion)[1])
+    except SingularState:
+        return None, "the state in which all of them hold is singular"
+    answer = lcp.solve(M, q / (np.abs(q).max() or 1.0), method="lemke")
+    if answer.z is None or answer.w is None:
+        return None, f"Lemke's method: {answer.status.name.lower().replace('_', ' ')}"
+    for (k, dof, sign), z, w in zip(columns, answer.z, answer.w, strict=True):
+        if z > w and base[k] != OPEN:
+            base[k] = OPEN if dof < n else SLIP_MINUS if sign > 0 else SLIP_PLUS
+    return certified(responses, law, load, base), "Lemke's method: its answer does not obey the law"
+
+
+def _moves(law: RateLaw, k: int) -> list[tuple[int, float]]:
+    """The motions that a pair may make: the row of h, and the sign of a tangential one (0 for the gap)."""
+    n = len(law.mu)
+    if law.kind[k] != CORNER:
+        return [(n + k, -SIGN[law.kind[k]])]
+    gap = [(k, 0.0)]
+    return gap if law.forced[k] != UNDECIDED else [(n + k, 1.0), (n + k, -1.0), *gap]
+
+
+def _enumerate(responses: Responses, law: RateLaw, load: Array, state: IntArray, ending: str) -> Rates | NoRates:
+    undecided = np.flatnonzero(law.undecided).tolist()
+    choices = [_choices(law, k) for k in undecided]
+    count = int(np.prod([float(len(choice)) for choice in choices]).clip(max=1e9))
+    if count > COMBINATIONS:
+        return NoRates(proof=ending, proved=ending.endswith("ray termination"))
+    for combination in itertools.product(*choices):
+        tried = state.copy()
+        tried[undecided] = combination
+        found = certified(responses, law, load, tried)
+        if found is not None:
+            return found
+    return NoRates(
+        proof=f"{ending}; none of the {count} combinations of states has rates that obey the law", proved=True
+    )
+
+
+def _choices(law: RateLaw, k: int) -> tuple[int, ...]:
+    if law.kind[k] != CORNER:
+        return (STICK, int(law.kind[k]))
+    return (OPEN, STICK, SLIP_PLUS, SLIP_MINUS) if law.forced[k] == UNDECIDED else (OPEN, int(law.forced[k]))

@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Follow a straight segment of the load history exactly, from event to event: no step size.
+
+While no pair changes its state, motions and forces are linear in the load and slip rates are constant. So a piece ends
+where a gap, a normal force or the friction to spare of a sticking pair vanishes. There the rates change, and every pair
+on its friction limit may change with them: from slip to stick only then.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray, IntArray, frozen
+from signorini.errors import InputError
+from signorini.friction.certificate import certify
+from signorini.friction.exact.driven import drive
+from signorini.friction.exact.fallback import NoRates, find_rates
+from signorini.friction.exact.jump import explain
+from signorini.friction.exact.rates import CORNER, SIGN, RateLaw, Rates, weight
+from signorini.friction.exact.responses import Responses, SingularState
+from signorini.friction.exact.segment import Breakpoint, Event, Jump, Outcome, Segment, What
+from signorini.friction.exact.state import PathState
+from signorini.friction.law import OPEN, STICK, UNDECIDED
+from signorini.friction.problem import CoulombProblem
+
+
+@dataclass(frozen=True, kw_only=True)
+class PathSettings:
+    """Tolerances of the path, all dimensionless; events do not depend on them between 1e-12 and 1e-7.
+
+    Attributes
+    ----------
+    width : of zero for a gap, a force or the friction to spare, relative to the data
+    together : events closer than this part of the segment act together
+    tolerance : of the certificate at every event, relative to the data
+    standstill : most events without progress between them
+    """
+
+    width: float = 1e-10
+    together: float = 1e-12
+    tolerance: float = 1e-10
+    standstill: int = 50
+
+
+def follow(problem: CoulombProblem, start: PathState, b_end: Array, *, settings: PathSettings | None = None) -> Segment:
+    """Follow the load from ``start.b`` straight to ``b_end``.
+
+    ``G h - W r = b(s)`` with h = (gap, total tangential displacement), Coulomb's law for the slip rate.
+
+    Parameters
+    ----------
+    problem : the problem; its own b is not used
+    start : where the history stands
+    b_end : (2n,) load at the end of the segment
+    settings : tolerances
+
+    Returns
+    -------
+    Segment
+        Also where the path ends in a jump or is not found: look at ``outcome``.
+
+    Raises
+    ------
+    InputError
+        Where shapes do not fit, or supports drag a pair along that may never slip.
+
+    Notes
+    -----
+    Every end of a piece is solved for afresh, so that no error adds up, and certified as an increment that starts at
+    the end before.
+
+    References
+    ----------
+    Klarbring (1986), A mathematical programming approach to three-dimensional contact problems with friction;
+    Klarbring (1990), Examples of non-uniqueness and non-existence of solutions to quasistatic contact problems.
+
+    Examples
+    --------
+    One node, pressed by 1 and pulled sideways by up to 4: slips at 1, lifts off at 2.
+
+    >>> from signorini.friction.exact import initial_state
+    >>> W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
+    >>> problem = CoulombProblem(W=W, b=np.zeros(2), friction=[1.0], motions=np.zeros((2, 0)), scale=1.0)
+    >>> pressed = follow(problem, initial_state(problem, np.zeros(2)), W @ [-1.0, 0.0])
+    >>> pulled = follow(problem, pressed.end, W @ [-1.0, 4.0])
+    >>> [(round(4.0 * event.factor, 9), event.what) for event in pulled.events], pulled.end.h.round(6).tolist()
+    ([(1.0, 'slips'), (2.0, 'opens')], [0.666667, 2.333333])
+    """
+    walk = _Walk(problem, start, b_end, settings or PathSettings())
+    while walk.factor < 1.0:
+        failure = walk.turn() or walk.advance()
+        if failure is not None:
+            return walk.ended(failure)
+    return walk.segment("followed", None, f"followed through {len(walk.events)} events")
+
+
+class _Walk:
+    """The state of one call of `follow`."""
+
+    def __init__(self, problem: CoulombProblem, start: PathState, b_end: Array, settings: PathSettings) -> None:
+        n = problem.pairs
+        target = np.array(b_end, dtype=np.float64)
+        for name, b in (("start", start.b), ("b_end", target)):
+            if b.shape != (2 * n,):
+                raise InputError(f"is of shape {b.shape}; expected {(2 * n,)}", where=(name,))
+            if not np.isfinite(b).all():
+                raise InputError("has entries that are not finite", where=(name,))
+        self.load = target - start.b
+        self.b_start, self.b_end, self.settings = start.b, target, settings
+        self.problem = replace(problem, b=frozen(self.load))
+        self.responses = Responses(self.problem)
+        self.width = settings.width * (problem.scale or 1.0)
+        self.now, self.factor = start, 0.0
+        self.events: list[Event] = []
+        self.pieces = [Breakpoint(factor=0.0, h=start.h, r=start.r)]
+        self.acting = np.zeros(0, dtype=np.int64)
+        self.rates: Rates | None = None
+        self.residual, self.still = 0.0, 0
+
+    def turn(self) -> NoRates | None:
+        """Find the rates from here on; what changes its state is an event."""
+        now, forced = self.now, self.problem.closed
+        state = np.where((now.state != OPEN) & (forced != UNDECIDED), forced, now.state)
+        closing = self.acting[state[self.acting] == OPEN]
+        law = RateLaw.at(
+            mu=self.problem.mu, forced=forced, state=state, h=now.h, r=now.r, width=self.width, closing=closing
+        )
+        found: Rates | NoRates | None = None
+        if self.rates is not None:
+            found = drive(self.responses, law, self.load, self.rates, self.acting)
+            if found is not None and law.violation(found) > 1e-9:
+                found = None
+        if found is None:
+            found = find_rates(self.responses, law, self.load, state, self._guesses(law, state))
+        if isinstance(found, NoRates):
+            return found
+        self._change(found.state)
+        self.rates = found
+        return None
+
+    def _guesses(self, law: RateLaw, state: IntArray) -> list[IntArray]:
+        """As before, the acting pairs in their natural next state; and with every pair at a corner sticking."""
+        natural, stuck, acts = state.copy(), state.copy(), np.zeros(len(state), dtype=np.bool_)
+        acts[self.acting] = True
+        corner = law.kind == CORNER
+        hold = np.where(law.forced == UNDECIDED, STICK, law.forced)
+        natural[acts & corner] = np.where(state == OPEN, hold, OPEN)[acts & corner]
+        spent = acts & ~corner & (state == STICK) & (law.kind > CORNER)
+        natural[spent] = law.kind[spent]
+        stuck[corner] = hold[corner]
+        return [stuck, natural] if (state == OPEN).all() else [natural, stuck]
+
+    def _change(self, state: IntArray) -> None:
+        """Enter new states at the present load."""
+        old, now = self.now.state, self.now
+        sticking = (state == STICK) & (old != STICK)
+        anchor = np.where(sticking, now.h[len(state) :], now.anchor)
+        self.now = replace(now, state=state, anchor=anchor)
+        kinds: tuple[tuple[What, Array], ...] = (
+            ("opens", (old != OPEN) & (state == OPEN)),
+            ("closes", (old == OPEN) & (state != OPEN)),
+            ("sticks", (old > STICK) & (state == STICK)),
+            ("slips", (old != OPEN) & (state > STICK) & (state != old) & (self.problem.closed == UNDECIDED)),
+        )
+        for what, which in kinds:
+            pairs = tuple(int(k) for k in np.flatnonzero(which))
+            if pairs:
+                self.events.append(Event(factor=self.factor, pairs=pairs, what=what, state=self.now))
+
+    def advance(self) -> NoRates | None:
+        """Go on to the next event or the end, solve for it afresh and certify it."""
+        assert self.rates is not None
+        times = self._times(self.rates)
+        step, room = float(times.min(initial=np.inf)), 1.0 - self.factor
+        last = step >= room - 1e-13
+        factor = 1.0 if last else self.factor + step
+        self.acting = np.flatnonzero(times <= step + self.settings.together)
+        self.still = self.still + 1 if factor - self.factor < 1e-13 else 0
+        if self.still > self.settings.standstill:
+            return NoRates(proof=f"{self.still} events follow each other at one load", proved=False)
+        try:
+            after = self._solved(factor)
+        except SingularState:
+            return NoRates(proof="the state that has rates is singular", proved=False)
+        residual = self._certificate(after)
+        if residual > self.settings.tolerance:
+            return NoRates(proof=f"the next state fails its certificate, residual {residual:.1e}", proved=False)
+        self.residual = max(self.residual, residual)
+        self.now, self.factor = after, factor
+        self.pieces.append(Breakpoint(factor=factor, h=after.h, r=after.r))
+        return None
+
+    def _times(self, rates: Rates) -> Array:
+        """(n,) Part of the segment until a gap, a normal force or the friction to spare of a pair vanishes."""
+        n, state, mu = self.problem.pairs, rates.state, self.problem.mu
+        gap, p, q = self.now.h[:n], self.now.r[:n], self.now.r[n:]
+        resting = 1e-10 * rates.size
+        times = np.full(n, np.inf)
+
+        def vanish(which: BoolArray, value: Array, rate: Array) -> None:
+            falls = which & (rate < np.where(value <= self.width, -resting, 0.0))
+            times[falls] = np.minimum(times[falls], np.maximum(value[falls], 0.0) / -rate[falls])
+
+        vanish(state == OPEN, gap, rates.h[:n])
+        vanish(state != OPEN, p, rates.r[:n])
+        stick = (state == STICK) & (self.problem.closed == UNDECIDED)
+        for sign in (1.0, -1.0):
+            spare, rate = (mu * p - sign * q) / weight(mu), (mu * rates.r[:n] - sign * rates.r[n:]) / weight(mu)
+            vanish(stick, spare, rate)
+        return times
+
+    def _load_at(self, factor: float) -> Array:
+        return self.b_end if factor == 1.0 else self.b_start + factor * self.load
+
+    def _solved(self, factor: float) -> PathState:
+        """The state at a load in the present states, with the slip and the dissipation of the piece."""
+        now, n, mu = self.now, self.problem.pairs, self.problem.mu
+        b, state = self._load_at(factor), self.now.state
+        held = np.concatenate([np.zeros(n), np.where(state == STICK, now.anchor, now.h[n:])])
+        h, r = self.responses.respond(state, b + self.problem.W @ held - held)
+        h = h + held
+        p = np.maximum(r[:n], 0.0)
+        friction = np.where(state > STICK, SIGN[state] * mu * p, np.clip(r[n:], -mu * p, mu * p))
+        r = np.concatenate([p, friction])
+        h[:n] = np.maximum(h[:n], 0.0)
+        moved = np.where(state > STICK, h[n:] - now.h[n:], 0.0)
+        return PathState(
+            b=b,
+            h=h,
+            r=r,
+            state=state,
+            anchor=now.anchor,
+            slip=now.slip + moved,
+            dissipation=now.dissipation - 0.5 * (r[n:] + now.r[n:]) * moved,
+        )
+
+    def _certificate(self, after: PathState) -> float:
+        """Of the piece as one increment: equilibrium, no tension, the friction cone, slip against friction."""
+        n = self.problem.pairs
+        origin = np.concatenate([np.zeros(n), self.now.h[n:]])
+        increment = replace(self.problem, b=frozen(after.b + self.problem.W @ origin - origin))
+        return certify(increment, after.r - (after.h - origin))
+
+    def ended(self, failure: NoRates) -> Segment:
+        """The segment up to a jump, or to where nothing was found."""
+        if not failure.proved:
+            message = f"at factor {self.factor:.12g}: {failure.proof}"
+            return self.segment("not_found", None, message)
+        jump = explain(self.problem, self.now, self.b_end, self.factor, self.acting, failure.proof, self.width)
+        return self.segment("jump", jump, f"no gradual continuation at factor {self.factor:.12g}: {jump.proof}")
+
+    def segment(self, outcome: Outcome, jump: Jump | None, message: str) -> Segment:
+        """All that is known now."""
+        done = self.responses
+        return Segment(
+            end=self.now,
+            events=tuple(self.events),
+            pieces=tuple(self.pieces),
+            outcome=outcome,
+            jump=jump,
+            pivots=done.pivots,
+            factorisations=done.factorisations,
+            updates=done.updates,
+            residual=self.residual,
+            message=message,
+        )

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Say of a load without gradual continuation who is involved, and whether bodies slide away as a whole."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray, frozen
+from signorini.friction.exact.rates import weight
+from signorini.friction.exact.segment import Jump
+from signorini.friction.exact.state import PathState
+from signorini.friction.law import OPEN
+from signorini.friction.problem import CoulombProblem
+from signorini.friction.rigid import pulled_away
+
+BEYOND = 1e-4
+"""Part of what is left of the segment, past the jump, at which the loads are asked whether they pull bodies away."""
+
+LEAVING = "a rigid motion of the bodies shows that more load has no equilibrium"
+SLIDING = f"gross sliding: every closed pair has used up its friction, and {LEAVING}"
+
+
+def explain(
+    problem: CoulombProblem, now: PathState, b_end: Array, factor: float, acting: IntArray, proof: str, width: float
+) -> Jump:
+    """The jump at a state that no rates continue.
+
+    Parameters
+    ----------
+    problem : its mu holds
+    now : the state there
+    b_end : (2n,) load at the end of the segment
+    factor : part of the segment behind
+    acting : pairs whose event it is; all at their limit where there is none
+    proof : what the search for rates found
+    width : of zero for a force
+    """
+    n, mu = now.pairs, problem.mu
+    spent = (mu * now.r[:n] - np.abs(now.r[n:])) / weight(mu) <= width
+    beyond = now.b + BEYOND * (b_end - now.b)
+    leaves = problem.floating and pulled_away(replace(problem, b=frozen(beyond))) is not None
+    gross = leaves and bool(spent[now.state != OPEN].all()) and bool((now.state != OPEN).any())
+    pairs = acting if len(acting) else np.flatnonzero(spent)
+    words = f"{proof}; {SLIDING if gross else LEAVING}" if leaves else proof
+    return Jump(factor=factor, pairs=tuple(int(k) for k in pairs), proof=words, gross_sliding=gross)
