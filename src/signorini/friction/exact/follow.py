@@ -117,17 +117,26 @@ class _Walk:
         self.unbounded = np.isinf(problem.friction) & ~self.problem.locked
         self.forced = np.where(self.unbounded, STICK, self.problem.closed)
         self.width = settings.width * (problem.scale or 1.0)
-        self.now, self.factor = start, 0.0
+        self.now, self.factor = self._entered(start), 0.0
         self.events: list[Event] = []
-        self.pieces = [Breakpoint(factor=0.0, h=start.h, r=start.r)]
+        self.pieces = [Breakpoint(factor=0.0, h=start.h, r=self.now.r)]
         self.acting: IntArray = np.zeros(0, dtype=np.int64)
         self.rates: Rates | None = None
         self.residual, self.still = 0.0, 0
 
+    def _entered(self, start: PathState) -> PathState:
+        """The first state; pairs that supports drag turn their friction at once where the load turns."""
+        n = self.problem.pairs
+        turned = (start.state != OPEN) & (self.forced != UNDECIDED)
+        state = np.where(turned, self.forced, start.state)
+        slides = turned & (state > STICK)
+        friction = np.where(slides, SIGN[state] * self.problem.mu * start.r[:n], start.r[n:])
+        return replace(start, state=state, r=np.concatenate([start.r[:n], friction]))
+
     def turn(self) -> NoRates | None:
         """Find the rates from here on; what changes its state is an event."""
         now, forced = self.now, self.forced
-        state = np.where((now.state != OPEN) & (forced != UNDECIDED), forced, now.state)
+        state = now.state
         closing = self.acting[state[self.acting] == OPEN]
         law = RateLaw.at(
             mu=self.problem.mu, forced=forced, state=state, h=now.h, r=now.r, width=self.width, closing=closing
