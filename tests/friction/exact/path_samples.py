@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Contact problems whose load paths are known, built directly on the interface."""
 
+from dataclasses import replace
+
 import numpy as np
 
-from signorini.friction import CoulombProblem
+from signorini.friction import CoulombProblem, solve_coulomb
 from signorini.friction.exact import follow, initial_state
 
 
@@ -39,6 +41,10 @@ class EqualBodies:
         """b of a resultant P pressing, and of Q that pulls body 1 along +t."""
         return self.gap - self.problem.W @ self.gap + self.R @ [-P, Q] / self.n
 
+    def travel(self, state):
+        """Tangential motion of the body as a whole, on which Q works."""
+        return float(self.R[:, 1] @ state.h) / self.n
+
     def start(self):
         return initial_state(self.problem, self.load(0.0, 0.0), motion=self.gap)
 
@@ -58,3 +64,71 @@ def at(segment, factor):
         np.array([np.interp(factor, s, column) for column in np.array([getattr(p, name) for p in segment.pieces]).T])
         for name in ("h", "r")
     )
+
+
+def stiff(seed, pairs, coupling=1.0):
+    """A random stiffness of a held interface; coupling times the size of the tangential rows."""
+    rng = np.random.default_rng(seed)
+    B = rng.normal(size=(2 * pairs, 4 * pairs))
+    B[pairs:] *= coupling
+    return B @ B.T / (4 * pairs) + np.diag(rng.uniform(0.2, 1.0, 2 * pairs))
+
+
+class Springs:
+    """Pairs on a held body of given stiffness: S u = F + r, h = u + (initial gap, 0)."""
+
+    def __init__(self, S, friction, gap=None):
+        n = len(S) // 2
+        self.S = S
+        self.gap = np.append(np.zeros(n) if gap is None else gap, np.zeros(n))
+        W = np.linalg.inv(S + np.eye(2 * n))
+        self.problem = CoulombProblem(
+            W=(W + W.T) / 2, b=np.zeros(2 * n), friction=friction, motions=np.zeros((2 * n, 0)), scale=1.0
+        )
+
+    def load(self, F):
+        """b of nodal forces F."""
+        return self.problem.W @ F + self.gap - self.problem.W @ self.gap
+
+    def run(self, *forces):
+        """Segments from rest through nodal forces, up to one that is not followed."""
+        state, segments = initial_state(self.problem, self.load(np.zeros_like(self.gap)), motion=self.gap), []
+        for F in forces:
+            segments.append(follow(self.problem, state, self.load(F)))
+            state = segments[-1].end
+            if not segments[-1].followed:
+                break
+        return segments
+
+    def strain_energy(self, state):
+        """Of the body."""
+        u = state.h - self.gap
+        return 0.5 * u @ self.S @ u
+
+    def work(self, segments, forces):
+        """Of the nodal forces, exact: all is linear between breakpoints."""
+        total, start = 0.0, np.zeros_like(self.gap)
+        for segment, F in zip(segments, forces, strict=False):
+            s = np.array([piece.factor for piece in segment.pieces])
+            u = np.array([piece.h for piece in segment.pieces])
+            f = (1 - s)[:, None] * start + s[:, None] * F
+            total += 0.5 * np.sum((f[1:] + f[:-1]) * np.diff(u, axis=0))
+            start = F
+        return total
+
+
+def increments(problem, start, ends):
+    """Implicit increments that end at given loads b: the last (h, r)."""
+    n, travelled, states = problem.pairs, start.h[problem.pairs :], None
+    for b in ends:
+        origin = np.append(np.zeros(n), travelled)
+        result = solve_coulomb(replace(problem, b=b + problem.W @ origin - origin), states)
+        assert result.solved, result.message
+        travelled, states = travelled + result.slip, result.state
+    h = np.concatenate([result.gap, travelled])
+    return h, np.concatenate([result.normal_force, result.tangential_force])
+
+
+def loads_at_breakpoints(segment, start, end):
+    """b at the end of every piece."""
+    return [(1 - piece.factor) * start + piece.factor * end for piece in segment.pieces[1:]]

@@ -25,6 +25,9 @@ from signorini.friction.exact.state import PathState
 from signorini.friction.law import OPEN, STICK, UNDECIDED
 from signorini.friction.problem import CoulombProblem
 
+LET_GO = "a pair of infinite friction holds back a tangential force until it loses its pressure, and lets go at once"
+"""A jump that the law itself makes."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class PathSettings:
@@ -111,18 +114,29 @@ class _Walk:
         self.b_start, self.b_end, self.settings = start.b, target, settings
         self.problem = replace(problem, b=frozen(self.load))
         self.responses = Responses(self.problem)
+        self.unbounded = np.isinf(problem.friction) & ~self.problem.locked
+        self.forced = np.where(self.unbounded, STICK, self.problem.closed)
         self.width = settings.width * (problem.scale or 1.0)
-        self.now, self.factor = start, 0.0
+        self.now, self.factor = self._entered(start), 0.0
         self.events: list[Event] = []
-        self.pieces = [Breakpoint(factor=0.0, h=start.h, r=start.r)]
-        self.acting = np.zeros(0, dtype=np.int64)
+        self.pieces = [Breakpoint(factor=0.0, h=start.h, r=self.now.r)]
+        self.acting: IntArray = np.zeros(0, dtype=np.int64)
         self.rates: Rates | None = None
         self.residual, self.still = 0.0, 0
 
+    def _entered(self, start: PathState) -> PathState:
+        """The first state; pairs that supports drag turn their friction at once where the load turns."""
+        n = self.problem.pairs
+        turned = (start.state != OPEN) & (self.forced != UNDECIDED)
+        state = np.where(turned, self.forced, start.state)
+        slides = turned & (state > STICK)
+        friction = np.where(slides, SIGN[state] * self.problem.mu * start.r[:n], start.r[n:])
+        return replace(start, state=state, r=np.concatenate([start.r[:n], friction]))
+
     def turn(self) -> NoRates | None:
         """Find the rates from here on; what changes its state is an event."""
-        now, forced = self.now, self.problem.closed
-        state = np.where((now.state != OPEN) & (forced != UNDECIDED), forced, now.state)
+        now, forced = self.now, self.forced
+        state = now.state
         closing = self.acting[state[self.acting] == OPEN]
         law = RateLaw.at(
             mu=self.problem.mu, forced=forced, state=state, h=now.h, r=now.r, width=self.width, closing=closing
@@ -162,7 +176,7 @@ class _Walk:
             ("opens", (old != OPEN) & (state == OPEN)),
             ("closes", (old == OPEN) & (state != OPEN)),
             ("sticks", (old > STICK) & (state == STICK)),
-            ("slips", (old != OPEN) & (state > STICK) & (state != old) & (self.problem.closed == UNDECIDED)),
+            ("slips", (old != OPEN) & (state > STICK) & (state != old) & (self.forced == UNDECIDED)),
         )
         for what, which in kinds:
             pairs = tuple(int(k) for k in np.flatnonzero(which))
@@ -185,12 +199,22 @@ class _Walk:
         except SingularState:
             return NoRates(proof="the state that has rates is singular", proved=False)
         residual = self._certificate(after)
-        if residual > self.settings.tolerance:
+        lost = self._let_go(after)
+        if residual > self.settings.tolerance and not len(lost):
             return NoRates(proof=f"the next state fails its certificate, residual {residual:.1e}", proved=False)
-        self.residual = max(self.residual, residual)
         self.now, self.factor = after, factor
         self.pieces.append(Breakpoint(factor=factor, h=after.h, r=after.r))
+        if len(lost):
+            self.acting = lost
+            return NoRates(proof=LET_GO, proved=True)
+        self.residual = max(self.residual, residual)
         return None
+
+    def _let_go(self, after: PathState) -> IntArray:
+        """Acting pairs of infinite friction that lose their pressure while they hold back a tangential force."""
+        n, k = self.problem.pairs, self.acting
+        holds = self.unbounded[k] & (after.state[k] == STICK)
+        return k[holds & (after.r[k] <= self.width) & (np.abs(after.r[n + k]) > self.width)]
 
     def _times(self, rates: Rates) -> Array:
         """(n,) Part of the segment until a gap, a normal force or the friction to spare of a pair vanishes."""
@@ -205,7 +229,7 @@ class _Walk:
 
         vanish(state == OPEN, gap, rates.h[:n])
         vanish(state != OPEN, p, rates.r[:n])
-        stick = (state == STICK) & (self.problem.closed == UNDECIDED)
+        stick = (state == STICK) & (self.forced == UNDECIDED)
         for sign in (1.0, -1.0):
             spare, rate = (mu * p - sign * q) / weight(mu), (mu * rates.r[:n] - sign * rates.r[n:]) / weight(mu)
             vanish(stick, spare, rate)
@@ -222,7 +246,8 @@ class _Walk:
         h, r = self.responses.respond(state, b + self.problem.W @ held - held)
         h = h + held
         p = np.maximum(r[:n], 0.0)
-        friction = np.where(state > STICK, SIGN[state] * mu * p, np.clip(r[n:], -mu * p, mu * p))
+        most = np.where(self.unbounded, np.inf, mu * p)
+        friction = np.where(state > STICK, SIGN[state] * mu * p, np.clip(r[n:], -most, most))
         r = np.concatenate([p, friction])
         h[:n] = np.maximum(h[:n], 0.0)
         moved = np.where(state > STICK, h[n:] - now.h[n:], 0.0)

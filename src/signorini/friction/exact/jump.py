@@ -11,7 +11,6 @@ from signorini.arrays import Array, IntArray, frozen
 from signorini.friction.exact.rates import weight
 from signorini.friction.exact.segment import Jump
 from signorini.friction.exact.state import PathState
-from signorini.friction.law import OPEN
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.rigid import pulled_away
 
@@ -41,7 +40,8 @@ def explain(
     spent = (mu * now.r[:n] - np.abs(now.r[n:])) / weight(mu) <= width
     beyond = now.b + BEYOND * (b_end - now.b)
     leaves = problem.floating and pulled_away(replace(problem, b=frozen(beyond))) is not None
-    gross = leaves and bool(spent[now.state != OPEN].all()) and bool((now.state != OPEN).any())
+    pressed = now.r[:n] > width
+    gross = leaves and bool(pressed.any() and spent[pressed].all())
     pairs = acting if len(acting) else np.flatnonzero(spent)
     words = f"{proof}; {SLIDING if gross else LEAVING}" if leaves else proof
     return Jump(factor=factor, pairs=tuple(int(k) for k in pairs), proof=words, gross_sliding=gross)

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One node, stiffness 2, coupling -1, pressed by 1 and pulled sideways: all branches by hand."""
+
+import numpy as np
+import pytest
+from exact.path_samples import at, one_node
+
+from signorini.friction import OPEN, SLIP_MINUS, STICK
+from signorini.friction.exact import follow, initial_state
+
+
+def pull(mu, most=4.0):
+    problem, load = one_node(mu)
+    pressed = follow(problem, initial_state(problem, np.zeros(2)), load(-1.0, 0.0))
+    return follow(problem, pressed.end, load(-1.0, most))
+
+
+def test_slips_then_opens():
+    path = pull(1.0)
+    assert path.followed
+    assert [(event.what, event.pairs) for event in path.events] == [("slips", (0,)), ("opens", (0,))]
+    np.testing.assert_allclose([4 * event.factor for event in path.events], [1.0, 2.0], rtol=0, atol=1e-13)
+    assert [event.state.state.tolist() for event in path.events] == [[SLIP_MINUS], [OPEN]]
+    np.testing.assert_allclose(path.end.h, [2 / 3, 7 / 3], rtol=0, atol=1e-13)
+    assert path.end.dissipation == pytest.approx(0.5, abs=1e-13)
+    assert path.end.slip == pytest.approx(1.0, abs=1e-13)
+    assert path.residual < 1e-14
+
+
+def test_a_closed_form_point_between_events():
+    h, r = at(pull(1.0), 1.5 / 4)
+    np.testing.assert_allclose(h, [0.0, 0.5], rtol=0, atol=1e-13)
+    np.testing.assert_allclose(r, [0.5, -0.5], rtol=0, atol=1e-13)
+
+
+def test_sticks_where_it_is_let_go_and_slips_back():
+    problem, load = one_node(0.5)
+    states = [initial_state(problem, np.zeros(2))]
+    for forces in ((-1.0, 0.0), (-1.0, 0.8), (-1.0, -0.9)):
+        path = follow(problem, states[-1], load(*forces))
+        assert path.followed
+        states.append(path.end)
+    assert [event.what for event in path.events] == ["sticks", "slips"]
+    assert path.events[0].factor == 0.0
+    assert path.events[0].state.anchor == pytest.approx(states[-2].h[1:])
+
+
+def test_a_jump_is_named_and_proved():
+    path = pull(3.0)
+    assert path.outcome == "jump"
+    assert 4 * path.jump.factor == pytest.approx(3.0, abs=1e-13)
+    assert path.jump.pairs == (0,)
+    assert not path.jump.gross_sliding
+    assert "none of the 2 combinations" in path.jump.proof
+    assert path.end.state.tolist() == [STICK]
+    np.testing.assert_allclose(path.end.h, [0.0, 0.0], atol=1e-14)
+    np.testing.assert_allclose(path.end.r, [1.0, -3.0], atol=1e-13)
+
+
+@pytest.mark.parametrize(("mu", "factor"), [(2.0, 2.0 / 4), (2.5, 2.5 / 4)])
+def test_much_friction_jumps_where_it_is_used_up(mu, factor):
+    assert pull(mu).jump.factor == pytest.approx(factor, abs=1e-12)
+
+
+def test_without_load_change_nothing_happens():
+    problem, load = one_node(1.0)
+    start = follow(problem, initial_state(problem, np.zeros(2)), load(-1.0, 0.5)).end
+    path = follow(problem, start, start.b)
+    assert path.followed
+    assert not path.events
+    np.testing.assert_allclose(path.end.r, start.r, rtol=0, atol=1e-15)

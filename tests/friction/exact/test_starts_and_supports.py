@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""First states, bodies held by contact alone, pairs that supports hold or drag, and input that is wrong."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from coulomb_samples import block_on_floor, for_all
+from exact.path_samples import Springs, increments, loads_at_breakpoints, one_node, stiff
+from hypothesis import strategies as st
+
+from signorini.errors import InputError
+from signorini.friction import OPEN, SLIP_MINUS, SLIP_PLUS, CoulombProblem
+from signorini.friction.exact import follow, initial_state
+
+
+def test_at_rest_the_gaps_are_open():
+    body = Springs(stiff(1, 4), np.full(4, 0.3), np.array([0.0, 0.1, 0.2, 0.3]))
+    state = initial_state(body.problem, body.load(np.zeros(8)))
+    np.testing.assert_allclose(state.h, body.gap, rtol=0, atol=1e-14)
+    assert state.state.tolist() == [OPEN] * 4
+    assert state.note == "nothing has moved"
+    assert not state.r.any()
+
+
+def test_an_interference_is_one_increment_and_says_so():
+    body = Springs(stiff(2, 4), np.full(4, 0.3), np.array([-0.1, -0.1, 0.0, 0.1]))
+    state = initial_state(body.problem, body.load(np.zeros(8)))
+    assert state.note == "the load presses: one increment from zero slip"
+    assert state.r[:4].max() > 0
+    path = follow(body.problem, state, body.load(np.append(np.full(4, -0.3), np.full(4, 0.1))))
+    assert path.followed
+    assert path.residual < 1e-13
+
+
+@for_all(examples=25, seed=st.integers(0, 10**6), pairs=st.sampled_from([2, 5, 9]))
+def test_floating_blocks_follow_their_increments(seed, pairs):
+    rng = np.random.default_rng(seed)
+    problem = block_on_floor(pairs, (0.0, 0.0, 0.0))
+    elastic = problem.interface.A @ rng.normal(size=2 * pairs) * 0.03
+    own = (np.eye(2 * pairs) - problem.W) @ elastic
+    loads = [load + k * own for k, load in enumerate(_resultants(problem, rng))]
+    state = initial_state(problem, np.zeros(2 * pairs), motion=np.zeros(2 * pairs))
+    start, ends = state, []
+    for b in loads:
+        path = follow(problem, state, b)
+        if not path.followed:
+            assert path.outcome == "jump"
+            return
+        ends += loads_at_breakpoints(path, state.b, b)
+        state = path.end
+    h, r = increments(problem, start, ends)
+    np.testing.assert_allclose(state.r, r, rtol=0, atol=1e-10)
+    np.testing.assert_allclose(state.h, h, rtol=0, atol=1e-10)
+
+
+def _resultants(problem, rng):
+    """Loads that press, push a little and turn a little."""
+    R = problem.motions
+    for _ in range(3):
+        yield R @ np.linalg.solve(R.T @ R, [-1.0, rng.uniform(-0.25, 0.25), rng.uniform(-0.5, 0.5)])
+
+
+def dragged(friction):
+    """Two pairs; supports lock the tangential motion of the second."""
+    S = stiff(3, 2)[:3, :3]
+    W = np.zeros((4, 4))
+    W[:3, :3] = np.linalg.inv(S + np.eye(3))
+    return CoulombProblem(
+        W=(W + W.T) / 2, b=np.zeros(4), friction=np.full(2, friction), motions=np.zeros((4, 0)), scale=1.0
+    )
+
+
+def test_a_dragged_pair_slips_as_its_support_moves():
+    problem = dragged(0.4)
+    pressed = follow(problem, initial_state(problem, np.zeros(4)), np.array([-0.3, -0.3, 0.0, 0.0])).end
+    there = follow(problem, pressed, np.array([-0.3, -0.3, 0.0, 0.1])).end
+    back = follow(problem, there, np.array([-0.3, -0.3, 0.0, 0.0])).end
+    p = pressed.r[1]
+    assert p > 0.1
+    assert pressed.r[3] == 0.0
+    assert (there.state[1], back.state[1]) == (SLIP_MINUS, SLIP_PLUS)
+    assert there.r[3] == pytest.approx(-0.4 * p, abs=1e-14)
+    assert back.r[3] == pytest.approx(0.4 * p, abs=1e-14)
+    assert there.h[3] == 0.1
+    assert back.dissipation[1] == pytest.approx(0.4 * p * 0.2, abs=1e-14)
+    assert back.slip[1] == pytest.approx(0.0, abs=1e-15)
+
+
+def test_what_is_wrong_is_said():
+    problem, load = one_node(1.0)
+    start = initial_state(problem, np.zeros(2))
+    with pytest.raises(InputError, match=r"b_end: is of shape \(3,\); expected \(2,\)"):
+        follow(problem, start, np.zeros(3))
+    with pytest.raises(InputError, match="b_end: has entries that are not finite"):
+        follow(problem, start, np.array([np.nan, 0.0]))
+    with pytest.raises(InputError, match=r"b: has shape \(1,\); expected \(2,\)"):
+        initial_state(problem, np.zeros(1))
+    with pytest.raises(InputError, match="motion: expected a gap >= 0"):
+        initial_state(problem, np.zeros(2), motion=np.array([-1.0, 0.0]))
+    with pytest.raises(InputError, match="motion: is not in equilibrium with b"):
+        initial_state(problem, load(0.0, 1.0), motion=np.array([1.0, 0.0]))
+    with pytest.raises(InputError, match="neither slip nor stick"):
+        follow(dragged(np.inf), initial_state(dragged(np.inf), np.zeros(4)), np.array([-0.3, -0.3, 0.0, 0.1]))
+
+
+def test_states_are_read_only():
+    problem, _ = one_node(1.0)
+    state = initial_state(problem, np.zeros(2))
+    with pytest.raises(ValueError, match="read-only"):
+        state.h[0] = 1.0
+    assert replace(state, note="").note == ""
