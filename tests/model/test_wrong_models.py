@@ -354,6 +354,7 @@ def test_a_hinge_at_one_node_is_named():
                 supports=[],
                 loads=[Load("top", pressure=1.0), Load("left", traction=(3.0, 0.0))],
                 contacts=[Contact("bottom", FLOOR, friction=0.5)],
+                steps=[Step(name="load", increments=1)],
             ),
             "no_equilibrium",
             "step 'load' at 100%: body 'block'",

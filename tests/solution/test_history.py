@@ -59,7 +59,7 @@ PRESS_DRAG_BACK_LIFT = [
     Step(name="drag", scale={"across": 1.0}, increments=3),
     Step(name="back", scale={"across": -0.5}, increments=3),
     Step(name="nearly lift", scale={"down": 0.2}, increments=2),
-    Step(name="lift", scale={"down": -0.5}),
+    Step(name="lift", scale={"down": -0.5}, increments=1),
     Step(name="press again", scale={"down": 0.7}, increments=2),
 ]
 PRESS_PULL_RELEASE = [

@@ -10,6 +10,7 @@ from signorini.engine.prepare import Examined
 from signorini.fem.rigid import describe_motion
 from signorini.model.contact import Contact, Plane
 from signorini.model.model import Model
+from signorini.model.step import Step
 from signorini.output.align import align
 from signorini.output.table import spell_vector
 
@@ -93,11 +94,19 @@ def _steps(model: Model) -> Rows:
             (
                 str(number),
                 step.name,
-                "1 increment" if step.increments == 1 else f"{step.increments} increments",
+                _stepping(step),
                 f"ends at {ends or 'no load'}",
             )
         )
     return rows
+
+
+def _stepping(step: Step) -> str:
+    if step.increments is not None:
+        return "1 increment" if step.increments == 1 else f"{step.increments} increments"
+    if step.path is None:
+        return "exact path where there is friction"
+    return "exact path" if step.path == "exact" else "1 increment"
 
 
 def _notes(deck: Deck) -> list[str]:

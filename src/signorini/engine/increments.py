@@ -44,7 +44,7 @@ def follow_increments(prepared: Prepared, step: Step, name: str, state: State, e
         certificates.append(certificate)
         trace.append(result.trace)
     return Leg(
-        path="single" if step.increments == 1 else "increments",
+        path="single" if len(trace) == 1 else "increments",
         before=before,
         after=state,
         certificates=tuple(certificates),
@@ -56,8 +56,9 @@ def _increments(
     step: Step, start: Mapping[str, float], end: Mapping[str, float]
 ) -> Iterator[tuple[float, Mapping[str, float]]]:
     """Equal parts of the straight segment between two sets of load factors: fraction and factors at the end of each."""
-    for k in range(1, step.increments + 1):
-        t = k / step.increments
+    number = step.increments or 1
+    for k in range(1, number + 1):
+        t = k / number
         yield t, {name: (1.0 - t) * start[name] + t * end[name] for name in end} if t < 1.0 else end
 
 
@@ -67,10 +68,9 @@ def _advance(
     """One increment: from a state to the next at given load factors."""
     condensed, constraints, interface = prepared.condensed, prepared.constraints, prepared.interface
     n, rows, active = len(interface), condensed.active_rows, condensed.active
-    loads = sum((factors[name] * f for name, f in prepared.loads.items()), np.zeros(prepared.space.number_of_dofs))
-    imposed = sum((factors[name] * u for name, u in constraints.prescribed.items()), np.zeros_like(loads))
+    loads, imposed = applied(prepared, factors)
     offset = np.concatenate([interface.gap, -state.tangential]) + interface.B @ imposed
-    _refuse_overlap(prepared, offset[:n], where)
+    refuse_overlap(prepared, offset[:n], where)
     f = constraints.transform.T @ (loads - prepared.K @ imposed)
     result, forces, moved, free = _balanced(prepared, f, offset, state)
     if not result.solved:
@@ -93,10 +93,18 @@ def _advance(
             moved=moved,
             status=status,
         )
-    return new, _certified(prepared, loads, new, state.tangential, where), result
+    return new, certified(prepared, loads, new, state.tangential, where), result
 
 
-def _certified(prepared: Prepared, loads: Array, state: State, before: Array, where: str) -> Certificate:
+def applied(prepared: Prepared, factors: Mapping[str, float]) -> tuple[Array, Array]:
+    """Nodal forces and imposed displacements at load factors, each (dofs,)."""
+    zero = np.zeros(prepared.space.number_of_dofs)
+    loads = sum((factors[name] * f for name, f in prepared.loads.items()), zero)
+    imposed = sum((factors[name] * u for name, u in prepared.constraints.prescribed.items()), zero)
+    return loads, imposed
+
+
+def certified(prepared: Prepared, loads: Array, state: State, before: Array, where: str) -> Certificate:
     """Measure a state; what does not pass is no solution."""
     certificate = certify(
         prepared.K,
@@ -152,7 +160,7 @@ def _balanced(prepared: Prepared, f: Array, offset: Array, state: State) -> tupl
     return result, forces, moved, free
 
 
-def _refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
+def refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
     """Supports that hold both sides of a pair decide its gap; no force can mend an overlap there."""
     held = np.nonzero(prepared.condensed.held & (gap < -1e-12 * prepared.scale.length))[0]
     if len(held):

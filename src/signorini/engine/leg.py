@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from signorini.solution.certificate import Certificate
+from signorini.solution.results import PairEvent
 from signorini.solution.state import State
 from signorini.trace import Attempt
 
@@ -16,10 +17,12 @@ class Leg:
 
     Attributes
     ----------
-    path : "single" (one increment) or "increments"
+    path : "single" (one increment), "increments" or "exact"
     before, after : states at the ends
     certificates : of every state that was certified on the way
-    trace : for every increment the methods tried
+    trace : for every increment the methods tried; on an exact path one entry for all of it
+    events : of an exact path
+    notes : what a reader should know of the way
     """
 
     path: str
@@ -27,3 +30,5 @@ class Leg:
     after: State
     certificates: tuple[Certificate, ...]
     trace: tuple[tuple[Attempt, ...], ...]
+    events: tuple[PairEvent, ...] = ()
+    notes: tuple[str, ...] = ()

@@ -12,6 +12,7 @@ import scipy.sparse.linalg
 from signorini import lcp
 from signorini.arrays import Array
 from signorini.checks import number
+from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared, prepare
 from signorini.errors import InputError
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK
@@ -104,7 +105,7 @@ def formulate(model: Model | Prepared, *, E_n: float, E_tau: float) -> PaperForm
             raise InputError("the paper's law has a finite friction and its own penalties", where=("contact", i))
     if not condensed.active.any():
         raise InputError("there is none that can move; the paper's LCP needs one", where=("contact",))
-    loads, imposed = _final(prepared)
+    loads, imposed = applied(prepared, prepared.model.factors()[-1])
     n, rows = len(interface), condensed.active_rows
     pairs = rows[: len(rows) // 2]
     order = np.arange(len(rows)).reshape(2, -1)[::-1].T.ravel()  # (tau, n) pair by pair
@@ -148,7 +149,7 @@ def solve_literally(formulation: PaperFormulation) -> PaperAnswer:
     forces[pairs], forces[n + pairs] = -P[:, 1] * interface.area[pairs], -P[:, 0] * interface.area[pairs]
     slip = multipliers.reshape(-1, 3)
     moved[pairs], moved[n + pairs] = slip[:, 2], slip[:, 0] - slip[:, 1]
-    loads, imposed = _final(prepared)
+    loads, imposed = applied(prepared, prepared.model.factors()[-1])
     f = prepared.constraints.transform.T @ (loads - prepared.K @ imposed)
     displacement = prepared.constraints.transform @ condensed.factorisation.expand(f, u) + imposed
     status = np.full(n, OPEN)
@@ -185,15 +186,6 @@ def solve_literally(formulation: PaperFormulation) -> PaperAnswer:
         certificate=certificate,
         message=_judge(found, certificate, condition),
     )
-
-
-def _final(prepared: Prepared) -> tuple[Array, Array]:
-    """Loads and imposed displacements at the end of the history."""
-    factors = prepared.model.factors()[-1]
-    zero = np.zeros(prepared.space.number_of_dofs)
-    loads = sum((factors[name] * f for name, f in prepared.loads.items()), zero)
-    imposed = sum((factors[name] * u for name, u in prepared.constraints.prescribed.items()), zero)
-    return loads, imposed
 
 
 def _condition(prepared: Prepared, problem: PaperProblem, formulation: PaperFormulation) -> float:

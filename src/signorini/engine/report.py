@@ -31,7 +31,8 @@ def step_result(prepared: Prepared, step: Step, number: int, leg: Leg) -> StepRe
         name=step.name or f"step {number}",
         path=leg.path,
         load_factor=float(number),
-        increments=len(leg.trace),
+        increments=0 if leg.path == "exact" else len(leg.trace),
+        events=leg.events,
         displacement=frozen(state.displacement.reshape(-1, model.dimension)),
         reactions=_reactions(prepared, state),
         strain_energy=0.5 * float(state.displacement @ (prepared.K @ state.displacement)),
@@ -53,7 +54,7 @@ def _notes(prepared: Prepared, leg: Leg) -> tuple[str, ...]:
     friction = prepared.interface.friction
     rubbing = (friction > 0) & np.isfinite(friction)
     if leg.path != "single" or not rubbing.any():
-        return ()
+        return leg.notes
     closed = rubbing & (leg.after.status != OPEN) & (leg.before.gap > 1e-9 * prepared.scale.length)
     return (ONE_INCREMENT, GROWN) if closed.any() else (ONE_INCREMENT,)
 

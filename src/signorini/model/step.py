@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import Literal
 
 from signorini.checks import choice, number, text, whole
 from signorini.errors import InputError
@@ -20,8 +21,9 @@ class Step:
     name : what results call it
     scale : factors at the end of the step, by name of load or moving support; what is not named keeps its factor.
         None: everything goes to 1
-    increments : equal parts in which the segment is solved
-    path : "increments"
+    increments : equal parts in which the segment is solved; None leaves it to ``path``
+    path : "increments", or "exact": from event to event (a pair closes, opens, slips, sticks), without any step size.
+        None chooses: "increments" where their number is given or nothing rubs (one is exact then), otherwise "exact"
 
     Examples
     --------
@@ -31,14 +33,18 @@ class Step:
 
     name: str = ""
     scale: Mapping[str, float] | None = None
-    increments: int = 1
-    path: str = "increments"
+    increments: int | None = None
+    path: Literal["increments", "exact"] | None = None
 
     def __post_init__(self) -> None:
         if self.name:
             text(self.name, ("name",))
-        whole(self.increments, ("increments",))
-        choice(self.path, ("increments",), ("path",), "path")
+        if self.increments is not None:
+            whole(self.increments, ("increments",))
+        if self.path is not None:
+            choice(self.path, ("increments", "exact"), ("path",), "path")
+        if self.path == "exact" and self.increments is not None:
+            raise InputError("has a number of increments, but the path is exact; expected one of both")
         if self.scale is not None:
             if not isinstance(self.scale, Mapping):
                 raise InputError(f"is {self.scale!r}; expected a table of names and factors", where=("scale",))

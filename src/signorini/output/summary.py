@@ -59,6 +59,16 @@ def _step(model: Model, step: StepResult, stored: float) -> dict[str, Any]:
         "load_factor": step.load_factor,
         "path": step.path,
         "increments": step.increments,
+        "events": len(step.events),
+        "event_list": [
+            {
+                "load_factor": event.load_factor,
+                "contact": event.contact,
+                "nodes": [node + 1 for node in event.nodes],
+                "what": event.what,
+            }
+            for event in step.events
+        ],
         "method": ", ".join(step.methods),
         "notes": list(step.notes),
         "reactions": {name: _list(force) for name, force in step.reactions.items()},

@@ -55,7 +55,11 @@ def history_table(history: History) -> str:
 
 
 def _step_lines(step: StepResult, number: int) -> list[str]:
-    count = f"{step.increments} increment{'s' if step.increments > 1 else ''}"
+    count = (
+        f"exact path, {len(step.events)} events"
+        if step.path == "exact"
+        else f"{step.increments} increment{'s' if step.increments > 1 else ''}"
+    )
     pressed = [float((abs(contact.pressure) * contact.area).sum()) for contact in step.contacts]
     held = [float(abs(force).max()) for force in step.reactions.values()]
     noise = _ROUNDING * max([*pressed, *held], default=0.0)

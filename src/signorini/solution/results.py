@@ -75,21 +75,40 @@ class ContactResult:
         return int((self.status == status).sum())
 
 
+@dataclass(frozen=True, kw_only=True)
+class PairEvent:
+    """Pairs of one contact that change their state at one load of an exact path.
+
+    Attributes
+    ----------
+    load_factor : step k goes from k - 1 to k
+    contact : name
+    nodes : indices of nonmortar nodes, from 0
+    what : "closes", "opens", "slips" or "sticks"
+    """
+
+    load_factor: float
+    contact: str
+    nodes: tuple[int, ...]
+    what: str
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class StepResult:
     """The end of a step.
 
     Attributes
     ----------
-    name, path : of the step; path is "single" (one increment) or "increments"
+    name, path : of the step; path is "single" (one increment), "increments" or "exact"
     load_factor : step k ends at k
-    increments : solved in this step
+    increments : solved in this step; 0 on an exact path
+    events : of an exact path, in order
     displacement : (nodes, d) length
     reactions : support to its force on the bodies, (d,)
     strain_energy : of the bodies
     interface_energy : of compliant interfaces
     work : of loads and moving supports in this step
-    certificate : the worst of every increment
+    certificate : the worst of every increment, or the end of an exact path
     contacts : in the order of the model
     trace : for every increment the methods tried, in order: iterations, status changes, how each ended
     notes : what a reader should know
@@ -99,6 +118,7 @@ class StepResult:
     path: str
     load_factor: float
     increments: int
+    events: tuple[PairEvent, ...]
     displacement: Array
     reactions: Mapping[str, Array]
     strain_energy: float

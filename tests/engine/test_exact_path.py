@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Exact paths through a whole model: against increments, energy, jumps."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.gallery.blocks import dragged_block, stacked_blocks
+from signorini.gallery.cylinder import HERTZ, zhu_cylinder
+
+UP_AND_DOWN = [
+    sg.Step(name="press"),
+    sg.Step(name="nearly off", scale={"cut": 0.05}),
+    sg.Step(name="again", scale={"cut": 1.0}),
+]
+
+
+def in_increments(steps, number):
+    return [replace(step, increments=number) for step in steps]
+
+
+def test_increments_converge_to_the_exact_path():
+    """First order at best (the findings of any increment: 1 is off by 36 % of mu p_0 in friction on this mesh)."""
+    exact = sg.solve(zhu_cylinder(refine=2, steps=[sg.Step(name="press")]))
+    assert exact.last.path == "exact"
+    contact = exact.contact("foundation")
+    errors = []
+    for number in (1, 10, 100, 1000):
+        found = sg.solve(zhu_cylinder(refine=2, increments=number)).contact("foundation")
+        errors.append(np.abs(found.traction - contact.traction).max() / (0.4 * HERTZ.peak_pressure))
+    assert errors[0] > 0.3
+    assert (np.diff(errors) < 0).all()
+    assert errors[-1] < 1e-3
+
+
+@pytest.mark.parametrize("model", [zhu_cylinder(refine=2, steps=UP_AND_DOWN), None], ids=["cylinder", "block"])
+def test_work_is_stored_or_dissipated_exactly(model):
+    if model is None:
+        block = dragged_block()
+        model = replace(block, steps=in_increments(block.steps, None))
+    solution = sg.solve(model)
+    stored = 0.0
+    size = max(abs(step.work) for step in solution.steps)
+    for step in solution.steps:
+        assert step.path == "exact"
+        assert step.certificate.passed
+        now = step.strain_energy + step.interface_energy
+        assert abs(step.work - (now - stored) - step.dissipation) <= 1e-10 * size
+        assert step.dissipation >= 0.0
+        stored = now
+    assert solution.steps[-1].dissipation + solution.steps[-2].dissipation > 0.0
+
+
+@pytest.mark.parametrize("compliance", [0.0, 1e-3])
+def test_increments_that_end_at_the_events_reproduce_the_path(compliance):
+    model = zhu_cylinder(refine=1, compliance=compliance, steps=UP_AND_DOWN[:2])
+    exact = sg.solve(model)
+    steps, factor = [], 0.0
+    for number, (step, end) in enumerate(zip(exact.steps, (1.0, 0.05), strict=True)):
+        start = factor
+        for at in sorted({event.load_factor - number for event in step.events} | {1.0}):
+            factor = start + at * (end - start)
+            steps.append(sg.Step(scale={"cut": factor}, increments=1))
+    found = sg.solve(replace(model, steps=steps)).contact("foundation")
+    contact = exact.contact("foundation")
+    for name in ("pressure", "traction"):
+        np.testing.assert_allclose(
+            getattr(found, name), getattr(contact, name), rtol=0, atol=1e-9 * contact.pressure.max()
+        )
+
+
+def test_flat_contact_is_one_piece():
+    solution = sg.solve(stacked_blocks(friction=0.3))
+    assert solution.last.path == "exact"
+    np.testing.assert_allclose(solution.contact("interface").pressure, 1e5, rtol=1e-10)
+
+
+def test_events_are_reported_by_contact_and_node():
+    step = sg.solve(zhu_cylinder(steps=[sg.Step(name="press")])).last
+    closing = [event for event in step.events if event.what == "closes"]
+    assert [event.contact for event in closing] == ["foundation"] * len(closing)
+    # the pairs close one after the other from the centre outwards
+    x = [step.contacts[0].points[list(step.contacts[0].node).index(event.nodes[0]), 0] for event in closing]
+    assert x == sorted(x)
+    assert all(0.0 <= event.load_factor <= 1.0 for event in step.events)
+
+
+def test_sliding_under_force_control_is_named():
+    """Pulled with more than friction carries: exact says where it begins to slide as a whole, and does not go on."""
+    steps = [sg.Step(name="press", scale={"press": 1.0}), sg.Step(name="pull", scale={"push": 2.0}, path="exact")]
+    with pytest.raises(sg.SolveFailed, match=r"^step 'pull' at 66\.6666..%: gross sliding") as caught:
+        sg.solve(replace(dragged_block(friction=0.2), steps=steps))
+    assert caught.value.status == "jump"
+    assert [step.name for step in caught.value.solution.steps] == ["press"]
+
+
+def test_a_gap_that_closes_under_force_is_a_jump_to_a_candidate():
+    """A block that floats above the foundation falls: no gradual path, and the notes say so."""
+    falling = replace(dragged_block(), steps=[sg.Step(name="press")])
+    falling = replace(falling, contacts=[replace(falling.contacts[0], gap=0.01)])
+    step = sg.solve(falling).last
+    assert step.path == "increments"
+    assert any("a jump" in note and "candidate" in note for note in step.notes)
+    with pytest.raises(sg.SolveFailed, match="a jump"):
+        sg.solve(replace(falling, steps=[sg.Step(name="press", path="exact")]))
