@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The picture of the README: the paper's cylinder, von Mises stress and contact tractions, mu = 0.4, 100 increments.
+"""The picture of the README: the paper's cylinder, von Mises stress and contact tractions, mu = 0.4, exact path.
 
     python examples/readme_picture.py [FILE]
 
@@ -16,7 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
 
-from signorini import Solution, solve
+from signorini import Solution, Step, solve
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
 from signorini.gallery.cylinder import HERTZ, zhu_cylinder
@@ -73,7 +73,7 @@ def draw_tractions(axes: Axes, solution: Solution) -> None:
 
 def main(file: Path) -> None:
     """Solve and draw."""
-    solution = solve(zhu_cylinder(friction=FRICTION, refine=8, increments=100))
+    solution = solve(zhu_cylinder(friction=FRICTION, refine=8, steps=[Step(name="press")]))
     figure = Figure(figsize=(11.0, 4.3), dpi=130, layout="constrained")
     left, right = figure.subplots(1, 2, width_ratios=(1.25, 1.0))
     draw_body(left, solution)

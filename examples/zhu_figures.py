@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from signorini import solve
+from signorini import Step, solve
 from signorini.gallery.cylinder import HERTZ, E, zhu_cylinder
 
 FRICTION = 0.4
@@ -50,13 +50,15 @@ def penalties() -> Figure:
 
 
 def friction() -> Figure:
-    """Figure 7: pressure and frictional traction, one increment as in the paper and the history in 200."""
+    """Figure 7: pressure and frictional traction, one increment as in the paper and the exact history."""
     figure, axes = new_axes(f"Pressure and friction, $\\mu = {FRICTION}$ (the paper's figure 7, refined 4 times)")
     axes.plot(FINE, HERTZ.pressure(FINE), color="black", lw=1.0, ls=":", label="Hertz, $\\mu = 0$")
-    for increments, colour, style in ((1, "#4292c6", "--"), (200, "#d94801", "-")):
-        found = solve(zhu_cylinder(friction=FRICTION, refine=4, increments=increments)).contact("foundation")
+    for words, steps, colour, style in (
+        ("one increment", [Step(increments=1)], "#4292c6", "--"),
+        ("exact path", [Step(path="exact")], "#d94801", "-"),
+    ):
+        found = solve(zhu_cylinder(friction=FRICTION, refine=4, steps=steps)).contact("foundation")
         x = found.points[:, 0]
-        words = "one increment" if increments == 1 else f"{increments} increments"
         axes.plot(x, found.pressure, style, color=colour, lw=1.6, label=f"pressure, {words}")
         axes.plot(x, np.abs(found.traction), style, color=colour, lw=1.6, marker="o", ms=3, label=f"friction, {words}")
         axes.plot(x, FRICTION * found.pressure, style, color=colour, lw=0.7, alpha=0.6)
@@ -64,7 +66,7 @@ def friction() -> Figure:
         axes.axvline(edge, color=colour, lw=0.7, ls=style)
         axes.annotate(
             f"sticks | slips\n{words}",
-            (edge, 22.0 if increments == 1 else 27.0),
+            (edge, 22.0 if words == "one increment" else 27.0),
             color=colour,
             fontsize=8,
             ha="center",

@@ -11,6 +11,7 @@ from signorini.engine.paper import formulate, solve_literally
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve
 from signorini.gallery.cylinder import HERTZ, RADIUS, E, zhu_cylinder
+from signorini.model.step import Step
 from signorini.reference.hertz import HertzLine
 from signorini.verify.check import Check
 
@@ -62,16 +63,25 @@ def refined() -> Iterator[Check]:
         )
 
 
-def history() -> Iterator[Check]:
-    """With friction the load history counts: 200 increments."""
-    found = solve(zhu_cylinder(friction=0.4, refine=4, increments=200)).contact("foundation")
+def exact_path() -> Iterator[Check]:
+    """With friction the load history counts: followed from event to event."""
+    step = solve(zhu_cylinder(friction=0.4, refine=8, steps=[Step(name="press", path="exact")])).last
+    case = "paper's cylinder, refined 8 times, exact path"
     yield Check(
-        case="paper's cylinder, refined 4 times",
-        quantity="p(0), mu 0.4, 200 increments",
-        computed=float(found.pressure[0]),
+        case=case,
+        quantity="p(0), mu 0.4",
+        computed=float(step.contacts[0].pressure[0]),
         reference=38.125,
-        tolerance=2e-3,
-        source=_REFINED + ", exact path 38.11-38.14",
+        tolerance=1e-3,
+        source=_REFINED + ", 38.11-38.14",
+    )
+    yield Check(
+        case=case,
+        quantity="work / (strain energy + dissipation)",
+        computed=step.work / (step.strain_energy + step.dissipation),
+        reference=1.0,
+        tolerance=1e-8,
+        source="first law",
     )
 
 

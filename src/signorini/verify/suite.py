@@ -20,11 +20,9 @@ QUICK: tuple[Case, ...] = (
     cylinder.paper_mesh,
     cylinder.refined,
     cylinder.literal_equals_compliance,
+    cylinder.exact_path,
 )
-SLOW: tuple[Case, ...] = (
-    cylinder.small_load,
-    cylinder.history,
-)
+SLOW: tuple[Case, ...] = (cylinder.small_load,)
 
 
 def run(slow: bool = False) -> list[dict[str, str | float | bool]]:
