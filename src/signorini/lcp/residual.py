@@ -161,9 +161,12 @@ def balance(magnitude: Any, n: int, *, sweeps: int = 12) -> tuple[Array, Array]:
 
 def _largest_in_columns(magnitude: Any, weights: Array) -> Array:
     """``max_i |M_ij| weights_i`` for every column j."""
-    if isinstance(magnitude, np.ndarray):
-        return np.asarray((magnitude * weights[:, None]).max(axis=0), dtype=float)
     largest = np.zeros(magnitude.shape[1])
+    if isinstance(magnitude, np.ndarray):
+        step = max(1, 20_000 // len(magnitude))  # a few rows at a time stay in the cache
+        for i in range(0, len(magnitude), step):
+            np.maximum(largest, (magnitude[i : i + step] * weights[i : i + step, None]).max(axis=0), out=largest)
+        return largest
     np.maximum.at(largest, magnitude.indices, magnitude.data * np.repeat(weights, np.diff(magnitude.indptr)))
     return largest
 
