@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 MORE, SOLVED, RAY, DOUBT = range(4)
 """Why a walk ended: for now; theta left; nothing blocks; theta is tied within rounding, to be judged outside."""
 
-DELAYED = 16
+DELAYED = 32
 """Pivots whose updates are applied together."""
 
 
