@@ -29,7 +29,7 @@ from signorini.model.model import Model
 def cylinder(n: int, rng: np.random.Generator) -> PosedLCP:
     """The paper's cylinder, about n / 3 pairs, in the gap-slip form; friction and load drawn."""
     pairs, friction = round(n / 3), rng.uniform(0.05, 0.6)
-    prepared = prepare(zhu_cylinder(friction=friction, contact_spacing=4.0 / max(8, 4 * (pairs // 5))))
+    prepared = prepare(zhu_cylinder(friction=friction, contact_spacing=4.0 / max(8, pairs - 6)))
     law = loaded(prepared.widened() if prepared.limited else prepared, rng.uniform(0.3, 1.5))
     return gap_slip_form(f"FE cylinder, {law.pairs} pairs, mu = {friction:.2f}", law)
 
