@@ -46,7 +46,7 @@ def rough_block(n: int, rng: np.random.Generator) -> PosedLCP:
     model = Model(
         replace(mesh, points=points),
         bodies=[Body("block", Elastic(E=100.0, nu=0.3))],
-        supports=[Support("top", u=(float(rng.uniform(-0.01, 0.01)), -float(rng.uniform(0.008, 0.02))))],
+        supports=[Support("top", u=(float(rng.uniform(-0.01, 0.01)), -float(rng.uniform(0.02, 0.04))))],
         contacts=[Contact("bottom", Plane(point=(0, 0), normal=(0, 1)), friction=friction, name="ground")],
     )
     prepared = prepare(model)

@@ -25,6 +25,14 @@ def loop_of_lemke() -> Any:
     return machine_walk
 
 
+@cache
+def loop_of_enumeration() -> Any:
+    """The machine code of ``lcp.screening.screen``, imported here for the same reason."""
+    from signorini.lcp.screening import machine_screen
+
+    return machine_screen
+
+
 def sweeps(
     start: IntArray,
     index: IntArray,
