@@ -21,6 +21,14 @@ from signorini.lcp.transform import principal_transform
 
 NOISE = 1e-14
 
+NEAR = 1e-6
+"""Of its largest value: where theta is below it at the end of a path, the end may be a solution hidden by a tie."""
+
+AS_NEAR_AS_ROUNDING = (
+    "A problem so near is solved by the candidate, and rounding in M and q may be as large: neither a solution nor a "
+    "ray. Ask for a looser tolerance, or give more accurate data."
+)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Lemke:
@@ -41,8 +49,9 @@ class Lemke:
     Notes
     -----
     Rows and columns are equilibrated by powers of two, which leaves the path what it is. With ``z0`` the path starts
-    from the basis of its positive components. The ray of a path that ends in one is returned; theta near 0 there is
-    polished and tested first, since it may be a solution hidden by a tie.
+    from the basis of its positive components. The ray of a path that ends in one is returned. Where theta is near 0
+    there, the end is polished and tested first, since it may be a solution hidden by a tie; one that misses the
+    tolerance is a ``BREAKDOWN``: a problem so near is solved, and rounding in the data may be as large.
 
     References
     ----------
@@ -169,13 +178,18 @@ class _Path:
     def _at_ray(self, entering: int, note: str) -> Attempt:
         """Test the end of the path for a solution hidden by a tie, then report the ray."""
         tableau = self.tableau
+        if not np.isfinite(tableau.rhs).all():
+            return self._ended(Status.NONFINITE, note)
         theta = tableau.values()[2]
         candidate = self._z_of(tableau.basic, np.maximum(tableau.rhs, 0.0))
-        if theta <= 1e-6 * self.largest_theta:
+        share = theta / self.largest_theta
+        if share <= NEAR:
             candidate, worst = self._polished(tableau.basic, tableau.rhs)
-            if worst <= self.tolerance:
-                note = f"{note} The path ended near theta = 0 in a tie; polished.".strip()
-                return Attempt(z=candidate, ending=Status.SOLVED, iterations=self.pivots, note=note)
+            solved = worst <= self.tolerance
+            said = "polished." if solved else f"{share:.1e} of its largest value. {AS_NEAR_AS_ROUNDING}"
+            ending = Status.SOLVED if solved else Status.BREAKDOWN
+            note = f"{note} The path ended in a tie near theta = 0: {said}".strip()
+            return Attempt(z=candidate, ending=ending, iterations=self.pivots, note=note)
         direction = np.zeros(2 * tableau.n + 1)
         direction[tableau.basic] = -tableau.column(entering)
         direction[entering] = 1.0
@@ -187,7 +201,7 @@ class _Path:
             theta=theta / self.scaled.unit,
             slope=float(direction[-1]) / self.scaled.unit,
         )
-        note = f"{note} theta is {theta / self.largest_theta:.1e} of its largest value at the ray.".strip()
+        note = f"{note} theta is {share:.1e} of its largest value at the ray.".strip()
         return Attempt(z=candidate, ending=Status.RAY_TERMINATION, iterations=self.pivots, note=note, ray=ray)
 
     def _covering(self) -> Array:
