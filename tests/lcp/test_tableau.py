@@ -8,7 +8,8 @@ import pytest
 
 from signorini import lcp
 from signorini.lcp import problems, walk
-from signorini.lcp.tableau import DELAYED, SOLVED, Tableau
+from signorini.lcp.reason import SOLVED
+from signorini.lcp.tableau import DELAYED, Tableau
 
 
 def started(n: int, seed: int) -> Tableau:
@@ -23,7 +24,9 @@ def test_delayed_updates_are_the_updates(limit):
     tableau = started(60, seed=4)
     entering = int(tableau.nonbasic[-1]) + 60
     for _ in range(4):
-        reason, entering, _, pivots = tableau.walk(entering, lcp.Lemke(), 1.0, limit, False)
+        reason, entering, _, pivots = tableau.walk(
+            entering, limit, theta_stays=False, pivot_tolerance=1e-11, tie_tolerance=1e-12, size=1.0
+        )
         assert pivots == min(limit, DELAYED) or reason == SOLVED
         walked = tableau.T.copy()
         assert tableau.refresh()

@@ -13,10 +13,11 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
 from signorini.lcp.active import polish
 from signorini.lcp.problem import LCP, read_vector
+from signorini.lcp.reason import DOUBT, RAY, SOLVED
 from signorini.lcp.scaling import Equilibrated, equilibrate
 from signorini.lcp.solution import Attempt, Ray
 from signorini.lcp.status import Status
-from signorini.lcp.tableau import DOUBT, RAY, SOLVED, Tableau
+from signorini.lcp.tableau import Tableau
 from signorini.lcp.transform import principal_transform
 
 NOISE = 1e-14
@@ -121,8 +122,14 @@ class _Path:
                 checked = self.pivots
                 if not self._sound():
                     return self._ended(Status.BREAKDOWN, note)
-            left = limit - self.pivots
-            reason, entering, row, pivots = tableau.walk(entering, self.options, self.largest_theta, left, theta_stays)
+            reason, entering, row, pivots = tableau.walk(
+                entering,
+                limit - self.pivots,
+                theta_stays=theta_stays,
+                pivot_tolerance=self.options.pivot_tolerance,
+                tie_tolerance=self.options.tie_tolerance,
+                size=self.largest_theta,
+            )
             self.pivots += pivots
             if reason == RAY:
                 return self._at_ray(entering, note)

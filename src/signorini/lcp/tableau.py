@@ -7,20 +7,12 @@ n + i, the artificial theta is 2 n. At the start B = (w_1 .. w_n), ``T = (-M, -d
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 import scipy.linalg as la
 from scipy.linalg.blas import dgemm
 
 from signorini.arrays import Array, IntArray
 from signorini.lcp.kernels import compiled, exchange, loop_of_lemke
-
-if TYPE_CHECKING:
-    from signorini.lcp.lemke import Lemke
-
-MORE, SOLVED, RAY, DOUBT = range(4)
-"""Why a walk ended: for now; theta left; nothing blocks; theta is tied within rounding, to be judged outside."""
 
 DELAYED = 32
 """Pivots whose updates are applied together."""
@@ -60,7 +52,16 @@ class Tableau:
         """Column of a nonbasic variable, a view: the basic ones fall at these rates as it grows."""
         return self.T[:, self.column_of[variable]]
 
-    def walk(self, entering: int, options: Lemke, size: float, limit: int, theta_stays: bool) -> tuple[int, ...]:
+    def walk(
+        self,
+        entering: int,
+        limit: int,
+        *,
+        theta_stays: bool,
+        pivot_tolerance: float,
+        tie_tolerance: float,
+        size: float,
+    ) -> tuple[int, int, int, int]:
         """Pivot along the complementary path, at most ``limit`` times (``lcp.walk.walk``)."""
         reason, entering, row, pivots = loop_of_lemke()(
             self.T,
@@ -74,8 +75,8 @@ class Tableau:
             entering,
             limit,
             theta_stays,
-            options.pivot_tolerance,
-            options.tie_tolerance,
+            pivot_tolerance,
+            tie_tolerance,
             size,
         )
         if pivots:

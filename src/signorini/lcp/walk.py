@@ -14,7 +14,7 @@ from typing import Any
 from numba import njit
 
 from signorini.arrays import Array, IntArray
-from signorini.lcp.tableau import DOUBT, MORE, RAY, SOLVED
+from signorini.lcp.reason import DOUBT, MORE, RAY, SOLVED
 
 
 def blocking(
