@@ -41,12 +41,14 @@ def rough_block(n: int, rng: np.random.Generator) -> PosedLCP:
     y = np.append(0.0, np.cumsum(np.geomspace(2.0 / pairs, 0.25, 14)))
     mesh = rectangle(x=x, y=y / y[-1])
     points = mesh.points.copy()
-    rough = 0.02 * x**2 + np.convolve(rng.standard_normal(pairs + 8), np.ones(9) / 9, "valid") * 2e-3
+    width = max(3, pairs // 12)  # the waves of the roughness are a twelfth of the block, whatever the mesh
+    waves = np.convolve(rng.standard_normal(pairs + width - 1), np.full(width, width**-0.5), "valid")
+    rough = 0.02 * x**2 + 1e-3 * waves
     points[:, 1] += (1.0 - points[:, 1]) * rough[np.searchsorted(x, points[:, 0] - 1e-12)]
     model = Model(
         replace(mesh, points=points),
         bodies=[Body("block", Elastic(E=100.0, nu=0.3))],
-        supports=[Support("top", u=(float(rng.uniform(-0.01, 0.01)), -float(rng.uniform(0.02, 0.04))))],
+        supports=[Support("top", u=(float(rng.uniform(-0.01, 0.01)), -float(rng.uniform(0.012, 0.022))))],
         contacts=[Contact("bottom", Plane(point=(0, 0), normal=(0, 1)), friction=friction, name="ground")],
     )
     prepared = prepare(model)
