@@ -126,3 +126,13 @@ def test_a_path_that_ends_within_rounding_of_theta_0_is_no_ray(seed):
     np.testing.assert_array_equal(strict.candidate, loose.z)
     assert "near theta = 0" in strict.message
     assert "of its largest value" in strict.message
+
+
+@pytest.mark.parametrize("make", [problems.frictional_contact, problems.gap_slip_contact])
+def test_theta_leaves_first_in_ties(make):
+    """At an open pair two rows reach 0 together with theta; the textbook choice goes on to the end of the path."""
+    for seed in range(20):
+        posed = make(10, np.random.default_rng(seed))
+        solution = lcp.solve(posed.M, posed.q, method=lcp.Lemke(covering=posed.covering))
+        assert solution.solved
+        assert "near theta = 0" not in solution.message
