@@ -8,6 +8,7 @@ import pytest
 
 from signorini import lcp
 from signorini.errors import InputError
+from signorini.lcp import problems
 
 KOSTREVA_CYCLING = np.array([[1.0, 2, 0], [0, 1, 2], [2, 0, 1]])
 KOSTREVA_UNSOLVABLE = np.array([[1.0, -1, 3], [2, -1, 3], [-1, -2, 0]])
@@ -109,3 +110,29 @@ def test_unknown_method_and_bad_covering_vector():
         lcp.solve([[1.0]], [1.0], method="lemkee")
     with pytest.raises(InputError, match=r"covering: is 0\.0 in row 1"):
         lcp.solve(np.eye(2), [1.0, -1.0], method=lcp.Lemke(covering=[1, 0]))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_path_that_ends_within_rounding_of_theta_0_is_no_ray(seed):
+    """No pressure at open pairs, so the two slip rows of a pair are 0 together; here rounding makes them negative."""
+    posed = problems.gap_slip_contact(8, np.random.default_rng(seed))
+    q = posed.q - np.repeat([0.0, 1e-8], [8, 16]) * np.abs(posed.q).max()
+    method = lcp.Lemke(covering=posed.covering)
+    strict, loose = (lcp.solve(posed.M, q, method=method, tolerance=t) for t in (1e-9, 1e-5))
+    assert loose.solved
+    assert strict.status is lcp.Status.BREAKDOWN
+    assert strict.ray is None
+    assert strict.residual.worst < 1e-6
+    np.testing.assert_array_equal(strict.candidate, loose.z)
+    assert "near theta = 0" in strict.message
+    assert "of its largest value" in strict.message
+
+
+@pytest.mark.parametrize("make", [problems.frictional_contact, problems.gap_slip_contact])
+def test_theta_leaves_first_in_ties(make):
+    """At an open pair two rows reach 0 together with theta; the textbook choice goes on to the end of the path."""
+    for seed in range(20):
+        posed = make(10, np.random.default_rng(seed))
+        solution = lcp.solve(posed.M, posed.q, method=lcp.Lemke(covering=posed.covering))
+        assert solution.solved
+        assert "near theta = 0" not in solution.message

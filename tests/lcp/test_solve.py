@@ -11,6 +11,7 @@ import pytest
 
 from signorini import lcp
 from signorini.errors import InputError
+from signorini.lcp import problems
 from signorini.lcp.solution import Attempt
 
 M, q = np.array([[2.0, 1.0], [1.0, 2.0]]), np.array([-5.0, -6.0])
@@ -74,3 +75,14 @@ def test_a_start_fits_and_is_finite(z0):
 def test_every_status_says_what_happened(status):
     assert len(status.value) > 40
     assert status.value.endswith(".")
+
+
+def test_auto_starts_with_lemke_where_two_multipliers_rise_together():
+    """The gap-slip form, whose bases are often singular, at a size where other matrices start with a factorisation."""
+    n = 510
+    posed = problems.gap_slip_contact(n, np.random.default_rng(5), friction=3.0)
+    solution = lcp.solve(posed.M, posed.q)
+    assert solution.solved
+    assert solution.chain == (f"lemke: SOLVED after {solution.iterations} iterations",)
+    other = problems.random_p(3 * n, np.random.default_rng(5))
+    assert lcp.solve(other.M, other.q).method == "block-pivoting"

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator
 
+from signorini.arrays import Array
 from signorini.lcp.block import BlockPivoting
 from signorini.lcp.classes import is_symmetric
 from signorini.lcp.enumeration import Enumeration
@@ -20,7 +20,10 @@ from signorini.lcp.problem import LCP
 from signorini.lcp.relaxation import ProjectedSOR
 
 SMALL = 60
-"""Up to here Lemke's method takes a few milliseconds and is tried first."""
+"""Up to here a sparse matrix is treated as a dense one."""
+
+MEDIUM = 1500
+"""Up to here Lemke's method is at least as fast as a few factorisations, and tried first."""
 
 LARGE = 5000
 """From here on a dense tableau is the last resort."""
@@ -29,28 +32,48 @@ LARGE = 5000
 def methods_for(problem: LCP) -> list[Method]:
     """The chain of ``method="auto"``.
 
-    Small: Lemke, which ends by itself. Dense: block pivoting (a few factorisations where it works), Newton, Lemke,
+    Dense: Lemke first, which ends by itself, to n = 1500, and to n = 5000 where M looks like frictional contact, whose
+    bases are often singular; otherwise block pivoting first (a few factorisations where it works); then Newton and
     interior point. Large, sparse and symmetric: multigrid and MPRGP first. An operator: MPRGP, the only one that needs
-    products alone. Enumeration closes the chain to n = 12, and so does a Lemke path with another covering vector.
+    products alone. A Lemke path with another covering vector closes the chain, and enumeration to n = 12.
 
     Examples
     --------
     >>> from signorini.lcp.problem import read_problem
     >>> [method.name for method in methods_for(read_problem(np.eye(100), np.ones(100)))]
+    ['lemke', 'block-pivoting', 'newton', 'interior-point', 'lemke']
+    >>> [method.name for method in methods_for(read_problem(np.eye(2000), np.ones(2000)))]
     ['block-pivoting', 'newton', 'lemke', 'interior-point', 'lemke']
     """
     if isinstance(problem.M, LinearOperator):
         return [MPRGP()]
     direct: list[Method] = [BlockPivoting(max_steps=40), SemismoothNewton(max_steps=60)]
     other = np.random.default_rng(0).uniform(1.0, 2.0, problem.n) * problem.sizes[0]
-    pivoting: list[Method] = [Lemke(), InteriorPoint(), Lemke(covering=other)]
-    if problem.n <= SMALL:
+    others: list[Method] = [InteriorPoint(), Lemke(covering=other)]
+    if isinstance(problem.M, np.ndarray) or problem.n <= SMALL:
         last: list[Method] = [Enumeration()] if problem.n <= 12 else []
-        return [pivoting[0], *direct, *pivoting[1:], *last]
-    if not sp.issparse(problem.M):
-        return [*direct, *pivoting]
+        if problem.n <= MEDIUM or (problem.n <= LARGE and looks_like_friction(problem.M)):
+            return [Lemke(max_pivots=10 * problem.n + 1000), *direct, *others, *last]
+        return [*direct, Lemke(), *others]
     positive = bool((problem.M.diagonal() > 0).all())
     if positive and problem.n > LARGE and is_symmetric(problem.M):
         return [ProjectedMultigrid(), MPRGP(), *direct, InteriorPoint()]
     sweeps: list[Method] = [ProjectedSOR()] if positive and problem.n > LARGE else []
-    return [*direct, InteriorPoint(), *sweeps, *(pivoting if problem.n <= LARGE else [])]
+    return [*direct, InteriorPoint(), *sweeps, *([Lemke(), *others] if problem.n <= LARGE else [])]
+
+
+def looks_like_friction(M: Array) -> bool:
+    """Whether there is a zero on the diagonal, or two columns are opposite: multipliers of slip either way. Cost: n^2.
+
+    Examples
+    --------
+    >>> looks_like_friction(np.array([[3.0, 1.0, -1.0], [1.0, 2.0, -2.0], [0.0, -2.0, 2.0]]))
+    True
+    >>> looks_like_friction(np.array([[3.0, 1.0], [1.0, 2.0]]))
+    False
+    """
+    if not np.diag(M).all():
+        return True
+    sums = np.random.default_rng(0).uniform(1.0, 2.0, len(M)) @ M
+    sums = sums[np.argsort(np.abs(sums))]
+    return bool((np.abs(sums[1:] + sums[:-1]) <= 1e-10 * np.abs(sums[1:])).any())

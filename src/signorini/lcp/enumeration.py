@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import combinations, islice
 from typing import Any, ClassVar
 
 import numpy as np
@@ -14,11 +13,15 @@ from scipy.optimize import linprog
 
 from signorini.arrays import Array, BoolArray, IntArray, frozen
 from signorini.errors import InputError
+from signorini.lcp.kernels import loop_of_enumeration
 from signorini.lcp.problem import LCP, read_problem
 from signorini.lcp.solution import Attempt
 from signorini.lcp.status import Status
 
 LARGEST = 20
+
+BATCH = 4096
+"""Supports that are solved for at once."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,7 +88,8 @@ def all_solutions(M: Any, q: ArrayLike, *, tolerance: float = 1e-11) -> tuple[Fa
 
     Notes
     -----
-    Regular principal blocks are solved in batches. A singular block is kept where q is in its range and a linear
+    A compiled loop refuses the supports that clearly hold nothing; the regular blocks of the others are solved in
+    batches. A singular block is kept where q is in its range and a linear
     program finds a point with z > 0 on the support; the solutions then form a face, given by a point and directions.
 
     Examples
@@ -109,11 +113,17 @@ def _faces(problem: LCP, tolerance: float, *, only_first: bool) -> list[Face]:
     A, q = M * columns / rows[:, None], problem.q / rows
     unit = float(np.abs(q).max()) or 1.0
     q = q / unit
+    maybe = np.empty(2**problem.n, dtype=bool)
+    loop_of_enumeration()(A, q, tolerance, maybe)
+    masks = np.flatnonzero(maybe)
+    members = (masks[:, None] >> np.arange(problem.n)) & 1
+    sizes = members.sum(axis=1)
     faces = []
-    for size in range(problem.n + 1):
-        remaining = combinations(range(problem.n), size)
-        while chunk := tuple(islice(remaining, 4096)):
-            supports = np.array(chunk, dtype=np.int64).reshape(len(chunk), size)
+    for size in np.unique(sizes):
+        remaining = members[sizes == size]
+        for k in range(0, len(remaining), BATCH):
+            batch = remaining[k : k + BATCH]
+            supports = np.nonzero(batch)[1].reshape(len(batch), size)
             for face in _on_supports(A, q, supports, tolerance):
                 z = columns * face.z * unit
                 directions = la.orth(columns[:, None] * face.directions) if face.dimension else face.directions

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The compiled loops: relaxation sweeps, aggregation of a graph, and the pivot of a tableau with its ratio test."""
+"""The compiled loops: relaxation sweeps, aggregation of a graph, and the pivot of a tableau."""
 
 from __future__ import annotations
 
-import math
 from functools import cache
 from typing import Any
 
@@ -16,6 +15,22 @@ def compiled(loop: Any) -> Any:
     from numba import njit
 
     return njit(cache=True, nogil=True)(loop)
+
+
+@cache
+def loop_of_lemke() -> Any:
+    """The machine code of ``lcp.walk.walk``, imported here for the same reason."""
+    from signorini.lcp.walk import machine_walk
+
+    return machine_walk
+
+
+@cache
+def loop_of_enumeration() -> Any:
+    """The machine code of ``lcp.screening.screen``, imported here for the same reason."""
+    from signorini.lcp.screening import machine_screen
+
+    return machine_screen
 
 
 def sweeps(
@@ -109,36 +124,3 @@ def exchange(T: Array, row: int, at: int) -> None:
             for i in range(n):
                 T[i, j] -= factor * column[i]
             T[row, j] = factor
-
-
-def blocking_rows(
-    T: Array, at: int, pivot_tolerance: float, tie_tolerance: float, size: float, rows: IntArray
-) -> tuple[int, float]:
-    """Write the rows that stop the entering variable first, ties included; returns their number and the step.
-
-    Parameters
-    ----------
-    T, at : the tableau and the column of the entering variable; its last column holds the values of the basic ones
-    pivot_tolerance : rates below it, relative to the largest, do not count
-    tie_tolerance, size : values left over below their product, less at small rates, are ties
-    rows : (n,) filled from the front
-    """
-    n = len(T)
-    column, rhs = T[:, at], T[:, -1]
-    largest, highest = 1.0, size
-    for i in range(n):
-        largest = max(largest, abs(column[i]))
-        highest = max(highest, abs(rhs[i]))
-    step = math.inf
-    for i in range(n):
-        if column[i] > pivot_tolerance * largest:
-            step = min(step, max(rhs[i], 0.0) / column[i])
-    count = 0
-    for i in range(n):
-        rate = column[i]
-        if rate > pivot_tolerance * largest:
-            left = max(rhs[i], 0.0) - step * rate
-            if left <= tie_tolerance * highest * min(1.0, rate):
-                rows[count] = i
-                count += 1
-    return count, step

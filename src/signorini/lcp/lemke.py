@@ -13,6 +13,7 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
 from signorini.lcp.active import polish
 from signorini.lcp.problem import LCP, read_vector
+from signorini.lcp.reason import DOUBT, RAY, SOLVED
 from signorini.lcp.scaling import Equilibrated, equilibrate
 from signorini.lcp.solution import Attempt, Ray
 from signorini.lcp.status import Status
@@ -20,6 +21,14 @@ from signorini.lcp.tableau import Tableau
 from signorini.lcp.transform import principal_transform
 
 NOISE = 1e-14
+
+NEAR = 1e-6
+"""Of its largest value: where theta is below it at the end of a path, the end may be a solution hidden by a tie."""
+
+AS_NEAR_AS_ROUNDING = (
+    "A problem so near is solved by the candidate, and rounding in M and q may be as large: neither a solution nor a "
+    "ray. Ask for a looser tolerance, or give more accurate data."
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,8 +50,9 @@ class Lemke:
     Notes
     -----
     Rows and columns are equilibrated by powers of two, which leaves the path what it is. With ``z0`` the path starts
-    from the basis of its positive components. The ray of a path that ends in one is returned; theta near 0 there is
-    polished and tested first, since it may be a solution hidden by a tie.
+    from the basis of its positive components. The ray of a path that ends in one is returned. Where theta is near 0
+    there, the end is polished and tested first, since it may be a solution hidden by a tie; one that misses the
+    tolerance is a ``BREAKDOWN``: a problem so near is solved, and rounding in the data may be as large.
 
     References
     ----------
@@ -96,7 +106,6 @@ class _Path:
         self.options, self.tableau, self.tolerance, self.basis = options, tableau, tolerance, basis
         self.pivots = 0
         self.largest_theta = 0.0
-        self.theta = 2 * tableau.n
         self.confirmed: Array | None = None
 
     def follow(self, problem: LCP, M: Array, scaled: Equilibrated, note: str) -> Attempt:
@@ -105,49 +114,45 @@ class _Path:
         tableau, n = self.tableau, self.tableau.n
         if (tableau.rhs >= 0).all():
             return self._ended(Status.SOLVED, note)
-        first = np.flatnonzero(tableau.d > 0)
-        ratios = tableau.q[first] / tableau.d[first]
-        self.largest_theta = -float(ratios.min())
-        ties = first[ratios <= ratios.min() + self.options.tie_tolerance * self.largest_theta]
-        row = tableau.least_lexicographic(ties, tableau.d[ties], 0.0)
-        left = self._exchange(row, self.theta)
+        entering = self._first_pivot()
         limit = self.options.max_pivots or 100 * n + 1000
+        theta_stays, checked = False, 0
         while self.pivots < limit:
-            entering = left + n if left < n else left - n
-            if self.pivots % self.options.check_every == 0 and not self._sound():
-                return self._ended(Status.BREAKDOWN, note)
-            row = self._leaving_row(entering)
-            if row < 0:
+            if self.pivots - checked >= self.options.check_every:
+                checked = self.pivots
+                if not self._sound():
+                    return self._ended(Status.BREAKDOWN, note)
+            reason, entering, row, pivots = tableau.walk(
+                entering,
+                limit - self.pivots,
+                theta_stays=theta_stays,
+                pivot_tolerance=self.options.pivot_tolerance,
+                tie_tolerance=self.options.tie_tolerance,
+                size=self.largest_theta,
+            )
+            self.pivots += pivots
+            if reason == RAY:
                 return self._at_ray(entering, note)
-            left = self._exchange(row, entering)
-            if left == self.theta:
+            if reason == SOLVED or (reason == DOUBT and self._would_solve(entering, row)):
                 return self._ended(Status.SOLVED, note)
+            theta_stays = reason == DOUBT
         return self._ended(Status.MAX_ITERATIONS, note)
 
-    def _exchange(self, row: int, entering: int) -> int:
-        self.pivots += 1
-        return self.tableau.pivot(row, entering)
+    def _first_pivot(self) -> int:
+        """Bring theta in, where q / d is least, the last row in ties (the lexicographic rule); what enters next."""
+        tableau, n = self.tableau, self.tableau.n
+        first = np.flatnonzero(tableau.d > 0)
+        ratios = tableau.q[first] / tableau.d[first]
+        least = float(ratios.min())
+        self.largest_theta = -least
+        row = first[np.flatnonzero(ratios <= least - self.options.tie_tolerance * least)[-1]]
+        self.pivots = 1
+        return tableau.pivot(int(row), 2 * n) + n
 
     def _sound(self) -> bool:
         """Refactor where rounding shows; False where that does not help."""
         drift = self.tableau.drift()
         return bool(drift <= 1e-10) or (bool(np.isfinite(drift)) and self.tableau.refresh())
-
-    def _leaving_row(self, entering: int) -> int:
-        """Row of the lexicographic ratio test, with theta first in ties; -1 where nothing blocks."""
-        tableau, options = self.tableau, self.options
-        rows, step = tableau.blocking(entering, options.pivot_tolerance, options.tie_tolerance, self.largest_theta)
-        if len(rows) <= 1:
-            return int(rows[0]) if len(rows) else -1
-        rates = tableau.column(entering)[rows]
-        theta_row = int(tableau.row_of[self.theta])
-        theta_tied = rows == theta_row
-        if theta_tied.any():
-            strict = max(tableau.rhs[theta_row], 0.0) <= step * float(rates[theta_tied][0])
-            if strict or self._would_solve(entering, theta_row):
-                return theta_row
-            rows, rates = rows[~theta_tied], rates[~theta_tied]
-        return tableau.least_lexicographic(rows, rates, options.tie_tolerance)
 
     def _would_solve(self, entering: int, row: int) -> bool:
         """Whether the basis with theta gone is a solution, or theta is tied only within the tolerance."""
@@ -180,13 +185,18 @@ class _Path:
     def _at_ray(self, entering: int, note: str) -> Attempt:
         """Test the end of the path for a solution hidden by a tie, then report the ray."""
         tableau = self.tableau
+        if not np.isfinite(tableau.rhs).all():
+            return self._ended(Status.NONFINITE, note)
         theta = tableau.values()[2]
         candidate = self._z_of(tableau.basic, np.maximum(tableau.rhs, 0.0))
-        if theta <= 1e-6 * self.largest_theta:
+        share = theta / self.largest_theta
+        if share <= NEAR:
             candidate, worst = self._polished(tableau.basic, tableau.rhs)
-            if worst <= self.tolerance:
-                note = f"{note} The path ended near theta = 0 in a tie; polished.".strip()
-                return Attempt(z=candidate, ending=Status.SOLVED, iterations=self.pivots, note=note)
+            solved = worst <= self.tolerance
+            said = "polished." if solved else f"{share:.1e} of its largest value. {AS_NEAR_AS_ROUNDING}"
+            ending = Status.SOLVED if solved else Status.BREAKDOWN
+            note = f"{note} The path ended in a tie near theta = 0: {said}".strip()
+            return Attempt(z=candidate, ending=ending, iterations=self.pivots, note=note)
         direction = np.zeros(2 * tableau.n + 1)
         direction[tableau.basic] = -tableau.column(entering)
         direction[entering] = 1.0
@@ -198,7 +208,7 @@ class _Path:
             theta=theta / self.scaled.unit,
             slope=float(direction[-1]) / self.scaled.unit,
         )
-        note = f"{note} theta is {theta / self.largest_theta:.1e} of its largest value at the ray.".strip()
+        note = f"{note} theta is {share:.1e} of its largest value at the ray.".strip()
         return Attempt(z=candidate, ending=Status.RAY_TERMINATION, iterations=self.pivots, note=note, ray=ray)
 
     def _covering(self) -> Array:

@@ -6,6 +6,7 @@ What a residual is stands here and nowhere else, so that solvers, tests and user
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -33,8 +34,8 @@ class Residual:
     @property
     def worst(self) -> float:
         """The number that a tolerance is compared with; infinite where an entry is not a number."""
-        numbers = np.array([self.primal, self.dual, self.complementarity])
-        return float(numbers.max()) if np.isfinite(numbers).all() else np.inf
+        numbers = (self.primal, self.dual, self.complementarity)
+        return max(numbers) if all(map(math.isfinite, numbers)) else math.inf
 
 
 def natural_residual(M: Matrix, q: Array, z: Array) -> Residual:
@@ -121,14 +122,15 @@ class Yardstick:
     def sizes(self, z: Array) -> tuple[Array, Array]:
         """(unit, w): what z is multiplied by in ``natural_residual``, and w divided by its sizes."""
         with np.errstate(over="ignore", invalid="ignore"):
-            product = self.M @ z
+            product, q = self.M @ z, np.abs(self.q)
             terms = np.abs(product).max() if self.magnitude is None else self.magnitude @ np.abs(z)
-            data = float((np.abs(self.q) / self.rows).max(initial=0.0))
-            size = (np.abs(self.q) + terms) / self.rows
-            size = np.minimum(size, LARGEST_GROWTH * data if data > 0 else np.inf)
+            data = (q / self.rows).max(initial=0.0)
+            size = (q + terms) / self.rows
+            if data > 0:
+                np.minimum(size, LARGEST_GROWTH * data, out=size)
             size = _or_one(self.rows * np.maximum(size, NOISE_FLOOR * size.max(initial=0.0)))
             w = (product + self.q) / size
-            unit = 1.0 / _or_one(np.abs(z).max(initial=0.0, keepdims=True)) * np.ones(len(z))
+            unit = np.full(len(z), 1.0 / (np.abs(z).max(initial=0.0) or 1.0))
             if self.magnitude is not None:
                 column = _largest_in_columns(self.magnitude, 1.0 / size)
                 unit = np.where(column > 0, column, unit)
@@ -161,9 +163,12 @@ def balance(magnitude: Any, n: int, *, sweeps: int = 12) -> tuple[Array, Array]:
 
 def _largest_in_columns(magnitude: Any, weights: Array) -> Array:
     """``max_i |M_ij| weights_i`` for every column j."""
-    if isinstance(magnitude, np.ndarray):
-        return np.asarray((magnitude * weights[:, None]).max(axis=0), dtype=float)
     largest = np.zeros(magnitude.shape[1])
+    if isinstance(magnitude, np.ndarray):
+        step = max(1, 20_000 // len(magnitude))  # a few rows at a time stay in the cache
+        for i in range(0, len(magnitude), step):
+            np.maximum(largest, (magnitude[i : i + step] * weights[i : i + step, None]).max(axis=0), out=largest)
+        return largest
     np.maximum.at(largest, magnitude.indices, magnitude.data * np.repeat(weights, np.diff(magnitude.indptr)))
     return largest
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,16 +50,20 @@ def equilibrate(M: Array, q: Array, row_sizes: Array, column_sizes: Array) -> Eq
     [0.9 1.1]
     """
     rows, columns = _power_of_two(1.0 / row_sizes), _power_of_two(column_sizes)
-    scaled = M * rows[:, None] * columns
-    factor = _power_of_two(1.0 / _or_one(np.abs(scaled).max(keepdims=True)).ravel())
-    rows, q = rows * factor, rows * factor * q
-    unit = float(_power_of_two(1.0 / _or_one(np.abs(q).max(keepdims=True)))[0])
-    return Equilibrated(M=scaled * factor, q=q * unit, rows=rows, columns=columns, unit=unit)
+    scaled = M * rows[:, None]
+    scaled *= columns
+    factor = _to_one(max(float(scaled.max()), -float(scaled.min())))
+    scaled *= factor
+    rows = rows * factor
+    q = rows * q
+    unit = _to_one(float(np.abs(q).max()))
+    return Equilibrated(M=scaled, q=q * unit, rows=rows, columns=columns, unit=unit)
 
 
 def _power_of_two(values: Array) -> Array:
     return np.exp2(np.round(np.log2(values)))
 
 
-def _or_one(size: Array) -> Array:
-    return np.where(size > 0, size, 1.0)
+def _to_one(size: float) -> float:
+    """The power of two that brings a size near 1."""
+    return 2.0 ** round(math.log2(1.0 / size)) if size > 0 else 1.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The condensed tableau of Lemke's method: one rank-one update a pivot, in place.
+"""The condensed tableau of the pivoting methods, edited in place.
 
 The basic variables are ``x_B = rhs - T x_N`` with n + 1 nonbasic ones in N. Variables are numbered: w_i is i, z_i is
 n + i, the artificial theta is 2 n. At the start B = (w_1 .. w_n), ``T = (-M, -d)`` and ``rhs = q``.
@@ -9,9 +9,13 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.linalg as la
+from scipy.linalg.blas import dgemm
 
 from signorini.arrays import Array, IntArray
-from signorini.lcp.kernels import blocking_rows, compiled, exchange
+from signorini.lcp.kernels import compiled, exchange, loop_of_lemke
+
+DELAYED = 32
+"""Pivots whose updates are applied together."""
 
 
 class Tableau:
@@ -28,14 +32,15 @@ class Tableau:
         n = len(q)
         self.n, self.M, self.q, self.d = n, M, q, d
         self.T = np.empty((n, n + 2), order="F")
-        self.T[:, :n], self.T[:, n], self.T[:, n + 1] = -M, -d, q
+        np.negative(M, out=self.T[:, :n])
+        self.T[:, n], self.T[:, n + 1] = -d, q
         self.basic: IntArray = np.arange(n)
         self.nonbasic: IntArray = np.arange(n, 2 * n + 1)
-        self.column_of = np.full(2 * n + 1, -1)
-        self.column_of[self.nonbasic] = np.arange(n + 1)
-        self.row_of = np.full(2 * n + 1, -1)
-        self.row_of[self.basic] = np.arange(n)
-        self._exchange, self._blocking_rows = compiled(exchange), compiled(blocking_rows)
+        self.column_of = np.arange(-n, n + 1)
+        self.column_of[:n] = -1
+        self.row_of = np.arange(2 * n + 1)
+        self.row_of[n:] = -1
+        self._U, self._V = np.empty((n, DELAYED), order="F"), np.empty((DELAYED, n + 2))
         self._rows: IntArray = np.empty(n, dtype=np.int64)
 
     @property
@@ -47,18 +52,41 @@ class Tableau:
         """Column of a nonbasic variable, a view: the basic ones fall at these rates as it grows."""
         return self.T[:, self.column_of[variable]]
 
-    def blocking(
-        self, variable: int, pivot_tolerance: float, tie_tolerance: float, size: float
-    ) -> tuple[IntArray, float]:
-        """Rows that stop an entering variable first, and how far it comes (``blocking_rows``)."""
-        at = self.column_of[variable]
-        count, step = self._blocking_rows(self.T, at, pivot_tolerance, tie_tolerance, size, self._rows)
-        return self._rows[:count], float(step)
+    def walk(
+        self,
+        entering: int,
+        limit: int,
+        *,
+        theta_stays: bool,
+        pivot_tolerance: float,
+        tie_tolerance: float,
+        size: float,
+    ) -> tuple[int, int, int, int]:
+        """Pivot along the complementary path, at most ``limit`` times (``lcp.walk.walk``)."""
+        reason, entering, row, pivots = loop_of_lemke()(
+            self.T,
+            self._U,
+            self._V,
+            self.basic,
+            self.nonbasic,
+            self.column_of,
+            self.row_of,
+            self._rows,
+            entering,
+            limit,
+            theta_stays,
+            pivot_tolerance,
+            tie_tolerance,
+            size,
+        )
+        if pivots:
+            dgemm(-1.0, self._U[:, :pivots], self._V[:pivots].T, 1.0, self.T, trans_b=True, overwrite_c=True)
+        return reason, entering, row, pivots
 
     def pivot(self, row: int, variable: int) -> int:
         """Exchange the basic variable of the row with a nonbasic one; returns the variable that left."""
         at = int(self.column_of[variable])
-        self._exchange(self.T, row, at)
+        compiled(exchange)(self.T, row, at)
         left = int(self.basic[row])
         self.basic[row], self.nonbasic[at] = variable, left
         self.row_of[variable], self.row_of[left] = row, -1
@@ -85,30 +113,3 @@ class Tableau:
             return False
         self.T = np.asfortranarray(la.lu_solve(factors, full[:, np.append(self.nonbasic, 2 * self.n + 1)]))
         return True
-
-    def least_lexicographic(self, rows: IntArray, divisors: Array, tolerance: float) -> int:
-        """Row, among the given ones, whose row of the basis inverse over its divisor is lexicographically least.
-
-        Column j of the basis inverse is the column of w_j, a unit vector where w_j is basic. Entries closer than the
-        tolerance count as equal.
-        """
-        if len(rows) == 1:
-            return int(rows[0])
-        w_columns = self.column_of[: self.n]
-        inverse = np.zeros((len(rows), self.n))
-        nonbasic = np.flatnonzero(w_columns >= 0)
-        inverse[:, nonbasic] = self.T[np.ix_(rows, w_columns[nonbasic])]
-        is_w = self.basic[rows] < self.n
-        inverse[np.flatnonzero(is_w), self.basic[rows[is_w]]] = 1.0
-        inverse /= divisors[:, None]
-        start = 0
-        while len(rows) > 1:
-            spread = inverse[:, start:].max(axis=0) - inverse[:, start:].min(axis=0)
-            differing = np.flatnonzero(spread > tolerance)
-            if not len(differing):
-                break
-            start += int(differing[0])
-            keep = inverse[:, start] <= inverse[:, start].min() + tolerance
-            rows, inverse = rows[keep], inverse[keep]
-            start += 1
-        return int(rows[0])

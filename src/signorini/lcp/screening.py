@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The compiled loop of enumeration: which of all 2^n supports cannot hold a solution, with room for rounding."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from signorini.arrays import Array, BoolArray, IntArray
+
+CLEARLY, BARELY, SINGULAR = 1e-9, 1e-13, 1e-6
+"""Pivots over the first: trusted above, 0 below; and what may remain of q where the block is singular."""
+
+
+def eliminate(block: Array, size: int, order: IntArray) -> int:
+    """Gauss elimination of ``block[:size, :size + 1]`` with complete pivoting; returns the rank.
+
+    The rank counts the pivots above ``BARELY`` times the first. The last column is the right-hand side; ``order``
+    receives the unknown of every column.
+    """
+    for j in range(size):
+        order[j] = j
+    first = 0.0
+    for step in range(size):
+        row, column, largest = step, step, 0.0
+        for i in range(step, size):
+            for j in range(step, size):
+                if abs(block[i, j]) > largest:
+                    row, column, largest = i, j, abs(block[i, j])
+        if step == 0:
+            first = largest
+        if largest <= BARELY * first:
+            return step
+        if row != step:
+            for j in range(step, size + 1):
+                block[step, j], block[row, j] = block[row, j], block[step, j]
+        if column != step:
+            for i in range(size):
+                block[i, step], block[i, column] = block[i, column], block[i, step]
+            order[step], order[column] = order[column], order[step]
+        for i in range(step + 1, size):
+            factor = block[i, step] / block[step, step]
+            if factor != 0.0:
+                for j in range(step + 1, size + 1):
+                    block[i, j] -= factor * block[step, j]
+    return size
+
+
+def substitute_back(block: Array, size: int, rank: int) -> float:
+    """Solve for the first ``rank`` unknowns after ``eliminate``; returns the largest of them with the others 0, or 1.
+
+    Row k then reads ``x_k = block[k, size] - sum_j block[k, j] x_j`` over the free unknowns ``rank <= j < size``.
+    """
+    scale = 1.0
+    for column in range(rank, size + 1):
+        for k in range(rank - 1, -1, -1):
+            x = block[k, column]
+            for j in range(k + 1, rank):
+                x -= block[k, j] * block[j, column]
+            block[k, column] = x / block[k, k]
+            if column == size:
+                scale = max(scale, abs(block[k, size]))
+    return scale
+
+
+def may_hold(A: Array, q: Array, support: IntArray, size: int, tolerance: float, block: Array, order: IntArray) -> bool:
+    """Whether a solution may have its positive components exactly on ``support[:size]``.
+
+    A block is refused where q is far from its range, or where a z or w that its null space leaves alone is negative,
+    each by more than the rounding of so conditioned a block; a block that is barely regular is never refused.
+    """
+    for i in range(size):
+        for j in range(size):
+            block[i, j] = A[support[i], support[j]]
+        block[i, size] = -q[support[i]]
+    rank = _eliminate(block, size, order)
+    condition = abs(block[0, 0] / block[rank - 1, rank - 1]) if rank > 0 else 1.0
+    if condition * CLEARLY >= 1.0:
+        return True
+    scale = _substitute_back(block, size, rank)
+    left = 0.0
+    for i in range(rank, size):
+        left = max(left, abs(block[i, size]))
+    if left > SINGULAR * scale:
+        return False
+    room = (tolerance + 1e-14 * size * condition) * scale
+    for k in range(rank):
+        moved = 0.0
+        for free in range(rank, size):
+            moved = max(moved, abs(block[k, free]))
+        if moved <= CLEARLY and block[k, size] < -room:
+            return False
+    for i in range(len(q)):
+        w, sum_of_row, moved = q[i], 1.0, 0.0
+        for k in range(rank):
+            entry = A[i, support[order[k]]]
+            w += entry * block[k, size]
+            sum_of_row += abs(entry)
+        for free in range(rank, size):
+            slope = A[i, support[order[free]]]
+            for k in range(rank):
+                slope -= A[i, support[order[k]]] * block[k, free]
+            moved = max(moved, abs(slope))
+        if moved <= CLEARLY and w < -room * sum_of_row:
+            return False
+    return True
+
+
+def screen(A: Array, q: Array, tolerance: float, maybe: BoolArray) -> None:
+    """Write into ``maybe[mask]`` whether a solution may have its positive components exactly on the bits of the mask.
+
+    Parameters
+    ----------
+    A, q : balanced data of n rows, entries near 1
+    tolerance : values below it, relative to the largest, may be 0
+    maybe : (2^n,)
+    """
+    n = len(q)
+    block, support, order = np.empty((n, n + 1)), np.empty(n, np.int64), np.empty(n, np.int64)
+    for mask in range(1 << n):
+        size = 0
+        for i in range(n):
+            if (mask >> i) & 1:
+                support[size] = i
+                size += 1
+        maybe[mask] = _may_hold(A, q, support, size, tolerance, block, order)
+
+
+_eliminate: Any = njit(eliminate, cache=True)
+_substitute_back: Any = njit(substitute_back, cache=True)
+_may_hold: Any = njit(may_hold, cache=True)
+
+machine_screen: Any = njit(screen, cache=True, nogil=True)
+"""The machine code of the loop."""

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Screened enumeration finds what enumeration of every support finds, and only clear cases are screened away."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from signorini import lcp
+from signorini.lcp import problems, screening
+from signorini.lcp.kernels import loop_of_enumeration
+
+
+def everything(A, q, tolerance, maybe):  # noqa: ARG001
+    maybe[:] = True
+
+
+def described(M, q):
+    return [(face.support, face.dimension, face.z.round(7).tolist()) for face in lcp.all_solutions(M, q)]
+
+
+def small_integers(rng: np.random.Generator, kind: int) -> tuple[np.ndarray, np.ndarray]:
+    """Matrices full of singular blocks, exact zeros and ties."""
+    n = int(rng.integers(1, 6))
+    B = rng.integers(-1, 2, (n, int(rng.integers(1, n + 1)))).astype(float)
+    M = (B @ B.T, rng.integers(-1, 3, (n, n)).astype(float), B @ B.T + np.triu(np.ones((n, n)), 1))[kind]
+    return M, rng.integers(-2, 2, n).astype(float)
+
+
+@pytest.mark.parametrize("kind", range(3))
+@pytest.mark.parametrize("seed", range(40))
+def test_screening_loses_no_face(seed, kind, monkeypatch):
+    M, q = small_integers(np.random.default_rng(seed), kind)
+    screened = described(M, q)
+    monkeypatch.setattr("signorini.lcp.enumeration.loop_of_enumeration", lambda: everything)
+    assert screened == described(M, q)
+
+
+def test_screening_loses_no_face_of_contact(monkeypatch):
+    posed = problems.gap_slip_contact(3, np.random.default_rng(2), friction=1.2)
+    screened = described(posed.M, posed.q)
+    assert screened
+    monkeypatch.setattr("signorini.lcp.enumeration.loop_of_enumeration", lambda: everything)
+    assert screened == described(posed.M, posed.q)
+
+
+def test_screening_leaves_little():
+    rng = np.random.default_rng(0)
+    for posed in (problems.random_psd(10, 5, rng, skew=0.3), problems.gap_slip_contact(3, rng)):
+        maybe = np.zeros(2**posed.n, dtype=bool)
+        loop_of_enumeration()(posed.M, posed.q, 1e-11, maybe)
+        assert 1 <= maybe.sum() <= 2**posed.n // 16
+
+
+def test_elimination_has_the_rank_and_the_solution():
+    rng = np.random.default_rng(1)
+    for rank in (1, 3, 5):
+        A = rng.standard_normal((5, rank)) @ rng.standard_normal((rank, 5))
+        b = A @ rng.standard_normal(5)
+        block, order = np.hstack([A, b[:, None]]), np.zeros(5, dtype=np.int64)
+        assert screening.eliminate(block, 5, order) == rank
+        screening.substitute_back(block, 5, rank)
+        x = np.zeros(5)
+        x[order[:rank]] = block[:rank, 5]
+        np.testing.assert_allclose(A @ x, b, atol=1e-12)
+
+
+@pytest.mark.parametrize("make", [problems.random_p, lambda n, rng: problems.random_psd(n, n, rng, skew=0.3)])
+def test_twenty_unknowns(make):
+    posed = make(20, np.random.default_rng(3))
+    (face,) = lcp.all_solutions(posed.M, posed.q)
+    np.testing.assert_allclose(face.z, posed.answer, atol=1e-8)
