@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -69,7 +70,7 @@ def _all(case: Case, refine: int, mu: float) -> list[Result]:
     for missing, run in codes:
         reason = missing()
         if reason is None:
-            results.append(_median(lambda run=run: run(case, mu)))
+            results.append(_median(partial(run, case, mu)))
     for backend in ("multifrontal", *(["pardiso"] if available() else [])):
         results.append(run_signorini.run(case, refine, mu, backend))
     for result in results:
