@@ -70,6 +70,7 @@ def write_arrays(case: Case, file: Path) -> None:
         axis=np.unique(case.axis),
         cut=np.unique(case.cut),
         traction=case.traction,
+        approach=FORCE / 2 / E,
         E=E,
         nu=NU,
     )
