@@ -24,7 +24,7 @@ from signorini.linalg.pardiso import available
 FRICTION = (0.0, 0.4)
 FINE = 2
 """The refined values are those of signorini on a mesh with every edge of the finest one divided by it."""
-REPEATS, LONG = 3, 60.0
+REPEATS, LONG = 3, 20.0
 HEAD = (
     "code",
     "unknowns",

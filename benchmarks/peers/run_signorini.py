@@ -26,7 +26,7 @@ from signorini.gallery.cylinder import zhu_cylinder
 from signorini.prepare import prepare
 from signorini.solve import solve_prepared
 
-REPEATS, LONG = 5, 20.0
+REPEATS, LONG = 5, 10.0
 
 
 class CpuClock(Clock):
@@ -71,8 +71,10 @@ def main() -> None:
     cold = "cold" in sys.argv[4:]
     if not cold:
         solve_prepared(prepare(zhu_cylinder(friction=friction, refine=2), backend=backend))
+    history = None
     seconds: list[tuple[float, float, float]] = []
     while not seconds or (not cold and len(seconds) < REPEATS and sum(map(sum, seconds)) < LONG):
+        history = None  # the next repeat finds the memory as this one found it
         start = time.process_time()
         model = zhu_cylinder(friction=friction, refine=refine)
         made = time.process_time()
@@ -81,6 +83,7 @@ def main() -> None:
         whole = time.process_time() - made
         assembly = clock.seconds["assembly"]
         seconds.append((made - start, assembly, whole - assembly))
+    assert history is not None
     contact = history.last.contacts[0]
     order = np.argsort(contact.points[:, 0])
     print(
