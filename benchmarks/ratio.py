@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The price of contact over sizes: ``signorini bench cylinder``, one thread; writes a table of docs/performance.md.
+"""The price of contact over sizes: the benchmark "cylinder" in CPU seconds; writes a table of docs/performance.md.
 
 python -m benchmarks.ratio [--dofs 5000 50000 200000 1000000] [--dry]
 """
@@ -11,11 +11,11 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
-from pathlib import Path
+import time
 from typing import Any
 
 from benchmarks import page
+from signorini.bench.cylinder import cylinder
 
 KEEP_MEMORY = {"MALLOC_MMAP_MAX_": "0", "MALLOC_TRIM_THRESHOLD_": str(10**12)}
 """The C library's settings to hand no memory back between the repeats: otherwise whichever solve comes after a long
@@ -37,12 +37,10 @@ HEAD = (
 
 def measure(dofs: int) -> list[dict[str, Any]]:
     """The rows of one size, from a process of its own."""
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "bench.json"
-        command = [sys.executable, "-m", "signorini.cli", "bench", "cylinder", "--dofs", str(dofs), "--json", str(file)]
-        environment = {**os.environ, **page.ONE_THREAD, **KEEP_MEMORY}
-        subprocess.run(command, check=True, stdout=subprocess.DEVNULL, env=environment)
-        rows: list[dict[str, Any]] = json.loads(file.read_text())
+    command = [sys.executable, "-m", "benchmarks.ratio", "--one", "--dofs", str(dofs)]
+    environment = {**os.environ, **page.ONE_THREAD, **KEEP_MEMORY}
+    done = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=environment)
+    rows: list[dict[str, Any]] = json.loads(done.stdout)
     return rows
 
 
@@ -65,10 +63,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--dofs", type=int, nargs="+", default=[5_000, 50_000, 200_000, 1_000_000])
     parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
+    parser.add_argument("--one", action="store_true", help="measure in this process")
     options = parser.parse_args()
+    if options.one:
+        print(json.dumps(list(cylinder(options.dofs[0], timer=time.process_time))))
+        return
     found = [row for dofs in options.dofs for row in measure(dofs)]
     backends = ", ".join(dict.fromkeys(row["backend"] for row in found))
-    text = f"{page.table(HEAD, [row(each) for each in found])}\n\nOne thread, {backends}, {page.machine()}."
+    text = (
+        f"{page.table(HEAD, [row(each) for each in found])}\n\nCPU seconds, one thread, {backends}, {page.machine()}."
+    )
     print(text)
     if not options.dry:
         page.write("ratio", text)
