@@ -18,8 +18,11 @@ from scipy.sparse.linalg import splu
 from skfem import Basis, ElementQuad1, ElementVector, MeshQuad
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
+from signorini import lcp
 from signorini.arrays import Array, IntArray, frozen
 from signorini.friction import CoulombProblem, CoulombResult, solve_coulomb
+from signorini.friction.certificate import certify
+from signorini.friction.law import states
 from signorini.friction.newton import newton
 
 FAMILIES = ("block", "two blocks", "skew block", "wedge", "peg", "corner", "punch")
@@ -96,7 +99,39 @@ def newton_alone(problem: CoulombProblem, start: IntArray | None) -> bool:
     return newton(problem, start).residual <= 1e-10
 
 
-RIVALS: dict[str, Callable[[CoulombProblem, IntArray | None], bool]] = {"Newton alone": newton_alone}
+def lemke_alone(problem: CoulombProblem, start: IntArray | None) -> bool:  # noqa: ARG001  # it has no use for a start
+    """Whether Lemke's method certifies a step, posed with three rows a pair in the gap-slip form.
+
+    With S = W^-1 - I, F = W^-1 b and h = (gap, s_plus - s_minus)::
+
+        z = (gap, s_plus, s_minus),    w = (p, mu p + r_t, mu p - r_t),    r = S h - F
+
+    covered by (1, 1 + mu, 1 + mu): with all ones, s_plus and s_minus rise together along spurious rays. The states that
+    the path ends in get one Newton step, against the rounding of W^-1.
+    """
+    n, mu = problem.pairs, problem.mu[:, None]
+    stiffness = np.linalg.inv(problem.W)
+    F = stiffness @ problem.b
+    S = stiffness - np.eye(2 * n)
+    S_n, S_t, F_n, F_t = S[:n], S[n:], F[:n], F[n:]
+    rows = np.vstack([S_n, mu * S_n + S_t, mu * S_n - S_t])
+    M = np.hstack([rows, -rows[:, n:]])
+    q = -np.concatenate([F_n, mu[:, 0] * F_n + F_t, mu[:, 0] * F_n - F_t])
+    covering = np.concatenate([np.ones(n), 1 + mu[:, 0], 1 + mu[:, 0]])
+    z = lcp.solve(M, q, method=lcp.Lemke(covering=covering)).z
+    if z is None:
+        return False
+    h = np.concatenate([z[:n], z[n : 2 * n] - z[2 * n :]])
+    y = S @ h - F - h
+    if certify(problem, y) <= 1e-10:
+        return True
+    return newton(problem, states(y, problem.mu, problem.closed), near=y, limit=1).residual <= 1e-10
+
+
+RIVALS: dict[str, Callable[[CoulombProblem, IntArray | None], bool]] = {
+    "Newton alone": newton_alone,
+    "Lemke alone": lemke_alone,
+}
 """Other solvers, by name: whether each certifies a step, given the states of the step before."""
 
 

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables of docs/performance.md, each between two markers, written by the script that measured it."""
+
+from __future__ import annotations
+
+import os
+import platform
+from collections.abc import Sequence
+from pathlib import Path
+
+PAGE = Path(__file__).parent.parent / "docs" / "performance.md"
+ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
+    """A Markdown table; the first column is text, the others are numbers."""
+    lines = [list(head), ["---", *["---:"] * (len(head) - 1)], *([str(cell) for cell in row] for row in rows)]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def write(name: str, text: str, page: Path = PAGE) -> None:
+    """Put a text between the markers of a name; they must be there already."""
+    begin, end = markers(name)
+    before, found, rest = page.read_text(encoding="utf-8").partition(begin)
+    _, closed, after = rest.partition(end)
+    if not (found and closed):
+        raise SystemExit(f"{page} lacks the line '{begin}' or '{end}'")
+    page.write_text(f"{before}{begin}\n{text.strip()}\n{end}{after}", encoding="utf-8")
+
+
+def markers(name: str) -> tuple[str, str]:
+    return f"<!-- {name}: written by its script -->", f"<!-- end of {name} -->"
+
+
+def machine() -> str:
+    """Processor and number of cores, as far as the system tells."""
+    model = platform.processor() or platform.machine()
+    info = Path("/proc/cpuinfo")
+    if info.exists():
+        names = [line.partition(":")[2].strip() for line in info.read_text().splitlines() if "model name" in line]
+        model = names[0] if names else model
+    return f"{model}, {os.cpu_count()} cores"
+
+
+def seconds(value: float) -> str:
+    """Three digits.
+
+    >>> seconds(0.01234), seconds(12.34), seconds(123.4)
+    ('0.0123', '12.3', '123')
+    """
+    return f"{value:.3g}" if value < 100 else f"{value:.0f}"
+
+
+def gigabytes(size: float) -> str:
+    return f"{size / 1e9:.2f}"
+
+
+def peak_memory(process: int | str = "self") -> int:
+    """Bytes that a running process has held at most; what its parent held before it is not counted."""
+    status = Path(f"/proc/{process}/status").read_text().splitlines()
+    return 1024 * next(int(line.split()[1]) for line in status if line.startswith("VmHWM"))

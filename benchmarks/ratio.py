@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The price of contact over sizes: the benchmark "cylinder" in CPU seconds; writes a table of docs/performance.md.
+
+python -m benchmarks.ratio [--dofs 5000 50000 200000 1000000] [--dry]
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import time
+from typing import Any
+
+from benchmarks import page
+from signorini.bench.cylinder import cylinder
+
+KEEP_MEMORY = {"MALLOC_MMAP_MAX_": "0", "MALLOC_TRIM_THRESHOLD_": str(10**12)}
+"""The C library's settings to hand no memory back between the repeats: otherwise whichever solve comes after a long
+pause pays for new pages, which on a virtual machine costs as much as the computing. Both solves gain."""
+
+HEAD = (
+    "unknowns",
+    "mu",
+    "contact pairs",
+    "iterations",
+    "assembly s",
+    "contact s",
+    "linear s",
+    "contact / linear",
+    "with assembly",
+    "memory GB",
+)
+
+
+def measure(dofs: int) -> list[dict[str, Any]]:
+    """The rows of one size, from a process of its own."""
+    command = [sys.executable, "-m", "benchmarks.ratio", "--one", "--dofs", str(dofs)]
+    environment = {**os.environ, **page.ONE_THREAD, **KEEP_MEMORY}
+    done = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=environment)
+    rows: list[dict[str, Any]] = json.loads(done.stdout)
+    return rows
+
+
+def row(found: dict[str, Any]) -> list[object]:
+    """A line of the table; assembly is added to what is compared, not to what it is compared with."""
+    whole = found["assembly_seconds"] + found["contact_seconds"]
+    return [
+        found["dofs"],
+        found["friction"],
+        found["contact_pairs"],
+        found["iterations"],
+        *(page.seconds(found[f"{what}_seconds"]) for what in ("assembly", "contact", "linear")),
+        f"{found['ratio']:.2f}",
+        f"{whole / found['linear_seconds']:.2f}",
+        page.gigabytes(found["peak_memory_bytes"]),
+    ]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--dofs", type=int, nargs="+", default=[5_000, 50_000, 200_000, 1_000_000])
+    parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
+    parser.add_argument("--one", action="store_true", help="measure in this process")
+    options = parser.parse_args()
+    if options.one:
+        print(json.dumps(list(cylinder(options.dofs[0], timer=time.process_time))))
+        return
+    found = [row for dofs in options.dofs for row in measure(dofs)]
+    backends = ", ".join(dict.fromkeys(row["backend"] for row in found))
+    text = (
+        f"{page.table(HEAD, [row(each) for each in found])}\n\nCPU seconds, one thread, {backends}, {page.machine()}."
+    )
+    print(text)
+    if not options.dry:
+        page.write("ratio", text)
+
+
+if __name__ == "__main__":
+    main()
