@@ -110,9 +110,9 @@ class _Walk:
                 raise InputError(f"is of shape {b.shape}; expected {(2 * n,)}", where=(name,))
             if not np.isfinite(b).all():
                 raise InputError("has entries that are not finite", where=(name,))
-        self.load = target - start.b
         self.b_start, self.b_end, self.settings = start.b, target, settings
-        self.problem = replace(problem, b=frozen(self.load))
+        self.problem = replace(problem, b=frozen(target - start.b))
+        self.load = self.problem.b
         self.responses = Responses(self.problem)
         self.unbounded = np.isinf(problem.friction) & ~self.problem.locked
         self.forced = np.where(self.unbounded, STICK, self.problem.closed)
