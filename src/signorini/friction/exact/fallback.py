@@ -10,8 +10,9 @@ import numpy as np
 
 from signorini import lcp
 from signorini.arrays import Array, IntArray
+from signorini.friction.exact.inverse import SingularState
 from signorini.friction.exact.rates import CORNER, RATE, SIGN, RateLaw, Rates
-from signorini.friction.exact.responses import Responses, SingularState
+from signorini.friction.exact.responses import Responses
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 COMBINATIONS = 4096
