@@ -14,6 +14,9 @@ from signorini.arrays import Array, IntArray
 from signorini.friction.exact.inverse import StateInverse
 from signorini.friction.problem import CoulombProblem
 
+ROUNDING = 2e-15
+"""Error of a response, relative to its largest entry, that is not refined."""
+
 
 class Responses:
     """Responses of an interface in changing states; the inverse of the last state is kept and changed.
@@ -59,8 +62,11 @@ class Responses:
             self._state = state.copy()
         h, r = self._once(b)
         if refine:
-            dh, dr = self._once(b + self.problem.W @ (h + r) - h)
-            h, r = h + dh, r + dr
+            error = b + self.problem.W @ (h + r) - h
+            size = max(np.abs(part).max(initial=0.0) for part in (b, h, r))
+            if np.abs(error).max(initial=0.0) > ROUNDING * size:
+                dh, dr = self._once(error)
+                h, r = h + dh, r + dr
         return h, r
 
     def _once(self, b: Array) -> tuple[Array, Array]:
