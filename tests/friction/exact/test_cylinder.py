@@ -38,6 +38,7 @@ def test_it_costs_little_more_than_a_state_an_event():
     closed = np.count_nonzero(segment.end.state)
     assert len({event.factor for event in segment.events}) <= closed + 2
     assert segment.pivots <= 3 * closed
+    assert segment.factorisations == 1
 
 
 def test_increments_converge_to_it():

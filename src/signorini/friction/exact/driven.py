@@ -11,8 +11,9 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, IntArray
+from signorini.friction.exact.inverse import SingularState
 from signorini.friction.exact.rates import CORNER, INSIDE, RATE, SIGN, RateLaw, Rates
-from signorini.friction.exact.responses import Responses, SingularState
+from signorini.friction.exact.responses import Responses
 from signorini.friction.law import OPEN, STICK
 from signorini.friction.problem import CoulombProblem
 

@@ -10,11 +10,12 @@ import numpy as np
 
 from signorini import lcp
 from signorini.arrays import Array, IntArray
+from signorini.friction.exact.inverse import SingularState
 from signorini.friction.exact.rates import CORNER, RATE, SIGN, RateLaw, Rates
-from signorini.friction.exact.responses import Responses, SingularState
+from signorini.friction.exact.responses import Responses
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
-COMBINATIONS = 256
+COMBINATIONS = 4096
 """Most combinations of states that are tried one by one."""
 
 
@@ -113,17 +114,21 @@ def _lemke(responses: Responses, law: RateLaw, load: Array, state: IntArray) -> 
         return None, f"Lemke's method: {answer.status.name.lower().replace('_', ' ')}"
     for (k, dof, sign), z, w in zip(columns, answer.z, answer.w, strict=True):
         if z > w and base[k] != OPEN:
-            base[k] = OPEN if dof < n else SLIP_MINUS if sign > 0 else SLIP_PLUS
+            slips = SLIP_MINUS if sign > 0 else SLIP_PLUS
+            base[k] = OPEN if dof < n else slips if law.forced[k] == UNDECIDED else law.forced[k]
     return certified(responses, law, load, base), "Lemke's method: its answer does not obey the law"
 
 
 def _moves(law: RateLaw, k: int) -> list[tuple[int, float]]:
-    """The motions that a pair may make: the row of h, and the sign of a tangential one (0 for the gap)."""
+    """The motions that a pair may make: the row of h, and the sign of a tangential one (0 for the gap).
+
+    A pair of infinite friction is free to slip where it opens.
+    """
     n = len(law.mu)
     if law.kind[k] != CORNER:
         return [(n + k, -SIGN[law.kind[k]])]
     gap = [(k, 0.0)]
-    return gap if law.forced[k] != UNDECIDED else [(n + k, 1.0), (n + k, -1.0), *gap]
+    return gap if law.forced[k] > STICK else [(n + k, 1.0), (n + k, -1.0), *gap]
 
 
 def _enumerate(responses: Responses, law: RateLaw, load: Array, state: IntArray, ending: str) -> Rates | NoRates:
@@ -131,7 +136,8 @@ def _enumerate(responses: Responses, law: RateLaw, load: Array, state: IntArray,
     choices = [_choices(law, k) for k in undecided]
     count = int(np.prod([float(len(choice)) for choice in choices]).clip(max=1e9))
     if count > COMBINATIONS:
-        return NoRates(proof=ending, proved=ending.endswith("ray termination"))
+        words = f"{ending}; {count} combinations of states are too many to try"
+        return NoRates(proof=words, proved=ending.endswith("ray termination"))
     for combination in itertools.product(*choices):
         tried = state.copy()
         tried[undecided] = combination

@@ -17,9 +17,10 @@ from signorini.errors import InputError
 from signorini.friction.certificate import certify
 from signorini.friction.exact.driven import drive
 from signorini.friction.exact.fallback import NoRates, find_rates
+from signorini.friction.exact.inverse import SingularState
 from signorini.friction.exact.jump import explain
 from signorini.friction.exact.rates import CORNER, SIGN, RateLaw, Rates, weight
-from signorini.friction.exact.responses import Responses, SingularState
+from signorini.friction.exact.responses import Responses
 from signorini.friction.exact.segment import Breakpoint, Event, Jump, Outcome, Segment, What
 from signorini.friction.exact.state import PathState
 from signorini.friction.law import OPEN, STICK, UNDECIDED
@@ -110,9 +111,9 @@ class _Walk:
                 raise InputError(f"is of shape {b.shape}; expected {(2 * n,)}", where=(name,))
             if not np.isfinite(b).all():
                 raise InputError("has entries that are not finite", where=(name,))
-        self.load = target - start.b
         self.b_start, self.b_end, self.settings = start.b, target, settings
-        self.problem = replace(problem, b=frozen(self.load))
+        self.problem = replace(problem, b=frozen(target - start.b))
+        self.load = self.problem.b
         self.responses = Responses(self.problem)
         self.unbounded = np.isinf(problem.friction) & ~self.problem.locked
         self.forced = np.where(self.unbounded, STICK, self.problem.closed)
@@ -286,8 +287,8 @@ class _Walk:
             outcome=outcome,
             jump=jump,
             pivots=done.pivots,
-            factorisations=done.factorisations,
-            updates=done.updates,
+            factorisations=done.inverse.factorisations,
+            updates=done.inverse.updates,
             residual=self.residual,
             message=message,
         )

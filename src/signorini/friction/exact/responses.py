@@ -9,23 +9,17 @@ no part.
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import lapack
 
 from signorini.arrays import Array, IntArray
-from signorini.friction.exact.rates import SIGN
-from signorini.friction.law import OPEN, STICK
+from signorini.friction.exact.inverse import StateInverse
 from signorini.friction.problem import CoulombProblem
 
-SINGULAR = 1e-13
-"""Reciprocal condition below which a state counts as singular."""
-
-
-class SingularState(Exception):
-    """Some load leaves the motions or the forces of a state undetermined."""
+ROUNDING = 2e-15
+"""Error of a response, relative to its largest entry, that is not refined."""
 
 
 class Responses:
-    """Responses of an interface in changing states; keeps the factorisation of the last one.
+    """Responses of an interface in changing states; the inverse of the last state is kept and changed.
 
     Parameters
     ----------
@@ -33,10 +27,12 @@ class Responses:
 
     Attributes
     ----------
-    pivots, factorisations, updates : what it has done so far
+    inverse : of the last state
+    pivots : states tried so far
 
     Examples
     --------
+    >>> from signorini.friction import STICK
     >>> problem = CoulombProblem(
     ...     W=np.diag([0.5, 0.5]), b=np.zeros(2), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
@@ -47,7 +43,8 @@ class Responses:
 
     def __init__(self, problem: CoulombProblem) -> None:
         self.problem = problem
-        self.pivots = self.factorisations = self.updates = 0
+        self.inverse = StateInverse(problem)
+        self.pivots = 0
         self._state: IntArray | None = None
 
     def respond(self, state: IntArray, b: Array, *, refine: bool = True) -> tuple[Array, Array]:
@@ -58,57 +55,28 @@ class Responses:
         SingularState
             Where the state has no unique response.
         """
-        self._move_to(state)
+        if self._state is None or not np.array_equal(state, self._state):
+            self.pivots += 1
+            self._state = None
+            self.inverse.move_to(state)
+            self._state = state.copy()
         h, r = self._once(b)
         if refine:
-            dh, dr = self._once(b + self.problem.W @ (h + r) - h)
-            h, r = h + dh, r + dr
+            error = b + self.problem.W @ (h + r) - h
+            size = max(np.abs(part).max(initial=0.0) for part in (b, h, r))
+            if np.abs(error).max(initial=0.0) > ROUNDING * size:
+                dh, dr = self._once(error)
+                h, r = h + dh, r + dr
         return h, r
 
     def _once(self, b: Array) -> tuple[Array, Array]:
         m, n = self.problem.interface, self.problem.pairs
-        c = m.free_motion(b)
-        rhs = -np.concatenate([c[self._rows], m.R.T @ b])
-        x = self._solve(rhs)
-        forces = x[: len(self._rows)]
-        r = np.zeros(2 * n)
-        r[self._rows] = forces
-        r[n:] += self._slope * r[:n]
-        acting = np.flatnonzero(r)
-        h = r[acting] @ m.A[acting] + c + m.R @ x[len(self._rows) :]
-        h[self._rows] = 0.0
+        c = self.problem.free_motion(b)
+        x = self.inverse.apply(-np.concatenate([c, m.R.T @ b]))
+        unknowns, full = self.inverse.unknowns, np.zeros(2 * n + m.R.shape[1])
+        full[unknowns] = x
+        r = full[: 2 * n]
+        r[n:] += self.inverse.slope * r[:n]
+        h = m.A @ r + c + m.R @ full[2 * n :]
+        h[unknowns[unknowns < 2 * n]] = 0.0
         return h, r
-
-    def _move_to(self, state: IntArray) -> None:
-        if self._state is not None and np.array_equal(state, self._state):
-            return
-        self.pivots += 1
-        self._factorise(state)
-        self._state = state.copy()
-
-    def _factorise(self, state: IntArray) -> None:
-        m, n = self.problem.interface, self.problem.pairs
-        self._state = None
-        self.factorisations += 1
-        self._rows = np.concatenate([np.flatnonzero(state != OPEN), n + np.flatnonzero(state == STICK)])
-        self._slope = SIGN[state] * self.problem.mu
-        rows, R = self._rows, m.R
-        tangents, slope = n + rows % n, np.where(rows < n, self._slope[rows % n], 0.0)
-        size, k = len(rows), R.shape[1]
-        matrix = np.zeros((size + k, size + k), order="F")
-        matrix[:size, :size] = m.A[np.ix_(rows, rows)] + m.A[np.ix_(rows, tangents)] * slope
-        matrix[:size, size:] = R[rows]
-        matrix[size:, :size] = (R[rows] + R[tangents] * slope[:, None]).T
-        if not len(matrix):
-            self._lu, self._order = matrix, np.zeros(0, dtype=np.int64)
-            return
-        norm = float(np.abs(matrix).sum(axis=0).max())
-        self._lu, self._order, failed = lapack.dgetrf(matrix, overwrite_a=1)
-        if failed or lapack.dgecon(self._lu, norm)[0] < SINGULAR:
-            raise SingularState
-
-    def _solve(self, rhs: Array) -> Array:
-        if not len(rhs):
-            return rhs
-        x, _ = lapack.dgetrs(self._lu, self._order, rhs)
-        return np.asarray(x, dtype=np.float64)

@@ -54,7 +54,8 @@ class Jump:
     ----------
     factor : where on the segment
     pairs : those whose event has no continuation
-    proof : what shows it
+    proof : what shows it: that no combination of states has rates, or a rigid motion; a ray of Lemke's method alone
+        (too many combinations to try) is strong evidence, no proof
     gross_sliding : whether bodies slide as a whole: every closed pair has used up its friction and the loads go on
     """
 

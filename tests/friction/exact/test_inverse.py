@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The inverse that changes by rank one, against states solved afresh."""
+
+import numpy as np
+import pytest
+from coulomb_samples import block_on_floor, for_all, random_problem
+from hypothesis import strategies as st
+
+from signorini.friction import OPEN, STICK
+from signorini.friction.cone import cone_system
+from signorini.friction.exact.inverse import SingularState
+from signorini.friction.exact.responses import Responses
+
+
+@for_all(examples=25, seed=st.integers(0, 10**6), motions=st.sampled_from([0, 2]))
+def test_a_walk_over_states_ends_where_a_fresh_start_does(seed, motions):
+    rng = np.random.default_rng(seed)
+    problem = random_problem(seed, 12, motions, friction=0.5)
+    responses, state = Responses(problem), np.full(12, STICK)
+    for _ in range(60):
+        state = state.copy()
+        state[rng.integers(12, size=2)] = rng.integers(0, 4, size=2)
+        fresh = cone_system(problem, state)
+        if not fresh.index:
+            continue
+        y = fresh.solve(np.zeros(24))
+        h, r = responses.respond(state, problem.b)
+        np.testing.assert_allclose(r - h, y, rtol=0, atol=1e-9 * np.abs(y).max())
+        assert np.abs(problem.misfit(h, r)).max() < 1e-12 * np.abs(y).max()
+    assert responses.inverse.factorisations < 10
+    assert responses.inverse.updates > 60
+
+
+def test_a_state_that_holds_nothing_is_singular():
+    problem = block_on_floor(4, (-1.0, 0.1, 0.0))
+    responses = Responses(problem)
+    for state in (np.full(4, OPEN), np.full(4, 3), np.array([STICK, OPEN, OPEN, OPEN])):
+        with pytest.raises(SingularState):
+            responses.respond(state, problem.b)
+    h, r = responses.respond(np.full(4, STICK), problem.b)
+    assert np.abs(problem.misfit(h, r)).max() < 1e-14
+
+
+def test_from_a_state_that_holds_to_one_that_does_not():
+    problem = block_on_floor(4, (-1.0, 0.1, 0.0))
+    responses = Responses(problem)
+    responses.respond(np.full(4, STICK), problem.b)
+    with pytest.raises(SingularState):
+        responses.respond(np.full(4, 3), problem.b)
+    _, r = responses.respond(np.full(4, STICK), problem.b)
+    assert r[:4].sum() == pytest.approx(1.0, abs=1e-14)
