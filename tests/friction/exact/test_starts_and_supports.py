@@ -102,6 +102,15 @@ def test_what_is_wrong_is_said():
         follow(dragged(np.inf), initial_state(dragged(np.inf), np.zeros(4)), np.array([-0.3, -0.3, 0.0, 0.1]))
 
 
+def test_friction_that_was_lowered_below_what_a_pair_carries_is_refused():
+    problem, load = one_node(1.0)
+    pressed = follow(problem, initial_state(problem, np.zeros(2)), load(-1.0, 0.0)).end
+    held = follow(problem, pressed, load(-1.0, 0.9)).end
+    assert follow(replace(problem, friction=[0.95]), held, load(-1.0, 0.92)).followed
+    with pytest.raises(InputError, match="start: pair 0 carries more friction than it can"):
+        follow(replace(problem, friction=[0.5]), held, load(-1.0, 1.5))
+
+
 def test_states_are_read_only():
     problem, _ = one_node(1.0)
     state = initial_state(problem, np.zeros(2))

@@ -68,7 +68,8 @@ def follow(problem: CoulombProblem, start: PathState, b_end: Array, *, settings:
     Raises
     ------
     InputError
-        Where shapes do not fit, or supports drag a pair along that may never slip.
+        Where shapes do not fit, the start is outside the friction cone, or supports drag a pair along that may never
+        slip.
 
     Notes
     -----
@@ -132,6 +133,14 @@ class _Walk:
         state = np.where(turned, self.forced, start.state)
         slides = turned & (state > STICK)
         friction = np.where(slides, SIGN[state] * self.problem.mu * start.r[:n], start.r[n:])
+        most = np.where(self.unbounded, np.inf, self.problem.mu * start.r[:n])
+        beyond = np.flatnonzero((np.abs(friction) - most) / weight(self.problem.mu) > 1e2 * self.width)
+        if len(beyond):
+            raise InputError(
+                f"pair {beyond[0]} carries more friction than it can; where friction was lowered, expected a start "
+                "that one increment at the same load has brought into the law",
+                where=("start",),
+            )
         return replace(start, state=state, r=np.concatenate([start.r[:n], friction]))
 
     def turn(self) -> NoRates | None:
