@@ -24,14 +24,14 @@ import numpy as np
 
 from benchmarks import page
 from benchmarks.peers.run_signorini import CpuClock
+from signorini.engine.prepare import prepare
+from signorini.engine.solve import solve_prepared
 from signorini.fem.generators import rectangle
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.model.body import Body, Elastic
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact, Plane
 from signorini.model.model import Model
-from signorini.prepare import prepare
-from signorini.solve import solve_prepared
 
 PHASES = ("assembly", "factorisation", "condensation", "complementarity", "recovery")
 REPEATS, LONG = 3, 20.0

@@ -22,9 +22,9 @@ from benchmarks.page import ONE_THREAD, peak_memory
 from benchmarks.peers.case import Case
 from benchmarks.peers.result import Result
 from signorini.clock import Clock
+from signorini.engine.prepare import prepare
+from signorini.engine.solve import solve_prepared
 from signorini.gallery.cylinder import zhu_cylinder
-from signorini.prepare import prepare
-from signorini.solve import solve_prepared
 
 REPEATS, LONG = 5, 10.0
 

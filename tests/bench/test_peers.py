@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from signorini.engine.prepare import prepare
+from signorini.engine.solve import solve_prepared
 from signorini.gallery.cylinder import zhu_cylinder
-from signorini.prepare import prepare
-from signorini.solve import solve_prepared
 
 case = pytest.importorskip("benchmarks.peers.case", reason="the benchmarks are beside the tests in a checkout only")
 
