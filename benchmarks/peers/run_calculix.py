@@ -58,20 +58,19 @@ def _run(case: Case, friction: float, folder: Path) -> Result:
     )
     assert process.stdout is not None
     seconds = {"input": 0.0, "assembly": 0.0, "solve": 0.0}
-    phase, before, iterations, memory = "input", 0.0, 0, 0
+    phase, before, iterations, memory, finished = "input", 0.0, 0, 0, False
     for line in process.stdout:
         iterations += line.startswith(" iteration")
-        if "Job finished" in line:
-            memory = peak_memory(process.pid)
+        finished |= "Job finished" in line
         for words, following in PHASES.items():
             if words in line:
-                now = _cpu(process.pid)
+                now, memory = _cpu(process.pid), peak_memory(process.pid)
                 seconds[phase] += now - before
                 phase, before = following, now
     _, code, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(code)
     seconds[phase] += usage.ru_utime + usage.ru_stime - before
-    if process.returncode or not memory:
+    if process.returncode or not finished:
         raise SystemExit(f"CalculiX ended with {process.returncode} and without a solution")
     return Result(
         code="CalculiX",
