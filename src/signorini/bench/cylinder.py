@@ -54,9 +54,10 @@ def cylinder(dofs: int, *, timer: Timer = time.perf_counter) -> Iterator[dict[st
     linear_seconds : analyse, factorise and solve the same matrix with the contact nodes fixed, same back end
     ratio : of the two
     """
-    warm = solve_prepared(prepare(zhu_cylinder(refine=2)))
-    _linear(*_fixed(prepare(zhu_cylinder(refine=2))), warm.backend, timer)
     refine = max(1, round(np.sqrt(dofs / (2 * 76))))
+    warm = prepare(zhu_cylinder(refine=refine))  # compiled code and pages of memory: both solves find them
+    _linear(*_fixed(warm), solve_prepared(warm).backend, timer)
+    del warm
     for friction in (0.0, 0.4):
         yield _measure(zhu_cylinder(friction=friction, refine=refine), timer)
 
