@@ -14,6 +14,7 @@ from signorini.lcp.classes import (
     is_z,
 )
 from signorini.lcp.enumeration import Enumeration, Face, all_solutions
+from signorini.lcp.feasibility import Feasibility
 from signorini.lcp.interior import InteriorPoint
 from signorini.lcp.lemke import Lemke
 from signorini.lcp.method import Method
@@ -36,6 +37,7 @@ __all__ = [
     "BoxLCP",
     "Enumeration",
     "Face",
+    "Feasibility",
     "InteriorPoint",
     "LCPSolution",
     "LeastIndex",

@@ -10,6 +10,7 @@ from signorini.arrays import Array
 from signorini.lcp.block import BlockPivoting
 from signorini.lcp.classes import is_symmetric
 from signorini.lcp.enumeration import Enumeration
+from signorini.lcp.feasibility import Feasibility
 from signorini.lcp.interior import InteriorPoint
 from signorini.lcp.lemke import Lemke
 from signorini.lcp.method import Method
@@ -35,13 +36,14 @@ def methods_for(problem: LCP) -> list[Method]:
     Dense: Lemke first, which ends by itself, to n = 1500, and to n = 5000 where M looks like frictional contact, whose
     bases are often singular; otherwise block pivoting first (a few factorisations where it works); then Newton and
     interior point. Large, sparse and symmetric: multigrid and MPRGP first. An operator: MPRGP, the only one that needs
-    products alone. A Lemke path with another covering vector closes the chain, and enumeration to n = 12.
+    products alone. A Lemke path with another covering vector closes the chain; behind it enumeration to n = 12, or one
+    linear programme that may prove that there is no solution.
 
     Examples
     --------
     >>> from signorini.lcp.problem import read_problem
     >>> [method.name for method in methods_for(read_problem(np.eye(100), np.ones(100)))]
-    ['lemke', 'block-pivoting', 'newton', 'interior-point', 'lemke']
+    ['lemke', 'block-pivoting', 'newton', 'interior-point', 'lemke', 'feasibility']
     >>> [method.name for method in methods_for(read_problem(np.eye(2000), np.ones(2000)))]
     ['block-pivoting', 'newton', 'lemke', 'interior-point', 'lemke']
     """
@@ -51,7 +53,7 @@ def methods_for(problem: LCP) -> list[Method]:
     other = np.random.default_rng(0).uniform(1.0, 2.0, problem.n) * problem.sizes[0]
     others: list[Method] = [InteriorPoint(), Lemke(covering=other)]
     if isinstance(problem.M, np.ndarray) or problem.n <= SMALL:
-        last: list[Method] = [Enumeration()] if problem.n <= 12 else []
+        last: list[Method] = [Enumeration() if problem.n <= 12 else Feasibility()]
         if problem.n <= MEDIUM or (problem.n <= LARGE and looks_like_friction(problem.M)):
             return [Lemke(max_pivots=10 * problem.n + 1000), *direct, *others, *last]
         return [*direct, Lemke(), *others]

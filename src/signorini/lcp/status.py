@@ -46,4 +46,7 @@ class Status(Enum):
         "The method does not apply to this problem (class of M, size, or the form in which M is given). "
         "The message says what it needs; method='auto' picks one that applies."
     )
-    NO_SOLUTION = "Proved by enumeration: no complementary basis and no face holds a solution."
+    NO_SOLUTION = (
+        "Proved: there is no solution, because no z >= 0 makes w >= 0, or because enumeration found no complementary "
+        "basis and no face that holds one."
+    )
