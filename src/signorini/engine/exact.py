@@ -35,7 +35,6 @@ def follow_exactly(prepared: Prepared, number: int, name: str, state: State, end
     with prepared.clock.phase("complementarity"):
         start = _start(prepared, state)
         segment = follow(prepared.law, start, b)
-    events = _events(prepared, number, segment)
     if not segment.followed:
         raise _lost(prepared, name, segment)
     with prepared.clock.phase("recovery"):
@@ -46,7 +45,14 @@ def follow_exactly(prepared: Prepared, number: int, name: str, state: State, end
     # the law of the rate, on the last piece, is the law of the increment from where the piece began
     certificate = certified(prepared, applied(prepared, end)[0], after, before, name)
     attempt = Attempt(method="exact path", iterations=segment.pivots, end=segment.message)
-    return Leg(path="exact", before=state, after=after, certificates=(certificate,), trace=((attempt,),), events=events)
+    return Leg(
+        path="exact",
+        before=state,
+        after=after,
+        certificates=(certificate,),
+        trace=((attempt,),),
+        events=_events(prepared, number, segment),
+    )
 
 
 def _right_hand_side(prepared: Prepared, factors: Mapping[str, float]) -> tuple[Array, Array, Array]:

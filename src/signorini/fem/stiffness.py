@@ -20,7 +20,7 @@ def lame_parameters(model: Model) -> tuple[Array, Array]:
     """
     E = np.array([body.material.E for body in model.bodies])
     nu = np.array([body.material.nu for body in model.bodies])
-    shear = E / (2.0 * (1.0 + nu))
+    shear = np.array([body.material.shear_modulus for body in model.bodies])
     lame = E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
     if model.kind == "plane stress":
         lame = 2.0 * lame * shear / (lame + 2.0 * shear)

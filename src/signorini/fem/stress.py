@@ -12,8 +12,6 @@ from signorini.fem.space import Space
 from signorini.fem.stiffness import lame_parameters
 from signorini.model.model import Model
 
-COMPONENTS = ("xx", "yy", "zz", "xy", "yz", "xz")
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BodyStress:

@@ -12,12 +12,12 @@ from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact, Plane
 from signorini.model.model import Model
 from signorini.model.step import Step
-from signorini.reference.hertz import HertzLine
+from signorini.reference.hertz import HertzLine, contact_modulus
 
 RADIUS, E, NU, FORCE = 8.0, 200.0, 0.3, 156.0
 """Data that reproduce the paper's Hertz row (METHOD 9); the force acts on the whole cylinder."""
 
-HERTZ = HertzLine(force=FORCE, radius=RADIUS, modulus=E / (1.0 - NU**2))
+HERTZ = HertzLine(force=FORCE, radius=RADIUS, modulus=contact_modulus((E, NU)))
 
 
 def zhu_cylinder(

@@ -36,11 +36,6 @@ class Elastic:
         """``G = E / (2 (1 + nu))``, force per area."""
         return self.E / (2.0 * (1.0 + self.nu))
 
-    @property
-    def plane_strain_modulus(self) -> float:
-        """``E / (1 - nu^2)``, force per area."""
-        return self.E / (1.0 - self.nu**2)
-
 
 @dataclass(frozen=True)
 class Body:
