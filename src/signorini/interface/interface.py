@@ -11,6 +11,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.fem.boundary import Boundary, boundary
+from signorini.fem.measure import nodal_areas
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.matching import match_nodes
@@ -29,7 +30,7 @@ class Interface:
     ----------
     B : (2 n, dofs) sparse; n normal rows, then n tangential rows
     gap : (n,) initial gaps g, length, negative where the bodies overlap
-    area : (n,) tributary area (length times thickness) by the trapezoidal rule
+    area : (n,) tributary area, see :func:`signorini.fem.measure.nodal_areas`
     normals, tangents : (n, 2) unit vectors
     node, partner : (n,) nodes on the nonmortar and on the mortar side (-1: rigid obstacle)
     contact : (n,) index of the contact that a pair belongs to
@@ -111,7 +112,7 @@ def _pairs(
         gap = np.sum((points[side.nodes] - points[partner]) * normals, axis=1)
     if contact.gap != "geometry":
         gap = np.full(len(gap), contact.gap)
-    area = side.nodal_lengths * model.thickness
+    area = nodal_areas(model, side)
     return side.nodes, partner, normals, gap - contact.interference, area, np.full(len(gap), i)
 
 
@@ -122,7 +123,7 @@ def _along_symmetry(space: Space, constraints: Constraints, side: Boundary) -> A
     what the mirror image takes away.
     """
     normals = -side.nodal_normals
-    held = constraints.owner[space.dofs(side.nodes)] >= 0
+    held = constraints.free[space.dofs(side.nodes)] < 0
     inside = np.where(held, 0.0, normals)
     size = np.linalg.norm(inside, axis=1)
     mirrored = size > 0.5
