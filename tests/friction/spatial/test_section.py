@@ -24,18 +24,18 @@ def support(a, facets, direction):
 
 
 @for_all(
-    200, y=st.tuples(NUMBER, NUMBER), m=st.tuples(AXIS, AXIS), s=st.floats(0, 3), facets=st.sampled_from([0, 4, 12])
+    300, y=st.tuples(NUMBER, NUMBER), m=st.tuples(AXIS, AXIS), s=st.floats(0, 3), facets=st.sampled_from([0, 4, 12])
 )
 def test_the_projection_is_the_nearest_point_of_the_section(y, m, s, facets):
     y, a = np.array(y), np.array(m) * s
     r = np.array(nearest(*y, *m, s, corners(facets))[:2])
-    size = 1 + np.abs(y).max()
+    size = max(1.0, *np.abs(y), *a)  # rounding of a point on a boundary so long
     for angle in np.linspace(0, 2 * np.pi, 17):
         direction = np.array([np.cos(angle), np.sin(angle)])
-        assert direction @ r <= support(a, facets, direction) + 1e-12 * size
+        assert direction @ r <= support(a, facets, direction) + 1e-13 * size
     # nearest: the section lies behind the line through r across y - r
     away = y - r
-    assert support(a, facets, away) <= away @ r + 1e-12 * size**2 * max(1, *a)
+    assert support(a, facets, away) <= away @ r + 1e-13 * size**2
 
 
 @for_all(100, y=st.tuples(NUMBER, NUMBER), m=st.tuples(AXIS, AXIS), seed=st.integers(0, 1000))
