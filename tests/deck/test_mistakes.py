@@ -121,8 +121,8 @@ MISTAKES = {
     ),
     "later kind": (
         '"plane strain"',
-        '"axisymmetric"',
-        ":2: kind: is 'axisymmetric', which this version does not have; expected plane strain or plane stress",
+        '"3d"',
+        ":2: kind: is '3d', which this version does not have; expected plane strain or plane stress or axisymmetric",
     ),
     "single brackets": (
         "[[load]]",

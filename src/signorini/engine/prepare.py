@@ -36,8 +36,8 @@ class Examined:
     Attributes
     ----------
     loads : name to nodal forces at factor 1, each (dofs,)
-    parts, motions : connected pieces and their rigid motions, (dofs, 3 parts)
-    floating : (3 parts, k) rigid motions that supports leave free and contact must hold
+    parts, motions : connected pieces and their rigid motions, (dofs, 3 parts) or axisymmetric (dofs, parts)
+    floating : (motions, k) rigid motions that supports leave free and contact must hold
     scale : sizes from the data
     """
 
@@ -147,12 +147,12 @@ def examine(model: Model) -> Examined:
     InputError
         If something in the model does not fit the mesh, or a body can move freely: it is named, with its motion.
     """
-    space = make_space(model.mesh)
+    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
     constraints = make_constraints(space, model)
     loads = nodal_loads(space, model)
     interface = make_interface(space, model, constraints)
     parts = make_parts(space, model)
-    motions = rigid_motions(space, parts)
+    motions = rigid_motions(space, parts, axisymmetric=model.axisymmetric)
     _refuse_free_motions(space, constraints, interface, parts, motions)
     return Examined(
         model=model,

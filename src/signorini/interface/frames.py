@@ -57,5 +57,5 @@ def symmetric_partners(
 
 
 def _held(space: Space, constraints: Constraints, nodes: IntArray) -> BoolArray:
-    """(k, d) whether a support holds a node in a direction."""
-    return np.asarray(constraints.owner[space.dofs(nodes)] >= 0)
+    """(k, d) whether a support, or the axis of revolution, holds a node in a direction."""
+    return np.asarray(constraints.free[space.dofs(nodes)] < 0)

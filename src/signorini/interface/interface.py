@@ -28,7 +28,7 @@ class Interface:
     ----------
     B : (2 n, dofs) sparse; n normal rows, then n tangential rows
     gap : (n,) initial gaps g, length, negative where the bodies overlap
-    area : (n,) tributary area, length times thickness
+    area : (n,) tributary area, see :func:`signorini.fem.measure.nodal_areas`
     normals, tangents : (n, 2) unit vectors
     node : (n,) nodes on the nonmortar side
     contact : (n,) index of the contact that a pair belongs to

@@ -102,7 +102,7 @@ def _on_obstacle(
         raise InputError(
             f"'{contact.nonmortar}' faces away from {what}", where=(*where, type(obstacle).__name__.lower())
         )
-    if side.facets.shape[1] == 2:
+    if not side.quadratic:
         area = nodal_areas(model, side)
         coupling = Coupling(nodes=side.nodes, area=area, relative=_pick(side.nodes, len(points)))
     else:
@@ -140,7 +140,7 @@ def _on_side(
     coupling, how = _couple(space, model, side, mortar, contact, where)
     normals = side_normals(space, constraints, side, coupling.nodes)
     gap = np.sum((coupling.relative @ points) * normals, axis=1)
-    if how == "mortar" and side.facets.shape[1] == mortar.facets.shape[1] == 2:
+    if how == "mortar" and not (side.quadratic or mortar.quadratic):
         gap = without_chords(gap, coupling.nodes, coupling.relative, side, mortar)
     partner = symmetric_partners(space, constraints, coupling.nodes, normals, mortar.nodes)
     return Pairs(
@@ -159,7 +159,7 @@ def _couple(
 ) -> tuple[Coupling, str]:
     """The coupling of two meshed sides, and its name."""
     points, count = space.mesh.points, len(space.mesh.points)
-    linear = side.facets.shape[1] == mortar.facets.shape[1] == 2
+    linear = not (side.quadratic or mortar.quadratic)
     if contact.coupling == "nodes" or (contact.coupling == "auto" and linear):
         partner, reason = match_nodes(points, side, mortar)
         if reason and contact.coupling == "nodes":
