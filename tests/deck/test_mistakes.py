@@ -50,7 +50,8 @@ MISTAKES = {
         "friction = 0.4",
         "fricton = 0.4",
         ":29: contact[0].fricton: unknown key; did you mean 'friction'? Known: name, nonmortar, mortar, plane, circle, "
-        "profile, friction, gap, interference, normal_compliance, tangential_compliance, coupling, side, search, adjust",
+        "profile, friction, gap, interference, normal_compliance, tangential_compliance, coupling, side, "
+        "search, adjust",
     ),
     "unknown table": (
         "[[step]]",
