@@ -59,4 +59,5 @@ def _run(case: Case, friction: float, folder: Path) -> Result:
 
 def _environment() -> dict[str, str]:
     """One thread, and none of this Python's packages."""
-    return {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")} | ONE_THREAD | KEEP_MEMORY
+    kept = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    return kept | ONE_THREAD | KEEP_MEMORY
