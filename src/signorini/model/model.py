@@ -20,8 +20,8 @@ from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Obstacle
 from signorini.model.step import Step
 
-Kind = Literal["plane strain", "plane stress", "axisymmetric"]
-KINDS = ("plane strain", "plane stress", "axisymmetric")
+Kind = Literal["plane strain", "plane stress", "axisymmetric", "3d"]
+KINDS = ("plane strain", "plane stress", "axisymmetric", "3d")
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,8 +32,8 @@ class Model:
     ----------
     mesh : the mesh; its names are what the rest speaks of
     kind : "plane strain", "plane stress" or "axisymmetric": coordinates are then the radius and the height, forces and
-        areas are for the whole circumference
-    thickness : out of plane, length; forces and areas are for this thickness
+        areas are for the whole circumference; a mesh in space is "3d". None (default) is "plane strain" or "3d"
+    thickness : of plane models, length; forces and areas are for this thickness
     bodies : every cell of the mesh belongs to exactly one
     supports, loads, contacts : see :class:`Support`, :class:`Load`, :class:`Contact`
     steps : the load history; by default one step, all loads from 0 to 1, in one increment
@@ -57,7 +57,7 @@ class Model:
 
     mesh: Mesh
     _: KW_ONLY
-    kind: Kind = "plane strain"
+    kind: Kind | None = None
     thickness: float = 1.0
     bodies: Sequence[Body] = ()
     supports: Sequence[Support] = ()
@@ -70,13 +70,17 @@ class Model:
     def __post_init__(self) -> None:
         if not isinstance(self.mesh, Mesh):
             raise InputError(f"is {type(self.mesh).__name__}; expected a Mesh", where=("mesh",))
+        if self.kind is None:
+            object.__setattr__(self, "kind", "plane strain" if self.dimension == 2 else "3d")
         choice(self.kind, KINDS, ("kind",), "kind")
+        if (self.kind == "3d") != (self.dimension == 3):
+            raise InputError(f"is '{self.kind}', but the mesh has {self.dimension} coordinates", where=("kind",))
         number(self.thickness, ("thickness",), above=0.0)
-        if self.axisymmetric and self.thickness != 1.0:
-            raise InputError(
-                f"is {self.thickness:g}; an axisymmetric model has none: forces and areas are for the circumference",
-                where=("thickness",),
-            )
+        if self.thickness != 1.0 and self.kind in ("axisymmetric", "3d"):
+            what = "an axisymmetric model has none: forces and areas are for the circumference"
+            if self.kind == "3d":
+                what = "a model in space has none"
+            raise InputError(f"is {self.thickness:g}; {what}", where=("thickness",))
         for part, kind in (
             ("bodies", Body),
             ("supports", Support),
@@ -98,7 +102,7 @@ class Model:
 
     @property
     def dimension(self) -> int:
-        """Of space: 2."""
+        """Of space: 2 or 3."""
         return int(self.mesh.points.shape[1])
 
     @property
@@ -108,8 +112,8 @@ class Model:
 
     @property
     def axes(self) -> str:
-        """Letters of the directions: "xy", axisymmetric "rz"."""
-        return "rz" if self.axisymmetric else "xy"
+        """Letters of the directions: "xy", axisymmetric "rz", in space "xyz"."""
+        return "rz" if self.axisymmetric else "xyz"[: self.dimension]
 
     def body_of_cells(self) -> IntArray:
         """For every cell the index of its body, (m,)."""
