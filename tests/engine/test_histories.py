@@ -138,7 +138,8 @@ def test_a_contact_switched_on_again_presses_out_what_overlaps():
     ]
     smooth = [replace(contact, friction=0.0) for contact in PARTS]
     solution = sg.solve(block(steps, contacts=smooth))
-    same(solution.last, solution.steps[0], 1e-9)
+    for again, first in zip(solution.last.contacts, solution.steps[0].contacts, strict=True):
+        np.testing.assert_allclose(again.pressure, first.pressure, rtol=1e-9)
     rubbing = sg.solve(block(steps, contacts=PARTS))
     assert rubbing.last.certificate.passed
     assert balance(rubbing) < 1e-10

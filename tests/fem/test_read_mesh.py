@@ -117,11 +117,11 @@ def test_groups_become_names(tmp_path, text):
     [
         (lambda t: t.replace("3 1 1 0\n", "3 1 1 0.5\n"), r"is not plane: z goes from 0 to 0.5"),
         (lambda t: t.replace('2 5 "wedge"\n', "").replace("s\n5\n0 3", "s\n4\n0 3"), "has a physical group 5 of dimen"),
-        (lambda t: t.replace("6 2 2 5 2 2 5 3", "6 9 2 5 2 2 5 3 1 1 1"), "holds 1 cells of the kind 'triangle6'"),
+        (lambda t: t.replace("6 2 2 5 2 2 5 3", "6 21 2 5 2 2 5 3 1 1 1 1 1 1 1"), "1 cells of the kind 'triangle10'"),
         (lambda t: t[:200], "meshio cannot read"),
         (lambda _: "nonsense", "meshio cannot read"),
     ],
-    ids=["not plane", "no name", "second order", "cut off", "no mesh"],
+    ids=["not plane", "no name", "third order", "cut off", "no mesh"],
 )
 def test_mistakes_in_a_file(tmp_path, change, message):
     with pytest.raises(InputError, match=message):

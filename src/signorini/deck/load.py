@@ -31,7 +31,7 @@ _KEYS = (
     "contact",
     "step",
 )
-_LATER = ("axisymmetric", "3d")
+_LATER = ("3d",)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

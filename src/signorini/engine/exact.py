@@ -86,8 +86,10 @@ def _offset(prepared: Prepared, point: LoadPoint) -> Array:
 def _right_hand_side(prepared: Prepared, point: LoadPoint) -> Array:
     """b of the law at a point of the load history."""
     condensed = prepared.condensed
-    f_c = condensed.condensed_load(free_load(prepared, point))
-    return condensed.right_hand_side(f_c, _offset(prepared, point)[condensed.active_rows], prepared.law.motions)
+    reduced = condensed.reduce(free_load(prepared, point))
+    return condensed.right_hand_side(
+        reduced.load, _offset(prepared, point)[condensed.active_rows], prepared.law.motions
+    )
 
 
 def _start(prepared: Prepared, state: State) -> PathState:
@@ -171,10 +173,8 @@ def _recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState
     seen = _on_the_way(prepared, last, point, now)
     (loads, imposed), offset = applied(prepared, point), _offset(prepared, point)
     moved = np.concatenate([seen.gap, seen.tangential])
-    f = free_load(prepared, point)
-    r = np.zeros(2 * n)
-    r[rows] = seen.forces[rows]
-    free = condensed.displacement(f, condensed.condensed_load(f), moved[rows], r[rows], offset[rows])
+    reduced = condensed.reduce(free_load(prepared, point))
+    free = condensed.displacement(reduced, moved[rows], seen.forces[rows], offset[rows])
     displacement = T @ free + imposed
     outside = np.setdiff1d(np.arange(2 * n), rows)
     moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]

@@ -36,8 +36,8 @@ class Examined:
     Attributes
     ----------
     loads : name to nodal forces at factor 1, each (dofs,)
-    parts, motions : connected pieces and their rigid motions, (dofs, 3 parts)
-    floating : (3 parts, k) rigid motions that supports leave free and contact must hold
+    parts, motions : connected pieces and their rigid motions, (dofs, 3 parts) or axisymmetric (dofs, parts)
+    floating : (motions, k) rigid motions that supports leave free and contact must hold
     scale : sizes from the data
     """
 
@@ -149,12 +149,12 @@ def examine(model: Model) -> Examined:
     InputError
         If something in the model does not fit the mesh, or a body can move freely: it is named, with its motion.
     """
-    space = make_space(model.mesh)
+    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
     constraints = make_constraints(space, model)
     loads = nodal_loads(space, model)
     interface = make_interface(space, model, constraints)
     parts = make_parts(space, model)
-    motions = rigid_motions(space, parts)
+    motions = rigid_motions(space, parts, axisymmetric=model.axisymmetric)
     refuse_free_motions(space, constraints, interface, parts, motions)
     return Examined(
         model=model,
@@ -251,8 +251,7 @@ def refuse_free_motions(
     space: Space, constraints: Constraints, interface: Interface, parts: tuple[Part, ...], motions: sp.csr_array
 ) -> None:
     """A motion that neither supports nor contact can resist has no place that a solver could find."""
-    nodes = np.unique(np.concatenate([interface.node, interface.partner[interface.partner >= 0]]))
-    dofs = space.dofs(nodes).ravel()
+    dofs = space.dofs(np.unique(interface.B.indices // space.dimension)).ravel()
     touching = sp.csr_array((np.ones(len(dofs)), (np.arange(len(dofs)), dofs)), (len(dofs), space.number_of_dofs))
     free = free_motions(motions, constraints, touching)
     if free.shape[1]:

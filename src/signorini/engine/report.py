@@ -125,6 +125,9 @@ def _surface(prepared: Prepared, i: int) -> _Surface:
     interface = prepared.interface
     own = np.flatnonzero(interface.contact == i)
     fixed = {
+        "nonmortar": interface.sides[i].nonmortar,
+        "mortar": interface.sides[i].mortar,
+        "coupling": interface.sides[i].coupling,
         "node": frozen(interface.node[own], np.int64),
         "points": frozen(prepared.model.mesh.points[interface.node[own]]),
         "normals": frozen(interface.normals[own]),

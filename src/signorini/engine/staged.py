@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import fields, replace
+from typing import Any
 
 import numpy as np
 
@@ -63,7 +64,7 @@ def nominal_gap(prepared: Prepared, stage: Stage | None) -> Array:
 
 def _select(interface: Interface, kept: BoolArray) -> Interface:
     """Some of the pairs."""
-    parts = {
+    parts: dict[str, Any] = {
         field.name: value[kept]
         for field in fields(interface)
         if isinstance(value := getattr(interface, field.name), np.ndarray) and len(value) == len(kept)

@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Facets of named boundaries: which way is out, how long they are, and what area belongs to a node."""
+"""Facets of named boundaries, straight or curved: which way is out, how long they are, and integrals over them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
+from signorini.fem.line import line_shapes
 from signorini.fem.space import Space
+
+_POINTS = {2: 2, 3: 4}  # of Gauss, by nodes of a facet: exact for pressure on both, with a radius too
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -18,35 +22,95 @@ class Boundary:
 
     Attributes
     ----------
-    facets : (m, 2) nodes, the body on the left of the way from the first to the second
-    normals : (m, 2) outward unit normals
-    lengths : (m,) lengths
+    facets : (m, 2) or (m, 3) nodes: first and second end, the body on the left of the way between them, and the middle
+    points : (m, 2 or 3, 2) their coordinates, length
     nodes : (k,) sorted nodes
     """
 
     facets: IntArray
-    normals: Array
-    lengths: Array
+    points: Array
     nodes: IntArray
 
-    def nodal(self, facet_values: Array) -> Array:
-        """Half of every facet's value to each of its nodes: trapezoidal rule, (k, ...) in the order of ``nodes``."""
-        result = np.zeros((len(self.nodes), *facet_values.shape[1:]))
-        for end in (0, 1):
-            np.add.at(result, np.searchsorted(self.nodes, self.facets[:, end]), 0.5 * facet_values)
+    @property
+    def quadratic(self) -> bool:
+        """Whether the facets have a node in the middle."""
+        return self.facets.shape[1] == 3
+
+    @property
+    def ends(self) -> IntArray:
+        """Sorted nodes at ends of facets; the others are in the middle of one."""
+        return np.unique(self.facets[:, :2])
+
+    @cached_property
+    def shapes(self) -> tuple[Array, Array]:
+        """Shape functions of a facet at its quadrature points, and their derivatives, (q, 2 or 3)."""
+        return line_shapes(self.facets.shape[1], self._rule[0])
+
+    @cached_property
+    def at(self) -> Array:
+        """Quadrature points of every facet, (m, q, 2)."""
+        return np.einsum("qa,mai->mqi", self.shapes[0], self.points)
+
+    @cached_property
+    def outward(self) -> Array:
+        """Outward normal at every quadrature point times its share of the length, (m, q, 2)."""
+        return _outward(self.points, self.shapes[1]) * self._rule[1][:, None]
+
+    @cached_property
+    def weights(self) -> Array:
+        """Length that belongs to every quadrature point, (m, q)."""
+        return np.linalg.norm(self.outward, axis=-1)
+
+    @property
+    def lengths(self) -> Array:
+        """Of every facet, (m,)."""
+        lengths: Array = self.weights.sum(axis=1)
+        return lengths
+
+    @cached_property
+    def normals(self) -> Array:
+        """Outward unit normal of every facet, of a curved one that of its chord, (m, 2)."""
+        total = self.outward.sum(axis=1)
+        normals: Array = total / np.linalg.norm(total, axis=1, keepdims=True) + 0.0
+        return normals
+
+    def nodal(self, integrand: Array) -> Array:
+        """``int N_k f`` at every node, (k, ...) in the order of ``nodes``.
+
+        Parameters
+        ----------
+        integrand : (m, q, ...) f at the quadrature points times what belongs to them, ``weights`` in the plane
+        """
+        shares = np.einsum("qa,mq...->ma...", self.shapes[0], integrand)
+        result = np.zeros((len(self.nodes), *integrand.shape[2:]))
+        np.add.at(result, np.searchsorted(self.nodes, self.facets), shares)
         return result
 
     @property
     def nodal_lengths(self) -> Array:
         """Tributary length of every node, (k,)."""
-        return self.nodal(self.lengths)
+        return self.nodal(self.weights)
 
-    @property
+    @cached_property
     def nodal_normals(self) -> Array:
-        """Outward unit normals averaged at the nodes with the facets' lengths as weights, (k, 2)."""
-        total = self.nodal(self.normals * self.lengths[:, None])
+        """Outward unit normals at the nodes, averaged with the lengths of their facets, (k, 2)."""
+        where = np.array([-1.0, 1.0, 0.0][: self.facets.shape[1]])
+        own = _outward(self.points, line_shapes(self.facets.shape[1], where)[1])
+        own *= (self.lengths[:, None] / np.linalg.norm(own, axis=-1))[..., None]
+        total = np.zeros((len(self.nodes), 2))
+        np.add.at(total, np.searchsorted(self.nodes, self.facets), own)
         normals: Array = total / np.linalg.norm(total, axis=1, keepdims=True)
         return normals
+
+    @property
+    def _rule(self) -> tuple[Array, Array]:
+        return np.polynomial.legendre.leggauss(_POINTS[self.facets.shape[1]])
+
+
+def _outward(points: Array, slopes: Array) -> Array:
+    """Tangents ``dx/ds`` of facets (m, k, 2) turned outwards, (m, q, 2)."""
+    along = np.einsum("qa,mai->mqi", slopes, points)
+    return np.stack([along[..., 1], -along[..., 0]], axis=-1)
 
 
 def boundary(space: Space, name: str, where: Where) -> Boundary:
@@ -55,7 +119,8 @@ def boundary(space: Space, name: str, where: Where) -> Boundary:
     Raises
     ------
     InputError
-        If a facet is no edge of a cell, or lies between two cells (shared by two bodies, or inside one).
+        If a facet is no edge of a cell, or lies between two cells (shared by two bodies, or inside one); if it belongs
+        to both linear and quadratic cells, or names another middle node than the cell.
 
     Examples
     --------
@@ -65,48 +130,40 @@ def boundary(space: Space, name: str, where: Where) -> Boundary:
     array([[0., 1.],
            [0., 1.]])
     """
-    facets = space.mesh.boundaries[name]
+    given = space.mesh.boundaries[name]
     points = space.mesh.points
-    if not len(facets):
+    if not len(given):
         raise InputError(f"'{name}' has no edges; expected a boundary with edges", where=where)
-    owner = _owners(space, facets, name, where)
-    start, end = points[facets[:, 0]], points[facets[:, 1]]
-    along = end - start
-    lengths = np.linalg.norm(along, axis=1)
-    if not lengths.all():
-        raise InputError(f"'{name}' has an edge without length at node {facets[lengths == 0][0, 0] + 1}", where=where)
-    normals = np.column_stack([along[:, 1], -along[:, 0]]) / lengths[:, None]
-    inward = np.sum(normals * (owner - start), axis=1) > 0
-    facets = np.where(inward[:, None], facets[:, ::-1], facets)
-    normals = np.where(inward[:, None], -normals, normals)
-    return Boundary(facets=facets, normals=normals + 0.0, lengths=lengths, nodes=np.unique(facets))
+    empty = (points[given[:, 0]] == points[given[:, 1]]).all(axis=1)
+    if empty.any():
+        raise InputError(f"'{name}' has an edge without length at node {given[empty][0, 0] + 1}", where=where)
+    edge = _edges(space, given[:, :2], name, where)
+    ends, middle = space.edges.ends[edge], space.edges.middle[edge]
+    if given.shape[1] == 3 and (given[:, 2] != middle).any():
+        wrong = int(np.nonzero(given[:, 2] != middle)[0][0])
+        found = f"node {middle[wrong] + 1}" if middle[wrong] >= 0 else "no node"
+        raise InputError(
+            f"'{name}' has node {given[wrong, 2] + 1} between nodes {given[wrong, 0] + 1} and {given[wrong, 1] + 1}, "
+            f"where the cell has {found}",
+            where=where,
+        )
+    quadratic = middle >= 0
+    if quadratic.any() and not quadratic.all():
+        raise InputError(f"'{name}' belongs to linear and to quadratic cells; expected one order", where=where)
+    facets = np.column_stack([ends, middle]) if quadratic.any() else ends
+    return Boundary(facets=facets, points=points[facets], nodes=np.unique(facets))
 
 
-def _owners(space: Space, facets: IntArray, name: str, where: Where) -> Array:
-    """Centres of the cells that the facets belong to, (m, 2)."""
-    count = len(space.mesh.points)
-
-    def keys(ends: IntArray) -> IntArray:
-        ends = np.sort(ends, axis=-1)
-        code: IntArray = ends[..., 0] * count + ends[..., 1]
-        return code
-
-    edges, centres = [], []
-    for block in space.blocks:
-        edge = keys(np.stack([block.cells, np.roll(block.cells, -1, axis=1)], axis=-1))
-        edges.append(edge.ravel())
-        centres.append(np.repeat(space.mesh.points[block.cells].mean(axis=1), edge.shape[1], axis=0))
-    edge_key, centre = np.concatenate(edges), np.vstack(centres)
-    order = np.argsort(edge_key, kind="stable")
-    edge_key, centre = edge_key[order], centre[order]
-    wanted = keys(facets)
-    left = np.searchsorted(edge_key, wanted, side="left")
-    found = np.searchsorted(edge_key, wanted, side="right") - left
-    if (found != 1).any():
-        a, b = facets[np.nonzero(found != 1)[0][0]] + 1
-        if (found == 0).any():
-            a, b = facets[np.nonzero(found == 0)[0][0]] + 1
-            raise InputError(f"'{name}' has an edge between nodes {a} and {b} that no cell has", where=where)
+def _edges(space: Space, facets: IntArray, name: str, where: Where) -> IntArray:
+    """Indices of the edges that the facets are, (m,)."""
+    wanted = space.edges.key_of(facets)
+    left = np.searchsorted(space.edges.key, wanted, side="left")
+    found = np.searchsorted(space.edges.key, wanted, side="right") - left
+    if (found == 0).any():
+        a, b = facets[np.nonzero(found == 0)[0][0]] + 1
+        raise InputError(f"'{name}' has an edge between nodes {a} and {b} that no cell has", where=where)
+    if (found > 1).any():
+        a, b = facets[np.nonzero(found > 1)[0][0]] + 1
         raise InputError(
             f"'{name}' lies inside: the edge between nodes {a} and {b} belongs to two cells. Expected an outer "
             "boundary; bodies that touch need nodes of their own on the interface",
@@ -114,5 +171,4 @@ def _owners(space: Space, facets: IntArray, name: str, where: Where) -> Array:
         )
     if len(np.unique(wanted)) != len(wanted):
         raise InputError(f"'{name}' has an edge twice", where=where)
-    owners: Array = centre[left]
-    return owners
+    return left

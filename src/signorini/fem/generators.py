@@ -12,9 +12,10 @@ from numpy.typing import ArrayLike
 from signorini.arrays import Array, IntArray
 from signorini.checks import choice, number, vector, whole
 from signorini.errors import InputError
-from signorini.model.mesh import Mesh
+from signorini.model.mesh import CORNERS, NODES_PER_CELL, Mesh
 
-Cells = Literal["quad", "triangle"]
+Cells = Literal["quad", "triangle", "quad8", "quad9", "triangle6"]
+_QUADRATIC = {"quad": "quad8", "triangle": "triangle6"}
 
 
 def rectangle(
@@ -27,6 +28,7 @@ def rectangle(
     x: ArrayLike | None = None,
     y: ArrayLike | None = None,
     cells: Cells = "quad",
+    order: int = 1,
 ) -> Mesh:
     """A rectangle "block" with the boundaries left, right, bottom and top.
 
@@ -36,13 +38,15 @@ def rectangle(
     nx, ny : numbers of cells
     origin : lower left corner, length
     x, y : instead of sizes and numbers, the increasing coordinates of the grid lines, length
-    cells : "quad", or "triangle" (every quadrilateral cut in two)
+    cells : "quad", or "triangle" (every quadrilateral cut in two), or a quadratic family: "quad8", "quad9", "triangle6"
+    order : 2 takes "quad8" for "quad" and "triangle6" for "triangle"
 
     Examples
     --------
     >>> rectangle(width=2, height=1, nx=4, ny=2)
     Mesh(15 nodes, 8 quads; bodies: block; boundaries: bottom, top, left, right)
     """
+    family = _family(cells, order)
     lines = []
     for key, given, size, count, start in (("x", x, width, nx, origin[0]), ("y", y, height, ny, origin[1])):
         if given is None:
@@ -52,8 +56,10 @@ def rectangle(
             lines.append(np.array(vector(given, ("mesh", key))))
             if len(lines[-1]) < 2 or (np.diff(lines[-1]) <= 0).any():
                 raise InputError("does not increase; expected two or more increasing coordinates", where=("mesh", key))
+    step = _step(family)
+    lines = [np.interp(np.arange(step * (len(line) - 1) + 1) / step, np.arange(len(line)), line) for line in lines]
     grid = np.stack(np.meshgrid(*lines, indexing="xy"), axis=-1)
-    return _assemble([grid], _sides(grid), "block", cells)
+    return _assemble([grid], _sides(grid), "block", family)
 
 
 def quarter_disk(
@@ -63,6 +69,7 @@ def quarter_disk(
     contact_spacing: float,
     refine: int = 1,
     cells: Cells = "quad",
+    order: int = 1,
 ) -> Mesh:
     """A quarter "disk" that touches the x axis at the origin: centre (0, radius), x >= 0, y <= radius.
 
@@ -76,15 +83,17 @@ def quarter_disk(
     contact_length : part of the arc, measured along x, with equal steps; at most 0.7 radius
     contact_spacing : the step, length; the contact length is a whole number of steps
     refine : every edge of the grid is divided by it
-    cells : "quad" or "triangle"
+    cells, order : as in :func:`rectangle`; middle nodes of a quadratic cell are on the circle
 
     Examples
     --------
     >>> quarter_disk(radius=8.0, contact_length=4.0, contact_spacing=0.5)
     Mesh(93 nodes, 76 quads; bodies: disk; boundaries: arc, axis, cut)
     """
-    grids, sides = _quarter(radius, contact_length, contact_spacing, whole(refine, ("mesh", "refine")))
-    return _assemble(grids, sides, "disk", cells)
+    family = _family(cells, order)
+    refine = whole(refine, ("mesh", "refine")) * _step(family)
+    grids, sides = _quarter(radius, contact_length, contact_spacing, refine)
+    return _assemble(grids, sides, "disk", family)
 
 
 def half_disk(
@@ -94,6 +103,7 @@ def half_disk(
     contact_spacing: float,
     refine: int = 1,
     cells: Cells = "quad",
+    order: int = 1,
 ) -> Mesh:
     """The lower half "disk": a quarter disk and its mirror image, boundaries "arc" and "cut" (y = radius).
 
@@ -104,13 +114,15 @@ def half_disk(
     >>> half_disk(radius=8.0, contact_length=4.0, contact_spacing=0.5)
     Mesh(177 nodes, 152 quads; bodies: disk; boundaries: arc, cut)
     """
-    grids, sides = _quarter(radius, contact_length, contact_spacing, whole(refine, ("mesh", "refine")))
+    family = _family(cells, order)
+    refine = whole(refine, ("mesh", "refine")) * _step(family)
+    grids, sides = _quarter(radius, contact_length, contact_spacing, refine)
     mirror = np.array([-1.0, 1.0])
     both = [*grids, *(grid[:, ::-1] * mirror for grid in grids)]
     lines = {
         name: [*parts, *(part[::-1] * mirror for part in parts)] for name, parts in sides.items() if name != "axis"
     }
-    return _assemble(both, lines, "disk", cells)
+    return _assemble(both, lines, "disk", family)
 
 
 def annulus(
@@ -122,6 +134,7 @@ def annulus(
     angle: float = 360.0,
     centre: tuple[float, float] = (0.0, 0.0),
     cells: Cells = "quad",
+    order: int = 1,
 ) -> Mesh:
     """A "ring" or a sector of one, from the x axis counterclockwise: boundaries "inner", "outer", "start", "end".
 
@@ -131,7 +144,7 @@ def annulus(
     n_radial, n_angular : numbers of cells
     angle : of the sector, degrees, up to 360; a full ring has neither start nor end
     centre : length
-    cells : "quad" or "triangle"
+    cells, order : as in :func:`rectangle`; middle nodes of a quadratic cell are on the circle
 
     Examples
     --------
@@ -144,8 +157,11 @@ def annulus(
     if angle > 360.0:
         raise InputError(f"is {angle:g}; expected at most 360 degrees", where=("mesh", "angle"))
     full = angle == 360.0
-    turns = np.radians(np.linspace(0.0, angle, whole(n_angular, ("mesh", "n_angular"), least=3 if full else 1) + 1))
-    radii = np.linspace(inner, outer, whole(n_radial, ("mesh", "n_radial")) + 1)
+    family = _family(cells, order)
+    step = _step(family)
+    around = whole(n_angular, ("mesh", "n_angular"), least=3 if full else 1)
+    turns = np.radians(np.linspace(0.0, angle, step * around + 1))
+    radii = np.linspace(inner, outer, step * whole(n_radial, ("mesh", "n_radial")) + 1)
     ray = np.column_stack([np.cos(turns), np.sin(turns)])
     ray[np.abs(ray) < 1e-15] = 0.0  # a sector that ends on an axis ends there exactly
     grid = np.array(centre) + ray[:, None, :] * radii[None, :, None]
@@ -155,7 +171,7 @@ def annulus(
     named = {"inner": sides["left"], "outer": sides["right"]}
     if not full:
         named |= {"start": sides["bottom"], "end": sides["top"]}
-    return _assemble([grid], named, "ring", cells)
+    return _assemble([grid], named, "ring", family)
 
 
 def _quarter(
@@ -246,9 +262,21 @@ def _sides(grid: Array) -> dict[str, list[Array]]:
     return {"bottom": [grid[0]], "top": [grid[-1]], "left": [grid[:, 0]], "right": [grid[:, -1]]}
 
 
-def _assemble(grids: list[Array], sides: Mapping[str, list[Array]], body: str, cells: str) -> Mesh:
-    """One mesh from grids whose common points coincide."""
-    choice(cells, ("quad", "triangle"), ("mesh", "cells"), "cells")
+def _family(cells: str, order: int) -> str:
+    """The family of cells of an order."""
+    choice(cells, CORNERS, ("mesh", "cells"), "cells")
+    if whole(order, ("mesh", "order")) > 2:
+        raise InputError(f"is {order}; expected 1 or 2", where=("mesh", "order"))
+    return _QUADRATIC.get(cells, cells) if order == 2 else cells
+
+
+def _step(family: str) -> int:
+    """Steps of the grid along an edge of a cell."""
+    return 1 if NODES_PER_CELL[family] == CORNERS[family] else 2
+
+
+def _assemble(grids: list[Array], sides: Mapping[str, list[Array]], body: str, family: str) -> Mesh:
+    """One mesh from grids whose common points coincide; quadratic cells take two steps of a grid."""
     lines = [line for parts in sides.values() for line in parts]
     every = np.vstack([grid.reshape(-1, 2) for grid in grids] + lines)
     unit = 1e-9 * np.ptp(every, axis=0).max()
@@ -258,33 +286,50 @@ def _assemble(grids: list[Array], sides: Mapping[str, list[Array]], body: str, c
     rank[order] = np.arange(len(order))
     number_of = rank[number_of.ravel()]
     points = every[first[order]]
-    quads, start = [], 0
+    found, start = [], 0
     for grid in grids:
         index = number_of[start : start + grid[..., 0].size].reshape(grid.shape[:2])
         start += index.size
-        corners = (index[:-1, :-1], index[:-1, 1:], index[1:, 1:], index[1:, :-1])
-        quads.append(np.stack([c.ravel() for c in corners], axis=1))
-    nodes = np.vstack(quads)
-    if cells == "triangle":
-        nodes = np.vstack([nodes[:, [0, 1, 2]], nodes[:, [0, 2, 3]]])
+        found.append(_cells_of(index, family))
+    cells = _counterclockwise(points, np.vstack(found), family)
     boundaries = {}
     for name, parts in sides.items():
         facets = []
         for line in parts:
             index = number_of[start : start + len(line)]
             start += len(line)
-            facets.append(np.column_stack([index[:-1], index[1:]]))
+            ends = [index[:-1], index[1:]] if _step(family) == 1 else [index[:-2:2], index[2::2], index[1::2]]
+            facets.append(np.column_stack(ends))
         boundaries[name] = np.vstack(facets)
+    used, compact = np.unique(cells, return_inverse=True)  # "quad8" has no nodes inside
     return Mesh(
-        points=points,
-        cells={cells: _counterclockwise(points, nodes)},
-        bodies={body: np.arange(len(nodes))},
-        boundaries=boundaries,
+        points=points[used],
+        cells={family: compact.reshape(cells.shape)},
+        bodies={body: np.arange(len(cells))},
+        boundaries={name: np.searchsorted(used, facets) for name, facets in boundaries.items()},
     )
 
 
-def _counterclockwise(points: Array, cells: IntArray) -> IntArray:
-    corners = points[cells]
+def _cells_of(index: IntArray, family: str) -> IntArray:
+    """Cells on a grid of node numbers."""
+    if _step(family) == 1:
+        corners = (index[:-1, :-1], index[:-1, 1:], index[1:, 1:], index[1:, :-1])
+        nodes = np.stack([c.ravel() for c in corners], axis=1)
+        return np.vstack([nodes[:, [0, 1, 2]], nodes[:, [0, 2, 3]]]) if family == "triangle" else nodes
+    ways = ((0, 0), (0, 2), (2, 2), (2, 0), (0, 1), (1, 2), (2, 1), (1, 0), (1, 1))
+    rows, columns = (size - 2 for size in index.shape)
+    nodes = np.stack([index[i : i + rows : 2, j : j + columns : 2].ravel() for i, j in ways], axis=1)
+    if family == "triangle6":
+        return np.vstack([nodes[:, [0, 1, 2, 4, 5, 8]], nodes[:, [0, 2, 3, 8, 6, 7]]])
+    return nodes[:, : NODES_PER_CELL[family]]
+
+
+def _counterclockwise(points: Array, cells: IntArray, family: str) -> IntArray:
+    n = CORNERS[family]
+    corners = points[cells[:, :n]]
     x, y = corners[..., 0], corners[..., 1]
     area = (x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y).sum(axis=1)
-    return np.where(area[:, None] < 0, cells[:, ::-1], cells)
+    back = list(range(n))[::-1]
+    if _step(family) == 2:  # the edge k of the reversed cell is the edge n - 2 - k
+        back += [n + k % n for k in range(n - 2, -2, -1)] + list(range(2 * n, NODES_PER_CELL[family]))
+    return np.where(area[:, None] < 0, cells[:, back], cells)

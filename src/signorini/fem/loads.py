@@ -8,6 +8,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.errors import Where
 from signorini.fem.boundary import boundary
+from signorini.fem.measure import facet_areas, measure
 from signorini.fem.places import nodes_at
 from signorini.fem.space import Space
 from signorini.model.conditions import Load
@@ -28,14 +29,14 @@ def _forces(space: Space, model: Model, load: Load, where: Where) -> Array:
         forces[nodes] = _given(load.force) / len(nodes)
         return forces.ravel()
     side = boundary(space, str(load.on), (*where, "on"))
-    area = side.lengths[:, None] * model.thickness
+    area = facet_areas(model, side)[..., None]
     if load.force is not None:
-        per_facet = area / area.sum() * _given(load.force)
+        force = area / area.sum() * _given(load.force)
     elif load.pressure is not None:
-        per_facet = -load.pressure * area * side.normals
+        force = -load.pressure * measure(model, side.at)[..., None] * side.outward
     else:
-        per_facet = area * np.array(load.traction)
-    forces[side.nodes] = side.nodal(per_facet)
+        force = area * np.array(load.traction)
+    forces[side.nodes] = side.nodal(force)
     return forces.ravel()
 
 
@@ -49,5 +50,6 @@ def _body_forces(space: Space, model: Model, name: str, density: Array) -> Array
     share = np.zeros(len(space.mesh.points))
     for block, volumes in zip(space.blocks, space.volumes, strict=True):
         here = inside[block.first : block.first + len(block.cells)]
-        np.add.at(share, block.cells[here], volumes[here] @ block.values * model.thickness)
+        at = np.einsum("qk,mki->mqi", block.values, space.mesh.points[block.cells[here]])
+        np.add.at(share, block.cells[here], (volumes[here] * measure(model, at)) @ block.values)
     return np.outer(share, density).ravel()

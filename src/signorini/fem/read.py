@@ -15,7 +15,7 @@ from signorini.arrays import IntArray
 from signorini.errors import InputError
 from signorini.model.mesh import NODES_PER_CELL, Mesh
 
-_LINES, _POINTS = "line", "vertex"
+_LINES, _POINTS = ("line", "line3"), "vertex"
 _PLANE = 1e-9  # of the size: how far a plane mesh may leave its plane
 
 
@@ -57,9 +57,19 @@ def read_mesh(path: str | Path) -> Mesh:
         points=points,
         cells=families,
         bodies={name: np.concatenate(parts) for name, parts in bodies.items()} or {"body": np.arange(start)},
-        boundaries={name: np.vstack(cells[_LINES])[index] for name, index in named[_LINES].items()},
+        boundaries=_boundaries(named, cells),
         nodes={name: np.unique(np.vstack(cells[_POINTS])[index]) for name, index in named[_POINTS].items()},
     )
+
+
+def _boundaries(named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntArray]]) -> dict[str, IntArray]:
+    """Edges by name; where edges with and without a middle node bear one name, the ends alone say which they are."""
+    found: dict[str, list[IntArray]] = defaultdict(list)
+    for family in _LINES:
+        for name, index in named[family].items():
+            found[name].append(np.vstack(cells[family])[index])
+    shared = {name: np.vstack([part[:, :2] for part in parts]) for name, parts in found.items() if len(parts) > 1}
+    return {name: parts[0] for name, parts in found.items()} | shared
 
 
 def _read(path: Path) -> meshio.Mesh:
@@ -83,10 +93,10 @@ def _named_parts(found: meshio.Mesh, path: Path) -> tuple[dict[str, dict[str, In
     counts: dict[str, int] = defaultdict(int)
     for number, (block, tag_of_cell) in enumerate(zip(found.cells, physical, strict=True)):
         family = block.type
-        if family not in (*NODES_PER_CELL, _LINES, _POINTS):
+        if family not in (*NODES_PER_CELL, *_LINES, _POINTS):
             raise InputError(
                 f"'{path}' holds {len(block.data)} cells of the kind '{family}'; this version has "
-                f"{', '.join(NODES_PER_CELL)} (write a mesh of first order)",
+                f"{', '.join(NODES_PER_CELL)} (write a mesh of first or second order)",
                 where=("mesh", "file"),
             )
         index = counts[family] + np.arange(len(block.data))

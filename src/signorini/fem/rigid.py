@@ -74,17 +74,23 @@ def make_parts(space: Space, model: Model) -> tuple[Part, ...]:
     return tuple(parts)
 
 
-def rigid_motions(space: Space, parts: tuple[Part, ...]) -> sp.csr_array:
-    """Translations along x and y and the rotation ``(-(y - y_c), x - x_c) / size`` of each part, (dofs, 3 parts)."""
+def rigid_motions(space: Space, parts: tuple[Part, ...], *, axisymmetric: bool = False) -> sp.csr_array:
+    """Translations along x and y and the rotation ``(-(y - y_c), x - x_c) / size`` of each part, (dofs, 3 parts).
+
+    Axisymmetric parts move along the axis alone, (dofs, parts): widening a ring or tilting a plate strains it.
+    """
     rows, columns, values = [], [], []
     for i, part in enumerate(parts):
         arm = (space.mesh.points[part.nodes] - part.centre) / part.size
         one, (x, y) = np.ones(len(part.nodes)), space.dofs(part.nodes).T
-        rows += [x, y, x, y]
-        columns += [np.full(len(x), 3 * i + k) for k in (0, 1, 2, 2)]
-        values += [one, one, -arm[:, 1], arm[:, 0]]
+        motions = [(0, x, one), (1, y, one), (2, x, -arm[:, 1]), (2, y, arm[:, 0])]
+        if axisymmetric:
+            motions = [(0, y, one)]
+        rows += [dofs for _, dofs, _ in motions]
+        columns += [np.full(len(dofs), (1 if axisymmetric else 3) * i + k) for k, dofs, _ in motions]
+        values += [value for _, _, value in motions]
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-    return sp.csr_array(entries, shape=(space.number_of_dofs, 3 * len(parts)))
+    return sp.csr_array(entries, shape=(space.number_of_dofs, (1 if axisymmetric else 3) * len(parts)))
 
 
 def free_motions(motions: sp.csr_array, constraints: Constraints, held: sp.csr_array) -> Array:
@@ -92,12 +98,12 @@ def free_motions(motions: sp.csr_array, constraints: Constraints, held: sp.csr_a
 
     Parameters
     ----------
-    motions : (dofs, 3 parts), see :func:`rigid_motions`
+    motions : (dofs, motions of all parts), see :func:`rigid_motions`
     held : (rows, dofs) sparse, further components that are held, of unit size
 
     Returns
     -------
-    (3 parts, k) coefficients, a basis as simple as it can be
+    (motions of all parts, k) coefficients, a basis as simple as it can be
     """
     transform = constraints.transform
     together = np.maximum(transform.sum(axis=0), 1.0)
@@ -109,7 +115,14 @@ def free_motions(motions: sp.csr_array, constraints: Constraints, held: sp.csr_a
 
 
 def describe_motion(parts: tuple[Part, ...], motion: Array) -> str:
-    """A rigid motion (3 parts,) in words: of every part that moves, along what or about where.
+    """A rigid motion in words: of every part that moves, along what or about where.
+
+    Parameters
+    ----------
+    motion : coefficients of :func:`rigid_motions`, (3 parts,) or axisymmetric (parts,)
+
+    Examples
+    --------
 
     >>> block = Part(bodies=("block",), nodes=np.arange(4), centre=np.array([1.0, 0.5]), size=1.0)
     >>> describe_motion((block,), np.array([1.0, 0.0, 0.0]))
@@ -117,6 +130,9 @@ def describe_motion(parts: tuple[Part, ...], motion: Array) -> str:
     """
     words = []
     largest = np.abs(motion).max()
+    if len(motion) == len(parts):
+        moving = [part for part, along in zip(parts, motion, strict=True) if abs(along) > 1e-6 * largest]
+        return " while ".join(f"{part.label} can move along the axis" for part in moving)
     for part, (a, b, turn) in zip(parts, motion.reshape(-1, 3), strict=True):
         if max(abs(a), abs(b), abs(turn)) < 1e-6 * largest:
             continue

@@ -12,28 +12,54 @@ import skfem
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
-from signorini.model.mesh import Mesh
+from signorini.fem.edges import Edges, check_conforming, make_edges
+from signorini.model.mesh import CORNERS, Mesh
 
-_ELEMENTS: Mapping[str, tuple[type[skfem.Element], int]] = {
-    # family: scikit-fem element, polynomial degree that the quadrature integrates exactly
-    "triangle": (skfem.ElementTriP1, 1),
-    "quad": (skfem.ElementQuad1, 2),
+ON_AXIS = 1e-10
+"""Of the largest radius: nodes of axisymmetric bodies that are nearer are on the axis."""
+
+
+@dataclass(frozen=True)
+class _Element:
+    """A scikit-fem element and the degrees of polynomials that its quadratures integrate exactly.
+
+    plane, ring : for plane and for axisymmetric bodies: enough for the patch test on curved elements
+    stress : points where stresses are best, extrapolated to the nodes by as many monomials
+    """
+
+    kind: type[skfem.Element]
+    plane: int
+    ring: int
+    stress: int
+    monomials: tuple[tuple[int, int], ...]
+
+
+_LINEAR = ((0, 0), (1, 0), (0, 1))
+_BILINEAR = (*_LINEAR, (1, 1))
+_ELEMENTS: Mapping[str, _Element] = {
+    "triangle": _Element(skfem.ElementTriP1, 1, 2, 1, ((0, 0),)),
+    "quad": _Element(skfem.ElementQuad1, 2, 2, 2, _BILINEAR),
+    "triangle6": _Element(skfem.ElementTriP2, 2, 4, 2, _LINEAR),
+    "quad8": _Element(skfem.ElementQuadS2, 5, 7, 2, _BILINEAR),
+    "quad9": _Element(skfem.ElementQuad2, 5, 7, 2, _BILINEAR),
 }
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Block:
-    """Cells of one family with shape functions at their quadrature points.
+    """Cells of one family with shape functions at points of the reference cell.
 
     Attributes
     ----------
-    family : "triangle", "quad"
+    family : as :class:`signorini.model.mesh.Mesh` calls it
     cells : (m, k) nodes of each cell
     first : number of the first cell of the block among all cells
-    values : (q, k) shape functions at the quadrature points of the reference cell
+    values : (q, k) shape functions at the quadrature points
     gradients : (q, k, d) their reference gradients
     weights : (q,) quadrature weights
-    corners : (k, k, d) reference gradients at the nodes of the reference cell
+    corners : (k, k, d) reference gradients at the nodes
+    stress_values, stress_gradients : (p, k), (p, k, d) the same where stresses are best
+    to_nodes : (k, p) from there to the nodes
     """
 
     family: str
@@ -43,6 +69,9 @@ class Block:
     gradients: Array
     weights: Array
     corners: Array
+    stress_values: Array
+    stress_gradients: Array
+    to_nodes: Array
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -76,6 +105,11 @@ class Space:
         return np.unique(np.concatenate([block.cells.ravel() for block in self.blocks]))
 
     @cached_property
+    def edges(self) -> Edges:
+        """Of all cells."""
+        return make_edges(self.mesh)
+
+    @cached_property
     def jacobians(self) -> tuple[Array, ...]:
         """``dx/dX`` at the quadrature points, (m, q, d, d) a block."""
         return tuple(self._jacobians(block, block.gradients) for block in self.blocks)
@@ -102,36 +136,55 @@ class Space:
         return nodes[..., None] * self.dimension + np.arange(self.dimension)
 
 
-def make_space(mesh: Mesh) -> Space:
+def make_space(mesh: Mesh, *, axisymmetric: bool = False) -> Space:
     """The space of a mesh.
+
+    Parameters
+    ----------
+    axisymmetric : coordinates are radius and height: higher quadratures
 
     Raises
     ------
     InputError
-        For a cell without area or turned inside out, with its number.
+        For a cell without area or turned inside out, with its number; for linear cells that meet quadratic ones along
+        an edge; for a negative radius.
     """
+    if axisymmetric:
+        _check_radii(mesh)
     blocks, first = [], 0
     for family, cells in mesh.cells.items():
-        element_type, degree = _ELEMENTS[family]
-        element = element_type()
-        where, weights = skfem.quadrature.get_quadrature(element.refdom, degree)
-        values, gradients = _shape(element, where, cells.shape[1])
-        _, corners = _shape(element, element.doflocs.T, cells.shape[1])
-        blocks.append(
-            Block(
-                family=family,
-                cells=cells,
-                first=first,
-                values=values,
-                gradients=gradients,
-                weights=weights,
-                corners=corners,
-            )
-        )
+        blocks.append(_block(family, cells, first, axisymmetric))
         first += len(cells)
     space = Space(mesh=mesh, blocks=tuple(blocks))
+    if any(nodes.shape[1] > CORNERS[family] for family, nodes in mesh.cells.items()):
+        check_conforming(mesh, space.edges)
     _check_shapes(space)
     return space
+
+
+def _block(family: str, cells: IntArray, first: int, axisymmetric: bool) -> Block:
+    what = _ELEMENTS[family]
+    element = what.kind()
+    where, weights = skfem.quadrature.get_quadrature(element.refdom, what.ring if axisymmetric else what.plane)
+    best, _ = skfem.quadrature.get_quadrature(element.refdom, what.stress)
+    values, gradients = _shape(element, where, cells.shape[1])
+    stress_values, stress_gradients = _shape(element, best, cells.shape[1])
+    return Block(
+        family=family,
+        cells=cells,
+        first=first,
+        values=values,
+        gradients=gradients,
+        weights=weights,
+        corners=_shape(element, element.doflocs.T, cells.shape[1])[1],
+        stress_values=stress_values,
+        stress_gradients=stress_gradients,
+        to_nodes=_monomials(element.doflocs.T, what) @ np.linalg.pinv(_monomials(best, what)),
+    )
+
+
+def _monomials(at: Array, what: _Element) -> Array:
+    return np.stack([at[0] ** i * at[1] ** j for i, j in what.monomials], axis=1)
 
 
 def _shape(element: skfem.Element, where: Array, count: int) -> tuple[Array, Array]:
@@ -141,18 +194,32 @@ def _shape(element: skfem.Element, where: Array, count: int) -> tuple[Array, Arr
     return values, gradients
 
 
+def _check_radii(mesh: Mesh) -> None:
+    radii = mesh.points[:, 0]
+    used = np.concatenate([cells.ravel() for cells in mesh.cells.values()])
+    node = used[np.argmin(radii[used])]
+    if radii[node] < -ON_AXIS * np.abs(radii[used]).max():
+        raise InputError(
+            f"node {node + 1} has the radius {radii[node]:g}; expected x = r >= 0 in an axisymmetric model",
+            where=("mesh", "points"),
+        )
+
+
 def _check_shapes(space: Space) -> None:
-    for block in space.blocks:
-        determinants = np.linalg.det(space._jacobians(block, block.corners))
+    for block, inner in zip(space.blocks, space.jacobians, strict=True):
+        outer = space._jacobians(block, block.corners)
+        determinants = np.linalg.det(np.concatenate([outer, inner], axis=1))
         size = np.abs(determinants).max(axis=1)
         # clockwise cells are fine; a change of sign inside a cell, or no area, is not
         bad = (np.abs(determinants.sum(axis=1)) < 1e-12 * size) | (size == 0.0)
-        bad |= (determinants * np.sign(determinants[:, :1])).min(axis=1) <= -1e-12 * size
+        bad |= (determinants * np.sign(determinants.sum(axis=1))[:, None]).min(axis=1) <= -1e-12 * size
         if bad.any():
             cell = int(np.nonzero(bad)[0][0])
             centre = tuple(float(x) for x in space.mesh.points[block.cells[cell]].mean(axis=0).round(6))
+            linear = CORNERS[block.family] == block.cells.shape[1]
+            expected = "a convex cell" if linear else "the middle nodes near the middles of edges that bend little"
             raise InputError(
                 f"cell {block.first + cell + 1} ({block.family}) near {centre} has no "
-                "area or is turned inside out (its Jacobian changes sign); expected a convex cell",
+                f"area or is turned inside out (its Jacobian changes sign); expected {expected}",
                 where=("mesh",),
             )

@@ -28,7 +28,10 @@ def lame_parameters(model: Model) -> tuple[Array, Array]:
 
 
 def stiffness(space: Space, model: Model) -> sp.csr_array:
-    """``K_ij = int (lambda div phi_i div phi_j + 2 G eps(phi_i):eps(phi_j)) dx`` times the thickness, (dofs, dofs)."""
+    """``K_ij = int (lambda div phi_i div phi_j + 2 G eps(phi_i):eps(phi_j)) dx``, (dofs, dofs).
+
+    ``dx`` holds the thickness; of axisymmetric bodies ``2 pi r dr dz``, and their strain has the hoop part ``u_r / r``.
+    """
     lame, shear = lame_parameters(model)
     owner = model.body_of_cells()
     blocks = []
@@ -42,6 +45,7 @@ def stiffness(space: Space, model: Model) -> sp.csr_array:
                 lame_lambda=lame[own],
                 lame_mu=shear[own],
                 thickness=model.thickness,
+                shape_values=block.values,
             )
         )
-    return assemble(space.mesh.points, blocks)
+    return assemble(space.mesh.points, blocks, axisymmetric=model.axisymmetric)

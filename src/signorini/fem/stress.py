@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.fem.space import Space
+from signorini.fem.space import Block, Space
 from signorini.fem.stiffness import lame_parameters
 from signorini.model.model import Model
 
@@ -21,7 +21,8 @@ class BodyStress:
     ----------
     body : its name
     nodes : (k,) sorted nodes of the mesh
-    stress : (k, 6) force per area: xx, yy, zz, xy, yz, xz, tension positive
+    stress : (k, 6) force per area: xx, yy, zz, xy, yz, xz, tension positive; of axisymmetric bodies radial, axial, hoop
+        and their shear
     """
 
     body: str
@@ -47,7 +48,7 @@ def von_mises(stress: Array) -> Array:
 
 
 def body_stresses(space: Space, model: Model, displacement: Array) -> list[BodyStress]:
-    """Stresses of every body: from the quadrature points to the cell's nodes, then averaged with the cells' areas.
+    """Stresses of every body: from the best points of a cell to its nodes, then averaged with the cells' areas.
 
     Parameters
     ----------
@@ -59,10 +60,11 @@ def body_stresses(space: Space, model: Model, displacement: Array) -> list[BodyS
     lame, shear = lame_parameters(model)
     for block, volumes in zip(space.blocks, space.volumes, strict=True):
         own = owner[block.first : block.first + len(block.cells)]
-        gradients = space.gradients(block, block.gradients)
+        gradients = space.gradients(block, block.stress_gradients)
         slope = np.einsum("mqki,mkj->mqij", gradients, displacement[block.cells])
-        stress = _stress(slope, lame[own], shear[own], model)
-        at_nodes = np.einsum("kq,mqc->mkc", np.linalg.pinv(block.values), stress)
+        hoop = _hoop(block, space.mesh.points, displacement) if model.axisymmetric else np.zeros(slope.shape[:2])
+        stress = _stress(slope, hoop, lame[own], shear[own], model)
+        at_nodes = np.einsum("kq,mqc->mkc", block.to_nodes, stress)
         area = volumes.sum(axis=1)
         for i in range(len(model.bodies)):
             here = own == i
@@ -75,15 +77,22 @@ def body_stresses(space: Space, model: Model, displacement: Array) -> list[BodyS
     return result
 
 
-def _stress(slope: Array, lame: Array, shear: Array, model: Model) -> Array:
-    """Stress components (m, q, 6) from displacement gradients (m, q, 2, 2), Lame parameters (m,) of the plane kind."""
+def _hoop(block: Block, points: Array, displacement: Array) -> Array:
+    """Hoop strain ``u_r / r``, (m, p)."""
+    radius, moved = (field[block.cells, 0] @ block.stress_values.T for field in (points, displacement))
+    strain: Array = moved / radius
+    return strain
+
+
+def _stress(slope: Array, hoop: Array, lame: Array, shear: Array, model: Model) -> Array:
+    """Stress components (m, p, 6) from displacement gradients (m, p, 2, 2), Lame parameters (m,) of the plane kind."""
     lame, shear = lame[:, None], shear[:, None]
     xx, yy = slope[..., 0, 0], slope[..., 1, 1]
-    trace = lame * (xx + yy)
+    trace = lame * (xx + yy + hoop)
     stress = np.zeros((*xx.shape, 6))
     stress[..., 0] = trace + 2.0 * shear * xx
     stress[..., 1] = trace + 2.0 * shear * yy
-    if model.kind == "plane strain":
-        stress[..., 2] = trace
+    if model.kind != "plane stress":
+        stress[..., 2] = trace + 2.0 * shear * hoop
     stress[..., 3] = shear * (slope[..., 0, 1] + slope[..., 1, 0])
     return stress

@@ -9,13 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
 from signorini.fem.places import nodes_at
-from signorini.fem.space import Space
+from signorini.fem.space import ON_AXIS, Space
 from signorini.model.model import Model
-
-AXES = "xyz"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -24,7 +22,8 @@ class Constraints:
 
     Attributes
     ----------
-    free : (dofs,) index into z, -1 where a support (or nothing at all) holds the dof; dofs that move together share one
+    free : (dofs,) index into z, -1 where a support, the axis (or nothing at all) holds the dof; dofs that move together
+        share one
     transform : (dofs, z) sparse T, one entry 1 a row
     prescribed : name of moving support to (dofs,) displacements at factor 1
     owner : (dofs,) index of the support that holds the dof, otherwise -1
@@ -44,9 +43,11 @@ def make_constraints(space: Space, model: Model) -> Constraints:
     Raises
     ------
     InputError
-        If two supports prescribe different values at one node, or a rigid boundary carries a support in its direction.
+        If two supports prescribe different values at one node, a support moves a node off the axis of an axisymmetric
+        body, or a rigid boundary carries a support in its direction.
     """
     d, total = space.dimension, space.number_of_dofs
+    axis_dofs = _on_axis(space, model)
     owner = np.full(total, -1)
     values = np.zeros(total)
     prescribed = {support.label: np.zeros(total) for support in model.supports if support.moves}
@@ -56,6 +57,8 @@ def make_constraints(space: Space, model: Model) -> Constraints:
             if value is None:
                 continue
             dofs = nodes * d + axis
+            if value != 0.0:
+                _check_axis(np.intersect1d(dofs, axis_dofs), i, value)
             _check_agreement(space, model, owner, values, dofs, i, value)
             new = dofs[owner[dofs] < 0]
             owner[new], values[new] = i, value
@@ -64,13 +67,14 @@ def make_constraints(space: Space, model: Model) -> Constraints:
     held = owner >= 0
     unused = np.setdiff1d(np.arange(len(space.mesh.points)), space.used_nodes)
     held[space.dofs(unused).ravel()] = True
+    held[axis_dofs] = True
     leader = np.arange(total)
     for i, load in enumerate(model.loads):
         if load.spread == "displacement" and load.force is not None:
             nodes = nodes_at(space, load.on, ("load", i, "on"))
             for axis, part in enumerate(load.force):
                 if part is not None:
-                    _tie(space, model, leader, owner, nodes * d + axis, i)
+                    _tie(space, model, leader, owner, held, nodes * d + axis, i)
     free = np.full(total, -1)
     leaders = np.nonzero(~held & (leader == np.arange(total)))[0]
     free[leaders] = np.arange(len(leaders))
@@ -78,6 +82,23 @@ def make_constraints(space: Space, model: Model) -> Constraints:
     rows = np.nonzero(free >= 0)[0]
     transform = sp.csr_array((np.ones(len(rows)), (rows, free[rows])), shape=(total, len(leaders)))
     return Constraints(free=free, transform=transform, prescribed=prescribed, owner=owner, nodes=leaders // d)
+
+
+def _on_axis(space: Space, model: Model) -> IntArray:
+    """Radial dofs of nodes on the axis of an axisymmetric body: its points cannot leave the axis."""
+    if not model.axisymmetric:
+        return np.empty(0, int)
+    radii = space.mesh.points[space.used_nodes, 0]
+    return space.used_nodes[radii <= ON_AXIS * radii.max()] * space.dimension
+
+
+def _check_axis(dofs: IntArray, i: int, value: float) -> None:
+    if len(dofs):
+        raise InputError(
+            f"u_r = {value:g} at node {dofs[0] // 2 + 1}, which is on the axis and stays there; expected 0 or None "
+            '(in a deck "free")',
+            where=("support", i, "u"),
+        )
 
 
 def _check_agreement(
@@ -90,21 +111,24 @@ def _check_agreement(
             continue
         node, axis = divmod(int(dof), space.dimension)
         raise InputError(
-            f"'{model.supports[i].label}' prescribes u_{AXES[axis]} = {value:g} at node {node + 1}, where support "
-            f"'{other.label}' prescribes {values[dof]:g}; expected one support to move a node in a direction",
+            f"'{model.supports[i].label}' prescribes u_{model.axes[axis]} = {value:g} at node {node + 1}, where "
+            f"support '{other.label}' prescribes {values[dof]:g}; expected one support to move a node in a direction",
             where=("support", i, "u"),
         )
 
 
-def _tie(space: Space, model: Model, leader: IntArray, owner: IntArray, dofs: IntArray, i: int) -> None:
+def _tie(
+    space: Space, model: Model, leader: IntArray, owner: IntArray, held: BoolArray, dofs: IntArray, i: int
+) -> None:
     """Let the dofs of a rigid loaded boundary follow the first of them."""
-    blocked = dofs[(owner[dofs] >= 0) | (leader[dofs] != dofs)]
+    blocked = dofs[held[dofs] | (leader[dofs] != dofs)]
     if len(blocked):
         node, axis = divmod(int(blocked[0]), space.dimension)
-        by = f"support '{model.supports[owner[blocked[0]]].label}'" if owner[blocked[0]] >= 0 else "another load"
+        by = "the axis" if held[blocked[0]] else "another load"
+        by = f"support '{model.supports[owner[blocked[0]]].label}'" if owner[blocked[0]] >= 0 else by
         raise InputError(
-            f"the boundary should move rigidly in {AXES[axis]}, but {by} holds node {node + 1} in that direction; "
-            'expected the component to be free (None, in a deck "free")',
+            f"the boundary should move rigidly in {model.axes[axis]}, but {by} holds node {node + 1} in that "
+            'direction; expected the component to be free (None, in a deck "free")',
             where=("load", i, "force"),
         )
     leader[dofs] = dofs[0]

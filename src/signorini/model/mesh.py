@@ -12,7 +12,11 @@ import numpy as np
 from signorini.arrays import Array, IntArray, frozen
 from signorini.errors import InputError
 
-NODES_PER_CELL = {"triangle": 3, "quad": 4}
+NODES_PER_CELL = {"triangle": 3, "quad": 4, "triangle6": 6, "quad8": 8, "quad9": 9}
+"""Families of cells by their names in meshio: corners, then the middle of every edge, then the centre."""
+
+CORNERS = {"triangle": 3, "quad": 4, "triangle6": 3, "quad8": 4, "quad9": 4}
+"""Of every family: the edge k goes from corner k to corner k + 1; in quadratic cells node ``corners + k`` is on it."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -25,9 +29,11 @@ class Mesh:
     Parameters
     ----------
     points : (n, 2) array of coordinates, length
-    cells : family ("triangle", "quad") to (m, k) array of node indices, counterclockwise or clockwise
+    cells : family ("triangle", "quad", "triangle6", "quad8", "quad9") to (m, k) array of node indices in the order of
+        meshio, counterclockwise or clockwise: corners, then the middles of the edges, then the centre
     bodies : name to indices of cells
-    boundaries : name to (m, 2) array, the two end nodes of each facet
+    boundaries : name to (m, 2) or (m, 3) array, the two end nodes of each facet, and the middle one of a quadratic cell
+        (it may be left out)
     nodes : name to node indices, for supports and forces on points
 
     Raises
@@ -62,21 +68,21 @@ class Mesh:
             if family not in NODES_PER_CELL:
                 known = ", ".join(NODES_PER_CELL)
                 raise InputError(f"unknown family '{family}'; expected one of {known}", where=("mesh", "cells"))
-            cells[family] = self._indices(nodes, len(points), "cells", family, NODES_PER_CELL[family])
+            cells[family] = self._indices(nodes, len(points), "cells", family, (NODES_PER_CELL[family],))
         object.__setattr__(self, "cells", MappingProxyType(cells))
-        for part, limit, width in (
-            ("bodies", self.number_of_cells, None),
-            ("boundaries", len(points), 2),
-            ("nodes", len(points), None),
+        for part, limit, widths in (
+            ("bodies", self.number_of_cells, ()),
+            ("boundaries", len(points), (2, 3)),
+            ("nodes", len(points), ()),
         ):
-            named = {name: self._indices(i, limit, part, name, width) for name, i in getattr(self, part).items()}
+            named = {name: self._indices(i, limit, part, name, widths) for name, i in getattr(self, part).items()}
             object.__setattr__(self, part, MappingProxyType(named))
 
     @staticmethod
-    def _indices(values: IntArray, limit: int, part: str, name: str, width: int | None) -> IntArray:
+    def _indices(values: IntArray, limit: int, part: str, name: str, widths: tuple[int, ...]) -> IntArray:
         array = frozen(values, np.int64)
-        if (width is None and array.ndim != 1) or (width is not None and (array.ndim != 2 or array.shape[1] != width)):
-            expected = "(m,)" if width is None else f"(m, {width})"
+        if array.ndim != (2 if widths else 1) or (widths and array.shape[1] not in widths):
+            expected = " or ".join(f"(m, {width})" for width in widths) or "(m,)"
             raise InputError(f"has shape {array.shape}; expected {expected}", where=("mesh", part, name))
         if array.size and (array.min() < 0 or array.max() >= limit):
             raise InputError(

@@ -15,12 +15,13 @@ from signorini.checks import choice, number
 from signorini.errors import InputError, one_of
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
-from signorini.model.contact import Contact, Plane
+from signorini.model.contact import Contact
 from signorini.model.mesh import Mesh
+from signorini.model.obstacle import Obstacle
 from signorini.model.step import Step
 
-Kind = Literal["plane strain", "plane stress"]
-KINDS = ("plane strain", "plane stress")
+Kind = Literal["plane strain", "plane stress", "axisymmetric"]
+KINDS = ("plane strain", "plane stress", "axisymmetric")
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +31,8 @@ class Model:
     Parameters
     ----------
     mesh : the mesh; its names are what the rest speaks of
-    kind : "plane strain" or "plane stress"
+    kind : "plane strain", "plane stress" or "axisymmetric": coordinates are then the radius and the height, forces and
+        areas are for the whole circumference
     thickness : out of plane, length; forces and areas are for this thickness
     bodies : every cell of the mesh belongs to exactly one
     supports, loads, contacts : see :class:`Support`, :class:`Load`, :class:`Contact`
@@ -70,6 +72,11 @@ class Model:
             raise InputError(f"is {type(self.mesh).__name__}; expected a Mesh", where=("mesh",))
         choice(self.kind, KINDS, ("kind",), "kind")
         number(self.thickness, ("thickness",), above=0.0)
+        if self.axisymmetric and self.thickness != 1.0:
+            raise InputError(
+                f"is {self.thickness:g}; an axisymmetric model has none: forces and areas are for the circumference",
+                where=("thickness",),
+            )
         for part, kind in (
             ("bodies", Body),
             ("supports", Support),
@@ -93,6 +100,16 @@ class Model:
     def dimension(self) -> int:
         """Of space: 2."""
         return int(self.mesh.points.shape[1])
+
+    @property
+    def axisymmetric(self) -> bool:
+        """Whether the coordinates are radius and height."""
+        return self.kind == "axisymmetric"
+
+    @property
+    def axes(self) -> str:
+        """Letters of the directions: "xy", axisymmetric "rz"."""
+        return "rz" if self.axisymmetric else "xy"
 
     def body_of_cells(self) -> IntArray:
         """For every cell the index of its body, (m,)."""
@@ -133,8 +150,12 @@ class Model:
 
     def _check_contact(self, i: int, contact: Contact) -> None:
         self._check_place(contact.nonmortar, ("contact", i, "nonmortar"), nodes=False)
-        if isinstance(contact.mortar, Plane):
-            self._check_dimension(contact.mortar.normal, ("contact", i, "plane"))
+        if isinstance(contact.mortar, Obstacle):
+            if contact.mortar.dimension != self.dimension:
+                raise InputError(
+                    f"has {contact.mortar.dimension} components; expected {self.dimension}",
+                    where=("contact", i, type(contact.mortar).__name__.lower()),
+                )
             return
         self._check_place(contact.mortar, ("contact", i, "mortar"), nodes=False)
         if contact.mortar == contact.nonmortar:

@@ -32,12 +32,13 @@ def write_step(model: Model, step: StepResult, path: Path) -> None:
 
     The points of the bodies come one body after the other, in the order of the model, so that stresses of bodies that
     share nodes are not averaged. Point arrays: ``displacement`` (3 components, length), ``stress`` (xx, yy, zz, xy, yz,
-    xz, force per area, tension positive), ``von_mises`` and ``node`` (number in the mesh, from 1). Cell array:
+    xz, force per area, tension positive; axisymmetric: x is the radius, y the axis, zz the hoop stress),
+    ``von_mises`` and ``node`` (number in the mesh, from 1). Cell array:
     ``body`` (0, 1, ... in the order of the model).
     """
     import meshio
 
-    stresses = body_stresses(make_space(model.mesh), model, step.displacement)
+    stresses = body_stresses(make_space(model.mesh, axisymmetric=model.axisymmetric), model, step.displacement)
     nodes = np.concatenate([part.nodes for part in stresses])
     stress = np.concatenate([part.stress for part in stresses])
     blocks, body = _cells(model, stresses)

@@ -17,7 +17,14 @@ from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.plot.curve import Curve, make_curve
 
-_CORNERS = {"triangle": 3, "quad": 4}
+# corners and nodes between them, in the order around a cell
+_AROUND = {
+    "triangle": [0, 1, 2],
+    "quad": [0, 1, 2, 3],
+    "triangle6": [0, 3, 1, 4, 2, 5],
+    "quad8": [0, 4, 1, 5, 2, 6, 3, 7],
+    "quad9": [0, 4, 1, 5, 2, 6, 3, 7],
+}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -29,7 +36,7 @@ class Grid:
     points, displacement : (n, 2) length
     von_mises : (n,) force per area
     node : (n,) number in the mesh
-    cells : each (m, k), corners in order
+    cells : each (m, k), nodes in the order around the cells
     body : each (m,) which body the cells belong to
     """
 
@@ -79,13 +86,13 @@ class ResultFolder:
 
         file = self._file("solution.vtu")
         found = meshio.read(file)
-        blocks = [i for i, block in enumerate(found.cells) if block.type in _CORNERS]
+        blocks = [i for i, block in enumerate(found.cells) if block.type in _AROUND]
         return Grid(
             points=found.points[:, :2],
             displacement=found.point_data["displacement"][:, :2],
             von_mises=found.point_data["von_mises"],
             node=found.point_data["node"],
-            cells=tuple(found.cells[i].data for i in blocks),
+            cells=tuple(found.cells[i].data[:, _AROUND[found.cells[i].type]] for i in blocks),
             body=tuple(found.cell_data["body"][i] for i in blocks),
         )
 
@@ -137,5 +144,11 @@ def _columns(rows: list[dict[str, str]], *names: str) -> Array:
     return np.array([[float(row[name]) for name in names] for row in rows])
 
 
-def _triangles(corners: int) -> list[list[int]]:
-    return [[0, 1, 2]] if corners == 3 else [[0, 1, 2], [0, 2, 3]]
+def _triangles(around: int) -> list[list[int]]:
+    """Triangles of a cell by the number of nodes around it."""
+    return {
+        3: [[0, 1, 2]],
+        4: [[0, 1, 2], [0, 2, 3]],
+        6: [[0, 1, 5], [1, 2, 3], [3, 4, 5], [1, 3, 5]],
+        8: [[0, 1, 7], [1, 2, 3], [3, 4, 5], [5, 6, 7], [1, 3, 7], [3, 5, 7]],
+    }[around]

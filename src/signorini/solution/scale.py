@@ -32,6 +32,8 @@ class Scale:
 def data_scale(model: Model, loads: Mapping[str, Array], constraints: Constraints, interface: Interface) -> Scale:
     """Sizes over the whole load history: ``length = force / (E thickness)``, E of the softest body.
 
+    Of axisymmetric bodies half the largest radius stands for the thickness: contact bears on a part of it.
+
     Parameters
     ----------
     loads : nodal forces at factor 1 by name, each (dofs,)
@@ -43,6 +45,7 @@ def data_scale(model: Model, loads: Mapping[str, Array], constraints: Constraint
     moved = [largest[name] * float(np.abs(u).max()) for name, u in constraints.prescribed.items()]
     overlaps = [overlap for stage in history for overlap in stage.interference.values()]
     length = max([*moved, *overlaps, float(np.max(-interface.gap, initial=0.0))])
-    stiffness = min(body.material.E for body in model.bodies) * model.thickness
+    across = 0.5 * float(model.mesh.points[:, 0].max()) if model.axisymmetric else model.thickness
+    stiffness = min(body.material.E for body in model.bodies) * across
     force = max(force, stiffness * length) or stiffness
     return Scale(force=force, length=force / stiffness)

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The edges of all cells, and whether the cells fit together along them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.errors import InputError
+from signorini.model.mesh import CORNERS, Mesh
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Edges:
+    """Edges of all cells, sorted by their keys; an edge between two cells is there twice.
+
+    Attributes
+    ----------
+    ends : (e, 2) nodes, the cell on the left of the way from the first to the second
+    middle : (e,) node in the middle, -1 of a linear cell
+    cell : (e,) number of the cell
+    key : (e,) one number for every pair of ends, ascending, see :meth:`key_of`
+    """
+
+    ends: IntArray
+    middle: IntArray
+    cell: IntArray
+    key: IntArray
+    nodes: int
+
+    def key_of(self, ends: IntArray) -> IntArray:
+        """Of pairs of nodes (..., 2), in either order."""
+        return _key(ends, self.nodes)
+
+
+def _key(ends: IntArray, nodes: int) -> IntArray:
+    key: IntArray = ends.min(axis=-1) * nodes + ends.max(axis=-1)
+    return key
+
+
+def make_edges(mesh: Mesh) -> Edges:
+    """The edges of all cells."""
+    ends, middle, cell, first = [], [], [], 0
+    for family, nodes in mesh.cells.items():
+        n = CORNERS[family]
+        corners = nodes[:, :n]
+        pairs = np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1)
+        clockwise = _doubled_area(mesh.points[corners]) < 0.0
+        pairs[clockwise] = pairs[clockwise][..., ::-1]
+        ends.append(pairs.reshape(-1, 2))
+        quadratic = nodes.shape[1] > n
+        middle.append(nodes[:, n : 2 * n].ravel() if quadratic else np.full(pairs[..., 0].size, -1))
+        cell.append(np.repeat(first + np.arange(len(nodes)), n))
+        first += len(nodes)
+    every = np.concatenate(ends)
+    key = _key(every, len(mesh.points))
+    order = np.argsort(key, kind="stable")
+    return Edges(
+        ends=every[order],
+        middle=np.concatenate(middle)[order],
+        cell=np.concatenate(cell)[order],
+        key=key[order],
+        nodes=len(mesh.points),
+    )
+
+
+def check_conforming(mesh: Mesh, edges: Edges) -> None:
+    """Refuse meshes whose cells do not share whole edges.
+
+    Raises
+    ------
+    InputError
+        If a linear cell meets a quadratic one along an edge, or the middle node of an edge is the corner of a cell.
+    """
+    if (edges.middle < 0).all():
+        return
+    same = np.nonzero(edges.key[1:] == edges.key[:-1])[0]
+    wrong = same[edges.middle[same] != edges.middle[same + 1]]
+    if len(wrong):
+        one, two = edges.cell[wrong[0]], edges.cell[wrong[0] + 1]
+        a, b = edges.ends[wrong[0]] + 1
+        raise InputError(
+            f"cells {one + 1} ({_family(mesh, one)}) and {two + 1} ({_family(mesh, two)}) meet along the edge between "
+            f"nodes {a} and {b} without sharing a middle node; expected cells of one order along an edge",
+            where=("mesh", "cells"),
+        )
+    corners = np.concatenate([nodes[:, : CORNERS[family]].ravel() for family, nodes in mesh.cells.items()])
+    hanging = np.nonzero(np.isin(edges.middle, corners))[0]
+    if len(hanging):
+        edge = hanging[0]
+        raise InputError(
+            f"node {edges.middle[edge] + 1}, the middle of an edge of cell {edges.cell[edge] + 1} "
+            f"({_family(mesh, edges.cell[edge])}), is the corner of a cell; expected cells that share whole edges",
+            where=("mesh", "cells"),
+        )
+
+
+def _family(mesh: Mesh, cell: int) -> str:
+    counts = np.cumsum([len(nodes) for nodes in mesh.cells.values()])
+    return list(mesh.cells)[int(np.searchsorted(counts, cell, side="right"))]
+
+
+def _doubled_area(corners: Array) -> Array:
+    x, y = corners[..., 0], corners[..., 1]
+    area: Array = (x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y).sum(axis=1)
+    return area
