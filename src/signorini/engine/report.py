@@ -8,11 +8,12 @@ import numpy as np
 from signorini.arrays import Array, frozen
 from signorini.engine.leg import Leg
 from signorini.engine.prepare import Prepared
+from signorini.fem.obstacles import arm
 from signorini.friction.law import OPEN, STICK
 from signorini.model.step import Step
 from signorini.solution import results
 from signorini.solution.certificate import Certificate
-from signorini.solution.results import ContactResult, StepResult
+from signorini.solution.results import ContactResult, ObstacleResult, StepResult
 from signorini.solution.state import State
 
 ONE_INCREMENT = "one increment: assumes that the final state was reached from zero slip"
@@ -33,7 +34,8 @@ def step_result(prepared: Prepared, step: Step, number: int, leg: Leg) -> StepRe
         load_factor=float(number),
         increments=0 if leg.path == "exact" else len(leg.trace),
         events=leg.events,
-        displacement=frozen(state.displacement.reshape(-1, model.dimension)),
+        displacement=frozen(state.displacement[: model.mesh.points.size].reshape(-1, model.dimension)),
+        obstacles=_obstacles(prepared, state),
         reactions=_reactions(prepared, state),
         strain_energy=0.5 * float(state.displacement @ (prepared.K @ state.displacement)),
         interface_energy=0.5 * float(state.forces**2 @ (compliance / np.tile(interface.area, 2))),
@@ -67,6 +69,20 @@ def _reactions(prepared: Prepared, state: State) -> dict[str, Array]:
     loads = sum((state.factors[name] * f for name, f in prepared.loads.items()), np.zeros(len(owner)))
     np.add.at(total, (owner, np.arange(len(owner)) % d), np.where(owner >= 0, state.external - loads, 0.0))
     return {support.label: frozen(total[i]) for i, support in enumerate(prepared.model.supports)}
+
+
+def _obstacles(prepared: Prepared, state: State) -> dict[str, ObstacleResult]:
+    """Motions of the obstacles and what acts on them from outside, by name."""
+    found, length = {}, arm(prepared.model)
+    for j, obstacle in enumerate(prepared.model.obstacles):
+        x, y, turn, _ = prepared.space.obstacle_dofs(j)
+        found[obstacle.name] = ObstacleResult(
+            displacement=frozen(state.displacement[[x, y]]),
+            rotation=float(state.displacement[turn]) / length,
+            force=frozen(state.external[[x, y]]),
+            moment=float(state.external[turn]) * length,
+        )
+    return found
 
 
 def _contact_result(prepared: Prepared, i: int, before: State, state: State, own: Array) -> ContactResult:
