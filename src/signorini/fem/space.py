@@ -142,6 +142,10 @@ class Space:
         result: Array = np.einsum("qkj,mqji->mqki", at, np.linalg.inv(self._jacobians(block, at)))
         return result
 
+    def at_nodes(self, values: Array) -> Array:
+        """Values of all dofs (dofs,) at the nodes, (nodes, d), without those of obstacles."""
+        return values[: self.mesh.points.size].reshape(-1, self.dimension)
+
     def dofs(self, nodes: IntArray) -> IntArray:
         """Dofs of nodes, (..., d)."""
         return nodes[..., None] * self.dimension + np.arange(self.dimension)
