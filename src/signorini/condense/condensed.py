@@ -12,7 +12,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.clock import Clock
 from signorini.interface.interface import Interface
-from signorini.linalg.protocol import Factorisation
+from signorini.linalg.protocol import Factorisation, Reduced
 from signorini.linalg.registry import factorise
 
 # of the size of a row of B: below it supports hold what the row sees
@@ -61,8 +61,8 @@ class Condensed:
         pairs = np.nonzero(self.active)[0]
         return np.concatenate([pairs, len(self.active) + pairs])
 
-    def condensed_load(self, f: Array) -> Array:
-        """Loads (z,) on the free displacements, condensed onto the contact dofs, (m,)."""
+    def reduce(self, f: Array) -> Reduced:
+        """Loads (z,) on the free displacements, condensed onto the contact dofs."""
         return self.factorisation.reduce(f)
 
     def right_hand_side(self, f_c: Array, offset: Array, motions: Array) -> Array:
@@ -83,14 +83,13 @@ class Condensed:
         result: Array = self.root * response + strain
         return result
 
-    def displacement(self, f: Array, f_c: Array, h: Array, r: Array, offset: Array) -> Array:
-        """Free displacements (z,) under the load f and the solution h, r (2 a,), in the units of the problem."""
+    def displacement(self, reduced: Reduced, h: Array, r: Array, offset: Array) -> Array:
+        """Free displacements (z,) under a load and the solution h, r (2 a,), in the units of the problem."""
         if not len(self.dofs):
-            return self.factorisation.expand(f, f_c)
+            return reduced.expand(reduced.load)
         moved = h - self.compliance * r - offset
         springs = self.root**2 * self._softening
-        contact = self._solve(f_c + self.B.T @ (r + springs * moved))
-        return self.factorisation.expand(f, contact)
+        return reduced.expand(self._solve(reduced.load + self.B.T @ (r + springs * moved)))
 
     @property
     def _softening(self) -> Array:

@@ -16,6 +16,7 @@ from signorini.engine.prepare import Prepared
 from signorini.errors import SolveFailed
 from signorini.friction.exact import PathState, Segment, follow, initial_state
 from signorini.friction.law import OPEN
+from signorini.linalg.protocol import Reduced
 from signorini.solution.results import PairEvent
 from signorini.solution.state import State, next_state
 from signorini.trace import Attempt
@@ -30,7 +31,7 @@ def follow_exactly(prepared: Prepared, number: int, name: str, state: State, end
         With status "jump" where the history cannot go on gradually; "not_found" where the path was lost.
     """
     prepared.clock.increment(f"{name}, event by event")
-    offset, f_c, b = _right_hand_side(prepared, end)
+    offset, reduced, b = _right_hand_side(prepared, end)
     refuse_overlap(prepared, offset[: len(prepared.interface)], name)
     with prepared.clock.phase("complementarity"):
         start = _start(prepared, state)
@@ -38,7 +39,7 @@ def follow_exactly(prepared: Prepared, number: int, name: str, state: State, end
     if not segment.followed:
         raise _lost(prepared, name, segment)
     with prepared.clock.phase("recovery"):
-        after = _end(prepared, state, start, segment, end, offset, f_c)
+        after = _end(prepared, state, start, segment, end, offset, reduced)
     last = max(0, len(segment.pieces) - 2)
     before = state.tangential.copy()
     before[prepared.condensed.active] = _tangential(prepared, segment.pieces[last].h)
@@ -55,13 +56,13 @@ def follow_exactly(prepared: Prepared, number: int, name: str, state: State, end
     )
 
 
-def _right_hand_side(prepared: Prepared, factors: Mapping[str, float]) -> tuple[Array, Array, Array]:
-    """Offsets of all pairs (2 n,), condensed load and b at load factors, with no slip of the past in it."""
+def _right_hand_side(prepared: Prepared, factors: Mapping[str, float]) -> tuple[Array, Reduced, Array]:
+    """Offsets of all pairs (2 n,), reduced load and b at load factors, with no slip of the past in it."""
     condensed, interface, n = prepared.condensed, prepared.interface, len(prepared.interface)
     loads, imposed = applied(prepared, factors)
     offset = np.concatenate([interface.gap, np.zeros(n)]) + interface.B @ imposed
-    f_c = condensed.condensed_load(prepared.constraints.transform.T @ (loads - prepared.K @ imposed))
-    return offset, f_c, condensed.right_hand_side(f_c, offset[condensed.active_rows], prepared.law.motions)
+    reduced = condensed.reduce(prepared.constraints.transform.T @ (loads - prepared.K @ imposed))
+    return offset, reduced, condensed.right_hand_side(reduced.load, offset[condensed.active_rows], prepared.law.motions)
 
 
 def _start(prepared: Prepared, state: State) -> PathState:
@@ -91,7 +92,7 @@ def _end(
     segment: Segment,
     end: Mapping[str, float],
     offset: Array,
-    f_c: Array,
+    reduced: Reduced,
 ) -> State:
     """The state at the end of a segment, with the work of its linear pieces."""
     condensed, interface, T = prepared.condensed, prepared.interface, prepared.constraints.transform
@@ -100,8 +101,7 @@ def _end(
     forces, moved = np.zeros(2 * n), np.zeros(2 * n)
     forces[rows] = condensed.root * segment.end.r
     moved[rows] = segment.end.h / condensed.root
-    f = T.T @ (loads - prepared.K @ imposed)
-    displacement = T @ condensed.displacement(f, f_c, moved[rows], forces[rows], offset[rows]) + imposed
+    displacement = T @ condensed.displacement(reduced, moved[rows], forces[rows], offset[rows]) + imposed
     outside = np.setdiff1d(np.arange(2 * n), rows)
     moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
     moved[n:] -= state.tangential

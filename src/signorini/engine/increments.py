@@ -140,15 +140,15 @@ def _balanced(prepared: Prepared, f: Array, offset: Array, state: State) -> tupl
     guided = np.tile(law.locked, 2)
     for _ in range(_REFINEMENTS + 1):
         with prepared.clock.phase("complementarity"):
-            f_c = condensed.condensed_load(load)
-            b = condensed.right_hand_side(f_c, offset[rows], law.motions) + condensed.root * lacking
+            reduced = condensed.reduce(load)
+            b = condensed.right_hand_side(reduced.load, offset[rows], law.motions) + condensed.root * lacking
             result = solve_coulomb(replace(law, b=b), start)
         if not result.solved:
             break
         with prepared.clock.phase("recovery"):
             forces[rows] = condensed.root * np.concatenate([result.normal_force, result.tangential_force])
             moved[rows] = np.concatenate([result.gap, result.slip]) / condensed.root
-            free = condensed.displacement(load, f_c, moved[rows], forces[rows], offset[rows])
+            free = condensed.displacement(reduced, moved[rows], forces[rows], offset[rows])
             u = T @ free
             residual = f + T.T @ (interface.B.T @ forces - prepared.K @ u)
             misfit = (offset + interface.B @ u - moved)[rows] + condensed.compliance * forces[rows]

@@ -115,7 +115,7 @@ def formulate(model: Model | Prepared, *, E_n: float, E_tau: float) -> PaperForm
         problem = paper_problem(
             condensed.factorisation.schur(),
             condensed.B.toarray()[order],
-            condensed.condensed_load(f),
+            condensed.reduce(f).load,
             offset[rows][order],
             interface.friction[pairs],
             interface.area[pairs],
@@ -151,7 +151,7 @@ def solve_literally(formulation: PaperFormulation) -> PaperAnswer:
     moved[pairs], moved[n + pairs] = slip[:, 2], slip[:, 0] - slip[:, 1]
     loads, imposed = applied(prepared, prepared.model.factors()[-1])
     f = prepared.constraints.transform.T @ (loads - prepared.K @ imposed)
-    displacement = prepared.constraints.transform @ condensed.factorisation.expand(f, u) + imposed
+    displacement = prepared.constraints.transform @ condensed.reduce(f).expand(u) + imposed
     status = np.full(n, OPEN)
     closed = np.where(slip[:, 0] > 0, SLIP_MINUS, np.where(slip[:, 1] > 0, SLIP_PLUS, STICK))
     status[pairs] = np.where(slip[:, 2] > 0, OPEN, closed)
@@ -197,7 +197,8 @@ def _condition(prepared: Prepared, problem: PaperProblem, formulation: PaperForm
     K_c = T.T @ prepared.K @ T + B.T @ sp.diags_array(penalty) @ B
 
     def solve(b: Array) -> Array:
-        return condensed.factorisation.expand(b, problem.solve(condensed.condensed_load(b)))
+        reduced = condensed.reduce(b)
+        return reduced.expand(problem.solve(reduced.load))
 
     inverse = scipy.sparse.linalg.LinearOperator(K_c.shape, matvec=solve, rmatvec=solve, matmat=solve, dtype=float)
     return float(abs(K_c).sum(axis=0).max() * scipy.sparse.linalg.onenormest(inverse))
