@@ -20,6 +20,15 @@ _STEPS = 30
 
 
 @njit(cache=True)
+def _cross(a: Array, b: Array, out: Array) -> float:
+    """a x b into out; its length."""
+    out[0] = a[1] * b[2] - a[2] * b[1]
+    out[1] = a[2] * b[0] - a[0] * b[2]
+    out[2] = a[0] * b[1] - a[1] * b[0]
+    return math.sqrt(out[0] ** 2 + out[1] ** 2 + out[2] ** 2)
+
+
+@njit(cache=True)
 def _plane(piece: Array, axes: Array, centre: Array, flat: Array) -> float:
     """Axes (3, 3: two along, the normal), centre, and plane coordinates (c, 2) of a piece; its area."""
     c = len(piece)
@@ -27,12 +36,15 @@ def _plane(piece: Array, axes: Array, centre: Array, flat: Array) -> float:
         centre[e] = 0.0
         for a in range(c):
             centre[e] += piece[a, e] / c
-    first = piece[2] - piece[0]
-    axes[2] = np.cross(first, piece[c - 1] - piece[1])
-    axes[2] /= math.sqrt((axes[2] ** 2).sum())
-    axes[0] = first - axes[2] * (first * axes[2]).sum()
-    axes[0] /= math.sqrt((axes[0] ** 2).sum())
-    axes[1] = np.cross(axes[2], axes[0])
+    along, across = np.empty(3), np.empty(3)
+    for e in range(3):
+        along[e], across[e] = piece[2, e] - piece[0, e], piece[c - 1, e] - piece[1, e]
+    size = _cross(along, across, axes[2])
+    length = math.sqrt(along[0] ** 2 + along[1] ** 2 + along[2] ** 2)
+    for e in range(3):
+        axes[2, e] /= size
+        axes[0, e] = along[e] / length
+    _cross(axes[2], axes[0], axes[1])
     _flatten(piece, axes, centre, flat)
     return _area(flat, c)
 
@@ -57,6 +69,15 @@ def _area(polygon: Array, count: int) -> float:
 
 
 @njit(cache=True)
+def _middle(polygon: Array, count: int) -> tuple[float, float]:
+    x, y = 0.0, 0.0
+    for a in range(count):
+        x += polygon[a, 0] / count
+        y += polygon[a, 1] / count
+    return x, y
+
+
+@njit(cache=True)
 def _clipped(polygon: Array, count: int, window: Array, sides: int, spare: Array) -> int:
     """Cut a convex polygon, in place, to a convex window run through counter-clockwise; how many corners are left."""
     for j in range(sides):
@@ -75,7 +96,8 @@ def _clipped(polygon: Array, count: int, window: Array, sides: int, spare: Array
                 spare[left, 0], spare[left, 1] = s_x + cut * (t_x - s_x), s_y + cut * (t_y - s_y)
                 left += 1
         count = left
-        polygon[:count] = spare[:count]
+        for i in range(count):
+            polygon[i, 0], polygon[i, 1] = spare[i, 0], spare[i, 1]
         if count < 3:
             return 0
     return count
@@ -89,7 +111,8 @@ def _common(flat: Array, c: int, other: Array, o: int, polygon: Array, spare: Ar
         window[a, 0], window[a, 1] = other[o - 1 - a, 0], other[o - 1 - a, 1]
     if _area(window, o) <= 0.0:
         return 0
-    polygon[:c] = flat[:c]
+    for a in range(c):
+        polygon[a, 0], polygon[a, 1] = flat[a, 0], flat[a, 1]
     return _clipped(polygon, c, window, o, spare)
 
 
@@ -105,6 +128,7 @@ def overlap_areas(first: Array, second: Array, i: IntArray, j: IntArray) -> tupl
     c, o = first.shape[1], second.shape[1]
     axes, centre, flat, other = np.empty((3, 3)), np.empty(3), np.empty((4, 2)), np.empty((4, 2))
     polygon, spare = np.empty((16, 2)), np.empty((16, 2))
+    along, across, normal = np.empty(3), np.empty(3), np.empty(3)
     area, distance = np.zeros(len(i)), np.zeros(len(i))
     for k in range(len(i)):
         whole = _plane(first[i[k]], axes, centre, flat)
@@ -116,14 +140,16 @@ def overlap_areas(first: Array, second: Array, i: IntArray, j: IntArray) -> tupl
         if common <= _EMPTY * whole:
             continue
         area[k] = common
-        piece = second[j[k]]
-        normal = np.cross(piece[2] - piece[0], piece[o - 1] - piece[1])
-        x, y = polygon[:count, 0].mean(), polygon[:count, 1].mean()
-        upright, height = (normal * axes[2]).sum(), 0.0
+        x, y = _middle(polygon, count)
+        piece, upright, height = second[j[k]], 0.0, 0.0
+        for e in range(3):
+            along[e], across[e] = piece[2, e] - piece[0, e], piece[o - 1, e] - piece[1, e]
+        _cross(along, across, normal)
         for e in range(3):
             middle = 0.0
             for a in range(o):
                 middle += piece[a, e] / o
+            upright += normal[e] * axes[2, e]
             height += normal[e] * (middle - centre[e] - x * axes[0, e] - y * axes[1, e])
         distance[k] = height / upright
     return area, distance
@@ -148,8 +174,8 @@ def _inside(flat: Array, c: int, x: float, y: float, places: Array, found: Array
         return size / (p_x * q_y - p_y * q_x)
     r, s, size = 0.5, 0.5, 1.0
     for _ in range(_STEPS):
-        off_x = (1 - r) * (1 - s) * flat[0, 0] + r * (1 - s) * flat[1, 0] + r * s * flat[2, 0] + (1 - r) * s * flat[3, 0] - x
-        off_y = (1 - r) * (1 - s) * flat[0, 1] + r * (1 - s) * flat[1, 1] + r * s * flat[2, 1] + (1 - r) * s * flat[3, 1] - y
+        off_x = (1 - s) * ((1 - r) * flat[0, 0] + r * flat[1, 0]) + s * (r * flat[2, 0] + (1 - r) * flat[3, 0]) - x
+        off_y = (1 - s) * ((1 - r) * flat[0, 1] + r * flat[1, 1]) + s * (r * flat[2, 1] + (1 - r) * flat[3, 1]) - y
         a_x = (1 - s) * (flat[1, 0] - flat[0, 0]) + s * (flat[2, 0] - flat[3, 0])
         a_y = (1 - s) * (flat[1, 1] - flat[0, 1]) + s * (flat[2, 1] - flat[3, 1])
         b_x = (1 - r) * (flat[3, 0] - flat[0, 0]) + r * (flat[2, 0] - flat[1, 0])
@@ -172,12 +198,12 @@ def _true_area(nodes: Array, place: Array, D: Array) -> float:
     """Area of a face per reference area at a reference place."""
     c = len(nodes)
     slopes(c, place[0], place[1], D)
-    x, y = np.zeros(3), np.zeros(3)
+    x, y, normal = np.zeros(3), np.zeros(3), np.empty(3)
     for a in range(c):
         for e in range(3):
             x[e] += D[0, a] * nodes[a, e]
             y[e] += D[1, a] * nodes[a, e]
-    return math.sqrt((np.cross(x, y) ** 2).sum())
+    return _cross(x, y, normal)
 
 
 @njit(cache=True)
@@ -228,7 +254,7 @@ def integrate(
         whole = _plane(first[i[k]], axes, centre, flat)
         _flatten(second[j[k]], axes, centre, projected)
         count = _common(flat, c, projected, o, polygon, spare)
-        m_x, m_y = polygon[:count, 0].mean(), polygon[:count, 1].mean()
+        m_x, m_y = _middle(polygon, count)
         for a in range(count):
             b = (a + 1) % count
             p_x, p_y, q_x, q_y = polygon[a, 0], polygon[a, 1], polygon[b, 0], polygon[b, 1]

@@ -27,7 +27,7 @@ def node_places(count: int) -> Array:
 
 
 def pieces(count: int) -> Array:
-    """(s, 3 or 4, 2) Reference coordinates of the corners of plane pieces that stand for a face: 4 of a quadratic one."""
+    """(s, 3 or 4, 2) Reference coordinates of the corners of the plane pieces that stand for a face, 4 if quadratic."""
     if count in (3, 4):
         return node_places(count)[None]
     return _TRIANGLE[_THIRDS] if count == 6 else _SQUARE[_QUARTERS]
@@ -100,17 +100,19 @@ def slopes(count: int, x: float, y: float, D: Array) -> None:
             D[e, 3] -= 0.5 * (D[e, 6] + D[e, 7])
 
 
+@njit(cache=True)
 def shapes_at(count: int, places: Array) -> Array:
     """(q, count) Shape functions at reference coordinates (q, 2)."""
     N = np.empty((len(places), count))
-    for row, (x, y) in zip(N, places, strict=True):
-        shapes(count, x, y, row)
+    for q in range(len(places)):
+        shapes(count, places[q, 0], places[q, 1], N[q])
     return N
 
 
+@njit(cache=True)
 def slopes_at(count: int, places: Array) -> Array:
     """(q, 2, count) Their derivatives."""
     D = np.empty((len(places), 2, count))
-    for row, (x, y) in zip(D, places, strict=True):
-        slopes(count, x, y, row)
+    for q in range(len(places)):
+        slopes(count, places[q, 0], places[q, 1], D[q])
     return D

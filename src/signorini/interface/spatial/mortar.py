@@ -11,13 +11,15 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
 from signorini.interface.coupling import Coupling
+from signorini.interface.dual import dual_functions
 from signorini.interface.spatial.candidates import near_pairs, nearest_layers
 from signorini.interface.spatial.clip import integrate, overlap_areas
 from signorini.interface.spatial.faces import pieces
-from signorini.interface.spatial.surface import Block, Surface, reference_rule
+from signorini.interface.spatial.surface import Block, Surface, reference_rule, search_distance
 
 _COVERED = 1e-8  # of the full weight of a node: with less it carries no pair
-_LOW, _HIGH = 3, 8  # Gauss points a direction: exact for parallelograms, to 1e-13 for other quadrilaterals
+_DEGREE = {3: 1, 4: 2, 6: 2, 8: 3, 9: 4}  # of the shape functions, by nodes of a face
+_MANY = 8  # Gauss points a direction where functions are no polynomials: exact to 1e-13
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -30,9 +32,7 @@ class _Overlaps:
     chosen: BoolArray
 
 
-def mortar_coupling(
-    nonmortar: Surface, mortar: Surface, *, search: float | None = None, where: Where = ()
-) -> Coupling:
+def mortar_coupling(nonmortar: Surface, mortar: Surface, *, search: float | None = None, where: Where = ()) -> Coupling:
     """Weigh both sides with the functions dual to the hats of the nonmortar corner nodes.
 
     On the covered part of every nonmortar face, ``psi = diag(int N) (int N N^T)^-1 N``, N the hats of its corners, so
@@ -72,7 +72,7 @@ def mortar_coupling(
     ([0.25, 0.25, 0.25, 0.25], [1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0])
     """
     n = len(nonmortar.points)
-    reach = _search_distance(nonmortar, mortar) if search is None else search
+    reach = search_distance(nonmortar, mortar) if search is None else search
     weight, full = np.zeros(n), np.zeros(n)
     full[nonmortar.nodes] = nonmortar.nodal_areas
     keeps, gives = sp.csr_array((n, n)), sp.csr_array((n, n))
@@ -90,11 +90,6 @@ def mortar_coupling(
         )
     relative = sp.csr_array(sp.diags_array(1.0 / weight[nodes]) @ (keeps - gives)[nodes])
     return Coupling(nodes=nodes, area=weight[nodes], relative=relative)
-
-
-def _search_distance(nonmortar: Surface, mortar: Surface) -> float:
-    sizes = [np.linalg.norm(np.ptp(side.points[side.nodes], axis=0)) for side in (nonmortar, mortar)]
-    return 0.5 * float(min(sizes))
 
 
 def _corners(block: Block) -> Array:
@@ -133,8 +128,7 @@ def _block_integrals(block: Block, overlaps: list[_Overlaps], n: int) -> tuple[A
     for part in overlaps:
         count = part.mortar.nodes_a_face
         other = np.zeros((len(part.i), c, count))
-        low = block.parallelograms and part.mortar.parallelograms and block.nodes_a_face <= 4 and count <= 4
-        places, weights = reference_rule(3, _LOW if low else _HIGH)
+        places, weights = reference_rule(3, _points(block, part.mortar))
         integrate(
             _corners(block),
             block.points,
@@ -169,25 +163,12 @@ def _block_integrals(block: Block, overlaps: list[_Overlaps], n: int) -> tuple[A
     return weight, keeps, sp.csr_array(gives)
 
 
-def dual_functions(mass: Array) -> Array:
-    """Coefficients of the functions dual to hats N, (m, c, c): ``psi = A N``, ``A = diag(int N) (int N N^T)^-1``.
-
-    Parameters
-    ----------
-    mass : (m, c, c) ``int N N^T`` over the covered part of every face; zero where nothing is covered
-
-    Examples
-    --------
-    >>> dual_functions(np.array([[[2.0, 1.0], [1.0, 2.0]]]) / 6).round(12).tolist()
-    [[[2.0, -1.0], [-1.0, 2.0]]]
-    """
-    share = mass.sum(axis=2)
-    total = share.sum(axis=1)
-    covered = total > 0.0
-    dual = np.zeros_like(mass)
-    inverse = np.linalg.pinv(mass[covered] / total[covered, None, None], 1e-10, hermitian=True)
-    dual[covered] = (share[covered] / total[covered, None])[:, :, None] * inverse
-    return dual
+def _points(block: Block, mortar: Block) -> int:
+    """Gauss points a direction that integrate hats times shape functions; collapsed they are exact to 2 k - 2."""
+    if not (block.parallelograms and mortar.parallelograms):
+        return _MANY
+    hats = _DEGREE[block.corners.shape[1]]
+    return (hats + max(_DEGREE[block.nodes_a_face], _DEGREE[mortar.nodes_a_face])) // 2 + 2
 
 
 def _spread(rows: IntArray, columns: IntArray, values: Array, n: int) -> sp.csr_array:

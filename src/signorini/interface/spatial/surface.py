@@ -113,6 +113,11 @@ class Surface:
             np.add.at(result, np.searchsorted(self.nodes, block.corners), size @ shapes_at(count, places))
         return result
 
+    @cached_property
+    def nodal_lengths(self) -> Array:
+        """(k,) Roots of ``nodal_areas``."""
+        return np.asarray(np.sqrt(self.nodal_areas), dtype=np.float64)
+
 
 def make_surface(points: ArrayLike, *faces: ArrayLike) -> Surface:
     """A side of a contact from node arrays.
@@ -140,7 +145,7 @@ def make_surface(points: ArrayLike, *faces: ArrayLike) -> Surface:
     for i, given in enumerate(faces):
         nodes = frozen(given, dtype=np.int64)
         if nodes.ndim != 2 or nodes.shape[1] not in CORNERS:
-            raise InputError(f"has shape {nodes.shape}; expected (m, 3), (m, 4), (m, 6), (m, 8) or (m, 9)", where=("faces", i))
+            raise InputError(f"has shape {nodes.shape}; expected (m, c), c = 3, 4, 6, 8 or 9", where=("faces", i))
         if not len(nodes):
             continue
         if nodes.min() < 0 or nodes.max() >= len(x):
@@ -166,3 +171,8 @@ def reference_rule(corners: int, order: int = _RULE) -> tuple[Array, Array]:
     t, w = (1.0 + x) / 2.0, w / 2.0
     a, b = (grid.ravel() for grid in np.meshgrid(t, t, indexing="ij"))
     return np.column_stack([a, (1.0 - a) * b]), np.outer(w, w).ravel() * (1.0 - a)
+
+
+def search_distance(nonmortar: Surface, mortar: Surface) -> float:
+    """How far apart faces can be and still be opposite each other: half the size of the smaller side."""
+    return 0.5 * float(min(np.linalg.norm(np.ptp(side.points[side.nodes], axis=0)) for side in (nonmortar, mortar)))
