@@ -43,7 +43,7 @@ def follow_exactly(
     refuse_overlap(prepared, _offset(prepared, end)[: len(prepared.interface)], where)
     with prepared.clock.phase("complementarity"):
         start = _start(prepared, state)
-        segment = follow(prepared.law, start, _right_hand_side(prepared, end))
+        segment = follow(prepared.plane_law, start, _right_hand_side(prepared, end))
     if not segment.followed:
         raise _lost(prepared, where, span, segment)
     with prepared.clock.phase("recovery"):
@@ -70,10 +70,9 @@ def follow_exactly(
 def stored_energy(prepared: Prepared, state: State) -> float:
     """In the bodies and in compliant interfaces."""
     interface = prepared.interface
-    compliance = np.concatenate([interface.normal_compliance, interface.tangential_compliance])
-    forces = np.where(np.tile(prepared.absent, 2), 0.0, state.forces)
+    forces = np.where(interface.rows(prepared.absent), 0.0, state.forces)
     strain = float(state.displacement @ (prepared.K @ state.displacement))
-    return 0.5 * (strain + float(forces**2 @ (compliance / np.tile(interface.area, 2))))
+    return 0.5 * (strain + float(forces**2 @ (interface.compliance / interface.areas)))
 
 
 def _offset(prepared: Prepared, point: LoadPoint) -> Array:
@@ -88,7 +87,7 @@ def _right_hand_side(prepared: Prepared, point: LoadPoint) -> Array:
     condensed = prepared.condensed
     reduced = condensed.reduce(free_load(prepared, point))
     return condensed.right_hand_side(
-        reduced.load, _offset(prepared, point)[condensed.active_rows], prepared.law.motions
+        reduced.load, _offset(prepared, point)[condensed.active_rows], prepared.plane_law.motions
     )
 
 
@@ -100,10 +99,10 @@ def _start(prepared: Prepared, state: State) -> PathState:
     h = condensed.root * np.concatenate([state.gap, state.tangential])[rows]
     if not state.forces.any() and not state.displacement.any():
         touching = bool((h[:half] >= 0.0).all())
-        return initial_state(prepared.law, b, motion=h if touching else None)
+        return initial_state(prepared.plane_law, b, motion=h if touching else None)
     r, status = state.forces[rows] / condensed.root, state.status[active]
     # friction that has risen since leaves some to spare
-    spare = (status > STICK) & (np.abs(r[half:]) < (1.0 - _SPENT) * prepared.law.mu * r[:half])
+    spare = (status > STICK) & (np.abs(r[half:]) < (1.0 - _SPENT) * prepared.plane_law.mu * r[:half])
     return PathState(
         b=b,
         h=h,

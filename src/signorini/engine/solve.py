@@ -53,7 +53,7 @@ def _follow(prepared: Prepared) -> History:
     """Step after step, up to the end or to what stops it."""
     model = prepared.model
     schedule = list(stages(model))
-    state = initial_state(dict.fromkeys(model.scaled_names, 0.0), prepared.space.number_of_dofs, prepared.interface.gap)
+    state = initial_state(dict.fromkeys(model.scaled_names, 0.0), prepared.space.number_of_dofs, prepared.interface)
     steps: list[StepResult] = []
     now = prepared
     prepared.clock.expect(sum((stage.step.increments or 1) * len(stage.ends) for stage in schedule))

@@ -114,6 +114,11 @@ class Boundary:
         return normals
 
     @property
+    def places(self) -> Array:
+        """Reference coordinates of the quadrature points, (q, d - 1)."""
+        return self._rule[0]
+
+    @property
     def _rule(self) -> tuple[Array, Array]:
         return facet_rule(self.dimension, self.facets.shape[1])
 
