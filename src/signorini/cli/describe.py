@@ -96,6 +96,12 @@ def _steps(model: Model) -> Rows:
 
 
 def _stepping(step: Step) -> str:
+    count = step.segments * step.repeat
+    cycles = f", {step.repeat} cycles" if step.repeat > 1 else ""
+    return _way(step) + (f" in each of {count} segments{cycles}" if count > 1 else "")
+
+
+def _way(step: Step) -> str:
     if step.increments is not None:
         return "1 increment" if step.increments == 1 else f"{step.increments} increments"
     if step.path is None:

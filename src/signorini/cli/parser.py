@@ -25,6 +25,9 @@ def make_parser() -> argparse.ArgumentParser:
     run = commands.add_parser("run", parents=[shared], help="solve a deck and write the results")
     run.add_argument("deck", metavar="DECK", help="a TOML file")
     run.add_argument("-o", dest="folder", metavar="DIR", help="result folder (default: out/ and the deck's name)")
+    run.add_argument(
+        "--from", dest="start", metavar="DIR", help="go on from the end of a run: its result folder, or its state.npz"
+    )
     run.add_argument("--quiet", action="store_true", help="print nothing but errors")
     run.add_argument("--backend", default="auto", metavar="NAME", help="of the factorisation (default: auto)")
 
