@@ -23,7 +23,7 @@ CORNERS = {"triangle": 3, "quad": 4, "triangle6": 3, "quad8": 4, "quad9": 4}
 class Mesh:
     """Points, cells and the names of bodies, boundaries and node sets.
 
-    Nodes are counted from 0 here and from 1 in files that people read (``number = index + 1``, as Gmsh counts). Cells
+    Nodes are counted from 0 here and have numbers in files that people read, from 1 as Gmsh counts by default. Cells
     are counted through all families, in the order of ``cells``.
 
     Parameters
@@ -35,6 +35,8 @@ class Mesh:
     boundaries : name to (m, 2) or (m, 3) array, the two end nodes of each facet, and the middle one of a quadratic cell
         (it may be left out)
     nodes : name to node indices, for supports and forces on points
+    node_numbers : (n,) what results call the nodes, each once; 1, 2, ... if not given
+    cell_numbers : (m,) what they call the cells
 
     Raises
     ------
@@ -54,6 +56,8 @@ class Mesh:
     bodies: Mapping[str, IntArray]
     boundaries: Mapping[str, IntArray] = field(default_factory=dict)
     nodes: Mapping[str, IntArray] = field(default_factory=dict)
+    node_numbers: IntArray = field(default_factory=lambda: np.empty(0, np.int64))
+    cell_numbers: IntArray = field(default_factory=lambda: np.empty(0, np.int64))
 
     def __post_init__(self) -> None:
         points = frozen(self.points)
@@ -77,6 +81,8 @@ class Mesh:
         ):
             named = {name: self._indices(i, limit, part, name, widths) for name, i in getattr(self, part).items()}
             object.__setattr__(self, part, MappingProxyType(named))
+        for part, count in (("node_numbers", len(points)), ("cell_numbers", self.number_of_cells)):
+            object.__setattr__(self, part, _numbers(getattr(self, part), count, part))
 
     @staticmethod
     def _indices(values: IntArray, limit: int, part: str, name: str, widths: tuple[int, ...]) -> IntArray:
@@ -107,6 +113,15 @@ class Mesh:
         if self.boundaries:
             parts.append(f"boundaries: {', '.join(self.boundaries)}")
         return f"Mesh({'; '.join(parts)})"
+
+
+def _numbers(values: IntArray, count: int, part: str) -> IntArray:
+    numbers = frozen(values if len(values) else np.arange(1, count + 1), np.int64)
+    if numbers.shape != (count,):
+        raise InputError(f"has shape {numbers.shape}; expected ({count},)", where=("mesh", part))
+    if len(np.unique(numbers)) < count:
+        raise InputError("has a number twice; expected a number of its own for each", where=("mesh", part))
+    return numbers
 
 
 def join(meshes: Mapping[str, Mesh]) -> Mesh:
