@@ -22,8 +22,9 @@ from signorini.gallery.cylinder import zhu_cylinder
 from signorini.lcp.problems import PosedLCP
 from signorini.model.body import Body, Elastic
 from signorini.model.conditions import Support
-from signorini.model.contact import Contact, Plane
+from signorini.model.contact import Contact
 from signorini.model.model import Model
+from signorini.model.obstacle import Plane
 
 
 def cylinder(n: int, rng: np.random.Generator) -> PosedLCP:

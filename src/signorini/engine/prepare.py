@@ -248,8 +248,7 @@ def _refuse_free_motions(
     space: Space, constraints: Constraints, interface: Interface, parts: tuple[Part, ...], motions: sp.csr_array
 ) -> None:
     """A motion that neither supports nor contact can resist has no place that a solver could find."""
-    nodes = np.unique(np.concatenate([interface.node, interface.partner[interface.partner >= 0]]))
-    dofs = space.dofs(nodes).ravel()
+    dofs = space.dofs(np.unique(interface.B.indices // space.dimension)).ravel()
     touching = sp.csr_array((np.ones(len(dofs)), (np.arange(len(dofs)), dofs)), (len(dofs), space.number_of_dofs))
     free = free_motions(motions, constraints, touching)
     if free.shape[1]:

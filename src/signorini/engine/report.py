@@ -82,6 +82,9 @@ def _contact_result(prepared: Prepared, i: int, before: State, state: State, own
     overlap = interface.normal_compliance[own] * normal / area
     return ContactResult(
         name=prepared.model.contacts[i].label,
+        nonmortar=interface.sides[i].nonmortar,
+        mortar=interface.sides[i].mortar,
+        coupling=interface.sides[i].coupling,
         node=frozen(interface.node[own], np.int64),
         points=frozen(prepared.model.mesh.points[interface.node[own]]),
         normals=frozen(interface.normals[own]),

@@ -15,8 +15,9 @@ from signorini.checks import choice, number
 from signorini.errors import InputError, one_of
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
-from signorini.model.contact import Contact, Plane
+from signorini.model.contact import Contact
 from signorini.model.mesh import Mesh
+from signorini.model.obstacle import Obstacle
 from signorini.model.step import Step
 
 Kind = Literal["plane strain", "plane stress", "axisymmetric"]
@@ -156,8 +157,12 @@ class Model:
 
     def _check_contact(self, i: int, contact: Contact) -> None:
         self._check_place(contact.nonmortar, ("contact", i, "nonmortar"), nodes=False)
-        if isinstance(contact.mortar, Plane):
-            self._check_dimension(contact.mortar.normal, ("contact", i, "plane"))
+        if isinstance(contact.mortar, Obstacle):
+            if contact.mortar.dimension != self.dimension:
+                raise InputError(
+                    f"has {contact.mortar.dimension} components; expected {self.dimension}",
+                    where=("contact", i, type(contact.mortar).__name__.lower()),
+                )
             return
         self._check_place(contact.mortar, ("contact", i, "mortar"), nodes=False)
         if contact.mortar == contact.nonmortar:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +23,8 @@ class ContactResult:
     Attributes
     ----------
     name : of the contact
+    nonmortar, mortar : the sides as they were taken, an obstacle in words
+    coupling : "nodes", "mortar", "node-to-segment" or "obstacle"
     node : (n,) node indices, from 0
     points : (n, d) undeformed coordinates
     normals, tangents : (n, d) unit vectors; the normal points from the mortar side into the nonmortar body
@@ -36,6 +38,9 @@ class ContactResult:
     """
 
     name: str
+    nonmortar: str
+    mortar: str
+    coupling: str
     node: IntArray
     points: Array
     normals: Array
@@ -64,6 +69,24 @@ class ContactResult:
         """Resultant of the friction on the nonmortar body, (d,) force."""
         force: Array = (self.traction * self.area) @ self.tangents
         return force
+
+    @property
+    def forces(self) -> Array:
+        """On the nonmortar body at every node, (n, d) force."""
+        along = self.pressure[:, None] * self.normals + self.traction[:, None] * self.tangents
+        forces: Array = self.area[:, None] * along
+        return forces
+
+    def moment(self, about: Sequence[float] | Array) -> float:
+        """Resultant moment on the nonmortar body about a point (2,), counterclockwise positive, force times length."""
+        arm, forces = self.points - np.asarray(about, float), self.forces
+        return float(arm[:, 0] @ forces[:, 1] - arm[:, 1] @ forces[:, 0])
+
+    @property
+    def extent(self) -> tuple[Array, Array] | None:
+        """Corners of the box around the nodes that touch, lower and upper, each (d,); None where none does."""
+        touching = self.points[self.closed]
+        return (touching.min(axis=0), touching.max(axis=0)) if len(touching) else None
 
     @property
     def closed_area(self) -> float:
