@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,19 +16,20 @@ from signorini.deck.inp.conditions import Conditions, make_conditions
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.grid import Grid, make_grid
 from signorini.deck.inp.interactions import make_interactions
-from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS, refuse_unsupported
+from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS
 from signorini.deck.inp.loading import Known, follow_steps
 from signorini.deck.inp.materials import Section, make_materials, make_sections
 from signorini.deck.inp.pairs import make_contacts
 from signorini.deck.inp.places import Places
 from signorini.deck.inp.sets import make_sets
 from signorini.deck.inp.steps import DeckStep, split_steps
+from signorini.deck.inp.supported import refuse_unsupported
 from signorini.deck.inp.surfaces import Edges, make_surfaces
 from signorini.errors import InputError, Where
 from signorini.model.body import Body
 from signorini.model.contact import Contact
 from signorini.model.mesh import NODES_PER_CELL, Mesh
-from signorini.model.model import Model
+from signorini.model.model import Kind, Model
 from signorini.model.step import Step
 
 _SMALL_SLIDING = "contact is treated as small sliding: pairs are found on the undeformed bodies"
@@ -101,12 +102,12 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
     conditions = make_conditions(follow_steps(outside, steps, known), places, steps, sections)
     model_steps = [_step(step, k, conditions, deck_increments) for k, step in enumerate(steps)]
     where = _where(sections, contacts, conditions, steps)
-    kind, thickness = _kind(grid), _thickness(sections)
+    kind = _kind(grid)
     try:
         model = Model(
             _mesh(grid, sections, places),
             kind=kind,
-            thickness=thickness,
+            thickness=_thickness(sections, kind),
             bodies=[_body(section) for section in sections],
             supports=conditions.supports,
             loads=conditions.loads,
@@ -125,7 +126,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
     )
 
 
-def located(error: InputError, places: dict[Where, Block], path: object) -> DeckError:
+def located(error: InputError, places: Mapping[Where, Block], path: object) -> DeckError:
     """The error with the line of the keyword that its place in the model comes from."""
     if isinstance(error, DeckError):
         return error
@@ -144,7 +145,7 @@ def _refuse_large(steps: Sequence[DeckStep], small_strain: bool) -> None:
             )
 
 
-def _kind(grid: Grid) -> str:
+def _kind(grid: Grid) -> Kind:
     first = grid.groups[0]
     for group in grid.groups:
         if group.type.kind != first.type.kind:
@@ -157,14 +158,14 @@ def _kind(grid: Grid) -> str:
     return first.type.kind
 
 
-def _thickness(sections: Sequence[Section]) -> float:
-    for section in sections:
+def _thickness(sections: Sequence[Section], kind: str) -> float:
+    for section in sections if kind != "axisymmetric" else ():
         if section.thickness != sections[0].thickness:
             raise section.block.error(
                 f"the thickness is {section.thickness:g}, but {sections[0].thickness:g} in line "
                 f"{sections[0].block.line}; expected one thickness for all"
             )
-    return sections[0].thickness
+    return 1.0 if kind == "axisymmetric" else sections[0].thickness  # CalculiX: the angle that it cuts out
 
 
 def _mesh(grid: Grid, sections: Sequence[Section], places: Places) -> Mesh:
@@ -228,7 +229,7 @@ def _where(
 def _title(outside: Sequence[Placed]) -> str:
     for item in outside:
         if item.block.keyword == "HEADING":
-            return " ".join(",".join(row.fields) for row in item.block.rows())[:200]
+            return " ".join(", ".join(row.fields) for row in item.block.rows())[:200]
     return ""
 
 
@@ -253,5 +254,3 @@ def _notes(
         words = ", ".join(f"*{keyword} (line {line})" for keyword, line in sorted(ignored.items(), key=lambda i: i[1]))
         notes.append(f"ignored, without effect on the answer: {words}")
     return notes
-
-

@@ -94,7 +94,7 @@ def make_conditions(
 
 
 def _refuse_changes(course: Course, steps: Sequence[DeckStep]) -> None:
-    held = course.held_slots()
+    held = course.slots_by_step()
     for k in range(1, len(steps)):
         for gone, word in ((held[k - 1] - held[k], "takes a support away"), (held[k] - held[k - 1], "adds a support")):
             if gone:

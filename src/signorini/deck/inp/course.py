@@ -47,7 +47,7 @@ class Course:
         self._first: dict[int, int] = {}  # slot to the source that set it first
         self._ends: list[dict[int, tuple[float, int]]] = []  # by step: slot to value at the end, amplitude
 
-    def set(
+    def put(
         self, slots: IntArray, value: float, label: str, block: Block, amplitude: Amplitude | None, *, adds: bool
     ) -> None:
         """Give slots a value; what was set in this step is added to it, or replaced by it."""
@@ -75,7 +75,7 @@ class Course:
         self._ends.append(ends)
         self._before = set(self._now)
 
-    def held_slots(self) -> list[set[int]]:
+    def slots_by_step(self) -> list[set[int]]:
         """By step the slots that have a value."""
         return [set(ends) for ends in self._ends]
 

@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import cast
 
 from signorini.deck.inp.block import Block
+from signorini.model.model import Kind
 
 _PLANES = {"CPE": "plane strain", "CPS": "plane stress", "CAX": "axisymmetric"}
 _FAMILIES = {"3": "triangle", "4": "quad", "6": "triangle6", "8": "quad8"}
@@ -33,7 +35,7 @@ class ElementType:
     """
 
     family: str
-    kind: str
+    kind: Kind
     note: str = ""
 
     @property
@@ -59,7 +61,7 @@ def element_type(block: Block) -> ElementType:
     prefix, size, variant = name[:3], name[3:4], name[4:]
     if prefix in _PLANES and size in _FAMILIES and variant in _VARIANTS:
         note = f"{name}: {_VARIANTS[variant]}" if _VARIANTS[variant] else ""
-        return ElementType(family=_FAMILIES[size], kind=_PLANES[prefix], note=note)
+        return ElementType(family=_FAMILIES[size], kind=cast(Kind, _PLANES[prefix]), note=note)
     if name.startswith(_SOLIDS):
         raise block.error(f"TYPE={name} is three-dimensional, which this version does not have")
     raise block.error(

@@ -84,7 +84,7 @@ def _nodes(placed: list[Placed]) -> tuple[Numbering, Array]:
         if (table[:, 0] != np.rint(table[:, 0])).any() or table[:, 0].min(initial=1) < 1:
             wrong = table[(table[:, 0] != np.rint(table[:, 0])) | (table[:, 0] < 1), 0][0]
             raise blocks[0].error(f"a node has the number {wrong:g}; expected a whole number >= 1")
-        numbers, where, again = np.unique(table[:, 0].astype(np.int64), return_index=True, return_inverse=True)
+        _, where, again = np.unique(table[:, 0].astype(np.int64), return_index=True, return_inverse=True)
         moved = np.nonzero((table[:, 1:] != table[where[again], 1:]).any(axis=1))[0]
         if len(moved):
             raise blocks[-1].error(f"node {table[moved[0], 0]:.0f} is there twice, at different places")
@@ -116,5 +116,5 @@ def _refuse_space(points: Array, groups: list[Group]) -> None:
         size = float(np.ptp(used[:, :2], axis=0).max()) if len(used) else 0.0
         if len(used) and np.abs(used[:, 2] - used[0, 2]).max() > _FLAT * max(size, 1e-300):
             raise group.block.error(
-                f"its nodes have z from {used[:, 2].min():g} to {used[:, 2].max():g}; expected plane elements in x and y"
+                f"its nodes have z from {used[:, 2].min():g} to {used[:, 2].max():g}; expected a plane mesh in x, y"
             )

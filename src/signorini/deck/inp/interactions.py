@@ -61,7 +61,8 @@ def _with(law: Interaction, block: Block) -> Interaction:
     if block.keyword == "FRICTION":
         friction, compliance = read_friction(block)
         return replace(law, friction=friction, tangential_compliance=compliance)
-    block.refuse_unknown(("PRESSURE-OVERCLOSURE", "PENALTY", "AUGMENTED LAGRANGE", "DIRECT"), ("MECHANICAL CONSTRAINT",))
+    enforcement = ("PENALTY", "AUGMENTED LAGRANGE", "DIRECT", "MECHANICAL CONSTRAINT")  # ours is exact
+    block.refuse_unknown(("PRESSURE-OVERCLOSURE",), enforcement)
     kind = block.choice("PRESSURE-OVERCLOSURE", ("HARD", "LINEAR", "TIED"), "HARD")
     if kind == "TIED":
         return replace(law, tied=True)

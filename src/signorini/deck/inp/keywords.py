@@ -3,12 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-from signorini.deck.inp.flatten import Placed
-from signorini.deck.inp.interactions import INTERACTION_WORDS
-from signorini.deck.inp.materials import MATERIAL_WORDS
-
 OUTPUT = (
     "CONTACT FILE",
     "CONTACT OUTPUT",
@@ -61,17 +55,20 @@ MODEL_WORDS = (
     "BOUNDARY",
     "CLEARANCE",
     "CONTACT PAIR",
+    "DENSITY",
+    "ELASTIC",
     "ELEMENT",
     "ELSET",
+    "EXPANSION",
+    "FRICTION",
     "HEADING",
     "MATERIAL",
     "NODE",
     "NSET",
     "SOLID SECTION",
     "SURFACE",
+    "SURFACE BEHAVIOR",
     "SURFACE INTERACTION",
-    *INTERACTION_WORDS,
-    *MATERIAL_WORDS,
 )
 """What is read outside the steps."""
 
@@ -79,30 +76,15 @@ STEP_WORDS = ("BOUNDARY", "CLOAD", "DLOAD", "DSLOAD", "NSET", "ELSET", "STATIC")
 """What is read inside the steps."""
 
 
-def refuse_unsupported(placed: Sequence[Placed], known: Sequence[str], where: str) -> dict[str, int]:
-    """Stop at the first keyword that changes the answer and is not read.
-
-    Parameters
-    ----------
-    known : keywords that are read here
-    where : words for the place, as "in a step"
-
-    Returns
-    -------
-    Keywords that are left out and the line of the first of each
-
-    Raises
-    ------
-    DeckError
-        With the line of the keyword.
-    """
-    ignored: dict[str, int] = {}
-    for item in placed:
-        keyword = item.block.keyword
-        if keyword in HARMLESS:
-            ignored.setdefault(keyword, item.block.line)
-        elif keyword not in known:
-            elsewhere = keyword in MODEL_WORDS or keyword in STEP_WORDS
-            what = f"is not supported {where}" if elsewhere else "is not supported, and it may change the answer"
-            raise item.block.error(what)
-    return ignored
+STRUCTURE = (
+    "ASSEMBLY",
+    "END ASSEMBLY",
+    "END INSTANCE",
+    "END PART",
+    "END STEP",
+    "INCLUDE",
+    "INSTANCE",
+    "PART",
+    "STEP",
+)
+"""What orders the others."""

@@ -19,8 +19,7 @@ from signorini.deck.inp.steps import DeckStep
 from signorini.deck.inp.surfaces import Edges, Surfaces
 
 DIMENSION = 2
-SINGLE = "single nodes"
-"""Label of what is set at nodes by their numbers, not by the name of a set."""
+_HELD, _PULLED = "single nodes", "forces on single nodes"  # labels where the deck gives numbers, not a set
 
 _TYPES = {"ENCASTRE": (1, 2), "PINNED": (1, 2), "XSYMM": (1,), "YSYMM": (2,), "ZSYMM": ()}
 
@@ -108,7 +107,7 @@ def _boundary(item: Placed, known: Known, courses: Courses) -> None:
     amplitude = find_amplitude(block, known.amplitudes)
     for row in block.rows():
         label, nodes = known.nodes.find(row.text(0, "a node or a node set"), item.scope, row)
-        label = SINGLE if label.startswith("node ") and label not in known.nodes else label
+        label = _HELD if label.startswith("node ") and label not in known.nodes else label
         word = row.text(1, "a direction, 1 or 2").upper()
         if word in _TYPES:
             axes: tuple[int, ...] = _TYPES[word]
@@ -124,7 +123,7 @@ def _boundary(item: Placed, known: Known, courses: Courses) -> None:
             axes = tuple(axis for axis in range(first, last + 1) if axis <= DIMENSION)
         for axis in axes:
             slots = DIMENSION * nodes + axis - 1
-            courses.displacement.set(slots, value, label, block, amplitude, adds=False)
+            courses.displacement.put(slots, value, label, block, amplitude, adds=False)
 
 
 def _cload(item: Placed, known: Known, courses: Courses) -> None:
@@ -133,12 +132,12 @@ def _cload(item: Placed, known: Known, courses: Courses) -> None:
     amplitude = find_amplitude(block, known.amplitudes)
     for row in block.rows():
         label, nodes = known.nodes.find(row.text(0, "a node or a node set"), item.scope, row)
-        label = SINGLE if label.startswith("node ") and label not in known.nodes else label
+        label = _PULLED if label.startswith("node ") and label not in known.nodes else label
         axis = row.whole(1, "a direction, 1 or 2")
         value = row.number(2, "the force")
         if not 1 <= axis <= DIMENSION:
             raise row.error(f"*CLOAD: direction {axis}; expected 1 or 2, a plane model has no other")
-        courses.force.set(DIMENSION * nodes + axis - 1, value, label, block, amplitude, adds=True)
+        courses.force.put(DIMENSION * nodes + axis - 1, value, label, block, amplitude, adds=True)
 
 
 def _dload(item: Placed, known: Known, courses: Courses) -> None:
@@ -152,7 +151,7 @@ def _dload(item: Placed, known: Known, courses: Courses) -> None:
             keys = known.edges.keys(elements, kind, row, "*DLOAD")
             value = row.number(2, "the pressure")
             name = f"{label} {kind}" if label in known.elements else "single elements"
-            courses.pressure.set(keys, value, name, block, amplitude, adds=True)
+            courses.pressure.put(keys, value, name, block, amplitude, adds=True)
         elif kind == "GRAV":
             gravity = row.number(2, "the acceleration")
             direction = np.array([row.number(i, "a component of the direction", 0.0) for i in (3, 4, 5)])
@@ -168,12 +167,12 @@ def _dload(item: Placed, known: Known, courses: Courses) -> None:
                 for axis in range(DIMENSION):
                     force = density * gravity * float(direction[axis] / size)
                     slots = np.array([DIMENSION * i + axis])
-                    courses.body.set(slots, force, f"gravity {known.sections[i].name}", block, amplitude, adds=False)
+                    courses.body.put(slots, force, f"gravity {known.sections[i].name}", block, amplitude, adds=False)
         elif kind in ("BX", "BY"):
             for i in _whole_sections(elements, label, known, row):
                 slots = np.array([DIMENSION * i + "XY".index(kind[1])])
                 value = row.number(2, "the force per volume")
-                courses.body.set(slots, value, f"{kind} {known.sections[i].name}", block, amplitude, adds=True)
+                courses.body.put(slots, value, f"{kind} {known.sections[i].name}", block, amplitude, adds=True)
         else:
             raise row.error(f"*DLOAD: '{kind}' is not supported; expected P1 to P4, GRAV, BX or BY")
 
@@ -188,7 +187,7 @@ def _dsload(item: Placed, known: Known, courses: Courses) -> None:
             raise row.error(f"*DSLOAD: '{kind}' is not supported; expected P")
         name = known.surfaces.find(row.text(0, "a surface"), item.scope, row)
         keys = known.surfaces.keys[name.upper()]
-        courses.pressure.set(keys, row.number(2, "the pressure"), name, block, amplitude, adds=True)
+        courses.pressure.put(keys, row.number(2, "the pressure"), name, block, amplitude, adds=True)
 
 
 def _whole_sections(elements: IntArray, label: str, known: Known, row: Row) -> list[int]:
@@ -199,5 +198,3 @@ def _whole_sections(elements: IntArray, label: str, known: Known, row: Row) -> l
     if covered < len(chosen):
         raise row.error(f"*DLOAD: '{label}' holds a part of a section; expected whole sections")
     return found
-
-

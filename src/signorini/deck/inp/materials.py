@@ -124,7 +124,7 @@ def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Sub
         block = item.block
         if block.keyword != "SOLID SECTION":
             continue
-        block.refuse_unknown(("ELSET", "MATERIAL", "CONTROLS"))
+        block.refuse_unknown(("ELSET", "MATERIAL"), ("CONTROLS", "OFFSET"))
         material = block.value("MATERIAL")
         if material.upper() not in materials:
             raise block.error(one_of(material, [m.block.value("NAME") for m in materials.values()], "material"))
@@ -141,9 +141,7 @@ def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Sub
             raise block.error(f"element {number} has the section of '{sections[owner[first]].name}' already")
         owner[members] = len(sections)
         sections.append(
-            Section(
-                block=block, name=name, elements=members, substance=substance, thickness=_thickness(block)
-            )
+            Section(block=block, name=name, elements=members, substance=substance, thickness=_thickness(block))
         )
     if (owner < 0).any():
         number = elements.numbering.labels[np.nonzero(owner < 0)[0][0]]

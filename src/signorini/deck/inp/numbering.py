@@ -45,7 +45,9 @@ class Numbering:
     @property
     def shifted(self) -> bool:
         """Whether any number differs from the deck's."""
-        return any(not np.array_equal(np.sort(a), b[0]) for a, b in zip(self._labels, self._sorted.values(), strict=True))
+        return any(
+            not np.array_equal(np.sort(a), b[0]) for a, b in zip(self._labels, self._sorted.values(), strict=True)
+        )
 
     def find(self, scope: str, numbers: IntArray) -> tuple[IntArray, IntArray]:
         """Indices of numbers, and the numbers that are not there."""

@@ -25,7 +25,12 @@ def bulk(data: bytes) -> tuple[Array, IntArray] | None:
     """
     plain = data.translate(_EXPONENT)
     compact = plain.translate(None, b" \t") + b"\n"
-    if b",," in compact or b"\n," in compact or compact.startswith(b",") or len(plain.translate(None, _LETTERS)) != len(plain):
+    if (
+        b",," in compact
+        or b"\n," in compact
+        or compact.startswith(b",")
+        or len(plain.translate(None, _LETTERS)) != len(plain)
+    ):
         return None
     byte = np.frombuffer(compact, np.uint8)
     ends = np.flatnonzero(byte == ord("\n"))

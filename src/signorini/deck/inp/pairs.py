@@ -15,7 +15,14 @@ from signorini.errors import one_of
 from signorini.model.contact import Contact
 
 _TYPES = ("", "NODE TO SURFACE", "SURFACE TO SURFACE", "MORTAR", "LINMORTAR", "PGLINMORTAR", "MASSLESS")
-_IGNORED = ("SMALL SLIDING", "EXTENSION ZONE", "MECHANICAL CONSTRAINT", "TRACKING", "SUPPLEMENTARY CONSTRAINTS", "CPSET")
+_IGNORED = (
+    "SMALL SLIDING",
+    "EXTENSION ZONE",
+    "MECHANICAL CONSTRAINT",
+    "TRACKING",
+    "SUPPLEMENTARY CONSTRAINTS",
+    "CPSET",
+)
 
 
 def make_contacts(

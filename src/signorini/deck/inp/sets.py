@@ -131,7 +131,7 @@ def _define(item: Placed, key: str, sets: Sets, elements: Sets, grid: Grid) -> N
 
 def _generated(block: Block, numbering: Numbering, scope: Scope) -> IntArray:
     """Members from first to last by steps; numbers in between that nothing has are left out, as CalculiX does."""
-    pieces = [np.empty(0, np.int64)]
+    pieces: list[IntArray] = [np.empty(0, np.int64)]
     for row in block.rows():
         first, last = row.whole(0, "the first number"), row.whole(1, "the last number", row.whole(0, "a number"))
         step = row.whole(2, "the step", 1)

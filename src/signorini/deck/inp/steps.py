@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.flatten import Placed
+from signorini.deck.inp.keywords import HARMLESS, STEP_WORDS
 
 _IGNORED = ("INC", "NAME", "UNSYMM", "SOLVER", "CONVERT SDI", "EXTRAPOLATION", "PERTURBATION MASS")
 
@@ -79,6 +80,9 @@ def _step(block: Block, number: int, members: list[Placed], start: float, before
     block.refuse_unknown(("NLGEOM", "AMPLITUDE"), _IGNORED)
     statics = [item.block for item in members if item.block.keyword == "STATIC"]
     if len(statics) != 1:
+        other = next((m.block for m in members if m.block.keyword not in (*STEP_WORDS, *HARMLESS)), None)
+        if not statics and other is not None:
+            raise other.error("is not supported; expected *STATIC")
         found = "no *STATIC" if not statics else "two *STATIC"
         raise block.error(f"has {found}; expected one: only static steps can be solved")
     static = statics[0]

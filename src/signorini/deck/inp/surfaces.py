@@ -123,7 +123,7 @@ def make_surfaces(placed: list[Placed], edges: Edges, nodes: Sets, elements: Set
 
 
 def _of_elements(item: Placed, edges: Edges, elements: Sets) -> IntArray:
-    pieces = [np.empty(0, np.int64)]
+    pieces: list[IntArray] = [np.empty(0, np.int64)]
     for row in item.block.rows():
         members = elements.find(row.text(0, "an element or an element set"), item.scope, row)[1]
         face = row.fields[1].upper() if len(row.fields) > 1 else ""
@@ -135,5 +135,3 @@ def _of_elements(item: Placed, edges: Edges, elements: Sets) -> IntArray:
             pieces.append(edges.keys(members, face, row, "*SURFACE"))
     keys: IntArray = np.unique(np.concatenate(pieces))
     return keys
-
-

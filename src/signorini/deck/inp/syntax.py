@@ -2,8 +2,8 @@
 """From files to keywords with their data, each with its line; nothing is understood yet.
 
 A line that begins with ``*`` is a keyword, with ``**`` a comment; every other line is data of the keyword before it
-(before the first keyword it is a title). Case, blanks and line ends do not matter; a keyword line that ends with a comma
-goes on in the next line, if that can be parameters.
+(before the first keyword it is a title). Case, blanks and line ends do not matter; a keyword line that ends with a
+comma goes on in the next line, if that can be parameters.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from pathlib import Path
 
 from signorini.deck.error import DeckError
 from signorini.deck.inp.block import Block, decode
+from signorini.deck.inp.words import canonical
 
 _DEPTH = 10  # of files that include files
 _SHOWN = 60  # characters of a line in messages
@@ -139,10 +140,10 @@ def _end(data: bytes, start: int) -> int:
 
 def _keyword(data: bytes, path: Path, line: int) -> _Open:
     name, *words = _fields(decode(data).strip()[1:].replace("\n", " "))
-    opened = _Open(" ".join(name.upper().split()), {}, path, line)
+    opened = _Open(canonical(name), {}, path, line)
     for word in words:
         key, _, value = word.partition("=")
-        key = " ".join(key.upper().split())
+        key = canonical(key)
         if key:
             if key in opened.parameters:
                 raise _error(opened, f"has {key} twice")
