@@ -56,8 +56,8 @@ class Mesh:
     bodies: Mapping[str, IntArray]
     boundaries: Mapping[str, IntArray] = field(default_factory=dict)
     nodes: Mapping[str, IntArray] = field(default_factory=dict)
-    node_numbers: IntArray = field(default_factory=lambda: np.empty(0, np.int64))
-    cell_numbers: IntArray = field(default_factory=lambda: np.empty(0, np.int64))
+    node_numbers: IntArray | None = None
+    cell_numbers: IntArray | None = None
 
     def __post_init__(self) -> None:
         points = frozen(self.points)
@@ -82,7 +82,8 @@ class Mesh:
             named = {name: self._indices(i, limit, part, name, widths) for name, i in getattr(self, part).items()}
             object.__setattr__(self, part, MappingProxyType(named))
         for part, count in (("node_numbers", len(points)), ("cell_numbers", self.number_of_cells)):
-            object.__setattr__(self, part, _numbers(getattr(self, part), count, part))
+            if getattr(self, part) is not None:
+                object.__setattr__(self, part, _numbers(getattr(self, part), count, part))
 
     @staticmethod
     def _indices(values: IntArray, limit: int, part: str, name: str, widths: tuple[int, ...]) -> IntArray:
@@ -102,6 +103,16 @@ class Mesh:
         """Cells of all families together."""
         return sum(len(nodes) for nodes in self.cells.values())
 
+    @property
+    def labels(self) -> IntArray:
+        """What results call the nodes, (n,)."""
+        return np.arange(1, len(self.points) + 1) if self.node_numbers is None else self.node_numbers
+
+    @property
+    def cell_labels(self) -> IntArray:
+        """What results call the cells, (m,)."""
+        return np.arange(1, self.number_of_cells + 1) if self.cell_numbers is None else self.cell_numbers
+
     def nodes_of(self, name: str) -> IntArray:
         """The sorted nodes of a boundary or node set."""
         found = self.boundaries[name] if name in self.boundaries else self.nodes[name]
@@ -116,7 +127,7 @@ class Mesh:
 
 
 def _numbers(values: IntArray, count: int, part: str) -> IntArray:
-    numbers = frozen(values if len(values) else np.arange(1, count + 1), np.int64)
+    numbers = frozen(values, np.int64)
     if numbers.shape != (count,):
         raise InputError(f"has shape {numbers.shape}; expected ({count},)", where=("mesh", part))
     if len(np.unique(numbers)) < count:

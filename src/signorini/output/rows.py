@@ -37,7 +37,7 @@ def write_rows(history: History, path: Path) -> None:
         writer.writerow(COLUMNS)
         for number, step in enumerate(history.steps, start=1):
             for contact in step.contacts:
-                writer.writerows(contact_rows(number, contact, history.model.mesh.node_numbers))
+                writer.writerows(contact_rows(number, contact, history.model.mesh.labels))
 
 
 def contact_rows(step: int, contact: ContactResult, numbers: IntArray) -> Iterator[tuple[str, ...]]:

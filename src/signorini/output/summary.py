@@ -64,7 +64,7 @@ def _step(model: Model, step: StepResult, stored: float) -> dict[str, Any]:
             {
                 "load_factor": event.load_factor,
                 "contact": event.contact,
-                "nodes": [int(model.mesh.node_numbers[node]) for node in event.nodes],
+                "nodes": [int(model.mesh.labels[node]) for node in event.nodes],
                 "what": event.what,
             }
             for event in step.events

@@ -49,7 +49,7 @@ def write_step(model: Model, step: StepResult, path: Path) -> None:
             "displacement": _three(step.displacement[nodes]),
             "stress": stress,
             "von_mises": np.concatenate([part.von_mises for part in stresses]),
-            "node": model.mesh.node_numbers[nodes],
+            "node": model.mesh.labels[nodes],
         },
         cell_data={"body": body},
     )

@@ -47,12 +47,12 @@ def test_numbers_of_the_deck_survive(tmp_path: Path) -> None:
     with (tmp_path / "contact.csv").open() as file:
         assert {row["node"] for row in csv.DictReader(file)} == {"11", "12", "13"}
     model = sg.read(DECKS / "two_blocks.inp")
-    assert model.mesh.cell_numbers.tolist() == [10, 20, 30, 40]
+    assert model.mesh.cell_labels.tolist() == [10, 20, 30, 40]
 
 
 def test_instances_get_numbers_of_their_own() -> None:
     deck = load(DECKS / "instances.inp")
-    assert deck.model.mesh.node_numbers.tolist() == [*range(1, 7), *range(7, 13)]
+    assert deck.model.mesh.labels.tolist() == [*range(1, 7), *range(7, 13)]
     assert any("raised" in note for note in deck.notes)
     # turned by half a turn, the first node of the upper block is its upper right corner
     assert deck.model.mesh.points[6] == pytest.approx([2.0, 2.0])
