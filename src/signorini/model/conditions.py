@@ -108,7 +108,7 @@ class Load:
 
     @property
     def kind(self) -> str:
-        """Which of force, traction, pressure, body_force it is."""
+        """Which of force, nodal_forces, traction, pressure, body_force it is."""
         return next(kind for kind in _LOAD_KINDS if getattr(self, kind) is not None)
 
     @property
