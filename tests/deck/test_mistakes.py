@@ -57,7 +57,7 @@ MISTAKES = {
         "[[step]]",
         "[[stepp]]",
         ":31: stepp: unknown key; did you mean 'step'? Known: title, kind, thickness, units, mesh, material, body, "
-        "support, load, contact, step",
+        "support, load, contact, obstacle, step",
     ),
     "unknown boundary": (
         'on = "axis"',

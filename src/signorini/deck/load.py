@@ -14,7 +14,15 @@ from signorini.deck.inp.block import Block
 from signorini.deck.inp.build import Built, located
 from signorini.deck.inp.load import load_inp
 from signorini.deck.meshes import deck_mesh
-from signorini.deck.parts import deck_bodies, deck_contacts, deck_loads, deck_materials, deck_steps, deck_supports
+from signorini.deck.parts import (
+    deck_bodies,
+    deck_contacts,
+    deck_loads,
+    deck_materials,
+    deck_obstacles,
+    deck_steps,
+    deck_supports,
+)
 from signorini.deck.scan import line_of
 from signorini.deck.syntax import parse
 from signorini.deck.table import check_keys
@@ -32,6 +40,7 @@ _KEYS = (
     "support",
     "load",
     "contact",
+    "obstacle",
     "step",
 )
 _LATER = ("3d",)
@@ -136,6 +145,7 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int]) -> De
         "supports": deck_supports(data),
         "loads": deck_loads(data),
         "contacts": deck_contacts(data),
+        "obstacles": deck_obstacles(data),
     }
     if "step" in data:
         parts["steps"] = deck_steps(data)

@@ -72,6 +72,15 @@ def _step(model: Model, step: StepResult, stored: float) -> dict[str, Any]:
         "method": ", ".join(step.methods),
         "notes": list(step.notes),
         "reactions": {name: _list(force) for name, force in step.reactions.items()},
+        "obstacles": {
+            name: {
+                "displacement": _list(obstacle.displacement),
+                "rotation": obstacle.rotation,
+                "force": _list(obstacle.force),
+                "moment": obstacle.moment,
+            }
+            for name, obstacle in step.obstacles.items()
+        },
         "strain_energy": step.strain_energy,
         "interface_energy": step.interface_energy,
         "work": step.work,
