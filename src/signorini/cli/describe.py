@@ -111,7 +111,8 @@ def _way(step: Step) -> str:
 
 def _notes(deck: Deck) -> list[str]:
     model = deck.model
-    notes = [f"material '{name}' is not used" for name in deck.unused_materials]
+    notes = [*deck.notes]
+    notes += [f"material '{name}' is not used" for name in deck.unused_materials]
     if not model.contacts:
         notes.append("there is no contact: this is a linear problem")
     if not model.scaled_names and all(contact.interference == 0.0 for contact in model.contacts):

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+import textwrap
 import time
 from pathlib import Path
 
@@ -44,6 +45,8 @@ def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: f
     if not options.quiet:
         if history.solved or history.steps:
             print(history_table(history), end="\n\n")
+        for note in deck.notes:
+            print(textwrap.fill(f"deck: {note}", 112), end="\n\n")
         print(f"{', '.join(file.name for file in files)} in {folder} ({time.perf_counter() - started:.2f} s)")
     if history.solved:
         return 0

@@ -60,7 +60,7 @@ def _step(model: Model, step: StepResult) -> dict[str, Any]:
             {
                 "load_factor": event.load_factor,
                 "contact": event.contact,
-                "nodes": [node + 1 for node in event.nodes],
+                "nodes": [int(model.mesh.labels[node]) for node in event.nodes],
                 "what": event.what,
             }
             for event in step.events
@@ -68,6 +68,15 @@ def _step(model: Model, step: StepResult) -> dict[str, Any]:
         "method": ", ".join(step.methods),
         "notes": list(step.notes),
         "reactions": {name: _list(force) for name, force in step.reactions.items()},
+        "obstacles": {
+            name: {
+                "displacement": _list(obstacle.displacement),
+                "rotation": obstacle.rotation,
+                "force": _list(obstacle.force),
+                "moment": obstacle.moment,
+            }
+            for name, obstacle in step.obstacles.items()
+        },
         "strain_energy": step.strain_energy,
         "interface_energy": step.interface_energy,
         "work": step.work,
