@@ -43,6 +43,6 @@ def data_scale(model: Model, loads: Mapping[str, Array], constraints: Constraint
     moved = [largest[name] * float(np.abs(u).max()) for name, u in constraints.prescribed.items()]
     length = max([*moved, float(np.max(-interface.gap, initial=0.0))])
     across = 0.5 * float(model.mesh.points[:, 0].max()) if model.axisymmetric else model.thickness
-    stiffness = min(body.material.E for body in model.bodies) * across
+    stiffness = min(body.material.smallest_modulus for body in model.bodies) * across
     force = max(force, stiffness * length) or stiffness
     return Scale(force=force, length=force / stiffness)
