@@ -30,9 +30,10 @@ from signorini.fem.generators import rectangle
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.model.body import Body
 from signorini.model.conditions import Support
-from signorini.model.contact import Contact, Plane
+from signorini.model.contact import Contact
 from signorini.model.material import Elastic
 from signorini.model.model import Model
+from signorini.model.obstacle import Plane
 
 PHASES = ("assembly", "factorisation", "condensation", "complementarity", "recovery")
 REPEATS, LONG = 3, 20.0

@@ -22,9 +22,10 @@ from signorini.gallery.cylinder import zhu_cylinder
 from signorini.lcp.problems import PosedLCP
 from signorini.model.body import Body
 from signorini.model.conditions import Support
-from signorini.model.contact import Contact, Plane
+from signorini.model.contact import Contact
 from signorini.model.material import Elastic
 from signorini.model.model import Model
+from signorini.model.obstacle import Plane
 
 
 def cylinder(n: int, rng: np.random.Generator) -> PosedLCP:
@@ -64,7 +65,7 @@ def loaded(prepared: Prepared, factor: float) -> CoulombProblem:
     imposed = sum(prepared.constraints.prescribed.values(), zero)
     load = T.T @ (factor * sum(prepared.loads.values(), zero) - prepared.K @ imposed)
     offset = np.concatenate([interface.gap, np.zeros(len(interface))]) + interface.B @ imposed
-    b = condensed.right_hand_side(condensed.condensed_load(load), offset[rows], prepared.law.motions)
+    b = condensed.right_hand_side(condensed.reduce(load).load, offset[rows], prepared.law.motions)
     return replace(prepared.law, b=b)
 
 

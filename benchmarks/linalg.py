@@ -64,14 +64,14 @@ def block(cells: tuple[int, ...]) -> tuple[sparse.csr_array, np.ndarray, np.ndar
 def contact(K: Any, interface: Any, nodes: Any, backend: str) -> Any:
     factor = factorise(K, interface, nodes=nodes, backend=backend)
     f = np.ones(factor.n)
-    u_c = scipy.linalg.solve(factor.schur(), factor.reduce(f), assume_a="pos")
-    factor.expand(f, u_c)
+    reduced = factor.reduce(f)
+    reduced.expand(scipy.linalg.solve(factor.schur(), reduced.load, assume_a="pos"))
     return factor
 
 
 def plain(K: Any, nodes: Any, backend: str) -> Any:
     factor = factorise(K, [], nodes=nodes, backend=backend)
-    factor.expand(np.ones(factor.n), np.empty(0))
+    factor.reduce(np.ones(factor.n)).expand(np.empty(0))
     return factor
 
 

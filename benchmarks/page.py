@@ -10,6 +10,10 @@ from pathlib import Path
 
 PAGE = Path(__file__).parent.parent / "docs" / "performance.md"
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
+ONE_THREAD["MKL_THREADING_LAYER"] = "SEQUENTIAL"  # one thread of the other layer spins beside the one that works
+KEEP_MEMORY = {"MALLOC_MMAP_MAX_": "0", "MALLOC_TRIM_THRESHOLD_": str(10**12)}
+"""The C library's settings to hand no memory back: otherwise whichever solve comes after a long pause pays for new
+pages, which on a virtual machine cost as much as the computing. All codes gain."""
 
 
 def table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:

@@ -17,10 +17,6 @@ from typing import Any
 from benchmarks import page
 from signorini.bench.cylinder import cylinder
 
-KEEP_MEMORY = {"MALLOC_MMAP_MAX_": "0", "MALLOC_TRIM_THRESHOLD_": str(10**12)}
-"""The C library's settings to hand no memory back between the repeats: otherwise whichever solve comes after a long
-pause pays for new pages, which on a virtual machine costs as much as the computing. Both solves gain."""
-
 HEAD = (
     "unknowns",
     "mu",
@@ -38,7 +34,7 @@ HEAD = (
 def measure(dofs: int) -> list[dict[str, Any]]:
     """The rows of one size, from a process of its own."""
     command = [sys.executable, "-m", "benchmarks.ratio", "--one", "--dofs", str(dofs)]
-    environment = {**os.environ, **page.ONE_THREAD, **KEEP_MEMORY}
+    environment = {**os.environ, **page.ONE_THREAD, **page.KEEP_MEMORY}
     done = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=environment)
     rows: list[dict[str, Any]] = json.loads(done.stdout)
     return rows

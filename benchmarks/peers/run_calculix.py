@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.page import ONE_THREAD, peak_memory
+from benchmarks.page import KEEP_MEMORY, ONE_THREAD, peak_memory
 from benchmarks.peers.case import Case, write_calculix
 from benchmarks.peers.result import Result
 from signorini.arrays import Array, IntArray
@@ -54,7 +54,7 @@ def _run(case: Case, friction: float, folder: Path) -> Result:
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        env={**os.environ, **ONE_THREAD, **unbuffered},
+        env={**os.environ, **ONE_THREAD, **KEEP_MEMORY, **unbuffered},
     )
     assert process.stdout is not None
     seconds = {"input": 0.0, "assembly": 0.0, "solve": 0.0}

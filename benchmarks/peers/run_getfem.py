@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.page import ONE_THREAD
+from benchmarks.page import KEEP_MEMORY, ONE_THREAD
 from benchmarks.peers.case import Case, write_arrays
 from benchmarks.peers.result import Result
 
@@ -59,4 +59,5 @@ def _run(case: Case, friction: float, folder: Path) -> Result:
 
 def _environment() -> dict[str, str]:
     """One thread, and none of this Python's packages."""
-    return {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")} | ONE_THREAD
+    kept = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    return kept | ONE_THREAD | KEEP_MEMORY

@@ -18,7 +18,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from benchmarks.page import ONE_THREAD, peak_memory
+from benchmarks.page import KEEP_MEMORY, ONE_THREAD, peak_memory
 from benchmarks.peers.case import Case
 from benchmarks.peers.result import Result
 from signorini.clock import Clock
@@ -44,7 +44,7 @@ class CpuClock(Clock):
 def run(case: Case, refine: int, friction: float, backend: str, *, cold: bool = False) -> Result:
     """Warm: medians after one small solve. Cold: all of a first process, which finds no compiled code on disk."""
     with tempfile.TemporaryDirectory() as nothing:
-        environment = {**os.environ, **ONE_THREAD, **({"NUMBA_CACHE_DIR": nothing} if cold else {})}
+        environment = {**os.environ, **ONE_THREAD, **KEEP_MEMORY, **({"NUMBA_CACHE_DIR": nothing} if cold else {})}
         arguments = [str(refine), str(friction), backend, *(["cold"] if cold else [])]
         done = subprocess.run(
             [sys.executable, "-m", "benchmarks.peers.run_signorini", *arguments],

@@ -22,14 +22,16 @@ if TYPE_CHECKING:
     from signorini.fem.read import read_mesh
     from signorini.model.body import Body
     from signorini.model.conditions import Load, Support
-    from signorini.model.contact import Contact, Plane
+    from signorini.model.contact import Contact
     from signorini.model.material import Elastic, Orthotropic
     from signorini.model.mesh import Mesh, join
     from signorini.model.model import Model
+    from signorini.model.obstacle import Circle, Plane, Profile
     from signorini.model.step import Step
 
 __all__ = [
     "Body",
+    "Circle",
     "Contact",
     "Elastic",
     "InputError",
@@ -38,6 +40,7 @@ __all__ = [
     "Model",
     "Orthotropic",
     "Plane",
+    "Profile",
     "SignoriniError",
     "Solution",
     "SolveFailed",
@@ -65,10 +68,11 @@ _HOMES = {
     "signorini.fem.read": ("read_mesh",),
     "signorini.model.body": ("Body",),
     "signorini.model.conditions": ("Load", "Support"),
-    "signorini.model.contact": ("Contact", "Plane"),
+    "signorini.model.contact": ("Contact",),
     "signorini.model.material": ("Elastic", "Orthotropic"),
     "signorini.model.mesh": ("Mesh", "join"),
     "signorini.model.model": ("Model",),
+    "signorini.model.obstacle": ("Circle", "Plane", "Profile"),
     "signorini.model.step": ("Step",),
 }
 _MODULES = {"lcp": "signorini.lcp", "paper": "signorini.engine.paper"}

@@ -13,8 +13,8 @@ class Attempt:
     Attributes
     ----------
     method : ``"newton"``, ``"path open"``, ``"path press"``, ``"path among touching"``, ``"springs"``,
-        ``"rigid motions"``, ``"tree"``
-    iterations : linear systems solved (Newton), pivots (paths), linear programs (proofs)
+        ``"rigid motions"``, ``"tree"``; in space also ``"gauss-seidel"``, ``"proximal newton"``
+    iterations : linear systems solved (Newton), pivots (paths), linear programs (proofs), sweeps
     changes : pairs that changed their state, one number for each iteration; a pivot always changes one pair, so that
         paths leave this empty
     end : how it ended, in a few words

@@ -76,7 +76,7 @@ def test_check_says_what_would_be_solved(capsys: pytest.CaptureFixture[str]) -> 
     assert main(["check", str(EXAMPLES / "block_drag.toml")]) == 0
     said = capsys.readouterr().out
     assert "650 nodes, 576 elements (576 quads), 1300 dofs" in said
-    assert "block.bottom on foundation.top  friction 0.3  25 pairs  initial gap 0 to 0" in said
+    assert "block.bottom on foundation.top  nodes  friction 0.3  25 pairs  initial gap 0 to 0" in said
     assert "total force (0, -40) at factor 1" in said
     assert "ends at press 0.7, drag 0" in said
     assert "body 'block' can move along y: only contact can hold that" in said

@@ -49,8 +49,9 @@ MISTAKES = {
     "unknown key": (
         "friction = 0.4",
         "fricton = 0.4",
-        ":29: contact[0].fricton: unknown key; did you mean 'friction'? Known: name, nonmortar, mortar, plane, "
-        "friction, gap, interference, normal_compliance, tangential_compliance",
+        ":29: contact[0].fricton: unknown key; did you mean 'friction'? Known: name, nonmortar, mortar, plane, circle, "
+        "profile, friction, gap, interference, normal_compliance, tangential_compliance, coupling, side, "
+        "search, adjust",
     ),
     "unknown table": (
         "[[step]]",
@@ -89,7 +90,7 @@ MISTAKES = {
     "contact with nothing": (
         "plane = { point = [0.0, 0.0], normal = [0.0, 1.0] }\n",
         "",
-        ":26: contact[0]: has neither 'mortar' nor 'plane'; expected one of them, the other side of the contact",
+        ":26: contact[0]: has no other side; expected one of mortar, plane, circle, profile",
     ),
     "plane without direction": (
         "normal = [0.0, 1.0]",

@@ -35,6 +35,17 @@ def test_traits_of_the_bank_are_true(problem):
             assert test(problem.M), trait
 
 
+@pytest.mark.parametrize("problem", [p for p in problems.bank() if p.n <= 9], ids=lambda p: p.name)
+def test_what_the_bank_says_about_solutions_is_true(problem):
+    faces = lcp.all_solutions(problem.M, problem.q)
+    assert bool(faces) is problem.solvable
+    if problem.unique:
+        assert {face.dimension for face in faces} == {0}
+        assert np.ptp([face.z for face in faces], axis=0).max() < 1e-9
+    if problem.answer is not None:
+        assert lcp.natural_residual(problem.M, problem.q, problem.answer).worst < 1e-12
+
+
 def test_copositive_plus_needs_its_plus():
     assert not lcp.is_copositive_plus([[0.0, 1.0], [1.0, 0.0]])
     assert not lcp.is_copositive_plus([[1.0, -2.0], [-2.0, 1.0]])

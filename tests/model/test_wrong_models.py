@@ -12,10 +12,11 @@ from signorini.errors import InputError, SolveFailed
 from signorini.fem.generators import quarter_disk, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
-from signorini.model.contact import Contact, Plane
+from signorini.model.contact import Contact
 from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh, join
 from signorini.model.model import Model
+from signorini.model.obstacle import Plane
 from signorini.model.step import Step
 
 SOFT = Elastic(E=100.0, nu=0.3)
@@ -58,7 +59,7 @@ IN_THE_MODEL = [
     (lambda: Elastic(E=float("nan"), nu=0.3), "E: is nan; expected a number > 0"),
     (lambda: Contact("bottom", FLOOR, friction=-0.1), "friction: is -0.1; expected a number >= 0"),
     (lambda: Contact("bottom", FLOOR, friction="rough"), "friction: is 'rough'; expected a number >= 0 or 'stick'"),
-    (lambda: Contact("bottom", FLOOR, gap="none"), "gap: is 'none'; expected 'geometry' or a number"),
+    (lambda: Contact("bottom", FLOOR, gap="none"), "gap: is 'none'; expected 'geometry', 'zero' or a number"),
     (
         lambda: Contact("bottom", FLOOR, normal_compliance=-1.0),
         "normal_compliance: is -1.0; expected a number >= 0",
@@ -191,11 +192,11 @@ TWO_CELLS = replace(
 
 IN_THE_MESH = [
     (
-        lambda: pair(upper=FINER),
+        lambda: pair(upper=FINER, contacts=[Contact("upper.bottom", "lower.top", coupling="nodes")]),
         "contact[0]: the nonmortar side has 4 nodes and the mortar side 3; expected matching meshes",
     ),
     (
-        lambda: pair(upper=SHIFTED),
+        lambda: pair(upper=SHIFTED, contacts=[Contact("upper.bottom", "lower.top", coupling="nodes")]),
         "at (0.3, 1) has no partner across the gap: the nearest, node 4 at (0, 1), lies 0.6 of a node distance",
     ),
     (

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.model.contact import Plane
 from signorini.model.mesh import Mesh
+from signorini.model.obstacle import Plane
 
 # a mirror is a map like a rotation; (2, 2) matrices throughout
 

@@ -15,10 +15,11 @@ from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
-from signorini.model.contact import Contact, Plane
+from signorini.model.contact import Contact
 from signorini.model.material import Elastic
 from signorini.model.mesh import join
 from signorini.model.model import Model
+from signorini.model.obstacle import Plane
 from signorini.model.step import Step
 
 few = settings(max_examples=8, deadline=None, derandomize=True)

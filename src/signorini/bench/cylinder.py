@@ -109,5 +109,5 @@ def _fixed(prepared: Prepared) -> tuple[sp.csr_array, IntArray, Array]:
 def _linear(K: sp.csr_array, nodes: IntArray, f: Array, backend: str, timer: Timer) -> float:
     """Seconds of one plain solve: analyse, factorise, solve."""
     began = timer()
-    factorise(K, np.empty(0, int), nodes=nodes, backend=backend).expand(f, np.empty(0))
+    factorise(K, np.empty(0, int), nodes=nodes, backend=backend).reduce(f).expand(np.empty(0))
     return timer() - began

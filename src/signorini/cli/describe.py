@@ -9,7 +9,6 @@ from signorini.deck import Deck
 from signorini.engine.prepare import Examined
 from signorini.fem.locking import thin_bodies
 from signorini.fem.rigid import describe_motion
-from signorini.model.contact import Contact, Plane
 from signorini.model.model import Model
 from signorini.model.step import Step
 from signorini.output.align import align
@@ -74,17 +73,12 @@ def _contacts(examined: Examined) -> Rows:
     rows: Rows = []
     for i, contact in enumerate(examined.model.contacts):
         gap = examined.interface.gap[examined.interface.contact == i]
-        sides = f"{contact.nonmortar} on {_obstacle(contact)}"
+        pairing = examined.interface.sides[i]
+        sides = f"{pairing.nonmortar} on {pairing.mortar}"
         friction = "sticks" if contact.friction == "stick" else f"friction {contact.friction:g}"
         initial = f"initial gap {gap.min():.5g} to {gap.max():.5g}"
-        rows.append((contact.label, sides, friction, f"{len(gap)} pairs", initial))
+        rows.append((contact.label, sides, pairing.coupling, friction, f"{len(gap)} pairs", initial))
     return rows
-
-
-def _obstacle(contact: Contact) -> str:
-    if isinstance(contact.mortar, Plane):
-        return f"a plane through {spell_vector(contact.mortar.point)}, normal {spell_vector(contact.mortar.normal)}"
-    return contact.mortar
 
 
 def _steps(model: Model) -> Rows:

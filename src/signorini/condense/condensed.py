@@ -12,7 +12,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.clock import Clock
 from signorini.interface.interface import Interface
-from signorini.linalg.protocol import Factorisation
+from signorini.linalg.protocol import Factorisation, Reduced
 from signorini.linalg.registry import factorise
 
 # of the size of a row of B: below it supports hold what the row sees
@@ -61,8 +61,8 @@ class Condensed:
         pairs = np.nonzero(self.active)[0]
         return np.concatenate([pairs, len(self.active) + pairs])
 
-    def condensed_load(self, f: Array) -> Array:
-        """Loads (z,) on the free displacements, condensed onto the contact dofs, (m,)."""
+    def reduce(self, f: Array) -> Reduced:
+        """Loads (z,) on the free displacements, condensed onto the contact dofs."""
         return self.factorisation.reduce(f)
 
     def right_hand_side(self, f_c: Array, offset: Array, motions: Array) -> Array:
@@ -83,14 +83,36 @@ class Condensed:
         result: Array = self.root * response + strain
         return result
 
-    def displacement(self, f: Array, f_c: Array, h: Array, r: Array, offset: Array) -> Array:
-        """Free displacements (z,) under the load f and the solution h, r (2 a,), in the units of the problem."""
+    def displacement(self, reduced: Reduced, h: Array, r: Array, offset: Array) -> Array:
+        """Free displacements (z,) under a load and the solution h, r (2 a,), in the units of the problem."""
         if not len(self.dofs):
-            return self.factorisation.expand(f, f_c)
+            return reduced.expand(reduced.load)
         moved = h - self.compliance * r - offset
         springs = self.root**2 * self._softening
-        contact = self._solve(f_c + self.B.T @ (r + springs * moved))
-        return self.factorisation.expand(f, contact)
+        return reduced.expand(self._solve(reduced.load + self.B.T @ (r + springs * moved)))
+
+    def among(self, kept: BoolArray) -> Condensed:
+        """The same bodies with fewer pairs; no sparse matrix is factorised again.
+
+        Parameters
+        ----------
+        kept : (n,) pairs that stay; together with the supports they hold the bodies
+
+        Raises
+        ------
+        LinAlgError
+            If they do not.
+        """
+        rows = np.tile(kept[self.active], 2)
+        return _image(
+            self.factorisation,
+            self.B[rows],
+            self.root[rows] ** 2,
+            self.compliance[rows],
+            active=self.active & kept,
+            held=self.held,
+            dofs=self.dofs,
+        )
 
     @property
     def _softening(self) -> Array:
@@ -155,13 +177,26 @@ def _condense(
 ) -> Condensed:
     """From the contact dofs to the pairs."""
     pairs = np.nonzero(active)[0]
-    S = factorisation.schur()
     stiffness = _interface_stiffness(K_c, B_c, interface, pairs)
     area = np.tile(interface.area[pairs], 2)
     compliance = np.concatenate([interface.normal_compliance[pairs], interface.tangential_compliance[pairs]]) / area
+    return _image(factorisation, B_c, stiffness, compliance, active=active, held=held, dofs=dofs)
+
+
+def _image(
+    factorisation: Factorisation,
+    B_c: sp.csr_array,
+    stiffness: Array,
+    compliance: Array,
+    *,
+    active: BoolArray,
+    held: BoolArray,
+    dofs: IntArray,
+) -> Condensed:
+    """The image form for a stiffness D and a compliance C of the interface, each (2 a,)."""
     softening = 1.0 / (1.0 + stiffness * compliance)
-    springs = S + (B_c.T @ sp.diags_array(stiffness * softening) @ B_c).toarray()
-    cholesky, A = (S, True), np.zeros((0, 0))
+    springs = factorisation.schur() + (B_c.T @ sp.diags_array(stiffness * softening) @ B_c).toarray()
+    cholesky, A = (springs, True), np.zeros((0, 0))
     if len(dofs):
         cholesky = scipy.linalg.cho_factor(springs, lower=True, overwrite_a=True, check_finite=False)
         A = B_c @ scipy.linalg.cho_solve(cholesky, B_c.T.toarray(), check_finite=False)

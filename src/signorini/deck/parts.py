@@ -11,8 +11,9 @@ from signorini.deck.table import check_keys, make, table, tables
 from signorini.errors import InputError, Where, one_of
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
-from signorini.model.contact import Contact, Plane
+from signorini.model.contact import Contact
 from signorini.model.material import Elastic, Material, Orthotropic
+from signorini.model.obstacle import Circle, Plane, Profile
 from signorini.model.step import Step
 
 _CONTACT_KEYS = (
@@ -20,12 +21,19 @@ _CONTACT_KEYS = (
     "nonmortar",
     "mortar",
     "plane",
+    "circle",
+    "profile",
     "friction",
     "gap",
     "interference",
     "normal_compliance",
     "tangential_compliance",
+    "coupling",
+    "side",
+    "search",
+    "adjust",
 )
+_OBSTACLES = {"plane": Plane, "circle": Circle, "profile": Profile}
 
 
 def deck_materials(data: Mapping[str, Any]) -> dict[str, Material]:
@@ -67,7 +75,7 @@ def deck_steps(data: Mapping[str, Any]) -> list[Step]:
 
 
 def deck_contacts(data: Mapping[str, Any]) -> list[Contact]:
-    """``[[contact]]``, each with a ``mortar`` boundary or a ``plane``."""
+    """``[[contact]]``, each with a ``mortar`` boundary or a rigid obstacle."""
     return [_contact(entry, ("contact", i)) for i, entry in enumerate(tables(data, "contact"))]
 
 
@@ -81,12 +89,13 @@ def _placed(kind: Any, entry: dict[str, Any], where: Where) -> Any:
 def _contact(entry: dict[str, Any], where: Where) -> Contact:
     check_keys(entry, where, known=_CONTACT_KEYS, needed=["nonmortar"])
     given = dict(entry)
-    sides = [key for key in ("mortar", "plane") if key in given]
+    sides = [key for key in ("mortar", *_OBSTACLES) if key in given]
     if len(sides) != 1:
-        found = "both 'mortar' and 'plane'" if sides else "neither 'mortar' nor 'plane'"
-        raise InputError(f"has {found}; expected one of them, the other side of the contact", where=where)
-    if sides == ["plane"]:
-        given["mortar"] = make(Plane, table(given.pop("plane"), (*where, "plane")), (*where, "plane"))
-    else:
+        found = "both " + " and ".join(f"'{key}'" for key in sides) if sides else "no other side"
+        raise InputError(f"has {found}; expected one of mortar, {', '.join(_OBSTACLES)}", where=where)
+    key = sides[0]
+    if key == "mortar":
         text(given["mortar"], (*where, "mortar"))
+    else:
+        given["mortar"] = make(_OBSTACLES[key], table(given.pop(key), (*where, key)), (*where, key))
     return make(Contact, given, where)

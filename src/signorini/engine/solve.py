@@ -3,23 +3,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
+from math import ceil
 
 import numpy as np
 
 from signorini.clock import Clock
+from signorini.engine.enter import relaxed, switched
 from signorini.engine.exact import follow_exactly
 from signorini.engine.increments import follow_increments
-from signorini.engine.leg import Leg
+from signorini.engine.leg import Leg, Snapshot, joined
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
+from signorini.engine.span import Span, spans
+from signorini.engine.staged import nominal_gap, staged
 from signorini.errors import SolveFailed
 from signorini.model.model import Model
-from signorini.model.step import Step
+from signorini.model.stage import Stage, stages
 from signorini.solution.history import History
 from signorini.solution.results import StepResult
-from signorini.solution.state import State, initial_state
+from signorini.solution.state import LoadPoint, State, initial_state
+
+RELAXED = "friction is lower than what pairs carried: they slip at once, before the loads of the step"
+"""What a step says whose change of friction lets pairs slip."""
 
 _BEHIND_A_JUMP = 10  # increments
 
@@ -46,38 +52,73 @@ def solve_prepared(prepared: Prepared, *, raise_on_failure: bool = True) -> Hist
 def _follow(prepared: Prepared) -> History:
     """Step after step, up to the end or to what stops it."""
     model = prepared.model
-    factors = model.factors()
-    state = initial_state(factors[0], prepared.space.number_of_dofs, prepared.interface.gap)
+    schedule = list(stages(model))
+    state = initial_state(dict.fromkeys(model.scaled_names, 0.0), prepared.space.number_of_dofs, prepared.interface.gap)
     steps: list[StepResult] = []
-    prepared.clock.expect(sum(step.increments or 1 for step in model.steps))
+    now = prepared
+    prepared.clock.expect(sum((stage.step.increments or 1) * len(stage.ends) for stage in schedule))
     try:
-        for number, (step, end) in enumerate(zip(model.steps, factors[1:], strict=True), start=1):
-            name = f"step '{step.name}'" if step.name else f"step {number}"
-            leg = _leg(prepared, step, number, name, state, end)
-            steps.append(step_result(prepared, step, number, leg))
+        for stage in schedule:
+            absent, now = now.absent, staged(prepared, stage)
+            leg, cycle_ends = _step(now, stage, switched(now, state, absent))
+            steps.append(step_result(now, stage, leg, cycle_ends))
             state = leg.after
     except SolveFailed as failure:
         return _history(prepared, failure.status, str(failure), steps)
     return _history(prepared, "solved", "", steps)
 
 
-def _leg(prepared: Prepared, step: Step, number: int, name: str, state: State, end: Mapping[str, float]) -> Leg:
-    """Follow a step as asked; where nothing was asked, exactly if there is Coulomb friction.
+def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[float]]:
+    """A step from what it changes at once through all its straight parts; and the load factors at its cycles' ends."""
+    legs, cycle_ends = [], []
+    begin = float(stage.number - 1)
+    change = relaxed(prepared, state, stage.name)
+    if change is not None:
+        after, certificate, trace = change
+        legs.append(
+            Leg(
+                path="single",
+                before=state,
+                after=after,
+                certificates=(certificate,),
+                trace=(trace,),
+                snapshots=(Snapshot(load_factor=begin, what="change", state=after),),
+                notes=(RELAXED,),
+            )
+        )
+        state = after
+    end = LoadPoint(factors=stage.ends[-1], gap=nominal_gap(prepared, stage), given=np.zeros_like(state.point.given))
+    for span, point in spans(stage, state.point, end):
+        legs.append(_leg(prepared, stage, span, state, point))
+        state = legs[-1].after
+        if span.cycle:
+            cycle_ends.append(span.factor(1.0))
+    return joined(legs), cycle_ends
 
-    Where the exact path that nobody asked for ends in a jump or is lost, the step is followed in increments, and its
-    notes say so: what they reach behind a jump is a candidate.
+
+def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPoint) -> Leg:
+    """Follow a straight part of a step as asked; where nothing was asked, exactly if there is Coulomb friction.
+
+    Where the exact path that nobody asked for ends in a jump or is lost, it is followed in increments, and the notes
+    say so: what they reach behind a jump is a candidate.
     """
-    friction = prepared.interface.friction
-    rubbing = bool(((friction > 0) & np.isfinite(friction)).any())
+    step, friction = stage.step, prepared.interface.friction
+    rubbing = bool(((friction > 0) & np.isfinite(friction) & ~prepared.absent).any())
     if step.path != "exact" and (step.path is not None or step.increments is not None or not rubbing):
-        return follow_increments(prepared, step, name, state, end)
+        return follow_increments(prepared, _increments(stage, span), stage.name, span, state, end)
     try:
-        return follow_exactly(prepared, number, name, state, end)
+        return follow_exactly(prepared, stage.name, span, state, end, whole=step.at == "events")
     except SolveFailed as failure:
         if step.path == "exact":
             raise
-        leg = follow_increments(prepared, replace(step, increments=_BEHIND_A_JUMP), name, state, end)
+        leg = follow_increments(prepared, _BEHIND_A_JUMP, stage.name, span, state, end)
         return replace(leg, notes=(f"{failure}; followed in {_BEHIND_A_JUMP} increments to what is a candidate",))
+
+
+def _increments(stage: Stage, span: Span) -> int:
+    """Of a straight part: those of its whole segment, as far as they go."""
+    share = (span.high - span.low) * len(stage.ends)
+    return max(1, ceil((stage.step.increments or 1) * share - 1e-9))
 
 
 def _history(prepared: Prepared, status: str, message: str, steps: list[StepResult]) -> History:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Blocks: patch tests on matching meshes, and a block that slides and sticks."""
+"""Blocks: patch tests on meshes that match or not, and a block that slides and sticks."""
 
 from __future__ import annotations
 
@@ -11,19 +11,25 @@ from signorini.arrays import BoolArray
 from signorini.fem.generators import Cells, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
-from signorini.model.contact import Contact, Plane
+from signorini.model.contact import Contact
 from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh, join
 from signorini.model.model import Model
+from signorini.model.obstacle import Plane
 from signorini.model.step import Step
 
 
-def stacked_blocks(*, friction: float = 0.0, cells: Cells = "quad") -> Model:
-    """Patch test P1: two unit blocks, E 2e6, nu 0, the top pressed down by 0.1: p = 1e5, u_y(interface) = -0.05."""
+def stacked_blocks(*, friction: float = 0.0, cells: Cells = "quad", across: tuple[int, int] = (4, 4)) -> Model:
+    """Patch test P1: two unit blocks, E 2e6, nu 0, the top pressed down by 0.1: p = 1e5, u_y(interface) = -0.05.
+
+    Parameters
+    ----------
+    across : elements along the interface, of the upper (nonmortar) and of the lower block
+    """
     mesh = join(
         {
-            "upper": rectangle(nx=4, ny=3, origin=(0.0, 1.0), cells=cells),
-            "lower": rectangle(nx=4, ny=2, cells=cells),
+            "upper": rectangle(nx=across[0], ny=3, origin=(0.0, 1.0), cells=cells),
+            "lower": rectangle(nx=across[1], ny=2, cells=cells),
         }
     )
     block = Elastic(E=2e6, nu=0.0)
@@ -41,16 +47,20 @@ def stacked_blocks(*, friction: float = 0.0, cells: Cells = "quad") -> Model:
     )
 
 
-def block_on_foundation(*, friction: float = 0.0, cells: Cells = "quad") -> Model:
+def block_on_foundation(*, friction: float = 0.0, cells: Cells = "quad", across: tuple[int, int] = (3, 3)) -> Model:
     """Patch test P2 (Taylor, Papadopoulos): pressure 25 on the block and on the free top of the foundation.
 
     E 2000, nu 0.3, plane strain: sigma_yy = -25 everywhere, p = 25, no gap.
+
+    Parameters
+    ----------
+    across : elements along the interface, of the block (nonmortar) and of the foundation
     """
-    foundation = rectangle(width=3.0, height=1.0, nx=9, ny=3, cells=cells)
+    foundation = rectangle(width=3.0, height=1.0, nx=3 * across[1], ny=3, cells=cells)
     inside = _along_x(foundation, "top", 1.0, 2.0)
     top = foundation.boundaries["top"]
     foundation = replace(foundation, boundaries={**foundation.boundaries, "seat": top[inside], "free": top[~inside]})
-    block = rectangle(nx=3, ny=3, origin=(1.0, 1.0), cells=cells)
+    block = rectangle(nx=across[0], ny=3, origin=(1.0, 1.0), cells=cells)
     elastic = Elastic(E=2000.0, nu=0.3)
     return Model(
         join({"block": block, "foundation": foundation}),
@@ -66,10 +76,20 @@ def block_on_foundation(*, friction: float = 0.0, cells: Cells = "quad") -> Mode
     )
 
 
-def four_blocks(*, cells: Cells = "quad") -> Model:
-    """Patch test P4: four blocks that meet at a corner, pressure 10 on the right and 20 on the top, frictionless."""
+def four_blocks(*, cells: Cells = "quad", across: tuple[int, int, int, int] = (3, 3, 3, 3)) -> Model:
+    """Patch test P4: four blocks that meet at a corner, pressure 10 on the right and 20 on the top, frictionless.
+
+    Parameters
+    ----------
+    across : elements along the sides of the southwest, southeast, northwest and northeast block
+    """
     names = {"southwest": (0.0, 0.0), "southeast": (1.0, 0.0), "northwest": (0.0, 1.0), "northeast": (1.0, 1.0)}
-    mesh = join({name: rectangle(nx=3, ny=3, origin=origin, cells=cells) for name, origin in names.items()})
+    mesh = join(
+        {
+            name: rectangle(nx=count, ny=count, origin=origin, cells=cells)
+            for count, (name, origin) in zip(across, names.items(), strict=True)
+        }
+    )
     return Model(
         mesh,
         title="Patch test P4: four blocks",

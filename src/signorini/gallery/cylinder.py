@@ -9,9 +9,10 @@ from typing import Literal
 from signorini.fem.generators import Cells, quarter_disk
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
-from signorini.model.contact import Contact, Plane
+from signorini.model.contact import Contact
 from signorini.model.material import Elastic
 from signorini.model.model import Model
+from signorini.model.obstacle import Plane
 from signorini.model.step import Step
 from signorini.reference.hertz import HertzLine, contact_modulus
 

@@ -141,7 +141,13 @@ def balance(magnitude: Any, n: int, *, sweeps: int = 12) -> tuple[Array, Array]:
     """Sizes (rows, columns) such that ``|M_ij| columns_j / rows_i`` has rows and columns of comparable sums (Sinkhorn).
 
     The rows follow a rescaling of the rows and, for all but nearly empty matrices, ignore one of the columns; the
-    columns likewise. An operator (None for ``|M|``) and an empty row or column have size 1.
+    columns likewise. Where the pattern of M admits no such sizes (one row that alone meets two columns), its rows and
+    columns get largest entries of 1 instead (Ruiz). An operator (None for ``|M|``) and an empty row or column have
+    size 1.
+
+    References
+    ----------
+    Ruiz (2001), A scaling algorithm to equilibrate both rows and columns norms in matrices, RAL-TR-2001-034.
 
     Examples
     --------
@@ -156,8 +162,19 @@ def balance(magnitude: Any, n: int, *, sweeps: int = 12) -> tuple[Array, Array]:
     for sweep in range(sweeps):
         before, rows = rows, _or_one(magnitude @ columns)
         if sweep > 0 and np.abs(np.log2(rows / before)).max() < 0.5:
-            break
+            return rows, columns
         columns = 1.0 / _or_one(magnitude.T @ (1.0 / rows))
+    return _by_largest(magnitude, n, sweeps)
+
+
+def _by_largest(magnitude: Any, n: int, sweeps: int) -> tuple[Array, Array]:
+    """Sizes that make the largest entry of every row and column 1: they exist for every pattern."""
+    turned = magnitude.T if isinstance(magnitude, np.ndarray) else magnitude.T.tocsr()
+    rows, columns = np.ones(n), np.ones(n)
+    for _ in range(sweeps):
+        largest = _or_one(_largest_in_columns(turned, columns) / rows)
+        columns = columns / np.sqrt(_or_one(_largest_in_columns(magnitude, 1.0 / rows) * columns))
+        rows = rows * np.sqrt(largest)
     return rows, columns
 
 

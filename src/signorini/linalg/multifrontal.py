@@ -23,7 +23,7 @@ from signorini.linalg import _fronts
 from signorini.linalg._blas import get_threads, scratch, set_threads
 from signorini.linalg.definite import SUSPICIOUS, check_energy
 from signorini.linalg.plan import Plan, analyse
-from signorini.linalg.protocol import NotPositiveDefinite
+from signorini.linalg.protocol import NotPositiveDefinite, Reduced
 from signorini.linalg.system import Int32Array, System, columns, like
 
 
@@ -67,18 +67,15 @@ class MultifrontalFactorisation:
         """Give S, (m, m), read-only."""
         return self.condensed
 
-    def reduce(self, f: Array) -> Array:
-        """Give ``f_c - K_ci K_ii^-1 f_i``."""
-        y = self._rows(f)
+    def reduce(self, f: Array) -> Reduced:
+        """Eliminate the interior of a load."""
+        y = np.ascontiguousarray(columns(f, self.n).T[:, self.plan.order])
         self._solve(_fronts.forward, y)
         g = np.empty((self.m, len(y)))
         g[self.slots] = y[:, self.n - self.m :].T
-        return like(f, g)
+        return Reduced(like(f, g), lambda u_c: self._expand(f, y.copy(), u_c))
 
-    def expand(self, f: Array, u_c: Array) -> Array:
-        """Give u from the load inside and the displacement of the interface."""
-        y = self._rows(f)
-        self._solve(_fronts.forward, y)
+    def _expand(self, f: Array, y: Array, u_c: Array) -> Array:
         y[:, self.n - self.m :] = columns(u_c, self.m)[self.slots].T
         self._solve(_fronts.backward, y)
         u = np.empty((self.n, len(y)))
@@ -88,9 +85,6 @@ class MultifrontalFactorisation:
     def _solve(self, half: Callable[..., None], y: Array) -> None:
         with one_thread():
             half(self.plan.fronts, self.factor, y, np.empty(self.plan.widest * len(y)), scratch())
-
-    def _rows(self, f: Array) -> Array:
-        return np.ascontiguousarray(columns(f, self.n).T[:, self.plan.order])
 
 
 def factorise(system: System) -> MultifrontalFactorisation:
@@ -121,5 +115,5 @@ def factorise(system: System) -> MultifrontalFactorisation:
         n=system.n, m=system.m, plan=plan, factor=factor, condensed=condensed, slots=slots
     )
     if np.any(_fronts.pivots(plan.fronts, factor) < SUSPICIOUS * system.matrix.diagonal()[plan.order[:inside]]):
-        check_energy(system, lambda load: result.expand(load, np.zeros(system.m)))
+        check_energy(system, lambda load: result.reduce(load).expand(np.zeros(system.m)))
     return result

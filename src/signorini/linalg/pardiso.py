@@ -13,6 +13,8 @@ Schenk, Gartner (2004), Solving unsymmetric sparse systems of linear equations w
 
 from __future__ import annotations
 
+import copy
+import functools
 import importlib
 import importlib.util
 import weakref
@@ -25,7 +27,7 @@ from scipy import sparse
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.linalg.definite import check_energy
-from signorini.linalg.protocol import NotPositiveDefinite
+from signorini.linalg.protocol import NotPositiveDefinite, Reduced
 from signorini.linalg.system import System, columns, interface_lift, like
 
 SYMMETRIC_POSITIVE_DEFINITE = 2
@@ -64,13 +66,12 @@ class PardisoFactorisation:
         """Give S, (m, m), read-only."""
         return self.condensed
 
-    def reduce(self, f: Array) -> Array:
-        """Give ``f_c - K_ci K_ii^-1 f_i``."""
-        return like(f, self._half(FORWARD, columns(f, self.n))[self.interface])
-
-    def expand(self, f: Array, u_c: Array) -> Array:
-        """Give u from the load inside and the displacement of the interface."""
+    def reduce(self, f: Array) -> Reduced:
+        """Eliminate the interior of a load."""
         y = self._half(FORWARD, columns(f, self.n))
+        return Reduced(like(f, y[self.interface]), lambda u_c: self._expand(f, y.copy(), u_c))
+
+    def _expand(self, f: Array, y: Array, u_c: Array) -> Array:
         y[self.interface] = columns(u_c, self.m)
         u = self._half(BACKWARD, y)
         u[self.interface] = columns(u_c, self.m)
@@ -100,7 +101,7 @@ def factorise(system: System) -> PardisoFactorisation:
     diagonal = system.matrix.diagonal()
     if np.any(bad := (diagonal <= 0) & system.inside):
         raise NotPositiveDefinite(int(np.argmax(bad)))
-    solver = importlib.import_module("pypardiso").PyPardisoSolver(mtype=SYMMETRIC_POSITIVE_DEFINITE)
+    solver = _solver()
     for number, value in SETTINGS.items():
         solver.set_iparm(number, value)
     lift = interface_lift(system)
@@ -120,14 +121,37 @@ def factorise(system: System) -> PardisoFactorisation:
         condensed=_in_order(condensed, system.interface, lift[system.interface]),
     )
     weakref.finalize(result, _call, solver, RELEASE, upper, np.zeros(1))
-    check_energy(system, lambda load: result.expand(load, np.zeros(system.m)))
+    check_energy(system, lambda load: result.reduce(load).expand(np.zeros(system.m)))
     return result
+
+
+def _solver() -> Any:
+    """A solver of its own; looking for the library, a tenth of a second, is done once."""
+    solver = copy.copy(_first_solver())
+    solver.pt, solver.iparm = np.zeros_like(solver.pt), np.zeros_like(solver.iparm)
+    return solver
+
+
+@functools.cache
+def _first_solver() -> Any:
+    return importlib.import_module("pypardiso").PyPardisoSolver(mtype=SYMMETRIC_POSITIVE_DEFINITE)
 
 
 def _upper(system: System, lift: Array) -> sparse.csr_array:
     """Give the upper triangle of ``K + diag(lift)`` with sorted rows and a full diagonal."""
-    upper = sparse.csr_array(sparse.triu(system.matrix + sparse.diags_array(lift, format="csr"), format="csr"))
-    upper.sum_duplicates()
+    row = np.repeat(np.arange(system.n, dtype=np.int32), np.diff(system.indptr))
+    kept = system.indices >= row
+    row, column, data = row[kept], system.indices[kept], system.data[kept]
+    diagonal = np.flatnonzero(column == row)
+    if len(diagonal) == system.n:
+        data[diagonal] += lift
+    else:  # an interface without stiffness of its own
+        row, column = np.append(row, system.interface), np.append(column, system.interface)
+        data = np.append(data, lift[system.interface])
+        return sparse.coo_array((data, (row, column)), shape=(system.n, system.n)).tocsr()
+    begin = np.concatenate([[0], np.cumsum(np.bincount(row, minlength=system.n))]).astype(np.int32)
+    upper = sparse.csr_array((data, column, begin), shape=(system.n, system.n))
+    upper.sort_indices()
     return upper
 
 

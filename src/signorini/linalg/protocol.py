@@ -11,10 +11,30 @@ factorised here.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 from signorini.arrays import Array
 from signorini.errors import SignoriniError
+
+
+@dataclass(frozen=True)
+class Reduced:
+    """A load of which the interior is eliminated: the forward half of a solve, done once.
+
+    Attributes
+    ----------
+    load : the condensed load ``f_c - K_ci K_ii^-1 f_i``, (m,) or (m, k)
+    backward : the other half, of a displacement of the interface
+    """
+
+    load: Array
+    backward: Callable[[Array], Array]
+
+    def expand(self, u_c: Array) -> Array:
+        """Give u, (n,) or (n, k), with ``K_ii u_i = f_i - K_ic u_c`` inside and ``u_c`` on the interface."""
+        return self.backward(u_c)
 
 
 @runtime_checkable
@@ -43,11 +63,8 @@ class Factorisation(Protocol):
     def schur(self) -> Array:
         """Give the condensed stiffness ``S = K_cc - K_ci K_ii^-1 K_ic``, (m, m), in the order of the interface."""
 
-    def reduce(self, f: Array) -> Array:
-        """Give the condensed load ``f_c - K_ci K_ii^-1 f_i``, (m,) or (m, k), of f, (n,) or (n, k)."""
-
-    def expand(self, f: Array, u_c: Array) -> Array:
-        """Give u, (n,) or (n, k), with ``K_ii u_i = f_i - K_ic u_c`` inside and ``u_c`` on the interface."""
+    def reduce(self, f: Array) -> Reduced:
+        """Eliminate the interior of a load f, (n,) or (n, k)."""
 
 
 class NotPositiveDefinite(SignoriniError):

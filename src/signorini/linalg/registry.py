@@ -52,9 +52,10 @@ def factorise(K: Any, interface: ArrayLike, *, nodes: ArrayLike | None = None, b
     >>> factor = factorise(K, [1])
     >>> factor.schur()
     array([[1.]])
-    >>> factor.reduce(np.array([4.0, 0.0]))
+    >>> reduced = factor.reduce(np.array([4.0, 0.0]))
+    >>> reduced.load
     array([2.])
-    >>> factor.expand(np.array([4.0, 0.0]), np.array([2.0]))
+    >>> reduced.expand(np.array([2.0]))
     array([2., 2.])
     """
     name = AUTOMATIC if backend == "auto" else backend

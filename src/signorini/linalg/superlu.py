@@ -21,7 +21,7 @@ from signorini.arrays import Array
 from signorini.linalg._triangular import backward, forward
 from signorini.linalg.definite import SUSPICIOUS, check_energy
 from signorini.linalg.ordering import elimination_order
-from signorini.linalg.protocol import NotPositiveDefinite
+from signorini.linalg.protocol import NotPositiveDefinite, Reduced
 from signorini.linalg.system import Int32Array, System, columns, interface_lift, like, node_graph
 
 
@@ -53,17 +53,14 @@ class SuperLUFactorisation:
         """Give S, (m, m)."""
         return self.condensed.copy()
 
-    def reduce(self, f: Array) -> Array:
-        """Give ``f_c - K_ci K_ii^-1 f_i``."""
-        y = self._columns(f)
+    def reduce(self, f: Array) -> Reduced:
+        """Eliminate the interior of a load."""
+        y = columns(f, self.n)[self.order]
         forward(self.lower.indptr, self.lower.indices, self.lower.data, y)
-        return like(f, y[self.n - self.m :])
+        return Reduced(like(f, y[self.n - self.m :]), lambda u_c: self._expand(f, y.copy(), u_c))
 
-    def expand(self, f: Array, u_c: Array) -> Array:
-        """Give u from the load inside and the displacement of the interface."""
-        y = self._columns(f)
+    def _expand(self, f: Array, y: Array, u_c: Array) -> Array:
         inside = self.n - self.m
-        forward(self.lower.indptr, self.lower.indices, self.lower.data, y)
         y[:inside] /= self.pivot[:, None]
         y[inside:] = columns(u_c, self.m)
         backward(self.lower.indptr, self.lower.indices, self.lower.data, y)
@@ -73,10 +70,7 @@ class SuperLUFactorisation:
 
     def held(self, load: Array) -> Array:
         """Give the displacement with the interface held."""
-        return self.expand(load, np.zeros(self.m))
-
-    def _columns(self, f: Array) -> Array:
-        return columns(f, self.n)[self.order]
+        return self.reduce(load).expand(np.zeros(self.m))
 
 
 def factorise(system: System) -> SuperLUFactorisation:

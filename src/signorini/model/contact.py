@@ -7,41 +7,11 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from signorini.arrays import Array, frozen
-from signorini.checks import number, text, vector
+from signorini.checks import choice, number, text
 from signorini.errors import InputError
+from signorini.model.obstacle import Obstacle
 
-
-@dataclass(frozen=True)
-class Plane:
-    """A rigid plane (in 2D a line) that bodies cannot enter.
-
-    Parameters
-    ----------
-    point : any point of it, length
-    normal : pointing from the obstacle towards the body; any size but zero
-
-    Examples
-    --------
-    >>> Plane(point=(0, 0), normal=(0, 2)).gap([[1.0, 0.5]])
-    array([0.5])
-    """
-
-    point: tuple[float, ...]
-    normal: tuple[float, ...]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "point", vector(self.point, ("point",)))
-        normal = vector(self.normal, ("normal",), dimension=len(self.point))
-        size = math.hypot(*normal)
-        if size == 0.0:
-            raise InputError("is zero; expected a direction", where=("normal",))
-        object.__setattr__(self, "normal", tuple(part / size for part in normal))
-
-    def gap(self, points: Array) -> Array:
-        """Signed distance of points (n, d), length, positive outside the obstacle."""
-        distance: Array = (frozen(points) - frozen(self.point)) @ frozen(self.normal)
-        return distance
+COUPLINGS = ("auto", "nodes", "mortar", "node-to-segment")
 
 
 @dataclass(frozen=True)
@@ -54,44 +24,76 @@ class Contact:
     Parameters
     ----------
     nonmortar : boundary whose nodes carry the pairs, the pressures and the results
-    mortar : boundary of the other body, or a rigid :class:`Plane`
+    mortar : boundary of the other body, or a rigid :class:`Plane`, :class:`Circle` or :class:`Profile`
     friction : Coulomb's coefficient, >= 0, or "stick": never slips (it may still open)
-    gap : "geometry", or one initial gap for every pair, length (negative: overlap)
+    gap : "geometry"; "zero"; or one initial gap for every pair, length (negative: overlap)
     interference : overlap that is added to it, length, positive presses the bodies together
     normal_compliance, tangential_compliance : of the interface, length per pressure; 0 (default) is the exact law,
         ``1 / E_n`` and ``1 / E_tau`` the paper's penalties or a physical contact stiffness
     name : what results call it; the nonmortar side by default
+    coupling : how the sides see each other. "nodes": node opposite node, for meshes that match; "mortar": integrals
+        over both sides, for any meshes; "node-to-segment": nodes on the facets opposite, simple and less accurate;
+        "auto": nodes where linear meshes match, otherwise mortar
+    side : which side is the nonmortar one: "named", as given here, or "coarser", the one with the longer facets (with
+        "mortar" its pressures are the smoother ones)
+    search : how far apart facets can be and still be opposite each other, length; by default half the size of the
+        smaller side
+    adjust : initial gaps up to this length are closed, and overlaps removed; None leaves them
 
     Examples
     --------
+    >>> from signorini.model.obstacle import Plane
     >>> Contact("arc", Plane((0, 0), (0, 1)), friction=0.4).label
     'arc'
     """
 
     nonmortar: str
-    mortar: str | Plane
+    mortar: str | Obstacle
     friction: float | Literal["stick"] = 0.0
-    gap: float | Literal["geometry"] = "geometry"
+    gap: float | Literal["geometry", "zero"] = "geometry"
     interference: float = 0.0
     normal_compliance: float = 0.0
     tangential_compliance: float = 0.0
     name: str = ""
+    coupling: Literal["auto", "nodes", "mortar", "node-to-segment"] = "auto"
+    side: Literal["named", "coarser"] = "named"
+    search: float | None = None
+    adjust: float | None = None
 
     def __post_init__(self) -> None:
         text(self.nonmortar, ("nonmortar",))
-        if not isinstance(self.mortar, Plane):
+        if not isinstance(self.mortar, Obstacle):
             text(self.mortar, ("mortar",))
         if self.friction != "stick":
             if isinstance(self.friction, str):
                 raise InputError(f"is '{self.friction}'; expected a number >= 0 or 'stick'", where=("friction",))
             object.__setattr__(self, "friction", number(self.friction, ("friction",), least=0.0))
-        if self.gap != "geometry":
+        if self.gap not in ("geometry", "zero"):
             if isinstance(self.gap, str):
-                raise InputError(f"is '{self.gap}'; expected 'geometry' or a number", where=("gap",))
+                raise InputError(f"is '{self.gap}'; expected 'geometry', 'zero' or a number", where=("gap",))
             object.__setattr__(self, "gap", number(self.gap, ("gap",)))
         for key in ("normal_compliance", "tangential_compliance"):
             object.__setattr__(self, key, number(getattr(self, key), (key,), least=0.0))
         object.__setattr__(self, "interference", number(self.interference, ("interference",)))
+        choice(self.coupling, COUPLINGS, ("coupling",), "coupling")
+        choice(self.side, ("named", "coarser"), ("side",), "side")
+        if self.search is not None:
+            object.__setattr__(self, "search", number(self.search, ("search",), above=0.0))
+        if self.adjust is not None:
+            object.__setattr__(self, "adjust", number(self.adjust, ("adjust",), least=0.0))
+        self._check_couple()
+
+    def _check_couple(self) -> None:
+        """What goes together."""
+        if isinstance(self.mortar, Obstacle):
+            for key, usual in (("coupling", "auto"), ("side", "named"), ("search", None)):
+                if getattr(self, key) != usual:
+                    raise InputError(
+                        f"is {getattr(self, key)!r}; that is for two meshed sides, and the other is a rigid obstacle",
+                        where=(key,),
+                    )
+        if self.adjust is not None and self.gap != "geometry":
+            raise InputError("goes with gap = 'geometry' only", where=("adjust",))
 
     @property
     def label(self) -> str:

@@ -15,8 +15,9 @@ from signorini.checks import choice, number
 from signorini.errors import InputError, one_of
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
-from signorini.model.contact import Contact, Plane
+from signorini.model.contact import Contact
 from signorini.model.mesh import Mesh
+from signorini.model.obstacle import Obstacle
 from signorini.model.step import Step
 
 Kind = Literal["plane strain", "plane stress", "axisymmetric"]
@@ -149,8 +150,12 @@ class Model:
 
     def _check_contact(self, i: int, contact: Contact) -> None:
         self._check_place(contact.nonmortar, ("contact", i, "nonmortar"), nodes=False)
-        if isinstance(contact.mortar, Plane):
-            self._check_dimension(contact.mortar.normal, ("contact", i, "plane"))
+        if isinstance(contact.mortar, Obstacle):
+            if contact.mortar.dimension != self.dimension:
+                raise InputError(
+                    f"has {contact.mortar.dimension} components; expected {self.dimension}",
+                    where=("contact", i, type(contact.mortar).__name__.lower()),
+                )
             return
         self._check_place(contact.mortar, ("contact", i, "mortar"), nodes=False)
         if contact.mortar == contact.nonmortar:
@@ -198,12 +203,20 @@ class Model:
                 if name not in names:
                     raise InputError(one_of(name, names, "load or moving support"), where=("step", i, "scale"))
             used |= set(names if step.scale is None else step.scale)
+            self._check_contact_names(i, step)
         unused = [name for name in names if name not in used]
         if unused:
             raise InputError(
                 f"no step's scale names '{unused[0]}': it would never act. Expected a factor for it in a step",
                 where=("step",),
             )
+
+    def _check_contact_names(self, i: int, step: Step) -> None:
+        known = [contact.label for contact in self.contacts]
+        for key in ("friction", "interference", "active", "inactive"):
+            for name in getattr(step, key):
+                if name not in known:
+                    raise InputError(one_of(name, known, "contact"), where=("step", i, key))
 
     @property
     def scaled_names(self) -> tuple[str, ...]:
@@ -214,8 +227,7 @@ class Model:
         """Load factors by name: before the first step (all 0) and at the end of every step."""
         history = [dict.fromkeys(self.scaled_names, 0.0)]
         for step in self.steps:
-            change = dict.fromkeys(self.scaled_names, 1.0) if step.scale is None else dict(step.scale)
-            history.append(history[-1] | change)
+            history.append(step.ends(history[-1])[-1])
         return history
 
 

@@ -91,6 +91,9 @@ def _contact(contact: Contact, result: ContactResult) -> dict[str, Any]:
     worst = int(result.pressure.argmax())
     return {
         "name": result.name,
+        "nonmortar": result.nonmortar,
+        "mortar": result.mortar,
+        "coupling": result.coupling,
         "friction": contact.friction,
         "normal_force": _list(result.normal_force),
         "tangential_force": _list(result.tangential_force),

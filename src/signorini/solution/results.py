@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +23,8 @@ class ContactResult:
     Attributes
     ----------
     name : of the contact
+    nonmortar, mortar : the sides as they were taken, an obstacle in words
+    coupling : "nodes", "mortar", "node-to-segment" or "obstacle"
     node : (n,) node indices, from 0
     points : (n, d) undeformed coordinates
     normals, tangents : (n, d) unit vectors; the normal points from the mortar side into the nonmortar body
@@ -31,11 +33,17 @@ class ContactResult:
     pressure : (n,) force per area, positive compressive
     traction : (n,) friction on the nonmortar body along the tangent, force per area
     slip : (n,) accumulated along the tangent, nonmortar minus mortar, length
+    sliding : (n,) distance slid either way in this step, length
+    slip_range : (n,) largest less smallest slip of this step's last cycle, twice the slip amplitude
     status : (n,) "open", "stick" or "slip"
+    worn : (n,) dissipation of this step at each node, work per area
     dissipation : of this step, work
     """
 
     name: str
+    nonmortar: str
+    mortar: str
+    coupling: str
     node: IntArray
     points: Array
     normals: Array
@@ -45,7 +53,10 @@ class ContactResult:
     pressure: Array
     traction: Array
     slip: Array
+    sliding: Array
+    slip_range: Array
     status: NDArray[np.str_]
+    worn: Array
     dissipation: float
 
     @property
@@ -64,6 +75,24 @@ class ContactResult:
         """Resultant of the friction on the nonmortar body, (d,) force."""
         force: Array = (self.traction * self.area) @ self.tangents
         return force
+
+    @property
+    def forces(self) -> Array:
+        """On the nonmortar body at every node, (n, d) force."""
+        along = self.pressure[:, None] * self.normals + self.traction[:, None] * self.tangents
+        forces: Array = self.area[:, None] * along
+        return forces
+
+    def moment(self, about: Sequence[float] | Array) -> float:
+        """Resultant moment on the nonmortar body about a point (2,), counterclockwise positive, force times length."""
+        arm, forces = self.points - np.asarray(about, float), self.forces
+        return float(arm[:, 0] @ forces[:, 1] - arm[:, 1] @ forces[:, 0])
+
+    @property
+    def extent(self) -> tuple[Array, Array] | None:
+        """Corners of the box around the nodes that touch, lower and upper, each (d,); None where none does."""
+        touching = self.points[self.closed]
+        return (touching.min(axis=0), touching.max(axis=0)) if len(touching) else None
 
     @property
     def closed_area(self) -> float:
@@ -94,6 +123,52 @@ class PairEvent:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class Instant:
+    """The contacts at one load on the way: at every event or increment, at kinks of the load, at times asked for.
+
+    Attributes
+    ----------
+    load_factor : step k goes from k - 1 to k
+    what : "start", "event", "increment", "asked", "segment" (of the step ends), "jump" and "landing" (its two ends),
+        "change" (of the law of contact, before the loads of the step)
+    contacts : in the order of the model; gaps are NaN where the bodies were not looked at and a pair is far from
+        touching, dissipation counts from the beginning of the step
+    work : since the beginning of the step, NaN where the bodies were not looked at
+    displacement : (nodes, d) length, or None
+    """
+
+    load_factor: float
+    what: str
+    contacts: tuple[ContactResult, ...]
+    work: float
+    displacement: Array | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cycle:
+    """One cycle of a step that repeats.
+
+    Attributes
+    ----------
+    number : from 1
+    load_factor : at its end
+    work, dissipation, released : in it
+    sliding : longest distance that a pair slid in it, length
+    change : largest change of a contact force from the beginning to the end of it, of the largest force
+    drift : largest change of a slip from the beginning to the end of it, length
+    """
+
+    number: int
+    load_factor: float
+    work: float
+    dissipation: float
+    released: float
+    sliding: float
+    change: float
+    drift: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class StepResult:
     """The end of a step.
 
@@ -107,10 +182,14 @@ class StepResult:
     reactions : support to its force on the bodies, (d,)
     strain_energy : of the bodies
     interface_energy : of compliant interfaces
-    work : of loads and moving supports in this step
+    work : of loads, moving supports and interferences in this step
+    released : energy set free at once in this step: in jumps, by changes of the law, by contacts switched off
     certificate : the worst of every increment, or the end of an exact path
     contacts : in the order of the model
     trace : for every increment the methods tried, in order: iterations, status changes, how each ended
+    instants : on the way, in order; the end of the step is the last
+    cycles : of a step that repeats
+    steadiness : of the cycles: "shakes down", "steady", "ratchets" or "not yet", empty without cycles
     notes : what a reader should know
     """
 
@@ -124,9 +203,13 @@ class StepResult:
     strain_energy: float
     interface_energy: float
     work: float
+    released: float
     certificate: Certificate
     contacts: tuple[ContactResult, ...]
     trace: tuple[tuple[Attempt, ...], ...]
+    instants: tuple[Instant, ...]
+    cycles: tuple[Cycle, ...]
+    steadiness: str
     notes: tuple[str, ...]
 
     @property

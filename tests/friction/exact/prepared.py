@@ -26,7 +26,7 @@ class PreparedPath:
         """b under the loads."""
         condensed = self.prepared.condensed
         f = self.prepared.constraints.transform.T @ self.forces(factors)
-        return condensed.right_hand_side(condensed.condensed_load(f), self.offset, self.problem.motions)
+        return condensed.right_hand_side(condensed.reduce(f).load, self.offset, self.problem.motions)
 
     def start(self):
         """Nothing acts yet."""
@@ -53,7 +53,7 @@ class PreparedPath:
         condensed, T = self.prepared.condensed, self.prepared.constraints.transform
         f = T.T @ self.forces(factors)
         h, r = piece.h / condensed.root, piece.r * condensed.root
-        return T @ condensed.displacement(f, condensed.condensed_load(f), h, r, self.offset)
+        return T @ condensed.displacement(condensed.reduce(f), h, r, self.offset)
 
     def energies(self, loads):
         """Work of the loads, strain energy at the end and dissipation, along segments through the loads."""

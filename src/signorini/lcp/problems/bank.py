@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from signorini.lcp.problems.collected import collected
 from signorini.lcp.problems.contact import frictional_contact, gap_slip_contact
 from signorini.lcp.problems.generators import badly_scaled, degenerate, infeasible, random_p, random_psd
 from signorini.lcp.problems.known import known
@@ -35,4 +36,4 @@ def bank(*, seed: int = 0) -> list[PosedLCP]:
         generated += [frictional_contact(m, rng, friction=friction) for m in (2, 5, 12, 30)]
     for friction in (0.3, 0.8):
         generated += [gap_slip_contact(m, rng, friction=friction) for m in (2, 5, 12, 30)]
-    return known() + generated + [obstacle(8)]
+    return known() + collected() + generated + [obstacle(8)]

@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The condensed 3D Coulomb contact problem."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from signorini.arrays import Array, BoolArray, frozen
+from signorini.errors import InputError
+from signorini.friction.interface import Interface
+from signorini.friction.problem import STICKY
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpatialProblem:
+    """Find h = (gap, slip increment) and r = (normal force, tangential force) of n pairs in Coulomb's law with::
+
+        G h - W r = b,    G = I - W
+
+    Unknowns are ordered n normals, then n first tangents, then n second tangents; signs and scaling are those of
+    `CoulombProblem`: gap >= 0 is open, normal force >= 0 presses, the tangential force acts on body 1;
+    ``h = D^.5 u``, ``r = D^-.5 forces``, ``W = D^.5 (B (K + B'DB)^-1 B') D^.5``, D the same in the three directions of
+    a pair.
+
+    Friction bounds the tangential force of a pair by ``|(r_1 / mu_1, r_2 / mu_2)| <= p``, an ellipse whose axes are the
+    tangents of the pair; the slip increment is normal to the ellipse, against the force (maximum dissipation).
+
+    Parameters
+    ----------
+    W : (3n, 3n) symmetric, spectrum in [0, 1]; 1 belongs to rigid motions alone. Exactly zero tangential rows say that
+        supports lock the pair's motion along that tangent
+    b : (3n,) load: motion of the pairs under the loads plus ``G h0``, h0 = (initial gap, -slip of the step before)
+    friction : (n,) mu >= 0, or (n, 2) along the tangents; ``inf`` sticks wherever it is closed. A pair on the verge of
+        opening may be in equilibrium neither sticking nor open; it slips then, under a normal force of 1e-6 of its
+        friction
+    motions : (3n, k) rigid motions seen by the pairs, W R = R; k = 0 where supports hold every body
+    scale : size of b's entries, from the data, that tolerances refer to; in the units of b
+    tresca : (n,) pairs whose ``friction`` is the bound itself, a scaled force, whatever the normal force, also where
+        the pair is open; None stands for none
+    facets : corners of a polygon inscribed in the ellipse that stands for it, the first on the first tangent; a
+        multiple of 4, or 0 for the ellipse itself
+    interface : what does not depend on the load, shared by ``dataclasses.replace(problem, b=...)``
+
+    Raises
+    ------
+    InputError
+        Where shapes do not fit, entries are not finite, W is not symmetric, friction is negative, or a pair that may
+        never slip is dragged by its supports.
+
+    Examples
+    --------
+    >>> problem = SpatialProblem(
+    ...     W=0.5 * np.eye(3), b=np.array([-1.0, 0.2, 0.0]), friction=[0.3], motions=np.zeros((3, 0)), scale=1.0
+    ... )
+    >>> problem.pairs, problem.floating
+    (1, False)
+
+    References
+    ----------
+    De Saxce, Feng (1998), Mathematical and Computer Modelling 28:225-245. Acary, Brogliato (2008), Numerical Methods
+    for Nonsmooth Dynamical Systems, section 3.9 (the cone and its facets).
+    """
+
+    W: Array
+    b: Array
+    friction: Array
+    motions: Array
+    scale: float
+    tresca: BoolArray | None = None
+    facets: int = 0
+    interface: Interface = field(default_factory=Interface.none, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        for name in ("W", "b", "friction", "motions"):
+            object.__setattr__(self, name, _read_only(getattr(self, name)))
+        n = len(self.friction)
+        bounded = np.zeros(n, np.bool_) if self.tresca is None else self.tresca
+        object.__setattr__(self, "tresca", frozen(bounded, dtype=np.bool_))
+        _check(self)
+        if self.interface.W is not self.W or self.interface.motions is not self.motions:
+            interface = Interface.exact(self.W, self.motions)
+            object.__setattr__(self, "W", interface.W)
+            object.__setattr__(self, "interface", interface)
+
+    @property
+    def pairs(self) -> int:
+        """Number of pairs n."""
+        return len(self.friction)
+
+    @property
+    def floating(self) -> bool:
+        """Whether some body is held by contact alone."""
+        return bool(self.motions.shape[1])
+
+    @cached_property
+    def bounded(self) -> BoolArray:
+        """(n,) Pairs whose friction does not depend on the normal force, ``tresca``."""
+        return np.zeros(self.pairs, np.bool_) if self.tresca is None else self.tresca
+
+    @cached_property
+    def locked(self) -> BoolArray:
+        """(n, 2) Tangents along which the pair moves as its supports do."""
+        n = self.pairs
+        return np.asarray(~self.W[n:].any(axis=1).reshape(2, n).T, dtype=np.bool_)
+
+    @cached_property
+    def mu(self) -> Array:
+        """(n, 2) Friction that can act: none along a locked tangent that is not dragged, 1e6 for ``inf``."""
+        n = self.pairs
+        given = np.minimum(self.friction.reshape(n, -1) * np.ones((1, 2)), STICKY)
+        still = self.locked & (self.b[n:].reshape(2, n).T == 0)
+        return np.asarray(np.where(still, 0.0, given), dtype=np.float64)
+
+    @cached_property
+    def dragged(self) -> BoolArray:
+        """(n,) Pairs whose whole tangential motion is that of their supports, and not zero."""
+        moved = self.b[self.pairs :].reshape(2, -1).any(axis=0)
+        return np.asarray(self.locked.all(axis=1) & moved, dtype=np.bool_)
+
+    @cached_property
+    def corners(self) -> Array:
+        """(facets, 2) Corners of the polygon in the unit circle; none for the circle itself."""
+        angle = 2.0 * np.pi * np.arange(self.facets) / max(self.facets, 1)
+        return np.column_stack([np.cos(angle), np.sin(angle)])
+
+    @cached_property
+    def free_motion(self) -> Array:
+        """(3n,) Motion of the pairs under the load alone, without its rigid part."""
+        return self.interface.free_motion(self.b)
+
+    def misfit(self, h: Array, r: Array) -> Array:
+        """(3n,) ``b - (G h - W r)``, the motion that equilibrium lacks."""
+        return self.b + self.W @ (h + r) - h
+
+
+def from_compliance(
+    A: ArrayLike, c: ArrayLike, friction: ArrayLike, *, facets: int = 0
+) -> tuple[SpatialProblem, Array]:
+    """The problem ``u = A r + c`` of bodies that supports hold, in its image form.
+
+    With X = D^.5 A D^.5 the image form is ``W = X (I + X)^-1``, ``b = (I + X)^-1 D^.5 c``; it exists for any
+    positive semidefinite A. D is 3 over the trace of a pair's block.
+
+    Parameters
+    ----------
+    A : (3n, 3n) symmetric positive semidefinite compliance, ordered as in `SpatialProblem`, length per force
+    c : (3n,) motion of the pairs under the loads, gaps included, length
+    friction, facets : see `SpatialProblem`
+
+    Returns
+    -------
+    problem, root : root (3n,) holds the square roots of D: ``u = h / root``, forces ``r root``
+
+    Examples
+    --------
+    >>> problem, root = from_compliance(4.0 * np.eye(3), [-1.0, 0.0, 0.0], [0.3])
+    >>> problem.W.diagonal().tolist(), problem.b.tolist(), root.tolist()
+    ([0.5, 0.5, 0.5], [-0.25, 0.0, 0.0], [0.5, 0.5, 0.5])
+    """
+    compliance, offset = np.asarray(A, dtype=np.float64), np.asarray(c, dtype=np.float64)
+    if compliance.shape != (len(offset), len(offset)) or len(offset) % 3:
+        raise InputError(f"has shape {compliance.shape}, c {offset.shape}; expected (3n, 3n) and (3n,)", where=("A",))
+    trace = compliance.diagonal().reshape(3, -1).sum(axis=0)
+    if not (trace > 0).all():
+        raise InputError(f"pair {int(np.argmin(trace))} has no positive compliance in any direction", where=("A",))
+    root = np.tile(np.sqrt(3.0 / trace), 3)
+    X = root[:, None] * compliance * root
+    softened = np.linalg.solve(X + np.eye(len(X)), np.column_stack([X, root * offset]))
+    W, b = softened[:, :-1], softened[:, -1]
+    problem = SpatialProblem(
+        W=(W + W.T) / 2,
+        b=b,
+        friction=np.asarray(friction, dtype=np.float64),
+        motions=np.zeros((len(offset), 0)),
+        scale=float(np.abs(b).max(initial=0.0)),
+        facets=facets,
+    )
+    return problem, root
+
+
+def _read_only(values: Array) -> Array:
+    """The array itself where nobody can edit it: W is large and shared by every step."""
+    array = np.asarray(values, dtype=np.float64)
+    return array if not array.flags.writeable and array.base is None else frozen(array)
+
+
+def _check(problem: SpatialProblem) -> None:
+    n = len(problem.friction)
+    columns = problem.motions.shape[-1]
+    shapes: dict[str, list[tuple[int, ...]]] = {
+        "W": [(3 * n, 3 * n)],
+        "b": [(3 * n,)],
+        "friction": [(n,), (n, 2)],
+        "motions": [(3 * n, columns)],
+    }
+    for name, expected in shapes.items():
+        found = getattr(problem, name)
+        if found.shape not in expected:
+            said = " or ".join(map(str, expected))
+            raise InputError(f"has shape {found.shape}; expected {said} for {n} pairs", where=(name,))
+        if not np.isfinite(found).all() and name != "friction":
+            raise InputError("has entries that are not finite", where=(name,))
+    if problem.bounded.shape != (n,):
+        raise InputError(f"has shape {problem.bounded.shape}; expected {(n,)}", where=("tresca",))
+    if not (problem.friction >= 0).all():
+        raise InputError("has negative entries or NaN; expected mu >= 0, inf for pairs that stick", where=("friction",))
+    if not (np.isfinite(problem.scale) and problem.scale >= 0):
+        raise InputError(f"is {problem.scale}; expected a finite number >= 0", where=("scale",))
+    if problem.facets < 0 or problem.facets % 4:
+        raise InputError(f"is {problem.facets}; expected 0 or a multiple of 4", where=("facets",))
+    pulled = problem.locked & (problem.b[n:].reshape(2, n).T != 0)
+    if np.any(pulled & np.isinf(problem.friction.reshape(n, -1))):
+        raise InputError(
+            "is infinite at a pair whose supports drag it along: it can neither slip nor stick; give a finite mu",
+            where=("friction",),
+        )

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Proof that loads pull bodies away: a rigid motion that contact cannot resist and along which the loads work."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.optimize import nnls
+
+from signorini.arrays import Array
+from signorini.friction.rigid import GAIN
+from signorini.friction.spatial.problem import SpatialProblem
+
+_ROUNDS = 60
+
+
+def pulled_away(problem: SpatialProblem) -> Array | None:
+    """A rigid motion rho with ``rho_n >= |(mu_1 rho_1, mu_2 rho_2)|`` at every pair and ``b.rho > 0``, or None.
+
+    Equilibrium needs forces in the friction cones with ``R'(r + b) = 0``; but r.rho >= 0 for such a rho, so that
+    ``rho.(r + b) > 0``: no state of the pairs whatever is in equilibrium. The motion sought is what of the load the
+    forces in the cones cannot take, ``a = R'(r + b)`` of least length: a nonnegative least squares problem in the edges
+    of the cones, of which each round adds those that resist the present motion most.
+
+    None where nothing is proved, which includes pairs in Tresca's law: their friction knows no cone.
+
+    Returns
+    -------
+    rho : (3n,) largest entry 1
+
+    Examples
+    --------
+    >>> problem = SpatialProblem(
+    ...     W=np.eye(3), b=np.array([1.0, 0.0, 0.0]), friction=[0.3], motions=np.eye(3), scale=1.0
+    ... )
+    >>> pulled_away(problem).tolist()
+    [1.0, 0.0, 0.0]
+    """
+    R, n = problem.interface.R, problem.pairs
+    if not R.shape[1] or problem.bounded.any():
+        return None
+    load = R.T @ problem.b / (problem.scale or 1.0)
+    edges = R[:n] / np.sqrt(1.0 + (problem.mu**2).sum(axis=1))[:, None]
+    for _ in range(_ROUNDS):
+        try:
+            multipliers, _ = nnls(edges.T, -load)
+        except RuntimeError:  # its iteration limit: nothing proved
+            return None
+        a = load + edges.T @ multipliers
+        size = float(np.linalg.norm(a))
+        if size <= GAIN * np.sqrt(n):
+            return None
+        strongest = np.einsum("ni,ink->nk", _strongest(problem, R @ a), R.reshape(3, n, -1))
+        resisted = strongest @ a < -GAIN * size
+        if not resisted.any():
+            if load @ a <= 0.5 * size**2:
+                return None
+            rho = R @ a
+            return np.asarray(rho / np.abs(rho).max(), dtype=np.float64)
+        edges = np.concatenate([edges[multipliers > 0], strongest[resisted]])
+    return None
+
+
+def _strongest(problem: SpatialProblem, rho: Array) -> Array:
+    """(n, 3) Edge of each pair's cone that works most against the motion, scaled to length 1."""
+    n, mu = problem.pairs, problem.mu
+    slip = rho[n:].reshape(2, n).T
+    if problem.facets:
+        corner = np.argmin((mu * slip) @ problem.corners.T, axis=1)
+        tangential = mu * problem.corners[corner]
+    else:
+        reach = np.linalg.norm(mu * slip, axis=1)
+        tangential = -(mu**2) * slip / np.where(reach > 0, reach, 1.0)[:, None]
+    edge = np.column_stack([np.ones(n), tangential])
+    return edge / np.linalg.norm(edge, axis=1)[:, None]

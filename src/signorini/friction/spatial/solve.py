@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Solve the condensed spatial Coulomb problem: the methods in their order.
+
+1. Newton from the previous solution where there is one, then from every pair sticking. Nearly always enough.
+2. Floating bodies: proof that the loads pull them away (see `rigid`).
+3. Sweeps and proximal Newton in rounds (see `proximal`).
+
+Whatever a method finds is certified (see `certify`) before it is believed. `limit_load` says how far the load can be
+raised where all of them end without an answer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from signorini.arrays import Array, frozen
+from signorini.errors import InputError
+from signorini.friction.answer import NOTHING, PULLED_AWAY, VERGE
+from signorini.friction.result import Outcome
+from signorini.friction.spatial.equilibrium import Equilibrium
+from signorini.friction.spatial.law import OPEN, SLIP, STICK, split, states, sticking, tangent
+from signorini.friction.spatial.newton import NewtonEnd, newton
+from signorini.friction.spatial.problem import SpatialProblem
+from signorini.friction.spatial.proximal import proximal
+from signorini.friction.spatial.result import LimitLoad, SpatialResult
+from signorini.friction.spatial.rigid import pulled_away
+from signorini.pairstate import UNDECIDED
+from signorini.trace import Attempt
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpatialSettings:
+    """How long each method may try.
+
+    Attributes
+    ----------
+    tolerance : of `certify`, relative to the data
+    newton_steps : most linear systems of one Newton run
+    rounds, sweeps : most rounds of sweeps and proximal Newton, and sweeps of each
+    bisections : of the load factor, in `limit_load`
+    """
+
+    tolerance: float = 1e-10
+    newton_steps: int = 25
+    rounds: int = 40
+    sweeps: int = 20
+    bisections: int = 10
+
+
+def solve_spatial(
+    problem: SpatialProblem, start: Array | None = None, *, settings: SpatialSettings | None = None
+) -> SpatialResult:
+    """Solve ``G h - W r = b`` in Coulomb's law: a certified solution, a proof that there is none, or neither.
+
+    Parameters
+    ----------
+    problem : the problem
+    start : (3n,) ``y`` of the previous solution, or None to start with every pair sticking
+    settings : how long each method may try
+
+    Raises
+    ------
+    InputError
+        Where ``start`` does not fit, or W has a rigid motion that the problem does not name.
+
+    Examples
+    --------
+    >>> problem = SpatialProblem(
+    ...     W=0.5 * np.eye(3), b=np.array([-1.0, 0.3, 0.4]), friction=[0.1], motions=np.zeros((3, 0)), scale=1.0
+    ... )
+    >>> result = solve_spatial(problem)
+    >>> result.outcome, result.normal_force.round(12).tolist(), result.tangential_force.round(12).tolist()
+    ('solved', [2.0], [[-0.12, -0.16]])
+    """
+    settings = settings or SpatialSettings()
+    if start is not None and np.shape(start) != (3 * problem.pairs,):
+        raise InputError(f"has shape {np.shape(start)}; expected {(3 * problem.pairs,)}", where=("start",))
+    if problem.pairs == 0:
+        return _solved(problem, np.zeros(0), 0.0, ())
+    trace: list[Attempt] = []
+    least = np.inf
+    for found in _ends(problem, start, settings):
+        trace.append(found.attempt)
+        least = min(least, found.residual)
+        if found.residual <= settings.tolerance:
+            return _solved(problem, found.y, found.residual, tuple(trace))
+        if problem.floating and found.attempt.method == "newton" and len(trace) == 1 + (start is not None):
+            escape = pulled_away(problem)
+            end = "nothing proved" if escape is None else "pulled away"
+            trace.append(Attempt(method="rigid motions", iterations=1, end=end))
+            if escape is not None:
+                return _unsolved(problem, "no_equilibrium", tuple(trace), least, PULLED_AWAY, escape)
+    ends = "; ".join(f"{attempt.method}: {attempt.end}" for attempt in trace[:3])
+    return _unsolved(problem, "not_found", tuple(trace), least, f"{NOTHING} ({ends}; least residual {least:.1e})")
+
+
+def limit_load(
+    problem: SpatialProblem, base: Array, start: Array | None = None, *, settings: SpatialSettings | None = None
+) -> LimitLoad | None:
+    """How far the load can be raised from ``base`` to the problem's b: bisection, each load from the last solution.
+
+    Parameters
+    ----------
+    problem : the problem at its full load
+    base : (3n,) a b that has a solution, of the step before for instance; a multiple of b will not do, since the
+        solutions grow with it
+    start : (3n,) ``y`` of a solution at the base
+
+    Returns
+    -------
+    LimitLoad, or None where the base load itself has no certified solution
+    """
+    settings = settings or SpatialSettings()
+    result = solve_spatial(replace(problem, b=base), start, settings=settings)
+    if not result.solved:
+        return None
+    factor, beyond, trial = 0.0, np.inf, 1.0
+    for _ in range(settings.bisections + 1):
+        b = (1.0 - trial) * base + trial * problem.b
+        tried = solve_spatial(replace(problem, b=b), result.y, settings=settings)
+        if tried.solved:
+            factor, result = trial, tried
+        else:
+            beyond = trial
+        if factor == 1.0:
+            break
+        trial = (factor + min(beyond, 1.0)) / 2.0
+    closed, stick = np.count_nonzero(result.state != OPEN), np.count_nonzero(result.state == STICK)
+    return LimitLoad(factor=factor, beyond=beyond, result=result, closed=int(closed), sticking=int(stick))
+
+
+def _ends(problem: SpatialProblem, start: Array | None, settings: SpatialSettings) -> Iterator[NewtonEnd]:
+    """Where the methods end, one after the other, each tried only when it is asked for."""
+    equilibrium = Equilibrium.of(problem)
+    laws = ([] if start is None else [tangent(problem, np.asarray(start))]) + [sticking(problem)]
+    for law in laws:
+        yield newton(equilibrium, law, limit=settings.newton_steps, tolerance=settings.tolerance)
+    yield from proximal(
+        problem,
+        rounds=settings.rounds,
+        sweeps=settings.sweeps,
+        steps=settings.newton_steps,
+        tolerance=settings.tolerance,
+    )
+
+
+def _solved(problem: SpatialProblem, y: Array, residual: float, trace: tuple[Attempt, ...]) -> SpatialResult:
+    n = problem.pairs
+    h, r = split(problem, y)
+    state = states(problem, y)
+    message = f"solved by {trace[-1].method}, {trace[-1].iterations} steps" if trace else "no pairs, nothing to solve"
+    verge = np.flatnonzero(np.isinf(problem.friction.reshape(n, -1).max(axis=1, initial=0.0)) & (state == SLIP))
+    if len(verge):
+        message += VERGE.format(pairs=", ".join(map(str, verge)))
+    return SpatialResult(
+        outcome="solved",
+        gap=frozen(h[:n]),
+        slip=frozen(h[n:].reshape(2, n).T),
+        normal_force=frozen(r[:n]),
+        tangential_force=frozen(r[n:].reshape(2, n).T),
+        state=frozen(state, dtype=np.int64),
+        y=frozen(y),
+        trace=trace,
+        residual=residual,
+        message=message,
+    )
+
+
+def _unsolved(
+    problem: SpatialProblem,
+    outcome: Outcome,
+    trace: tuple[Attempt, ...],
+    least: float,
+    message: str,
+    escape: Array | None = None,
+) -> SpatialResult:
+    nothing = frozen(np.full(problem.pairs, np.nan))
+    pairs = frozen(np.full((problem.pairs, 2), np.nan))
+    return SpatialResult(
+        outcome=outcome,
+        gap=nothing,
+        slip=pairs,
+        normal_force=nothing,
+        tangential_force=pairs,
+        state=frozen(np.full(problem.pairs, UNDECIDED), dtype=np.int64),
+        y=frozen(np.full(3 * problem.pairs, np.nan)),
+        trace=trace,
+        residual=least,
+        escape=None if escape is None else frozen(escape),
+        message=message,
+    )

@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The pairs of one contact: which side carries them, how they see the other side, how far apart they are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array, IntArray
+from signorini.errors import InputError, Where
+from signorini.fem.boundary import Boundary, boundary
+from signorini.fem.measure import measure, nodal_areas
+from signorini.fem.space import Space
+from signorini.fem.supports import Constraints
+from signorini.interface.coupling import Coupling
+from signorini.interface.frames import side_normals, symmetric_partners
+from signorini.interface.gaps import initial_gaps, refuse_deep_overlap, without_chords
+from signorini.interface.matching import match_nodes
+from signorini.interface.mortar import corner_coupling, mortar_coupling
+from signorini.interface.overlap import find_overlaps
+from signorini.interface.segments import node_to_segment
+from signorini.model.contact import Contact
+from signorini.model.model import Model
+from signorini.model.obstacle import Obstacle, Plane
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sides:
+    """How a contact was paired.
+
+    Attributes
+    ----------
+    nonmortar, mortar : the sides as they were taken; an obstacle in words
+    coupling : "nodes", "mortar", "node-to-segment" or "obstacle"
+    """
+
+    nonmortar: str
+    mortar: str
+    coupling: str
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Pairs:
+    """The pairs of one contact.
+
+    Attributes
+    ----------
+    nodes : (k,) on the nonmortar side
+    area, gap : (k,)
+    normals : (k, d) into the nonmortar body
+    relative : (k, nodes of the mesh) weights of the relative displacement
+    sliding : the same for the tangential part; it differs on planes of symmetry
+    sides : how they were found
+    """
+
+    nodes: IntArray
+    area: Array
+    gap: Array
+    normals: Array
+    relative: sp.csr_array
+    sliding: sp.csr_array
+    sides: Sides
+
+
+def make_pairs(space: Space, model: Model, constraints: Constraints, i: int) -> Pairs:
+    """Pair the surfaces of contact ``i`` of a model.
+
+    Raises
+    ------
+    InputError
+        If the sides share nodes, do not face each other, overlap by more than an element, or should match and do not.
+    """
+    contact, where = model.contacts[i], ("contact", i)
+    side = boundary(space, contact.nonmortar, (*where, "nonmortar"))
+    if isinstance(contact.mortar, Obstacle):
+        pairs = _on_obstacle(space, model, side, contact, contact.mortar, where)
+    else:
+        mortar = boundary(space, contact.mortar, (*where, "mortar"))
+        names = (contact.nonmortar, contact.mortar)
+        if contact.side == "coarser" and side.lengths.mean() < (1.0 - 1e-9) * mortar.lengths.mean():
+            side, mortar, names = mortar, side, names[::-1]
+        pairs = _on_side(space, model, constraints, side, mortar, contact, names, where)
+    refuse_deep_overlap(pairs.gap, pairs.nodes, contact, float(side.lengths.max()), where)
+    return pairs
+
+
+def _on_obstacle(
+    space: Space, model: Model, side: Boundary, contact: Contact, obstacle: Obstacle, where: Where
+) -> Pairs:
+    """Nodes against a rigid obstacle, along its own normals; of quadratic facets weighted means at their corners."""
+    points = space.mesh.points
+    distance, normals = obstacle.nearest(points[side.nodes])
+    if (np.sum(side.nodal_normals * normals, axis=1) >= 0).all():
+        what = (
+            f"the plane; its normal {obstacle.normal} must point from the obstacle towards the body"
+            if isinstance(obstacle, Plane)
+            else f"{obstacle}, or is behind it; expected the obstacle outside the body"
+        )
+        raise InputError(
+            f"'{contact.nonmortar}' faces away from {what}", where=(*where, type(obstacle).__name__.lower())
+        )
+    if not side.quadratic:
+        area = nodal_areas(model, side)
+        coupling = Coupling(nodes=side.nodes, area=area, relative=_pick(side.nodes, len(points)))
+    else:
+        coupling = corner_coupling(points, side, partial(measure, model))
+        distance = coupling.relative[:, side.nodes] @ distance
+        normals = normals[np.searchsorted(side.nodes, coupling.nodes)]
+    return Pairs(
+        nodes=coupling.nodes,
+        area=coupling.area,
+        gap=initial_gaps(distance, contact),
+        normals=normals,
+        relative=coupling.relative,
+        sliding=coupling.relative,
+        sides=Sides(nonmortar=contact.nonmortar, mortar=str(obstacle), coupling="obstacle"),
+    )
+
+
+def _on_side(
+    space: Space,
+    model: Model,
+    constraints: Constraints,
+    side: Boundary,
+    mortar: Boundary,
+    contact: Contact,
+    names: tuple[str, str],
+    where: Where,
+) -> Pairs:
+    """Two meshed sides."""
+    points = space.mesh.points
+    shared = np.intersect1d(side.nodes, mortar.nodes)
+    if len(shared):
+        raise InputError(
+            f"both sides hold node {shared[0] + 1}; bodies that touch need nodes of their own", where=where
+        )
+    coupling, how = _couple(space, model, side, mortar, contact, where)
+    normals = side_normals(space, constraints, side, coupling.nodes)
+    gap = np.sum((coupling.relative @ points) * normals, axis=1)
+    if how == "mortar" and not (side.quadratic or mortar.quadratic):
+        gap = without_chords(gap, coupling.nodes, coupling.relative, side, mortar)
+    partner = symmetric_partners(space, constraints, coupling.nodes, normals, mortar.nodes)
+    return Pairs(
+        nodes=coupling.nodes,
+        area=coupling.area,
+        gap=initial_gaps(gap, contact),
+        normals=normals,
+        relative=coupling.relative,
+        sliding=_mirrored(coupling, partner),
+        sides=Sides(nonmortar=names[0], mortar=names[1], coupling=how),
+    )
+
+
+def _couple(
+    space: Space, model: Model, side: Boundary, mortar: Boundary, contact: Contact, where: Where
+) -> tuple[Coupling, str]:
+    """The coupling of two meshed sides, and its name."""
+    points, count = space.mesh.points, len(space.mesh.points)
+    linear = not (side.quadratic or mortar.quadratic)
+    if contact.coupling == "nodes" or (contact.coupling == "auto" and linear):
+        partner, reason = match_nodes(points, side, mortar)
+        if reason and contact.coupling == "nodes":
+            raise InputError(reason, where=where)
+        if not reason:
+            relative = _pick(side.nodes, count) - _pick(partner, count)
+            return Coupling(nodes=side.nodes, area=nodal_areas(model, side), relative=sp.csr_array(relative)), "nodes"
+    if contact.coupling == "node-to-segment":
+        area = nodal_areas(model, side)
+        return node_to_segment(points, side, mortar, area, contact.search, where), "node-to-segment"
+    overlaps = find_overlaps(points, side, mortar, contact.search, where)
+    return mortar_coupling(points, side, mortar, overlaps, partial(measure, model), where), "mortar"
+
+
+def _pick(nodes: IntArray, count: int) -> sp.csr_array:
+    """One row a node, (k, count)."""
+    k = len(nodes)
+    return sp.csr_array((np.ones(k), (np.arange(k), nodes)), shape=(k, count))
+
+
+def _mirrored(coupling: Coupling, partner: IntArray) -> sp.csr_array:
+    """The weights of the sliding: node against node on planes of symmetry."""
+    there = np.nonzero(partner >= 0)[0]
+    if not len(there):
+        return coupling.relative
+    count = coupling.relative.shape[1]
+    pairs = sp.csr_array(_pick(coupling.nodes[there], count) - _pick(partner[there], count))
+    keep = np.ones(len(partner))
+    keep[there] = 0.0
+    spread = sp.csr_array((np.ones(len(there)), (there, np.arange(len(there)))), shape=(len(partner), len(there)))
+    return sp.csr_array(sp.diags_array(keep) @ coupling.relative + spread @ pairs)

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The solver on many pairs: invariances, independent methods, hard problems, loads beyond what friction bears."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from spatial_samples import block_on_floor, punch, random_problem
+
+from signorini import lcp
+from signorini.friction.spatial import (
+    SLIP,
+    STICK,
+    decoded,
+    faceted_lcp,
+    from_compliance,
+    limit_load,
+    natural_residual,
+    solve_spatial,
+    split,
+    violations,
+)
+from signorini.friction.spatial.equilibrium import Equilibrium
+from signorini.friction.spatial.sweeps import gauss_seidel
+
+
+@pytest.mark.parametrize("friction", [0.1, 0.3, 0.6, 1.0])
+def test_newton_from_sticking_solves_a_punch_in_a_few_steps(friction):
+    A, c, problem, root = punch(100, friction)
+    result = solve_spatial(problem)
+    r = split(problem, result.y)[1]
+    assert [attempt.method for attempt in result.trace] == ["newton"]
+    assert result.trace[0].iterations <= 8
+    assert natural_residual(A @ (r * root) + c, r * root, friction, root[:100] ** 2) < 1e-8
+    again = solve_spatial(problem, result.y)
+    assert again.trace[0].iterations == 1
+    found = violations(
+        result.gap, result.slip, result.normal_force, result.tangential_force, problem.friction, length=1.0, force=1.0
+    )
+    assert found.worst < 1e-14
+
+
+@pytest.mark.parametrize("rank", [1.5, 2, 3])
+@pytest.mark.parametrize("friction", [0.3, 1.0, 2.0])
+def test_random_hard_problems_are_all_solved(rank, friction):
+    for pairs in (10, 30):
+        for seed in range(4):
+            rng = np.random.default_rng([pairs, int(2 * rank), int(10 * friction), seed])
+            H = rng.normal(size=(3 * pairs, int(rank * pairs)))
+            A, c = H @ H.T, H @ rng.normal(size=H.shape[1])
+            c[:pairs] += np.abs(rng.normal(size=pairs))  # where motion -v leaves gaps everywhere a solution exists
+            problem, root = from_compliance(A, c, np.full(pairs, friction))
+            r = split(problem, solve_spatial(problem).y)[1] * root
+            assert natural_residual(A @ r + c, r, friction, root[:pairs] ** 2) < 1e-8
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_turning_the_tangents_turns_the_answer(seed):
+    problem = random_problem(seed, 10, 0.5)
+    angle = np.random.default_rng(seed).uniform(0, 2 * np.pi, 10)
+    c, s, zero = np.diag(np.cos(angle)), np.diag(np.sin(angle)), np.zeros((10, 10))
+    Q = np.block([[np.eye(10), zero, zero], [zero, c, s], [zero, -s, c]])
+    W = Q @ problem.W @ Q.T
+    turned = replace(problem, W=(W + W.T) / 2, b=Q @ problem.b)
+    np.testing.assert_allclose(solve_spatial(turned).y, Q @ solve_spatial(problem).y, atol=1e-8)
+
+
+def test_sweeps_alone_go_to_the_same_forces():
+    problem = punch(25, 0.5)[2]
+    r, _ = gauss_seidel(problem, np.zeros(75), np.zeros(0), count=300)
+    np.testing.assert_allclose(r, split(problem, solve_spatial(problem).y)[1], atol=1e-10)
+
+
+def test_a_proximal_layer_leaves_its_centre_where_that_is_the_solution():
+    problem = random_problem(2, 8, 0.5)
+    result = solve_spatial(problem)
+    h, r = split(problem, result.y)
+    layer = Equilibrium(problem=problem, alpha=0.7, force=r, motion=np.zeros(0))
+    np.testing.assert_allclose(layer.moved(r, np.zeros(0)), h, atol=1e-9)
+
+
+@pytest.mark.parametrize("facets", [4, 8, 16])
+@pytest.mark.parametrize("seed", range(3))
+def test_lemke_finds_the_forces_of_the_faceted_newton(seed, facets):
+    problem = random_problem(seed, 5, [[0.5, 0.5], [0.3, 0.6], [0.2, 0.2], [0.0, 0.0], [0.7, 0.1]], facets=facets)
+    M, q = faceted_lcp(problem)
+    solution = lcp.solve(M, q, method="lemke", tolerance=1e-11)
+    assert solution.solved
+    result = solve_spatial(problem)
+    assert result.solved
+    np.testing.assert_allclose(decoded(problem, solution.z), split(problem, result.y)[1], atol=1e-10)
+
+
+def test_facets_turn_the_force_of_a_slipping_pair_by_no_more_than_half_a_facet():
+    for facets in (4, 8, 16, 32):
+        bound = 2 * np.sin(np.pi / (2 * facets))
+        worst = 0.0
+        for angle in np.linspace(0.0, np.pi / 2, 46):
+            b = np.array([-1.0, 3 * np.cos(angle), 3 * np.sin(angle)])
+            exact, _ = from_compliance(np.eye(3), b, [0.5])
+            polygon, _ = from_compliance(np.eye(3), b, [0.5], facets=facets)
+            error = solve_spatial(exact).tangential_force - solve_spatial(polygon).tangential_force
+            worst = max(worst, np.linalg.norm(error) / (0.5 * solve_spatial(exact).normal_force[0]))
+        assert 0.5 * bound < worst <= bound
+
+
+def test_the_error_of_facets_falls_with_their_number():
+    exact = solve_spatial(punch(49, 0.3)[2])
+    largest = 0.3 * exact.normal_force.max()
+    errors = []
+    for facets in (4, 8, 16, 32):
+        polygon = solve_spatial(punch(49, 0.3, facets=facets)[2])
+        error = np.linalg.norm(polygon.tangential_force - exact.tangential_force, axis=1).max() / largest
+        assert error <= 2 * np.sin(np.pi / (2 * facets))
+        errors.append(error)
+    assert errors == sorted(errors, reverse=True)
+    assert errors[-1] < 0.2 * errors[0]
+
+
+def test_a_floating_block_is_held_by_friction():
+    problem, R = block_on_floor((-1.0, 0.2, 0.1, 0.1, 0.0, 0.1), 0.3)
+    result = solve_spatial(problem)
+    assert result.solved
+    assert {STICK, SLIP} == set(result.state.tolist())
+    np.testing.assert_allclose(R.T @ split(problem, result.y)[1], [1.0, -0.2, -0.1, -0.1, 0.0, -0.1], atol=1e-10)
+
+
+@pytest.mark.parametrize("facets", [0, 8])
+@pytest.mark.parametrize(
+    "load",
+    [(1.0, 0, 0, 0, 0, 0), (-1.0, 0.3, 0.2, 0, 0, 0), (-1.0, 0, 0, 1.2, 0, 0), (-1.0, 0, 0, 0, 0, 0.5)],
+    ids=["lifted", "dragged", "tilted", "turned"],
+)
+def test_loads_that_pull_the_block_away_are_proved_to(load, facets):
+    problem, _ = block_on_floor(load, 0.3, facets=facets)
+    result = solve_spatial(problem)
+    assert result.outcome == "no_equilibrium"
+    rho = result.escape
+    assert (rho[:9] - 0.3 * np.hypot(rho[9:18], rho[18:]) * (0.92 if facets else 1.0)).min() > -1e-8
+    assert rho @ problem.b > 0
+
+
+def test_circular_friction_bears_a_diagonal_drag_up_to_mu_and_the_load_factor_says_so():
+    full, _ = block_on_floor((-1.0, 0.6 * 0.6, 0.6 * 0.8, 0, 0, 0), 0.3)
+    base, _ = block_on_floor((-1.0, 0, 0, 0, 0, 0), 0.3)
+    limit = limit_load(full, base.b)
+    assert 0.499 <= limit.factor <= 0.5 <= limit.beyond <= 0.501
+    assert limit.closed == 9
+    assert limit_load(replace(base, b=full.b), full.b) is None
+
+
+def test_a_load_that_has_a_solution_is_reached_as_a_whole():
+    full, base = random_problem(5, 6, 0.4), random_problem(6, 6, 0.4)
+    limit = limit_load(full, base.b)
+    assert limit.factor == 1.0
+    np.testing.assert_allclose(limit.result.y, solve_spatial(full).y, atol=1e-8)
