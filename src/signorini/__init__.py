@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from signorini.model.mesh import Mesh, join
     from signorini.model.model import Model
     from signorini.model.obstacle import Circle, Plane, Profile
+    from signorini.model.rigid import Rigid
     from signorini.model.step import Step
 
 __all__ = [
@@ -41,6 +42,7 @@ __all__ = [
     "Orthotropic",
     "Plane",
     "Profile",
+    "Rigid",
     "SignoriniError",
     "Solution",
     "SolveFailed",
@@ -73,6 +75,7 @@ _HOMES = {
     "signorini.model.mesh": ("Mesh", "join"),
     "signorini.model.model": ("Model",),
     "signorini.model.obstacle": ("Circle", "Plane", "Profile"),
+    "signorini.model.rigid": ("Rigid",),
     "signorini.model.step": ("Step",),
 }
 _MODULES = {"lcp": "signorini.lcp", "paper": "signorini.engine.paper"}

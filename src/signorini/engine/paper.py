@@ -180,7 +180,7 @@ def solve_literally(formulation: PaperFormulation) -> PaperAnswer:
         lcp=found,
         pressure=forces[:n] / interface.area,
         traction=forces[n:] / interface.area,
-        displacement=displacement.reshape(-1, prepared.model.dimension),
+        displacement=prepared.space.at_nodes(displacement),
         normal_force=forces[:n] @ interface.normals,
         condition=condition,
         certificate=certificate,

@@ -151,7 +151,7 @@ def examine(model: Model) -> Examined:
         If something in the model does not fit the mesh, or a body can move freely: it is named, with its motion.
     """
     refuse_locking(model)
-    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
+    space = make_space(model.mesh, axisymmetric=model.axisymmetric, obstacles=len(model.obstacles))
     constraints = make_constraints(space, model)
     loads = nodal_loads(space, model)
     interface = make_interface(space, model, constraints)

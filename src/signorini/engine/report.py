@@ -15,11 +15,12 @@ from signorini.engine.exact import stored_energy
 from signorini.engine.increments import applied
 from signorini.engine.leg import Leg
 from signorini.engine.prepare import Prepared
+from signorini.fem.obstacles import arm
 from signorini.friction.law import OPEN, STICK
 from signorini.model.stage import Stage
 from signorini.solution import results
 from signorini.solution.certificate import Certificate
-from signorini.solution.results import ContactResult, Instant, StepResult
+from signorini.solution.results import ContactResult, Instant, ObstacleResult, StepResult
 from signorini.solution.state import State
 
 ONE_INCREMENT = "one increment: assumes that the final state was reached from zero slip"
@@ -39,10 +40,11 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
     cycle_ends : load factors at which its cycles end; one where it does not repeat
     """
     before, state, certificates = leg.before, leg.after, leg.certificates
-    model = prepared.model
     instants = tuple(_instants(prepared, leg, cycle_ends))
     cycles = make_cycles(leg, cycle_ends) if len(cycle_ends) > 1 else ()
     steadiness, words = judge(cycles, prepared.scale) if cycles else ("", "")
+    stored, dissipated = stored_energy(prepared, state), (state.dissipation - before.dissipation).sum()
+    spent = stored - stored_energy(prepared, before) + float(dissipated) + state.released - before.released
     strain = 0.5 * float(state.displacement @ (prepared.K @ state.displacement))
     return StepResult(
         name=stage.title,
@@ -50,12 +52,14 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
         load_factor=float(stage.number),
         increments=0 if leg.path == "exact" else len(leg.trace),
         events=leg.events,
-        displacement=frozen(state.displacement.reshape(-1, model.dimension)),
+        displacement=frozen(prepared.space.at_nodes(state.displacement)),
+        obstacles=_obstacles(prepared, state),
         reactions=_reactions(prepared, state),
         strain_energy=strain,
-        interface_energy=stored_energy(prepared, state) - strain,
+        interface_energy=stored - strain,
         work=state.work - before.work,
         released=state.released - before.released,
+        energy_defect=state.work - before.work - spent,
         certificate=Certificate(
             **{key: max(getattr(c, key) for c in certificates) for key in Certificate.__dataclass_fields__}
         ),
@@ -88,6 +92,20 @@ def _reactions(prepared: Prepared, state: State) -> dict[str, Array]:
     return {support.label: frozen(total[i]) for i, support in enumerate(prepared.model.supports)}
 
 
+def _obstacles(prepared: Prepared, state: State) -> dict[str, ObstacleResult]:
+    """Motions of the obstacles and what acts on them from outside, by name."""
+    found, length = {}, arm(prepared.model)
+    for j, obstacle in enumerate(prepared.model.obstacles):
+        x, y, turn, _ = prepared.space.obstacle_dofs(j)
+        found[obstacle.name] = ObstacleResult(
+            displacement=frozen(state.displacement[[x, y]]),
+            rotation=float(state.displacement[turn]) / length,
+            force=frozen(state.external[[x, y]]),
+            moment=float(state.external[turn]) * length,
+        )
+    return found
+
+
 def _instants(prepared: Prepared, leg: Leg, cycle_ends: Sequence[float]) -> Iterator[Instant]:
     """The contacts at every snapshot, with what they slid since the beginning of the step and of the cycle."""
     surfaces = [_surface(prepared, i) for i in range(len(prepared.model.contacts))]
@@ -100,7 +118,7 @@ def _instants(prepared: Prepared, leg: Leg, cycle_ends: Sequence[float]) -> Iter
         contacts = tuple(
             _contact_result(prepared, surface, leg.before, snapshot.state, sliding, high - low) for surface in surfaces
         )
-        moved = snapshot.state.displacement.reshape(-1, prepared.model.dimension)
+        moved = prepared.space.at_nodes(snapshot.state.displacement)
         yield Instant(
             load_factor=snapshot.load_factor,
             what=snapshot.what,

@@ -104,6 +104,24 @@ class ContactResult:
         return int((self.status == status).sum())
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ObstacleResult:
+    """A moving rigid obstacle at the end of a step.
+
+    Attributes
+    ----------
+    displacement : (d,) of the point about which it rotates, length
+    rotation : radians, counterclockwise
+    force : (d,) on it, given or needed to drive it
+    moment : the same about that point, counterclockwise
+    """
+
+    displacement: Array
+    rotation: float
+    force: Array
+    moment: float
+
+
 @dataclass(frozen=True, kw_only=True)
 class PairEvent:
     """Pairs of one contact that change their state at one load of an exact path.
@@ -179,11 +197,13 @@ class StepResult:
     increments : solved in this step; 0 on an exact path
     events : of an exact path, in order
     displacement : (nodes, d) length
+    obstacles : moving obstacles by name
     reactions : support to its force on the bodies, (d,)
     strain_energy : of the bodies
     interface_energy : of compliant interfaces
     work : of loads, moving supports and interferences in this step
     released : energy set free at once in this step: in jumps, by changes of the law, by contacts switched off
+    energy_defect : work less what is stored, dissipated and released; rounding on an exact path
     certificate : the worst of every increment, or the end of an exact path
     contacts : in the order of the model
     trace : for every increment the methods tried, in order: iterations, status changes, how each ended
@@ -199,11 +219,13 @@ class StepResult:
     increments: int
     events: tuple[PairEvent, ...]
     displacement: Array
+    obstacles: Mapping[str, ObstacleResult]
     reactions: Mapping[str, Array]
     strain_energy: float
     interface_energy: float
     work: float
     released: float
+    energy_defect: float
     certificate: Certificate
     contacts: tuple[ContactResult, ...]
     trace: tuple[tuple[Attempt, ...], ...]
