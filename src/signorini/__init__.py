@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from signorini.model.mesh import Mesh, join
     from signorini.model.model import Model
     from signorini.model.obstacle import Circle, Plane, Profile
+    from signorini.model.rigid import Rigid
     from signorini.model.step import Step
 
 __all__ = [
@@ -39,6 +40,7 @@ __all__ = [
     "Model",
     "Plane",
     "Profile",
+    "Rigid",
     "SignoriniError",
     "Solution",
     "SolveFailed",
@@ -70,6 +72,7 @@ _HOMES = {
     "signorini.model.mesh": ("Mesh", "join"),
     "signorini.model.model": ("Model",),
     "signorini.model.obstacle": ("Circle", "Plane", "Profile"),
+    "signorini.model.rigid": ("Rigid",),
     "signorini.model.step": ("Step",),
 }
 _MODULES = {"lcp": "signorini.lcp", "paper": "signorini.engine.paper"}

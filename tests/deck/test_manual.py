@@ -11,7 +11,7 @@ import pytest
 from signorini.deck import DeckError, read
 from signorini.deck.load import _KEYS
 from signorini.deck.meshes import GENERATORS
-from signorini.deck.parts import _CONTACT_KEYS
+from signorini.deck.parts import _CONTACT_KEYS, _OBSTACLE_KEYS
 from signorini.model.body import Elastic
 from signorini.model.conditions import Load, Support
 from signorini.model.step import Step
@@ -34,7 +34,9 @@ def test_the_message_is_the_real_one(tmp_path: Path) -> None:
 
 
 def test_every_key_is_explained() -> None:
-    keys = {*_CONTACT_KEYS, *GENERATORS, "generator", "file"} | {key for key in _KEYS if f"[{key}" not in MANUAL}
+    keys = {*_CONTACT_KEYS, *_OBSTACLE_KEYS, *GENERATORS, "generator", "file"} | {
+        key for key in _KEYS if f"[{key}" not in MANUAL
+    }
     keys |= {field.name for kind in (Support, Load, Step, Elastic) for field in fields(kind)}
     keys |= {name for generator in GENERATORS.values() for name in inspect.signature(generator).parameters}
     missing = sorted(key for key in keys if not re.search(rf"`{key}[` ]", MANUAL))

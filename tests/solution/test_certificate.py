@@ -41,7 +41,7 @@ class Answer:
             p.K,
             p.constraints,
             p.interface,
-            factors=factors[-1],
+            point=replace(before.point, factors=factors[-1]),
             loads=p.loads["cut"],
             displacement=u,
             forces=r,

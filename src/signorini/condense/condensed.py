@@ -91,6 +91,29 @@ class Condensed:
         springs = self.root**2 * self._softening
         return reduced.expand(self._solve(reduced.load + self.B.T @ (r + springs * moved)))
 
+    def among(self, kept: BoolArray) -> Condensed:
+        """The same bodies with fewer pairs; no sparse matrix is factorised again.
+
+        Parameters
+        ----------
+        kept : (n,) pairs that stay; together with the supports they hold the bodies
+
+        Raises
+        ------
+        LinAlgError
+            If they do not.
+        """
+        rows = np.tile(kept[self.active], 2)
+        return _image(
+            self.factorisation,
+            self.B[rows],
+            self.root[rows] ** 2,
+            self.compliance[rows],
+            active=self.active & kept,
+            held=self.held,
+            dofs=self.dofs,
+        )
+
     @property
     def _softening(self) -> Array:
         return 1.0 / (1.0 + self.root**2 * self.compliance)
@@ -154,13 +177,26 @@ def _condense(
 ) -> Condensed:
     """From the contact dofs to the pairs."""
     pairs = np.nonzero(active)[0]
-    S = factorisation.schur()
     stiffness = _interface_stiffness(K_c, B_c, interface, pairs)
     area = np.tile(interface.area[pairs], 2)
     compliance = np.concatenate([interface.normal_compliance[pairs], interface.tangential_compliance[pairs]]) / area
+    return _image(factorisation, B_c, stiffness, compliance, active=active, held=held, dofs=dofs)
+
+
+def _image(
+    factorisation: Factorisation,
+    B_c: sp.csr_array,
+    stiffness: Array,
+    compliance: Array,
+    *,
+    active: BoolArray,
+    held: BoolArray,
+    dofs: IntArray,
+) -> Condensed:
+    """The image form for a stiffness D and a compliance C of the interface, each (2 a,)."""
     softening = 1.0 / (1.0 + stiffness * compliance)
-    springs = S + (B_c.T @ sp.diags_array(stiffness * softening) @ B_c).toarray()
-    cholesky, A = (S, True), np.zeros((0, 0))
+    springs = factorisation.schur() + (B_c.T @ sp.diags_array(stiffness * softening) @ B_c).toarray()
+    cholesky, A = (springs, True), np.zeros((0, 0))
     if len(dofs):
         cholesky = scipy.linalg.cho_factor(springs, lower=True, overwrite_a=True, check_finite=False)
         A = B_c @ scipy.linalg.cho_solve(cholesky, B_c.T.toarray(), check_finite=False)

@@ -13,6 +13,7 @@ from signorini.model.body import Body, Elastic
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
 from signorini.model.obstacle import Circle, Plane, Profile
+from signorini.model.rigid import Rigid
 from signorini.model.step import Step
 
 _CONTACT_KEYS = (
@@ -33,6 +34,7 @@ _CONTACT_KEYS = (
     "adjust",
 )
 _OBSTACLES = {"plane": Plane, "circle": Circle, "profile": Profile}
+_OBSTACLE_KEYS = ("name", *_OBSTACLES, "u", "rotation", "force", "moment", "point")
 
 
 def deck_materials(data: Mapping[str, Any]) -> dict[str, Elastic]:
@@ -74,6 +76,22 @@ def deck_steps(data: Mapping[str, Any]) -> list[Step]:
 def deck_contacts(data: Mapping[str, Any]) -> list[Contact]:
     """``[[contact]]``, each with a ``mortar`` boundary or a rigid obstacle."""
     return [_contact(entry, ("contact", i)) for i, entry in enumerate(tables(data, "contact"))]
+
+
+def deck_obstacles(data: Mapping[str, Any]) -> list[Rigid]:
+    """``[[obstacle]]``, each with a shape."""
+    return [_obstacle(entry, ("obstacle", i)) for i, entry in enumerate(tables(data, "obstacle"))]
+
+
+def _obstacle(entry: dict[str, Any], where: Where) -> Rigid:
+    check_keys(entry, where, known=_OBSTACLE_KEYS, needed=["name"])
+    given = dict(entry)
+    shapes = [key for key in _OBSTACLES if key in given]
+    if len(shapes) != 1:
+        raise InputError(f"has {len(shapes)} shapes; expected one of {', '.join(_OBSTACLES)}", where=where)
+    key = shapes[0]
+    given["shape"] = make(_OBSTACLES[key], table(given.pop(key), (*where, key)), (*where, key))
+    return make(Rigid, given, where)
 
 
 def _placed(kind: Any, entry: dict[str, Any], where: Where) -> Any:

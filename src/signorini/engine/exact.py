@@ -1,50 +1,60 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Follow a step exactly, from event to event, on the condensed interface."""
+"""Follow a straight part of a step exactly, from event to event, on the condensed interface."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.engine.increments import applied, certified, refuse_overlap
-from signorini.engine.leg import Leg
+from signorini.engine.increments import applied, certified, free_load, refuse_overlap
+from signorini.engine.leg import Leg, Snapshot
 from signorini.engine.prepare import Prepared
+from signorini.engine.span import Span
 from signorini.errors import SolveFailed
 from signorini.friction.exact import PathState, Segment, follow, initial_state
-from signorini.friction.law import OPEN
-from signorini.linalg.protocol import Reduced
+from signorini.friction.law import OPEN, STICK
 from signorini.solution.results import PairEvent
-from signorini.solution.state import State, next_state
+from signorini.solution.state import LoadPoint, State, next_state
 from signorini.trace import Attempt
 
+_SPENT = 1e-9  # of the friction bound: what a slipping pair may lack of it
 
-def follow_exactly(prepared: Prepared, number: int, name: str, state: State, end: Mapping[str, float]) -> Leg:
-    """Follow step ``number`` (1, 2, ...) from a state to the load factors at its end.
+
+def follow_exactly(
+    prepared: Prepared, where: str, span: Span, state: State, end: LoadPoint, *, whole: bool = False
+) -> Leg:
+    """Follow a straight part of a step from a state to a point of the load history.
+
+    Parameters
+    ----------
+    where : name of the step, for messages
+    span : the part of the history that this is
+    whole : whether the displacement of the bodies is recovered at every event
 
     Raises
     ------
     SolveFailed
         With status "jump" where the history cannot go on gradually; "not_found" where the path was lost.
     """
-    prepared.clock.increment(f"{name}, event by event")
-    offset, reduced, b = _right_hand_side(prepared, end)
-    refuse_overlap(prepared, offset[: len(prepared.interface)], name)
+    prepared.clock.increment(f"{where}, event by event")
+    refuse_overlap(prepared, _offset(prepared, end)[: len(prepared.interface)], where)
     with prepared.clock.phase("complementarity"):
         start = _start(prepared, state)
-        segment = follow(prepared.law, start, b)
+        segment = follow(prepared.law, start, _right_hand_side(prepared, end))
     if not segment.followed:
-        raise _lost(prepared, name, segment)
+        raise _lost(prepared, where, span, segment)
     with prepared.clock.phase("recovery"):
-        after = _end(prepared, state, start, segment, end, offset, reduced)
+        whole = whole or bool(state.point.given.any())
+        visited = _visited(prepared, span, state, start, segment, end, whole=whole)
+        after = visited[-1].state
     last = max(0, len(segment.pieces) - 2)
     before = state.tangential.copy()
     before[prepared.condensed.active] = _tangential(prepared, segment.pieces[last].h)
     # the law of the rate, on the last piece, is the law of the increment from where the piece began
-    certificate = certified(prepared, applied(prepared, end)[0], after, before, name)
+    certificate = certified(prepared, after, before, where)
     attempt = Attempt(method="exact path", iterations=segment.pivots, end=segment.message)
     return Leg(
         path="exact",
@@ -52,100 +62,146 @@ def follow_exactly(prepared: Prepared, number: int, name: str, state: State, end
         after=after,
         certificates=(certificate,),
         trace=((attempt,),),
-        events=_events(prepared, number, segment),
+        snapshots=visited,
+        events=_events(prepared, span, segment),
     )
 
 
-def _right_hand_side(prepared: Prepared, factors: Mapping[str, float]) -> tuple[Array, Reduced, Array]:
-    """Offsets of all pairs (2 n,), reduced load and b at load factors, with no slip of the past in it."""
-    condensed, interface, n = prepared.condensed, prepared.interface, len(prepared.interface)
-    loads, imposed = applied(prepared, factors)
-    offset = np.concatenate([interface.gap, np.zeros(n)]) + interface.B @ imposed
-    reduced = condensed.reduce(prepared.constraints.transform.T @ (loads - prepared.K @ imposed))
-    return offset, reduced, condensed.right_hand_side(reduced.load, offset[condensed.active_rows], prepared.law.motions)
+def stored_energy(prepared: Prepared, state: State) -> float:
+    """In the bodies and in compliant interfaces."""
+    interface = prepared.interface
+    compliance = np.concatenate([interface.normal_compliance, interface.tangential_compliance])
+    forces = np.where(np.tile(prepared.absent, 2), 0.0, state.forces)
+    strain = float(state.displacement @ (prepared.K @ state.displacement))
+    return 0.5 * (strain + float(forces**2 @ (compliance / np.tile(interface.area, 2))))
+
+
+def _offset(prepared: Prepared, point: LoadPoint) -> Array:
+    """(2 n,) Motions of all pairs that loads do not cause: gaps and what supports impose, no slip of the past."""
+    _, imposed = applied(prepared, point)
+    offset: Array = np.concatenate([point.gap, np.zeros_like(point.gap)]) + prepared.interface.B @ imposed
+    return offset
+
+
+def _right_hand_side(prepared: Prepared, point: LoadPoint) -> Array:
+    """b of the law at a point of the load history."""
+    condensed = prepared.condensed
+    reduced = condensed.reduce(free_load(prepared, point))
+    return condensed.right_hand_side(
+        reduced.load, _offset(prepared, point)[condensed.active_rows], prepared.law.motions
+    )
 
 
 def _start(prepared: Prepared, state: State) -> PathState:
     """The state in the scaled units of the law; at the very beginning overlaps press first."""
     condensed, rows, active = prepared.condensed, prepared.condensed.active_rows, prepared.condensed.active
-    _, _, b = _right_hand_side(prepared, state.factors)
+    b = _right_hand_side(prepared, state.point)
     half = len(rows) // 2
     h = condensed.root * np.concatenate([state.gap, state.tangential])[rows]
     if not state.forces.any() and not state.displacement.any():
         touching = bool((h[:half] >= 0.0).all())
         return initial_state(prepared.law, b, motion=h if touching else None)
+    r, status = state.forces[rows] / condensed.root, state.status[active]
+    # friction that has risen since leaves some to spare
+    spare = (status > STICK) & (np.abs(r[half:]) < (1.0 - _SPENT) * prepared.law.mu * r[:half])
     return PathState(
         b=b,
         h=h,
-        r=state.forces[rows] / condensed.root,
-        state=state.status[active],
+        r=r,
+        state=np.where(spare, STICK, status),
         anchor=h[half:],
         slip=condensed.root[half:] * state.slip[active],
         dissipation=state.dissipation[active],
     )
 
 
-def _end(
-    prepared: Prepared,
-    state: State,
-    start: PathState,
-    segment: Segment,
-    end: Mapping[str, float],
-    offset: Array,
-    reduced: Reduced,
-) -> State:
-    """The state at the end of a segment, with the work of its linear pieces."""
+def _visited(
+    prepared: Prepared, span: Span, state: State, start: PathState, segment: Segment, end: LoadPoint, *, whole: bool
+) -> tuple[Snapshot, ...]:
+    """The states at the start, at every event and at the end, with work and displacement where they are ``whole``."""
+    last, since, losses, found = state, 0.0, _losses(segment), []
+    if start.r.any() and not state.forces.any():
+        pressed = _recovered(prepared, state, state.point, start)
+        last = _balanced(prepared, state, pressed, float(start.dissipation.sum()))
+        found.append(Snapshot(load_factor=span.factor(0.0), what="start", state=last))
+    visited = {event.factor: event.state for event in segment.events if 0.0 < event.factor < 1.0}
+    for s, now in {**visited, 1.0: segment.end}.items():
+        point, recovered = state.point.towards(end, s), whole or s == 1.0
+        if recovered:
+            lost = sum(loss for t, loss in losses if since < t <= s)
+            here = _balanced(prepared, last, _recovered(prepared, last, point, now), lost)
+            last, since = here, s
+        else:
+            here = _on_the_way(prepared, last, point, now)
+        what = span.ends if s == 1.0 else "event"
+        found.append(Snapshot(load_factor=span.factor(s), what=what, state=here, whole=recovered))
+    return tuple(found)
+
+
+def _losses(segment: Segment) -> list[tuple[float, float]]:
+    """What contact takes on every linear piece, ``-int r . dh``, by the factor at its end."""
+    return [(two.factor, float(-0.5 * (one.r + two.r) @ (two.h - one.h))) for one, two in pairwise(segment.pieces)]
+
+
+def _on_the_way(prepared: Prepared, last: State, point: LoadPoint, now: PathState) -> State:
+    """The contacts at an event; the bodies are not looked at."""
+    condensed, n = prepared.condensed, len(prepared.interface)
+    rows, active, half = condensed.active_rows, condensed.active, len(condensed.root) // 2
+    forces, moved = point.given.copy(), np.full(2 * n, np.nan)
+    forces[rows] = condensed.root * now.r
+    moved[rows] = now.h / condensed.root
+    status, slip, dissipation = np.full(n, OPEN), last.slip.copy(), last.dissipation.copy()
+    status[active] = now.state
+    slip[active] = now.slip / condensed.root[half:]
+    dissipation[active] = now.dissipation
+    return replace(
+        last,
+        point=point,
+        forces=forces,
+        gap=moved[:n],
+        tangential=moved[n:],
+        slip=slip,
+        status=status,
+        dissipation=dissipation,
+    )
+
+
+def _recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState) -> State:
+    """The whole state at an event or at an end; its work is that of the trapezoidal rule."""
     condensed, interface, T = prepared.condensed, prepared.interface, prepared.constraints.transform
-    n, rows, active = len(interface), condensed.active_rows, condensed.active
-    loads, imposed = applied(prepared, end)
-    forces, moved = np.zeros(2 * n), np.zeros(2 * n)
-    forces[rows] = condensed.root * segment.end.r
-    moved[rows] = segment.end.h / condensed.root
-    displacement = T @ condensed.displacement(reduced, moved[rows], forces[rows], offset[rows]) + imposed
+    n, rows = len(interface), condensed.active_rows
+    seen = _on_the_way(prepared, last, point, now)
+    (loads, imposed), offset = applied(prepared, point), _offset(prepared, point)
+    moved = np.concatenate([seen.gap, seen.tangential])
+    reduced = condensed.reduce(free_load(prepared, point))
+    free = condensed.displacement(reduced, moved[rows], seen.forces[rows], offset[rows])
+    displacement = T @ free + imposed
     outside = np.setdiff1d(np.arange(2 * n), rows)
     moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
-    moved[n:] -= state.tangential
-    status = np.full(n, OPEN)
-    status[active] = segment.end.state
+    moved[n:] -= last.tangential
     after = next_state(
-        state,
+        last,
         prepared.K,
         prepared.constraints,
         interface,
-        factors=end,
+        point=point,
         loads=loads,
         displacement=displacement,
-        forces=forces,
+        forces=seen.forces,
         moved=moved,
-        status=status,
+        status=seen.status,
     )
-    slip, dissipation = state.slip.copy(), state.dissipation.copy()
-    slip[active] = segment.end.slip / condensed.root[len(rows) // 2 :]
-    dissipation[active] = segment.end.dissipation
-    strain = 0.5 * (displacement @ (prepared.K @ displacement) - state.displacement @ (prepared.K @ state.displacement))
-    work = state.work + float(strain) - _contact_work(prepared, state, start, segment)
-    return replace(after, slip=slip, dissipation=dissipation, work=work)
+    return replace(after, slip=seen.slip, dissipation=seen.dissipation)
 
 
-def _contact_work(prepared: Prepared, state: State, start: PathState, segment: Segment) -> float:
-    """``int r . d(B u)`` over the pieces, on each of which both are linear; ``B u = h - C r - h_0``.
+def _balanced(prepared: Prepared, last: State, here: State, lost: float) -> State:
+    """The same with its exact work: what is stored, what contact takes on linear pieces, and what is set free.
 
-    With ``K u = f + B^T r`` the work of all external forces is the change of strain energy less this. What overlaps
-    press out before anything moves is no work of the loads: it counts from the first state of the path.
+    With ``K u = f + B^T r`` and ``B u = h - C r - h_0`` the work of the loads and of the interferences h_0 is the
+    change of the energy stored less ``int r . dh``. Overlaps that press before anything moves work by themselves.
     """
-    root = prepared.condensed.root
-    softness = root**2 * prepared.condensed.compliance
-    pieces = segment.pieces
-    total = sum(
-        float(0.5 * (one.r + two.r) @ (two.h - one.h - softness * (two.r - one.r))) for one, two in pairwise(pieces)
-    )
-    if state.forces.any() or not start.r.any():
-        return total
-    gap = (
-        root
-        * np.concatenate([prepared.interface.gap, np.zeros(len(prepared.interface))])[prepared.condensed.active_rows]
-    )
-    return total + float(0.5 * start.r @ (start.h - gap - softness * start.r))
+    stored = stored_energy(prepared, here) - stored_energy(prepared, last)
+    return replace(here, work=last.work + stored + lost + here.released - last.released)
 
 
 def _tangential(prepared: Prepared, h: Array) -> Array:
@@ -153,7 +209,7 @@ def _tangential(prepared: Prepared, h: Array) -> Array:
     return h[half:] / prepared.condensed.root[half:]
 
 
-def _events(prepared: Prepared, number: int, segment: Segment) -> tuple[PairEvent, ...]:
+def _events(prepared: Prepared, span: Span, segment: Segment) -> tuple[PairEvent, ...]:
     """The events by contact and node."""
     interface, labels = prepared.interface, [contact.label for contact in prepared.model.contacts]
     pairs = np.nonzero(prepared.condensed.active)[0]
@@ -164,7 +220,7 @@ def _events(prepared: Prepared, number: int, segment: Segment) -> tuple[PairEven
             nodes = interface.node[own[interface.contact[own] == contact]]
             found.append(
                 PairEvent(
-                    load_factor=number - 1 + event.factor,
+                    load_factor=span.factor(event.factor),
                     contact=labels[contact],
                     nodes=tuple(int(node) for node in nodes),
                     what=event.what,
@@ -173,17 +229,17 @@ def _events(prepared: Prepared, number: int, segment: Segment) -> tuple[PairEven
     return tuple(found)
 
 
-def _lost(prepared: Prepared, name: str, segment: Segment) -> SolveFailed:
+def _lost(prepared: Prepared, where: str, span: Span, segment: Segment) -> SolveFailed:
     """Why the path does not go on, with the load and the acting nodes."""
     if segment.jump is None:
         return SolveFailed(
-            f"{name}: the exact path was lost: {segment.message}; follow the step in increments", status="not_found"
+            f"{where}: the exact path was lost: {segment.message}; follow the step in increments", status="not_found"
         )
     pairs = np.nonzero(prepared.condensed.active)[0][list(segment.jump.pairs)]
     nodes = ", ".join(str(node + 1) for node in prepared.interface.node[pairs])
     what = "gross sliding" if segment.jump.gross_sliding else "a jump"
     return SolveFailed(
-        f"{name} at {segment.jump.factor:.6%}: {what}: no equilibrium continues the history gradually (acting nodes "
-        f"{nodes}; {segment.jump.proof})",
+        f"{where} at {span.part(segment.jump.factor):.6%}: {what}: no equilibrium continues the history gradually "
+        f"(acting nodes {nodes}; {segment.jump.proof})",
         status="jump",
     )

@@ -3,75 +3,68 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.engine.leg import Leg
+from signorini.engine.leg import Leg, Snapshot
 from signorini.engine.prepare import Prepared
+from signorini.engine.span import Span
 from signorini.errors import SolveFailed
 from signorini.fem.rigid import describe_motion
 from signorini.friction.law import OPEN
 from signorini.friction.result import CoulombResult
 from signorini.friction.solve import solve_coulomb
-from signorini.model.step import Step
 from signorini.solution.certificate import Certificate, certify
-from signorini.solution.state import State, next_state
+from signorini.solution.state import LoadPoint, State, next_state
 
 _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
 _REFINEMENTS = 2
 
 
-def follow_increments(prepared: Prepared, step: Step, name: str, state: State, end: Mapping[str, float]) -> Leg:
-    """Follow a step from a state to the load factors at its end.
+def follow_increments(prepared: Prepared, number: int, where: str, span: Span, state: State, end: LoadPoint) -> Leg:
+    """Follow a straight part of a step in equal increments from a state to a point of the load history.
 
     Parameters
     ----------
-    name : of the step, for messages
+    number : of increments
+    where : name of the step, for messages
+    span : the part of the history that this is
 
     Raises
     ------
     SolveFailed
         If an increment has no certified solution.
     """
-    before, certificates, trace = state, [], []
-    for fraction, target in _increments(step, state.factors, end):
-        where = f"{name} at {fraction:.0%}"
-        prepared.clock.increment(where)
-        state, certificate, result = _advance(prepared, state, target, where)
+    start, before = state.point, state
+    certificates, trace, snapshots = [], [], []
+    for k in range(1, number + 1):
+        words = f"{where} at {span.part(k / number):.0%}"
+        prepared.clock.increment(words)
+        state, certificate, result = advance(prepared, state, start.towards(end, k / number), words)
         certificates.append(certificate)
         trace.append(result.trace)
+        what = span.ends if k == number else "increment"
+        snapshots.append(Snapshot(load_factor=span.factor(k / number), what=what, state=state))
     return Leg(
-        path="single" if len(trace) == 1 else "increments",
+        path="single" if number == 1 else "increments",
         before=before,
         after=state,
         certificates=tuple(certificates),
         trace=tuple(trace),
+        snapshots=tuple(snapshots),
     )
 
 
-def _increments(
-    step: Step, start: Mapping[str, float], end: Mapping[str, float]
-) -> Iterator[tuple[float, Mapping[str, float]]]:
-    """Equal parts of the straight segment between two sets of load factors: fraction and factors at the end of each."""
-    number = step.increments or 1
-    for k in range(1, number + 1):
-        t = k / number
-        yield t, {name: (1.0 - t) * start[name] + t * end[name] for name in end} if t < 1.0 else end
-
-
-def _advance(
-    prepared: Prepared, state: State, factors: Mapping[str, float], where: str
-) -> tuple[State, Certificate, CoulombResult]:
-    """One increment: from a state to the next at given load factors."""
+def advance(prepared: Prepared, state: State, point: LoadPoint, where: str) -> tuple[State, Certificate, CoulombResult]:
+    """One increment: from a state to the next point of the load history."""
     condensed, constraints, interface = prepared.condensed, prepared.constraints, prepared.interface
     n, rows, active = len(interface), condensed.active_rows, condensed.active
-    loads, imposed = applied(prepared, factors)
-    offset = np.concatenate([interface.gap, -state.tangential]) + interface.B @ imposed
+    loads, imposed = applied(prepared, point)
+    offset = np.concatenate([point.gap, -state.tangential]) + interface.B @ imposed
     refuse_overlap(prepared, offset[:n], where)
-    f = constraints.transform.T @ (loads - prepared.K @ imposed)
+    f = free_load(prepared, point)
     result, forces, moved, free = _balanced(prepared, f, offset, state)
     if not result.solved:
         raise SolveFailed(f"{where}: {_explain(prepared, result)}", status=result.outcome)
@@ -86,36 +79,56 @@ def _advance(
             prepared.K,
             constraints,
             interface,
-            factors=factors,
+            point=point,
             loads=loads,
             displacement=displacement,
-            forces=forces,
+            forces=forces + point.given,
             moved=moved,
             status=status,
         )
-    return new, certified(prepared, loads, new, state.tangential, where), result
+    return new, certified(prepared, new, state.tangential, where), result
 
 
-def applied(prepared: Prepared, factors: Mapping[str, float]) -> tuple[Array, Array]:
-    """Nodal forces and imposed displacements at load factors, each (dofs,)."""
+def applied(prepared: Prepared, point: LoadPoint) -> tuple[Array, Array]:
+    """Nodal forces of the loads and imposed displacements at a point of the history, each (dofs,)."""
     zero = np.zeros(prepared.space.number_of_dofs)
-    loads = sum((factors[name] * f for name, f in prepared.loads.items()), zero)
-    imposed = sum((factors[name] * u for name, u in prepared.constraints.prescribed.items()), zero)
+    loads = sum((point.factors[name] * f for name, f in prepared.loads.items()), zero)
+    imposed = sum((point.factors[name] * u for name, u in prepared.constraints.prescribed.items()), zero)
     return loads, imposed
 
 
-def certified(prepared: Prepared, loads: Array, state: State, before: Array, where: str) -> Certificate:
-    """Measure a state; what does not pass is no solution."""
-    certificate = certify(
+def free_load(prepared: Prepared, point: LoadPoint) -> Array:
+    """(z,) Forces on the free displacements: loads, what supports impose, contacts that are being switched off."""
+    loads, imposed = applied(prepared, point)
+    if point.given.any():
+        loads = loads + prepared.interface.B.T @ point.given
+    force: Array = prepared.constraints.transform.T @ (loads - prepared.K @ imposed)
+    return force
+
+
+def measured(prepared: Prepared, state: State, before: Array | None = None) -> Certificate:
+    """The certificate of a state, whatever it says.
+
+    Parameters
+    ----------
+    before : (n,) tangential displacement at which its slip increment began; its own where not given
+    """
+    return certify(
         prepared.K,
-        loads,
+        applied(prepared, state.point)[0],
         prepared.motions,
         prepared.constraints,
         prepared.interface,
         state,
-        before,
+        state.tangential if before is None else before,
         prepared.scale,
+        prepared.absent,
     )
+
+
+def certified(prepared: Prepared, state: State, before: Array, where: str) -> Certificate:
+    """Measure a state; what does not pass is no solution."""
+    certificate = measured(prepared, state, before)
     if certificate.passed:
         return certificate
     raise SolveFailed(
@@ -162,7 +175,7 @@ def _balanced(prepared: Prepared, f: Array, offset: Array, state: State) -> tupl
 
 def refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
     """Supports that hold both sides of a pair decide its gap; no force can mend an overlap there."""
-    held = np.nonzero(prepared.condensed.held & (gap < -1e-12 * prepared.scale.length))[0]
+    held = np.nonzero(prepared.condensed.held & ~prepared.absent & (gap < -1e-12 * prepared.scale.length))[0]
     if len(held):
         pair = held[np.argmin(gap[held])]
         contact = prepared.model.contacts[prepared.interface.contact[pair]]

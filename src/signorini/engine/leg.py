@@ -1,19 +1,43 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A step as it was followed: what every way of stepping gives back."""
+"""A part of a step as it was followed: what every way of stepping gives back."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
+from typing import Literal
 
 from signorini.solution.certificate import Certificate
 from signorini.solution.results import PairEvent
 from signorini.solution.state import State
 from signorini.trace import Attempt
 
+What = Literal["start", "event", "increment", "asked", "segment", "jump", "landing", "change"]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Snapshot:
+    """A state on the way.
+
+    Attributes
+    ----------
+    load_factor : step k goes from k - 1 to k
+    what : happens there
+    state : its displacement, external forces and work are those of an earlier snapshot unless ``whole``; gaps of
+        pairs that the law is not asked of are NaN then
+    whole : whether the displacement of the bodies was recovered
+    """
+
+    load_factor: float
+    what: What
+    state: State
+    whole: bool = True
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Leg:
-    """From one end of a step to the other.
+    """From one state to another.
 
     Attributes
     ----------
@@ -21,6 +45,7 @@ class Leg:
     before, after : states at the ends
     certificates : of every state that was certified on the way
     trace : for every increment the methods tried; on an exact path one entry for all of it
+    snapshots : on the way, in order, the end last
     events : of an exact path
     notes : what a reader should know of the way
     """
@@ -30,5 +55,22 @@ class Leg:
     after: State
     certificates: tuple[Certificate, ...]
     trace: tuple[tuple[Attempt, ...], ...]
+    snapshots: tuple[Snapshot, ...]
     events: tuple[PairEvent, ...] = ()
     notes: tuple[str, ...] = ()
+
+
+def joined(legs: Sequence[Leg]) -> Leg:
+    """Several legs, one after the other, as one."""
+    paths = {leg.path for leg in legs}
+    exact = "exact" in paths and paths <= {"exact", "single"}
+    return Leg(
+        path="exact" if exact else "increments" if len(legs) > 1 else legs[0].path,
+        before=legs[0].before,
+        after=legs[-1].after,
+        certificates=tuple(chain.from_iterable(leg.certificates for leg in legs)),
+        trace=tuple(chain.from_iterable(leg.trace for leg in legs)),
+        snapshots=tuple(chain.from_iterable(leg.snapshots for leg in legs)),
+        events=tuple(chain.from_iterable(leg.events for leg in legs)),
+        notes=tuple(dict.fromkeys(chain.from_iterable(leg.notes for leg in legs))),
+    )

@@ -19,7 +19,7 @@ from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK
 from signorini.friction.paper import PaperProblem, paper_problem
 from signorini.model.model import Model
 from signorini.solution.certificate import Certificate, certify
-from signorini.solution.state import initial_state, next_state
+from signorini.solution.state import LoadPoint, initial_state, next_state
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -105,7 +105,7 @@ def formulate(model: Model | Prepared, *, E_n: float, E_tau: float) -> PaperForm
             raise InputError("the paper's law has a finite friction and its own penalties", where=("contact", i))
     if not condensed.active.any():
         raise InputError("there is none that can move; the paper's LCP needs one", where=("contact",))
-    loads, imposed = applied(prepared, prepared.model.factors()[-1])
+    loads, imposed = applied(prepared, _full_load(prepared))
     n, rows = len(interface), condensed.active_rows
     pairs = rows[: len(rows) // 2]
     order = np.arange(len(rows)).reshape(2, -1)[::-1].T.ravel()  # (tau, n) pair by pair
@@ -149,7 +149,7 @@ def solve_literally(formulation: PaperFormulation) -> PaperAnswer:
     forces[pairs], forces[n + pairs] = -P[:, 1] * interface.area[pairs], -P[:, 0] * interface.area[pairs]
     slip = multipliers.reshape(-1, 3)
     moved[pairs], moved[n + pairs] = slip[:, 2], slip[:, 0] - slip[:, 1]
-    loads, imposed = applied(prepared, prepared.model.factors()[-1])
+    loads, imposed = applied(prepared, _full_load(prepared))
     f = prepared.constraints.transform.T @ (loads - prepared.K @ imposed)
     displacement = prepared.constraints.transform @ condensed.reduce(f).expand(u) + imposed
     status = np.full(n, OPEN)
@@ -161,7 +161,7 @@ def solve_literally(formulation: PaperFormulation) -> PaperAnswer:
         prepared.K,
         prepared.constraints,
         interface,
-        factors=prepared.model.factors()[-1],
+        point=_full_load(prepared),
         loads=loads,
         displacement=displacement,
         forces=forces,
@@ -180,7 +180,7 @@ def solve_literally(formulation: PaperFormulation) -> PaperAnswer:
         lcp=found,
         pressure=forces[:n] / interface.area,
         traction=forces[n:] / interface.area,
-        displacement=displacement.reshape(-1, prepared.model.dimension),
+        displacement=prepared.space.at_nodes(displacement),
         normal_force=forces[:n] @ interface.normals,
         condition=condition,
         certificate=certificate,
@@ -213,3 +213,9 @@ def _judge(found: lcp.LCPSolution, certificate: Certificate, condition: float) -
         f"not certified: violations up to {certificate.worst:.0e}, condition number of K_c {condition:.0e}; expected "
         "smaller penalties, or the exact law"
     )
+
+
+def _full_load(prepared: Prepared) -> LoadPoint:
+    """The end of the history; the paper goes there in one increment."""
+    gap = prepared.interface.gap
+    return LoadPoint(factors=prepared.model.factors()[-1], gap=gap, given=np.zeros(2 * len(gap)))

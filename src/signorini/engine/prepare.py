@@ -63,6 +63,7 @@ class Prepared(Examined):
     law : the contact law on it, without load; ``dataclasses.replace(law, b=...)`` shares what it has computed
     clock : seconds spent so far
     backend : of the factorisation, as asked for
+    absent : (n,) pairs whose contact is switched off
     """
 
     K: sp.csr_array
@@ -70,6 +71,7 @@ class Prepared(Examined):
     law: CoulombProblem
     clock: Clock
     backend: str
+    absent: BoolArray
 
     @property
     def limited(self) -> bool:
@@ -120,7 +122,7 @@ class Prepared(Examined):
             prescribed={name: factor.get(name, 1.0) * u for name, u in self.constraints.prescribed.items()},
         )
         forces = {name: factor.get(name, 1.0) * f for name, f in self.loads.items()}
-        _refuse_free_motions(self.space, constraints, interface, self.parts, self.motions)
+        refuse_free_motions(self.space, constraints, interface, self.parts, self.motions)
         model = replace(self.model, contacts=contacts)
         scale = data_scale(model, forces, constraints, interface)
         return replace(
@@ -147,13 +149,13 @@ def examine(model: Model) -> Examined:
     InputError
         If something in the model does not fit the mesh, or a body can move freely: it is named, with its motion.
     """
-    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
+    space = make_space(model.mesh, axisymmetric=model.axisymmetric, obstacles=len(model.obstacles))
     constraints = make_constraints(space, model)
     loads = nodal_loads(space, model)
     interface = make_interface(space, model, constraints)
     parts = make_parts(space, model)
     motions = rigid_motions(space, parts, axisymmetric=model.axisymmetric)
-    _refuse_free_motions(space, constraints, interface, parts, motions)
+    refuse_free_motions(space, constraints, interface, parts, motions)
     return Examined(
         model=model,
         space=space,
@@ -213,13 +215,14 @@ def _condensed(examined: Examined, K: sp.csr_array, near: BoolArray, backend: st
         **{field.name: getattr(examined, field.name) for field in fields(Examined)},
         K=K,
         condensed=condensed,
-        law=_law(interface, condensed, seen, examined.scale),
+        law=contact_law(interface, condensed, seen, examined.scale),
         clock=clock,
         backend=backend,
+        absent=np.zeros(len(interface), bool),
     )
 
 
-def _law(interface: Interface, condensed: Condensed, floating: Array, scale: Scale) -> CoulombProblem:
+def contact_law(interface: Interface, condensed: Condensed, floating: Array, scale: Scale) -> CoulombProblem:
     """The contact law of the active pairs, with no load yet; floating (2 n, k) rigid motions as the pairs see them."""
     rows = condensed.active_rows
     seen = np.where(np.any(condensed.W, axis=1, keepdims=True), floating[rows], 0.0)
@@ -244,7 +247,7 @@ def _refuse_unknown(given: Mapping[str, float] | None, known: Sequence[str], wha
             raise InputError(one_of(name, known, what), where=(key,))
 
 
-def _refuse_free_motions(
+def refuse_free_motions(
     space: Space, constraints: Constraints, interface: Interface, parts: tuple[Part, ...], motions: sp.csr_array
 ) -> None:
     """A motion that neither supports nor contact can resist has no place that a solver could find."""

@@ -3,16 +3,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
 import numpy as np
 
-from signorini.arrays import Array, frozen
+from signorini.arrays import Array, IntArray, frozen
+from signorini.engine.cycles import judge, make_cycles
+from signorini.engine.exact import stored_energy
+from signorini.engine.increments import applied
 from signorini.engine.leg import Leg
 from signorini.engine.prepare import Prepared
+from signorini.fem.obstacles import arm
 from signorini.friction.law import OPEN, STICK
-from signorini.model.step import Step
+from signorini.model.stage import Stage
 from signorini.solution import results
 from signorini.solution.certificate import Certificate
-from signorini.solution.results import ContactResult, StepResult
+from signorini.solution.results import ContactResult, Instant, ObstacleResult, StepResult
 from signorini.solution.state import State
 
 ONE_INCREMENT = "one increment: assumes that the final state was reached from zero slip"
@@ -22,30 +30,45 @@ GROWN = "the contact grew under friction: in one increment tractions can be off 
 """What it says further where pairs closed that were open before."""
 
 
-def step_result(prepared: Prepared, step: Step, number: int, leg: Leg) -> StepResult:
-    """Results at the end of step ``number`` (1, 2, ...)."""
+def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence[float]) -> StepResult:
+    """Results at the end of a step.
+
+    Parameters
+    ----------
+    prepared : under the law of the step
+    leg : all of the step
+    cycle_ends : load factors at which its cycles end; one where it does not repeat
+    """
     before, state, certificates = leg.before, leg.after, leg.certificates
-    model, interface = prepared.model, prepared.interface
-    compliance = np.concatenate([interface.normal_compliance, interface.tangential_compliance])
+    instants = tuple(_instants(prepared, leg, cycle_ends))
+    cycles = make_cycles(leg, cycle_ends) if len(cycle_ends) > 1 else ()
+    steadiness, words = judge(cycles, prepared.scale) if cycles else ("", "")
+    stored, dissipated = stored_energy(prepared, state), (state.dissipation - before.dissipation).sum()
+    spent = stored - stored_energy(prepared, before) + float(dissipated) + state.released - before.released
+    strain = 0.5 * float(state.displacement @ (prepared.K @ state.displacement))
     return StepResult(
-        name=step.name or f"step {number}",
+        name=stage.title,
         path=leg.path,
-        load_factor=float(number),
+        load_factor=float(stage.number),
         increments=0 if leg.path == "exact" else len(leg.trace),
         events=leg.events,
-        displacement=frozen(state.displacement.reshape(-1, model.dimension)),
+        displacement=frozen(prepared.space.at_nodes(state.displacement)),
+        obstacles=_obstacles(prepared, state),
         reactions=_reactions(prepared, state),
-        strain_energy=0.5 * float(state.displacement @ (prepared.K @ state.displacement)),
-        interface_energy=0.5 * float(state.forces**2 @ (compliance / np.tile(interface.area, 2))),
+        strain_energy=strain,
+        interface_energy=stored - strain,
         work=state.work - before.work,
+        released=state.released - before.released,
+        energy_defect=state.work - before.work - spent,
         certificate=Certificate(
             **{key: max(getattr(c, key) for c in certificates) for key in Certificate.__dataclass_fields__}
         ),
-        contacts=tuple(
-            _contact_result(prepared, i, before, state, interface.contact == i) for i in range(len(model.contacts))
-        ),
+        contacts=instants[-1].contacts,
         trace=leg.trace,
-        notes=_notes(prepared, leg),
+        instants=instants,
+        cycles=cycles,
+        steadiness=steadiness,
+        notes=(*_notes(prepared, leg), *((words,) if words else ())),
     )
 
 
@@ -64,36 +87,96 @@ def _reactions(prepared: Prepared, state: State) -> dict[str, Array]:
     owner, d = prepared.constraints.owner, prepared.model.dimension
     total = np.zeros((len(prepared.model.supports) + 1, d))
     # a support's force is what equilibrium takes beyond the loads that act on the held node itself
-    loads = sum((state.factors[name] * f for name, f in prepared.loads.items()), np.zeros(len(owner)))
+    loads, _ = applied(prepared, state.point)
     np.add.at(total, (owner, np.arange(len(owner)) % d), np.where(owner >= 0, state.external - loads, 0.0))
     return {support.label: frozen(total[i]) for i, support in enumerate(prepared.model.supports)}
 
 
-def _contact_result(prepared: Prepared, i: int, before: State, state: State, own: Array) -> ContactResult:
-    interface, n = prepared.interface, len(prepared.interface)
+def _obstacles(prepared: Prepared, state: State) -> dict[str, ObstacleResult]:
+    """Motions of the obstacles and what acts on them from outside, by name."""
+    found, length = {}, arm(prepared.model)
+    for j, obstacle in enumerate(prepared.model.obstacles):
+        x, y, turn, _ = prepared.space.obstacle_dofs(j)
+        found[obstacle.name] = ObstacleResult(
+            displacement=frozen(state.displacement[[x, y]]),
+            rotation=float(state.displacement[turn]) / length,
+            force=frozen(state.external[[x, y]]),
+            moment=float(state.external[turn]) * length,
+        )
+    return found
+
+
+def _instants(prepared: Prepared, leg: Leg, cycle_ends: Sequence[float]) -> Iterator[Instant]:
+    """The contacts at every snapshot, with what they slid since the beginning of the step and of the cycle."""
+    surfaces = [_surface(prepared, i) for i in range(len(prepared.model.contacts))]
+    last, sliding = leg.before.slip, np.zeros_like(leg.before.slip)
+    low, high, cycle = last, last, 0
+    for snapshot in leg.snapshots:
+        slip = snapshot.state.slip
+        sliding = sliding + np.abs(slip - last)
+        low, high, last = np.minimum(low, slip), np.maximum(high, slip), slip
+        contacts = tuple(
+            _contact_result(prepared, surface, leg.before, snapshot.state, sliding, high - low) for surface in surfaces
+        )
+        moved = prepared.space.at_nodes(snapshot.state.displacement)
+        yield Instant(
+            load_factor=snapshot.load_factor,
+            what=snapshot.what,
+            contacts=contacts,
+            work=snapshot.state.work - leg.before.work if snapshot.whole else np.nan,
+            displacement=frozen(moved) if snapshot.whole else None,
+        )
+        if cycle + 1 < len(cycle_ends) and snapshot.load_factor == cycle_ends[cycle]:
+            low, high, cycle = slip, slip, cycle + 1
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Surface:
+    """What does not change of a contact: its name, its pairs and where they are."""
+
+    name: str
+    own: IntArray
+    fixed: Mapping[str, Any]
+
+
+def _surface(prepared: Prepared, i: int) -> _Surface:
+    interface = prepared.interface
+    own = np.flatnonzero(interface.contact == i)
+    fixed = {
+        "nonmortar": interface.sides[i].nonmortar,
+        "mortar": interface.sides[i].mortar,
+        "coupling": interface.sides[i].coupling,
+        "node": frozen(interface.node[own], np.int64),
+        "points": frozen(prepared.model.mesh.points[interface.node[own]]),
+        "normals": frozen(interface.normals[own]),
+        "tangents": frozen(interface.tangents[own]),
+        "area": frozen(interface.area[own]),
+    }
+    return _Surface(name=prepared.model.contacts[i].label, own=own, fixed=fixed)
+
+
+def _contact_result(
+    prepared: Prepared, surface: _Surface, before: State, state: State, sliding: Array, slip_range: Array
+) -> ContactResult:
+    interface, n, own = prepared.interface, len(prepared.interface), surface.own
     normal, tangential, friction = state.forces[:n][own], state.forces[n:][own], interface.friction[own]
-    code = state.status[own]
+    code, area = state.status[own], surface.fixed["area"]
     bound = np.zeros(len(normal))
     np.multiply(friction, normal, out=bound, where=normal > 0)
     # a pair that a support guides carries no friction: it touches without slipping
     sticks = (code == STICK) | ((friction > 0) & (np.abs(tangential) < (1.0 - 1e-9) * bound))
     status = np.where(code == OPEN, results.OPEN, np.where(sticks, results.STICK, results.SLIP))
-    area = interface.area[own]
-    overlap = interface.normal_compliance[own] * normal / area
+    dissipation = (state.dissipation - before.dissipation)[own]
     return ContactResult(
-        name=prepared.model.contacts[i].label,
-        nonmortar=interface.sides[i].nonmortar,
-        mortar=interface.sides[i].mortar,
-        coupling=interface.sides[i].coupling,
-        node=frozen(interface.node[own], np.int64),
-        points=frozen(prepared.model.mesh.points[interface.node[own]]),
-        normals=frozen(interface.normals[own]),
-        tangents=frozen(interface.tangents[own]),
-        area=frozen(area),
-        gap=frozen(state.gap[own] - overlap),
+        name=surface.name,
+        gap=frozen(state.gap[own] - interface.normal_compliance[own] * normal / area),
         pressure=frozen(normal / area),
         traction=frozen(tangential / area),
         slip=frozen(state.slip[own]),
+        sliding=frozen(sliding[own]),
+        slip_range=frozen(slip_range[own]),
         status=status,
-        dissipation=float((state.dissipation - before.dissipation)[own].sum()),
+        worn=frozen(dissipation / area),
+        dissipation=float(dissipation.sum()),
+        **surface.fixed,
     )

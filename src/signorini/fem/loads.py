@@ -9,6 +9,7 @@ from signorini.arrays import Array
 from signorini.errors import Where
 from signorini.fem.boundary import boundary
 from signorini.fem.measure import facet_areas, measure
+from signorini.fem.obstacles import obstacle_loads
 from signorini.fem.places import nodes_at
 from signorini.fem.space import Space
 from signorini.model.conditions import Load
@@ -16,14 +17,19 @@ from signorini.model.model import Model
 
 
 def nodal_loads(space: Space, model: Model) -> dict[str, Array]:
-    """Consistent nodal forces of every load at factor 1, by name, each (dofs,)."""
-    return {load.label: _forces(space, model, load, ("load", i)) for i, load in enumerate(model.loads)}
+    """Consistent nodal forces of every load, and of loaded obstacles, at factor 1, by name, each (dofs,)."""
+    beyond = np.zeros(space.number_of_dofs - space.mesh.points.size)
+    nodal = {load.label: _forces(space, model, load, ("load", i)) for i, load in enumerate(model.loads)}
+    return {label: np.concatenate([f, beyond]) for label, f in nodal.items()} | obstacle_loads(space, model)
 
 
 def _forces(space: Space, model: Model, load: Load, where: Where) -> Array:
     if load.body_force is not None:
         return _body_forces(space, model, str(load.on), np.array(load.body_force))
     forces = np.zeros((len(space.mesh.points), space.dimension))
+    if load.nodal_forces is not None:
+        forces[nodes_at(space, load.on, (*where, "on"))] = load.nodal_forces
+        return forces.ravel()
     if load.force is not None and load.on not in space.mesh.boundaries:
         nodes = nodes_at(space, load.on, (*where, "on"))
         forces[nodes] = _given(load.force) / len(nodes)

@@ -11,6 +11,7 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
 from signorini.arrays import Array, IntArray
+from signorini.fem.obstacles import arm
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.model.model import Model
@@ -29,21 +30,26 @@ class Part:
     nodes : (k,) its nodes
     centre : (d,) their mean, length
     size : half the diagonal of its bounding box, length
+    obstacle : number of the rigid obstacle that it is instead, otherwise -1: no nodes, the point about which it rotates
+        and the length that goes with its rotation
     """
 
     bodies: tuple[str, ...]
     nodes: IntArray
     centre: Array
     size: float
+    obstacle: int = -1
 
     @property
     def label(self) -> str:
         """As in "body 'disk'"."""
+        if self.obstacle >= 0:
+            return f"obstacle '{self.bodies[0]}'"
         return ("body " if len(self.bodies) == 1 else "bodies ") + " and ".join(f"'{name}'" for name in self.bodies)
 
 
 def make_parts(space: Space, model: Model) -> tuple[Part, ...]:
-    """The connected pieces of the mesh, in the order of their first nodes."""
+    """The connected pieces of the mesh, in the order of their first nodes, then the rigid obstacles that move."""
     points, count = space.mesh.points, len(space.mesh.points)
     links = [(np.repeat(b.cells[:, 0], b.cells.shape[1]), b.cells.ravel()) for b in space.blocks]
     rows, columns = np.concatenate([r for r, _ in links]), np.concatenate([c for _, c in links])
@@ -71,6 +77,9 @@ def make_parts(space: Space, model: Model) -> tuple[Part, ...]:
                 size=float(np.linalg.norm(np.ptp(points[nodes], axis=0)) / 2.0),
             )
         )
+    for j, obstacle in enumerate(model.obstacles):
+        centre, none = np.array(obstacle.about), np.empty(0, int)
+        parts.append(Part(bodies=(obstacle.name,), nodes=none, centre=centre, size=arm(model), obstacle=j))
     return tuple(parts)
 
 
@@ -81,9 +90,13 @@ def rigid_motions(space: Space, parts: tuple[Part, ...], *, axisymmetric: bool =
     """
     rows, columns, values = [], [], []
     for i, part in enumerate(parts):
-        arm = (space.mesh.points[part.nodes] - part.centre) / part.size
+        lever = (space.mesh.points[part.nodes] - part.centre) / part.size
         one, (x, y) = np.ones(len(part.nodes)), space.dofs(part.nodes).T
-        motions = [(0, x, one), (1, y, one), (2, x, -arm[:, 1]), (2, y, arm[:, 0])]
+        motions = [(0, x, one), (1, y, one), (2, x, -lever[:, 1]), (2, y, lever[:, 0])]
+        if part.obstacle >= 0:
+            x, y, turn = space.obstacle_dofs(part.obstacle)[:3, None]
+            one = np.ones(1)
+            motions = [(0, x, one), (1, y, one), (2, turn, one)]
         if axisymmetric:
             motions = [(0, y, one)]
         rows += [dofs for _, dofs, _ in motions]

@@ -84,10 +84,16 @@ class Space:
     >>> space = make_space(mesh)
     >>> space.number_of_dofs, [float(v.sum()) for v in space.volumes]
     (8, [2.0])
+
+    Attributes
+    ----------
+    mesh, blocks : nodes and cells
+    obstacles : how many rigid obstacles have unknowns of their own, behind those of the nodes
     """
 
     mesh: Mesh
     blocks: tuple[Block, ...]
+    obstacles: int = 0
 
     @property
     def dimension(self) -> int:
@@ -96,8 +102,13 @@ class Space:
 
     @property
     def number_of_dofs(self) -> int:
-        """Of all nodes, held and unused ones included."""
-        return self.mesh.points.size
+        """Of all nodes, held and unused ones included, and of rigid obstacles."""
+        return self.mesh.points.size + 2 * self.dimension * self.obstacles
+
+    def obstacle_dofs(self, j: int) -> IntArray:
+        """Dofs of rigid obstacle j, (2 d,): its translation, then its rotation times a length."""
+        first = self.mesh.points.size + 2 * self.dimension * j
+        return np.arange(first, first + 2 * self.dimension)
 
     @cached_property
     def used_nodes(self) -> IntArray:
@@ -131,17 +142,22 @@ class Space:
         result: Array = np.einsum("qkj,mqji->mqki", at, np.linalg.inv(self._jacobians(block, at)))
         return result
 
+    def at_nodes(self, values: Array) -> Array:
+        """Values of all dofs (dofs,) at the nodes, (nodes, d), without those of obstacles."""
+        return values[: self.mesh.points.size].reshape(-1, self.dimension)
+
     def dofs(self, nodes: IntArray) -> IntArray:
         """Dofs of nodes, (..., d)."""
         return nodes[..., None] * self.dimension + np.arange(self.dimension)
 
 
-def make_space(mesh: Mesh, *, axisymmetric: bool = False) -> Space:
+def make_space(mesh: Mesh, *, axisymmetric: bool = False, obstacles: int = 0) -> Space:
     """The space of a mesh.
 
     Parameters
     ----------
     axisymmetric : coordinates are radius and height: higher quadratures
+    obstacles : rigid ones with unknowns of their own
 
     Raises
     ------
@@ -155,7 +171,7 @@ def make_space(mesh: Mesh, *, axisymmetric: bool = False) -> Space:
     for family, cells in mesh.cells.items():
         blocks.append(_block(family, cells, first, axisymmetric))
         first += len(cells)
-    space = Space(mesh=mesh, blocks=tuple(blocks))
+    space = Space(mesh=mesh, blocks=tuple(blocks), obstacles=obstacles)
     if any(nodes.shape[1] > CORNERS[family] for family, nodes in mesh.cells.items()):
         check_conforming(mesh, space.edges)
     _check_shapes(space)

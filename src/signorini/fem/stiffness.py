@@ -48,4 +48,6 @@ def stiffness(space: Space, model: Model) -> sp.csr_array:
                 shape_values=block.values,
             )
         )
-    return assemble(space.mesh.points, blocks, axisymmetric=model.axisymmetric)
+    K = assemble(space.mesh.points, blocks, axisymmetric=model.axisymmetric)
+    K.resize((space.number_of_dofs, space.number_of_dofs))  # rigid obstacles have no stiffness
+    return K

@@ -11,6 +11,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
+from signorini.fem.obstacles import driven
 from signorini.fem.places import nodes_at
 from signorini.fem.space import ON_AXIS, Space
 from signorini.model.model import Model
@@ -25,9 +26,9 @@ class Constraints:
     free : (dofs,) index into z, -1 where a support, the axis (or nothing at all) holds the dof; dofs that move together
         share one
     transform : (dofs, z) sparse T, one entry 1 a row
-    prescribed : name of moving support to (dofs,) displacements at factor 1
+    prescribed : name of moving support or obstacle to (dofs,) displacements at factor 1
     owner : (dofs,) index of the support that holds the dof, otherwise -1
-    nodes : (z,) a node of each free displacement
+    nodes : (z,) a node of each free displacement; those of obstacles follow the nodes of the mesh
     """
 
     free: IntArray
@@ -65,6 +66,12 @@ def make_constraints(space: Space, model: Model) -> Constraints:
             if support.moves:
                 prescribed[support.label][new] = value
     held = owner >= 0
+    for j, obstacle in enumerate(model.obstacles):
+        dofs = space.obstacle_dofs(j)
+        held[dofs], path = driven(model, j)
+        if path.any():
+            prescribed[obstacle.label] = np.zeros(total)
+            prescribed[obstacle.label][dofs] = path
     unused = np.setdiff1d(np.arange(len(space.mesh.points)), space.used_nodes)
     held[space.dofs(unused).ravel()] = True
     held[axis_dofs] = True

@@ -9,6 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
+from signorini.fem.obstacles import carried
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.pairing import Sides, make_pairs
@@ -73,15 +74,14 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
     def data(key: str) -> Array:
         return np.array([getattr(contact, key) for contact in model.contacts], float)[index]
 
+    position = sp.vstack([none, *(part.relative for part in parts)]) @ space.mesh.points
+    carrier = np.repeat([part.obstacle for part in parts], np.bincount(index, minlength=len(parts))).astype(int)
+    rows = []
+    for key, axes in (("relative", normals), ("sliding", tangents)):
+        relative = sp.vstack([none, *(getattr(part, key) for part in parts)])
+        rows.append(sp.hstack([_along(space, relative, axes), _carried(model, carrier, position, axes)]))
     return Interface(
-        B=sp.csr_array(
-            sp.vstack(
-                [
-                    _along(space, sp.vstack([none, *(part.relative for part in parts)]), normals),
-                    _along(space, sp.vstack([none, *(part.sliding for part in parts)]), tangents),
-                ]
-            )
-        ),
+        B=sp.csr_array(sp.vstack(rows)),
         gap=joined("gap"),
         area=joined("area"),
         normals=normals,
@@ -96,11 +96,23 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
 
 
 def _along(space: Space, relative: sp.csr_array, axes: Array) -> sp.csr_array:
-    """Rows ``axis_k . sum_j relative_kj u_j`` in terms of all dofs."""
+    """Rows ``axis_k . sum_j relative_kj u_j`` in terms of the displacements of all nodes."""
     entries = sp.coo_array(relative)
     values = entries.data[:, None] * axes[entries.row]
     rows = np.repeat(entries.row, space.dimension)
     columns = space.dofs(entries.col.astype(np.int64)).ravel()
-    result = sp.csr_array((values.ravel(), (rows, columns)), shape=(len(axes), space.number_of_dofs))
+    result = sp.csr_array((values.ravel(), (rows, columns)), shape=(len(axes), space.mesh.points.size))
     result.eliminate_zeros()
     return result
+
+
+def _carried(model: Model, carrier: IntArray, position: Array, axes: Array) -> sp.csr_array:
+    """What moving obstacles add to the same rows: minus their displacement where the nonmortar side is."""
+    width = 2 * axes.shape[1]
+    values = np.zeros((len(axes), width))
+    for j in range(len(model.obstacles)):
+        own = carrier == j
+        values[own] = -np.einsum("ki,kil->kl", axes[own], carried(model, j, position[own]))
+    rows, columns = np.nonzero(values)
+    shape = (len(axes), width * len(model.obstacles))
+    return sp.csr_array((values[rows, columns], (rows, width * carrier[rows] + columns)), shape=shape)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -54,6 +54,7 @@ class Pairs:
     relative : (k, nodes of the mesh) weights of the relative displacement
     sliding : the same for the tangential part; it differs on planes of symmetry
     sides : how they were found
+    obstacle : number of the moving obstacle that is the other side, otherwise -1
     """
 
     nodes: IntArray
@@ -63,6 +64,7 @@ class Pairs:
     relative: sp.csr_array
     sliding: sp.csr_array
     sides: Sides
+    obstacle: int = -1
 
 
 def make_pairs(space: Space, model: Model, constraints: Constraints, i: int) -> Pairs:
@@ -75,8 +77,14 @@ def make_pairs(space: Space, model: Model, constraints: Constraints, i: int) -> 
     """
     contact, where = model.contacts[i], ("contact", i)
     side = boundary(space, contact.nonmortar, (*where, "nonmortar"))
+    moving = {obstacle.name: j for j, obstacle in enumerate(model.obstacles)}
     if isinstance(contact.mortar, Obstacle):
-        pairs = _on_obstacle(space, model, side, contact, contact.mortar, where)
+        key = type(contact.mortar).__name__.lower()
+        pairs = _on_obstacle(space, model, side, contact, contact.mortar, (*where, key))
+    elif contact.mortar in moving:
+        j = moving[contact.mortar]
+        pairs = _on_obstacle(space, model, side, contact, model.obstacles[j].shape, (*where, "mortar"))
+        pairs = replace(pairs, obstacle=j, sides=replace(pairs.sides, mortar=contact.mortar))
     else:
         mortar = boundary(space, contact.mortar, (*where, "mortar"))
         names = (contact.nonmortar, contact.mortar)
@@ -99,9 +107,7 @@ def _on_obstacle(
             if isinstance(obstacle, Plane)
             else f"{obstacle}, or is behind it; expected the obstacle outside the body"
         )
-        raise InputError(
-            f"'{contact.nonmortar}' faces away from {what}", where=(*where, type(obstacle).__name__.lower())
-        )
+        raise InputError(f"'{contact.nonmortar}' faces away from {what}", where=where)
     if not side.quadratic:
         area = nodal_areas(model, side)
         coupling = Coupling(nodes=side.nodes, area=area, relative=_pick(side.nodes, len(points)))

@@ -24,7 +24,8 @@ class Contact:
     Parameters
     ----------
     nonmortar : boundary whose nodes carry the pairs, the pressures and the results
-    mortar : boundary of the other body, or a rigid :class:`Plane`, :class:`Circle` or :class:`Profile`
+    mortar : boundary of the other body; a rigid :class:`Plane`, :class:`Circle` or :class:`Profile` at rest; or the
+        name of a :class:`Rigid` obstacle of the model
     friction : Coulomb's coefficient, >= 0, or "stick": never slips (it may still open)
     gap : "geometry"; "zero"; or one initial gap for every pair, length (negative: overlap)
     interference : overlap that is added to it, length, positive presses the bodies together
@@ -81,19 +82,25 @@ class Contact:
             object.__setattr__(self, "search", number(self.search, ("search",), above=0.0))
         if self.adjust is not None:
             object.__setattr__(self, "adjust", number(self.adjust, ("adjust",), least=0.0))
-        self._check_couple()
-
-    def _check_couple(self) -> None:
-        """What goes together."""
         if isinstance(self.mortar, Obstacle):
-            for key, usual in (("coupling", "auto"), ("side", "named"), ("search", None)):
-                if getattr(self, key) != usual:
-                    raise InputError(
-                        f"is {getattr(self, key)!r}; that is for two meshed sides, and the other is a rigid obstacle",
-                        where=(key,),
-                    )
+            self.check_alone()
         if self.adjust is not None and self.gap != "geometry":
             raise InputError("goes with gap = 'geometry' only", where=("adjust",))
+
+    def check_alone(self) -> None:
+        """What goes with a rigid obstacle.
+
+        Raises
+        ------
+        InputError
+            If something is given that is for two meshed sides.
+        """
+        for key, usual in (("coupling", "auto"), ("side", "named"), ("search", None)):
+            if getattr(self, key) != usual:
+                raise InputError(
+                    f"is {getattr(self, key)!r}; that is for two meshed sides, and the other is a rigid obstacle",
+                    where=(key,),
+                )
 
     @property
     def label(self) -> str:

@@ -18,6 +18,7 @@ from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Obstacle
+from signorini.model.rigid import Rigid
 from signorini.model.step import Step
 
 Kind = Literal["plane strain", "plane stress", "axisymmetric"]
@@ -36,6 +37,7 @@ class Model:
     thickness : out of plane, length; forces and areas are for this thickness
     bodies : every cell of the mesh belongs to exactly one
     supports, loads, contacts : see :class:`Support`, :class:`Load`, :class:`Contact`
+    obstacles : rigid ones that move, see :class:`Rigid`; fixed ones are said in the contact itself
     steps : the load history; by default one step, all loads from 0 to 1, in one increment
     title, units : said again in the results
 
@@ -63,6 +65,7 @@ class Model:
     supports: Sequence[Support] = ()
     loads: Sequence[Load] = ()
     contacts: Sequence[Contact] = ()
+    obstacles: Sequence[Rigid] = ()
     steps: Sequence[Step] = (Step(name="load"),)
     title: str = ""
     units: str = "as given, consistent"
@@ -82,6 +85,7 @@ class Model:
             ("supports", Support),
             ("loads", Load),
             ("contacts", Contact),
+            ("obstacles", Rigid),
             ("steps", Step),
         ):
             object.__setattr__(self, part, _typed(getattr(self, part), kind, part))
@@ -93,6 +97,8 @@ class Model:
             self._check_load(i, load)
         for i, contact in enumerate(self.contacts):
             self._check_contact(i, contact)
+        for i, obstacle in enumerate(self.obstacles):
+            self._check_obstacle(i, obstacle)
         self._check_labels()
         self._check_steps()
 
@@ -141,10 +147,17 @@ class Model:
         if load.kind == "body_force":
             if load.on not in {body.name for body in self.bodies}:
                 raise InputError(one_of(str(load.on), [body.name for body in self.bodies], "body"), where=where)
-        elif load.kind == "force" and load.spread == "traction":
+        elif load.kind in ("force", "nodal_forces") and load.spread == "traction":
             self._check_place(load.on, where, nodes=True)
         else:
             self._check_place(load.on, where, nodes=False)
+        if load.nodal_forces is not None:
+            expected = (1 if not isinstance(load.on, str) else len(self.mesh.nodes_of(load.on)), self.dimension)
+            if load.nodal_forces.shape != expected:
+                raise InputError(
+                    f"has shape {load.nodal_forces.shape}; expected {expected}, one force for each of the nodes",
+                    where=("load", i, "nodal_forces"),
+                )
         for kind in ("force", "traction", "body_force"):
             self._check_dimension(getattr(load, kind), ("load", i, kind))
 
@@ -157,9 +170,29 @@ class Model:
                     where=("contact", i, type(contact.mortar).__name__.lower()),
                 )
             return
+        if any(contact.mortar == obstacle.name for obstacle in self.obstacles):
+            contact.check_alone()
+            return
+        if self.obstacles and contact.mortar not in self.mesh.boundaries:
+            known = {*self.mesh.boundaries, *(obstacle.name for obstacle in self.obstacles)}
+            raise InputError(one_of(contact.mortar, known, "boundary or obstacle"), where=("contact", i, "mortar"))
         self._check_place(contact.mortar, ("contact", i, "mortar"), nodes=False)
         if contact.mortar == contact.nonmortar:
             raise InputError(f"'{contact.mortar}' touches itself; expected another boundary", where=("contact", i))
+
+    def _check_obstacle(self, i: int, obstacle: Rigid) -> None:
+        if obstacle.shape.dimension != self.dimension:
+            raise InputError(
+                f"is in {obstacle.shape.dimension} dimensions; expected {self.dimension}", where=("obstacle", i)
+            )
+        if obstacle.name in self.mesh.boundaries:
+            raise InputError(f"'{obstacle.name}' is a boundary of the mesh too", where=("obstacle", i, "name"))
+        if not any(contact.mortar == obstacle.name for contact in self.contacts):
+            raise InputError(f"'{obstacle.name}' is the mortar side of no contact", where=("obstacle", i, "name"))
+        if self.axisymmetric and (obstacle.u[0] != 0.0 or obstacle.rotation != 0.0):
+            raise InputError(
+                "moves off the axis of revolution; expected u = (0, ...) and rotation 0", where=("obstacle", i)
+            )
 
     def _check_place(self, on: Any, where: tuple[str | int, ...], *, nodes: bool) -> None:
         if not isinstance(on, str):
@@ -178,10 +211,11 @@ class Model:
             raise InputError(f"has {len(parts)} components; expected {self.dimension}", where=where)
 
     def _check_labels(self) -> None:
-        groups: tuple[tuple[str, Iterable[Support | Load | Contact]], ...] = (
+        groups: tuple[tuple[str, Iterable[Support | Load | Contact | Rigid]], ...] = (
             ("support", self.supports),
             ("load", self.loads),
             ("contact", self.contacts),
+            ("obstacle", self.obstacles),
         )
         for part, members in groups:
             twice = [label for label, n in Counter(member.label for member in members).items() if n > 1]
@@ -192,6 +226,13 @@ class Model:
             raise InputError(
                 f"'{both.pop()}' is a load and a moving support; steps need a name for each", where=("load",)
             )
+        taken = {load.label for load in self.loads} | {support.label for support in self.supports}
+        for i, obstacle in enumerate(self.obstacles):
+            if obstacle.label in taken:
+                raise InputError(
+                    f"'{obstacle.label}' is a load or a support too; steps need a name for each",
+                    where=("obstacle", i, "name"),
+                )
 
     def _check_steps(self) -> None:
         if not self.steps:
@@ -203,6 +244,7 @@ class Model:
                 if name not in names:
                     raise InputError(one_of(name, names, "load or moving support"), where=("step", i, "scale"))
             used |= set(names if step.scale is None else step.scale)
+            self._check_contact_names(i, step)
         unused = [name for name in names if name not in used]
         if unused:
             raise InputError(
@@ -210,17 +252,24 @@ class Model:
                 where=("step",),
             )
 
+    def _check_contact_names(self, i: int, step: Step) -> None:
+        known = [contact.label for contact in self.contacts]
+        for key in ("friction", "interference", "active", "inactive"):
+            for name in getattr(step, key):
+                if name not in known:
+                    raise InputError(one_of(name, known, "contact"), where=("step", i, key))
+
     @property
     def scaled_names(self) -> tuple[str, ...]:
-        """What steps can scale: loads and moving supports."""
-        return tuple(load.label for load in self.loads) + tuple(s.label for s in self.supports if s.moves)
+        """What steps can scale: loads, moving supports, and obstacles that are moved or loaded."""
+        moving = (s.label for s in self.supports if s.moves)
+        return (*(load.label for load in self.loads), *moving, *(o.label for o in self.obstacles if o.acts))
 
     def factors(self) -> list[dict[str, float]]:
         """Load factors by name: before the first step (all 0) and at the end of every step."""
         history = [dict.fromkeys(self.scaled_names, 0.0)]
         for step in self.steps:
-            change = dict.fromkeys(self.scaled_names, 1.0) if step.scale is None else dict(step.scale)
-            history.append(history[-1] | change)
+            history.append(step.ends(history[-1])[-1])
         return history
 
 

@@ -1,44 +1,63 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Load histories: straight segments between load factors."""
+"""Load histories: straight segments between load factors, and what of the contacts changes with them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Literal
+from typing import Any, Literal
 
 from signorini.checks import choice, number, text, whole
 from signorini.errors import InputError
 
+Factors = float | tuple[float, ...]
+
 
 @dataclass(frozen=True, kw_only=True)
 class Step:
-    """One straight segment of the load history.
+    """A part of the load history: one straight segment, or several that may be repeated.
 
     Parameters
     ----------
     name : what results call it
     scale : factors at the end of the step, by name of load or moving support; what is not named keeps its factor.
-        None: everything goes to 1
-    increments : equal parts in which the segment is solved; None leaves it to ``path``
+        A list of m factors makes m straight segments of equal length, each ending at one of them; all lists of a step
+        are equally long, and a single number beside them is reached in equal parts. None: everything goes to 1
+    repeat : how many times the segments are gone through, one cycle after the other
+    at : parts of the step (0 .. 1) at whose end the full results are kept too, or "events": wherever a pair changes
+        its state on an exact path
+    friction : contact to its coefficient from here on, a number or "stick". What slips because of that slips at once,
+        before the loads of the step
+    interference : contact to its overlap at the end of the step, length; it grows linearly over the step
+    inactive : contacts switched off from here on: their forces go linearly to zero over the step
+    active : contacts switched on again: they touch where they meet from here on, with no slip behind them; what
+        overlaps at that moment is pressed out linearly over the step
+    increments : equal parts in which every segment is solved; None leaves it to ``path``
     path : "increments", or "exact": from event to event (a pair closes, opens, slips, sticks), without any step size.
         None chooses: "increments" where their number is given or nothing rubs (one is exact then), otherwise "exact"
 
     Examples
     --------
-    >>> Step(name="drag", scale={"push": 1.0}, increments=10).increments
-    10
+    >>> Step(name="fret", scale={"push": [1, -1, 1]}, repeat=5).segments
+    3
     """
 
     name: str = ""
-    scale: Mapping[str, float] | None = None
+    scale: Mapping[str, float | Sequence[float]] | None = None
+    repeat: int = 1
+    at: Sequence[float] | Literal["events"] = ()
+    friction: Mapping[str, float | Literal["stick"]] = field(default_factory=dict)
+    interference: Mapping[str, float] = field(default_factory=dict)
+    inactive: Sequence[str] = ()
+    active: Sequence[str] = ()
     increments: int | None = None
     path: Literal["increments", "exact"] | None = None
 
     def __post_init__(self) -> None:
         if self.name:
             text(self.name, ("name",))
+        whole(self.repeat, ("repeat",))
         if self.increments is not None:
             whole(self.increments, ("increments",))
         if self.path is not None:
@@ -46,7 +65,96 @@ class Step:
         if self.path == "exact" and self.increments is not None:
             raise InputError("has a number of increments, but the path is exact; expected one of both")
         if self.scale is not None:
-            if not isinstance(self.scale, Mapping):
-                raise InputError(f"is {self.scale!r}; expected a table of names and factors", where=("scale",))
-            scale = {key: number(value, ("scale", key)) for key, value in self.scale.items()}
-            object.__setattr__(self, "scale", MappingProxyType(scale))
+            self._set("scale", _factors(self.scale))
+        self._set("at", _times(self.at))
+        self._set("friction", {name: _coefficient(value, name) for name, value in _table(self.friction, "friction")})
+        overlaps = _table(self.interference, "interference")
+        self._set("interference", {name: number(value, ("interference", name)) for name, value in overlaps})
+        for key in ("active", "inactive"):
+            self._set(key, _names(getattr(self, key), key))
+        both = set(self.active) & set(self.inactive)
+        if both:
+            raise InputError(f"'{min(both)}' is switched on and off; expected one of both", where=("active",))
+
+    def _set(self, key: str, value: Any) -> None:
+        object.__setattr__(self, key, MappingProxyType(value) if isinstance(value, dict) else value)
+
+    @property
+    def segments(self) -> int:
+        """Straight segments of one cycle."""
+        return max((len(value) for value in (self.scale or {}).values() if isinstance(value, tuple)), default=1)
+
+    def ends(self, start: Mapping[str, float]) -> list[dict[str, float]]:
+        """Load factors at the end of every segment of every cycle.
+
+        Parameters
+        ----------
+        start : factors at the beginning of the step, of everything that can be scaled
+
+        Examples
+        --------
+        >>> Step(scale={"push": [1, -1], "press": 3}, repeat=2).ends({"push": 0.0, "press": 1.0, "pull": 0.5})[1:3]
+        [{'push': -1.0, 'press': 3.0, 'pull': 0.5}, {'push': 1.0, 'press': 3.0, 'pull': 0.5}]
+        """
+        scale: Mapping[str, Any] = dict.fromkeys(start, 1.0) if self.scale is None else self.scale
+        m = self.segments
+        first = [
+            dict(start)
+            | {
+                name: value[j] if isinstance(value, tuple) else start[name] + (j + 1) / m * (value - start[name])
+                for name, value in scale.items()
+            }
+            for j in range(m)
+        ]
+        last = first[-1]
+        reached = {name: value for name, value in scale.items() if not isinstance(value, tuple)}
+        first[-1] = last | reached
+        again = [ends | reached for ends in first]
+        return first + again * (self.repeat - 1)
+
+
+def _factors(scale: Any) -> dict[str, Factors]:
+    factors: dict[str, Factors] = {}
+    for name, value in _table(scale, "scale"):
+        if isinstance(value, Sequence) and not isinstance(value, str):
+            if not value:
+                raise InputError(
+                    "is an empty list; expected a number, or a factor for every segment", where=("scale", name)
+                )
+            factors[name] = tuple(number(part, ("scale", name, i)) for i, part in enumerate(value))
+        else:
+            factors[name] = number(value, ("scale", name))
+    lengths = {name: len(value) for name, value in factors.items() if isinstance(value, tuple)}
+    if len(set(lengths.values())) > 1:
+        words = ", ".join(f"{name} {length}" for name, length in lengths.items())
+        raise InputError(f"lists are of different lengths ({words}); expected one factor a segment", where=("scale",))
+    return factors
+
+
+def _table(value: Any, key: str) -> list[tuple[str, Any]]:
+    if not isinstance(value, Mapping):
+        what = "factors" if key == "scale" else "numbers"
+        raise InputError(f"is {value!r}; expected a table of names and {what}", where=(key,))
+    return list(value.items())
+
+
+def _coefficient(value: Any, name: str) -> float | str:
+    return "stick" if value == "stick" else number(value, ("friction", name), least=0.0)
+
+
+def _times(at: Any) -> tuple[float, ...] | str:
+    if at == "events":
+        return "events"
+    if isinstance(at, str) or not isinstance(at, Sequence):
+        raise InputError(f'is {at!r}; expected a list of parts of the step between 0 and 1, or "events"', where=("at",))
+    times = [number(part, ("at", i), above=0.0) for i, part in enumerate(at)]
+    late = [i for i, part in enumerate(times) if part > 1.0]
+    if late:
+        raise InputError(f"is {times[late[0]]:g}; expected a part of the step, at most 1", where=("at", late[0]))
+    return tuple(sorted(set(times)))
+
+
+def _names(value: Any, key: str) -> tuple[str, ...]:
+    if isinstance(value, str) or not isinstance(value, Sequence):
+        raise InputError(f"is {value!r}; expected a list of contacts", where=(key,))
+    return tuple(text(name, (key, i)) for i, name in enumerate(value))

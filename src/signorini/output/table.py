@@ -84,6 +84,11 @@ def _step_lines(step: StepResult, number: int) -> list[str]:
         f"step {number} '{step.name}', {count} ({', '.join(step.methods)})",
         *(align([_HEAD, *rows], right=_NUMBERS) if rows else ["no contact"]),
         *([f"reactions: {reactions}"] if reactions else []),
+        *(
+            f"obstacle {name}: moved {spell_vector(obstacle.displacement)}, turned {obstacle.rotation:.5g}, bears "
+            f"force {spell_vector(obstacle.force)}, moment {obstacle.moment:.5g}"
+            for name, obstacle in step.obstacles.items()
+        ),
         f"certificate {verdict}: worst of five {certificate.worst:.1e}, allowed {TOLERANCE:.0e}",
     ]
 

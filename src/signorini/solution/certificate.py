@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array
+from signorini.arrays import Array, BoolArray
 from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface
 from signorini.solution.scale import Scale
@@ -62,6 +62,7 @@ def certify(
     state: State,
     before: Array,
     scale: Scale,
+    absent: BoolArray | None = None,
 ) -> Certificate:
     """Measure a state.
 
@@ -73,6 +74,7 @@ def certify(
     state : its displacement and pair forces are the answer to be measured
     before : (n,) tangential displacement at which the slip increment began
     scale : sizes of forces and lengths
+    absent : (n,) pairs whose contact is switched off: the law of contact is not asked of them
 
     Returns
     -------
@@ -86,7 +88,7 @@ def certify(
     balance = motions.T @ (state.external + interface.B.T @ r)
     moved = interface.B @ u
     normal, tangential = r[:n] / scale.force, r[n:] / scale.force
-    gap = (interface.gap + moved[:n] + interface.normal_compliance * r[:n] / interface.area) / scale.length
+    gap = (state.point.gap + moved[:n] + interface.normal_compliance * r[:n] / interface.area) / scale.length
     slip = (moved[n:] + interface.tangential_compliance * r[n:] / interface.area - before) / scale.length
     bound = np.zeros(n)
     np.multiply(interface.friction, normal, out=bound, where=normal > 0)
@@ -94,6 +96,8 @@ def certify(
     along = np.where(tangential * slip > 0, np.minimum(np.abs(tangential), np.abs(slip)), 0.0)
     # where a pair is open, slip is free: the cone is a point and its room 0
     friction = np.maximum(np.minimum(np.abs(slip), np.maximum(room, 0.0)), along)
+    if absent is not None:
+        gap, normal, room, friction = (np.where(absent, 0.0, part) for part in (gap, normal, room, friction))
     return Certificate(
         equilibrium=_largest(np.abs(np.concatenate([residual, balance]))) / scale.force,
         penetration=_largest(-gap),

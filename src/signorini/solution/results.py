@@ -33,7 +33,10 @@ class ContactResult:
     pressure : (n,) force per area, positive compressive
     traction : (n,) friction on the nonmortar body along the tangent, force per area
     slip : (n,) accumulated along the tangent, nonmortar minus mortar, length
+    sliding : (n,) distance slid either way in this step, length
+    slip_range : (n,) largest less smallest slip of this step's last cycle, twice the slip amplitude
     status : (n,) "open", "stick" or "slip"
+    worn : (n,) dissipation of this step at each node, work per area
     dissipation : of this step, work
     """
 
@@ -50,7 +53,10 @@ class ContactResult:
     pressure: Array
     traction: Array
     slip: Array
+    sliding: Array
+    slip_range: Array
     status: NDArray[np.str_]
+    worn: Array
     dissipation: float
 
     @property
@@ -98,6 +104,24 @@ class ContactResult:
         return int((self.status == status).sum())
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ObstacleResult:
+    """A moving rigid obstacle at the end of a step.
+
+    Attributes
+    ----------
+    displacement : (d,) of the point about which it rotates, length
+    rotation : radians, counterclockwise
+    force : (d,) on it, given or needed to drive it
+    moment : the same about that point, counterclockwise
+    """
+
+    displacement: Array
+    rotation: float
+    force: Array
+    moment: float
+
+
 @dataclass(frozen=True, kw_only=True)
 class PairEvent:
     """Pairs of one contact that change their state at one load of an exact path.
@@ -117,6 +141,52 @@ class PairEvent:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class Instant:
+    """The contacts at one load on the way: at every event or increment, at kinks of the load, at times asked for.
+
+    Attributes
+    ----------
+    load_factor : step k goes from k - 1 to k
+    what : "start", "event", "increment", "asked", "segment" (of the step ends), "jump" and "landing" (its two ends),
+        "change" (of the law of contact, before the loads of the step)
+    contacts : in the order of the model; gaps are NaN where the bodies were not looked at and a pair is far from
+        touching, dissipation counts from the beginning of the step
+    work : since the beginning of the step, NaN where the bodies were not looked at
+    displacement : (nodes, d) length, or None
+    """
+
+    load_factor: float
+    what: str
+    contacts: tuple[ContactResult, ...]
+    work: float
+    displacement: Array | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cycle:
+    """One cycle of a step that repeats.
+
+    Attributes
+    ----------
+    number : from 1
+    load_factor : at its end
+    work, dissipation, released : in it
+    sliding : longest distance that a pair slid in it, length
+    change : largest change of a contact force from the beginning to the end of it, of the largest force
+    drift : largest change of a slip from the beginning to the end of it, length
+    """
+
+    number: int
+    load_factor: float
+    work: float
+    dissipation: float
+    released: float
+    sliding: float
+    change: float
+    drift: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class StepResult:
     """The end of a step.
 
@@ -127,13 +197,19 @@ class StepResult:
     increments : solved in this step; 0 on an exact path
     events : of an exact path, in order
     displacement : (nodes, d) length
+    obstacles : moving obstacles by name
     reactions : support to its force on the bodies, (d,)
     strain_energy : of the bodies
     interface_energy : of compliant interfaces
-    work : of loads and moving supports in this step
+    work : of loads, moving supports and interferences in this step
+    released : energy set free at once in this step: in jumps, by changes of the law, by contacts switched off
+    energy_defect : work less what is stored, dissipated and released; rounding on an exact path
     certificate : the worst of every increment, or the end of an exact path
     contacts : in the order of the model
     trace : for every increment the methods tried, in order: iterations, status changes, how each ended
+    instants : on the way, in order; the end of the step is the last
+    cycles : of a step that repeats
+    steadiness : of the cycles: "shakes down", "steady", "ratchets" or "not yet", empty without cycles
     notes : what a reader should know
     """
 
@@ -143,13 +219,19 @@ class StepResult:
     increments: int
     events: tuple[PairEvent, ...]
     displacement: Array
+    obstacles: Mapping[str, ObstacleResult]
     reactions: Mapping[str, Array]
     strain_energy: float
     interface_energy: float
     work: float
+    released: float
+    energy_defect: float
     certificate: Certificate
     contacts: tuple[ContactResult, ...]
     trace: tuple[tuple[Attempt, ...], ...]
+    instants: tuple[Instant, ...]
+    cycles: tuple[Cycle, ...]
+    steadiness: str
     notes: tuple[str, ...]
 
     @property

@@ -12,6 +12,7 @@ from signorini.arrays import Array
 from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface
 from signorini.model.model import Model
+from signorini.model.stage import stages
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,11 +38,13 @@ def data_scale(model: Model, loads: Mapping[str, Array], constraints: Constraint
     ----------
     loads : nodal forces at factor 1 by name, each (dofs,)
     """
-    factors = model.factors()
-    largest = {name: max(abs(step[name]) for step in factors) for name in model.scaled_names}
+    history = list(stages(model))
+    ends = [end for stage in history for end in stage.ends]
+    largest = {name: max(abs(end[name]) for end in ends) for name in model.scaled_names}
     force = sum(largest[name] * float(np.abs(f).sum()) for name, f in loads.items())
     moved = [largest[name] * float(np.abs(u).max()) for name, u in constraints.prescribed.items()]
-    length = max([*moved, float(np.max(-interface.gap, initial=0.0))])
+    overlaps = [overlap for stage in history for overlap in stage.interference.values()]
+    length = max([*moved, *overlaps, float(np.max(-interface.gap, initial=0.0))])
     across = 0.5 * float(model.mesh.points[:, 0].max()) if model.axisymmetric else model.thickness
     stiffness = min(body.material.E for body in model.bodies) * across
     force = max(force, stiffness * length) or stiffness

@@ -17,12 +17,39 @@ from signorini.pairstate import OPEN
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class LoadPoint:
+    """A point of the load history: everything that is imposed. Between two of them all of it changes linearly.
+
+    Attributes
+    ----------
+    factors : load factors by name
+    gap : (n,) initial gaps, with the interferences of the moment
+    given : (2 n,) forces of pairs whose contact is switched off, on their way to zero; 0 elsewhere
+    """
+
+    factors: Mapping[str, float]
+    gap: Array
+    given: Array
+
+    def towards(self, end: LoadPoint, t: float) -> LoadPoint:
+        """The point at the part t of the way to another."""
+        if t == 1.0:
+            return end
+        factors = {name: (1.0 - t) * self.factors.get(name, 0.0) + t * value for name, value in end.factors.items()}
+        return LoadPoint(
+            factors=MappingProxyType(factors),
+            gap=(1.0 - t) * self.gap + t * end.gap,
+            given=(1.0 - t) * self.given + t * end.given,
+        )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class State:
     """Displacements, forces and what friction remembers.
 
     Attributes
     ----------
-    factors : load factors by name
+    point : of the load history
     displacement : (dofs,) length
     external : (dofs,) loads, reactions of supports and forces inside rigid boundaries
     forces : (2 n,) of the pairs on the nonmortar body: normal (pressing > 0), then tangential
@@ -31,11 +58,12 @@ class State:
     increment : (n,) slip increment of the last increment
     slip : (n,) accumulated while closed
     status : (n,) codes of :mod:`signorini.pairstate`
-    work : of loads and moving supports since the beginning, trapezoidal in time
+    work : of loads, moving supports and interferences since the beginning
     dissipation : (n,) frictional dissipation since the beginning
+    released : energy set free at once since the beginning: in jumps, by changes of the law, by contacts switched off
     """
 
-    factors: Mapping[str, float]
+    point: LoadPoint
     displacement: Array
     external: Array
     forces: Array
@@ -46,13 +74,14 @@ class State:
     status: IntArray
     work: float
     dissipation: Array
+    released: float
 
 
 def initial_state(factors: Mapping[str, float], dofs: int, gap: Array) -> State:
     """Nothing has moved; overlaps have not pressed yet."""
     n = len(gap)
     return State(
-        factors=MappingProxyType(dict(factors)),
+        point=LoadPoint(factors=MappingProxyType(dict(factors)), gap=gap, given=np.zeros(2 * n)),
         displacement=np.zeros(dofs),
         external=np.zeros(dofs),
         forces=np.zeros(2 * n),
@@ -63,6 +92,7 @@ def initial_state(factors: Mapping[str, float], dofs: int, gap: Array) -> State:
         status=np.zeros(n, np.int64),
         work=0.0,
         dissipation=np.zeros(n),
+        released=0.0,
     )
 
 
@@ -72,7 +102,7 @@ def next_state(
     constraints: Constraints,
     interface: Interface,
     *,
-    factors: Mapping[str, float],
+    point: LoadPoint,
     loads: Array,
     displacement: Array,
     forces: Array,
@@ -84,10 +114,15 @@ def next_state(
     Parameters
     ----------
     state : before
+    point : of the load history, at the end of the increment
     K : (dofs, dofs) stiffness, supports not applied
     loads, displacement : (dofs,)
     forces, moved : (2 n,) forces of the pairs; gaps and slip increments
     status : (n,)
+
+    Notes
+    -----
+    Work is trapezoidal in time, that of interferences included; dissipation is that of the forces at the end.
     """
     n = len(interface)
     inner = K @ displacement - interface.B.T @ forces
@@ -97,8 +132,10 @@ def next_state(
     external = np.where(own, loads, inner)
     increment = moved[n:]
     work = 0.5 * (state.external + external) @ (displacement - state.displacement)
+    work -= 0.5 * (state.forces + forces)[:n] @ (point.gap - state.point.gap)
+    taken = 0.5 * (state.point.given + point.given) @ (interface.B @ (displacement - state.displacement))
     return State(
-        factors=factors,
+        point=point,
         displacement=displacement,
         external=external,
         forces=forces,
@@ -108,5 +145,6 @@ def next_state(
         slip=state.slip + np.where(status == OPEN, 0.0, increment),
         status=status,
         work=state.work + float(work),
-        dissipation=state.dissipation + np.maximum(-forces[n:] * increment, 0.0),
+        dissipation=state.dissipation + np.where(status == OPEN, 0.0, np.maximum(-forces[n:] * increment, 0.0)),
+        released=state.released - float(taken),
     )

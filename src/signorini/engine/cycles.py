@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What cycle after cycle does: energy, slip, and whether it settles (shakes down, repeats, ratchets)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from signorini.engine.leg import Leg
+from signorini.solution.results import Cycle
+from signorini.solution.scale import Scale
+
+SAME = 1e-8
+"""Forces of the largest, and slips of the size of the data, that count as equal."""
+
+
+def make_cycles(leg: Leg, ends: Sequence[float]) -> tuple[Cycle, ...]:
+    """The cycles of a step.
+
+    Parameters
+    ----------
+    leg : all of the step
+    ends : load factors at which cycles end
+    """
+    found: list[Cycle] = []
+    begin, last = leg.before, leg.before.slip
+    sliding = np.zeros_like(last)
+    for snapshot in leg.snapshots:
+        state = snapshot.state
+        sliding, last = sliding + np.abs(state.slip - last), state.slip
+        if snapshot.load_factor != ends[len(found)]:
+            continue
+        size = float(np.abs(state.forces).max(initial=0.0)) or 1.0
+        found.append(
+            Cycle(
+                number=len(found) + 1,
+                load_factor=snapshot.load_factor,
+                work=state.work - begin.work,
+                dissipation=float((state.dissipation - begin.dissipation).sum()),
+                released=state.released - begin.released,
+                sliding=float(sliding.max(initial=0.0)),
+                change=float(np.abs(state.forces - begin.forces).max(initial=0.0)) / size,
+                drift=float(np.abs(state.slip - begin.slip).max(initial=0.0)),
+            )
+        )
+        begin, sliding = state, np.zeros_like(last)
+    return tuple(found)
+
+
+def judge(cycles: Sequence[Cycle], scale: Scale) -> tuple[str, str]:
+    """One of "shakes down", "steady", "ratchets" and "not yet", and the same in a sentence."""
+    still = _since(cycles, [cycle.sliding <= SAME * scale.length for cycle in cycles])
+    if still is not None:
+        return "shakes down", f"shakes down: no pair slips from cycle {still} on"
+    repeats = [cycle.change <= SAME for cycle in cycles]
+    closed = _since(
+        cycles, [same and cycle.drift <= SAME * scale.length for same, cycle in zip(repeats, cycles, strict=True)]
+    )
+    last = cycles[-1]
+    if closed is not None:
+        words = f"steady from cycle {closed} on: it ends as it begins, and dissipates {last.dissipation:.6g}"
+        return "steady", words
+    drifts = _since(cycles, repeats)
+    if drifts is not None:
+        return "ratchets", f"ratchets from cycle {drifts} on: forces repeat, slip grows by {last.drift:.6g} a cycle"
+    words = f"not steady after {len(cycles)} cycles: the last changes forces by {last.change:.2g} of the largest"
+    return "not yet", words
+
+
+def _since(cycles: Sequence[Cycle], holds: Sequence[bool]) -> int | None:
+    """The first cycle from which on something holds up to the end."""
+    if not holds[-1]:
+        return None
+    broken = [cycle.number for cycle, held in zip(cycles, holds, strict=True) if not held]
+    return (broken[-1] if broken else 0) + 1

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What happens at once at the beginning of a step: contacts switched on and off, friction that is lowered."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from signorini.arrays import BoolArray
+from signorini.engine.exact import stored_energy
+from signorini.engine.increments import advance
+from signorini.engine.prepare import Prepared
+from signorini.friction.law import OPEN
+from signorini.solution.certificate import Certificate
+from signorini.solution.state import State
+from signorini.trace import Attempt
+
+_MORE = 1e-9  # of the friction bound: what counts as beyond it
+
+
+def switched(prepared: Prepared, state: State, absent: BoolArray) -> State:
+    """The state with the contacts of a step switched on and off.
+
+    A pair that is switched off keeps its forces as given ones, which the step takes to zero. One that is switched on
+    has no slip behind it; what overlaps there counts as touching, and the step presses it out.
+
+    Parameters
+    ----------
+    prepared : under the law of the step
+    state : at the end of the step before
+    absent : (n,) pairs that were switched off in it
+    """
+    off, on = prepared.absent & ~absent, absent & ~prepared.absent
+    if not off.any() and not on.any():
+        return state
+    given = np.where(np.tile(off, 2), state.forces, 0.0)
+    overlap = np.where(on, np.maximum(-state.gap, 0.0), 0.0)
+    # compliant interfaces let their energy go with the law
+    soft = stored_energy(replace(prepared, absent=absent), state) - stored_energy(prepared, state)
+    return replace(
+        state,
+        point=replace(state.point, gap=state.point.gap + overlap, given=given),
+        gap=state.gap + overlap,
+        slip=np.where(on, 0.0, state.slip),
+        status=np.where(off | on, OPEN, state.status),
+        released=state.released + soft,
+    )
+
+
+def relaxed(prepared: Prepared, state: State, where: str) -> tuple[State, Certificate, tuple[Attempt, ...]] | None:
+    """The state after pairs whose friction was lowered below what they carry have slipped, at the same loads.
+
+    That is no gradual motion: the energy set free beyond what friction takes, by the mean of its forces before and
+    after, is counted as released. None where nothing slips.
+    """
+    n, mu = len(prepared.interface), prepared.interface.friction
+    normal, tangential = state.forces[:n], np.abs(state.forces[n:])
+    bound = np.full(n, np.inf)
+    np.multiply(mu, normal, out=bound, where=np.isfinite(mu))
+    size = float(np.abs(state.forces).max(initial=0.0))
+    if not (~prepared.absent & (tangential > (1.0 + _MORE) * bound + 1e-12 * size)).any():
+        return None
+    after, certificate, result = advance(prepared, state, state.point, f"{where}, friction lowered")
+    return set_free(prepared, state, after), certificate, result.trace
+
+
+def set_free(prepared: Prepared, before: State, after: State) -> State:
+    """The state after something that happened at once at constant loads, with its energy.
+
+    Friction takes the mean of its forces before and after times the slip; what else the bodies lose is set free.
+    """
+    n = len(prepared.interface)
+    increment = np.where(prepared.absent, 0.0, after.slip - before.slip)
+    taken = np.maximum(-0.5 * (before.forces + after.forces)[n:] * increment, 0.0)
+    loss = stored_energy(prepared, before) - stored_energy(prepared, after)
+    work = 0.5 * (before.external + after.external) @ (after.displacement - before.displacement)
+    return replace(
+        after,
+        dissipation=before.dissipation + taken,
+        work=before.work + float(work),
+        released=before.released + loss + float(work) - float(taken.sum()),
+    )

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The contact law of a step: friction as it is now, contacts that are switched off, gaps with their interferences."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+from typing import Any
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray
+from signorini.engine.prepare import Prepared, contact_law, refuse_free_motions
+from signorini.errors import InputError
+from signorini.interface.interface import Interface
+from signorini.model.stage import Stage
+
+
+def staged(prepared: Prepared, stage: Stage) -> Prepared:
+    """The prepared model under the law of a step; nothing sparse is factorised again.
+
+    Parameters
+    ----------
+    prepared : with every contact switched on and the friction that the contacts themselves have
+
+    Raises
+    ------
+    InputError
+        If the contacts that are left do not hold a body: it is named, with its motion.
+    """
+    labels = [contact.label for contact in prepared.model.contacts]
+    mu = prepared.interface.friction.copy()
+    for name, value in stage.friction.items():
+        mu[prepared.interface.contact == labels.index(name)] = value
+    absent = absent_pairs(prepared, stage.inactive)
+    interface = replace(prepared.interface, friction=mu)
+    if not absent.any():
+        if not stage.friction:
+            return prepared
+        law = replace(prepared.law, friction=mu[prepared.condensed.active])
+        return replace(prepared, interface=interface, law=law)
+    left = _select(interface, ~absent)
+    try:
+        refuse_free_motions(prepared.space, prepared.constraints, left, prepared.parts, prepared.motions)
+        condensed = prepared.condensed.among(~absent)
+    except InputError as error:
+        words = f"without {', '.join(sorted(stage.inactive))}, {error.message}"
+        raise InputError(words, where=("step", stage.number - 1, "inactive")) from error
+    seen = interface.B @ prepared.motions @ prepared.floating
+    law = contact_law(interface, condensed, seen, prepared.scale)
+    return replace(prepared, interface=interface, condensed=condensed, law=law, absent=absent)
+
+
+def absent_pairs(prepared: Prepared, inactive: frozenset[str]) -> BoolArray:
+    """(n,) Pairs of contacts that are switched off."""
+    off = [i for i, contact in enumerate(prepared.model.contacts) if contact.label in inactive]
+    return np.asarray(np.isin(prepared.interface.contact, off), dtype=np.bool_)
+
+
+def nominal_gap(prepared: Prepared, stage: Stage) -> Array:
+    """(n,) Initial gaps under the interferences at the end of a step."""
+    gap = prepared.interface.gap.copy()
+    for i, contact in enumerate(prepared.model.contacts):
+        if contact.label in stage.interference:
+            gap[prepared.interface.contact == i] += contact.interference - stage.interference[contact.label]
+    return gap
+
+
+def _select(interface: Interface, kept: BoolArray) -> Interface:
+    """Some of the pairs."""
+    parts: dict[str, Any] = {
+        field.name: value[kept]
+        for field in fields(interface)
+        if isinstance(value := getattr(interface, field.name), np.ndarray) and len(value) == len(kept)
+    }
+    return replace(interface, B=interface.B[np.tile(kept, 2)], **parts)

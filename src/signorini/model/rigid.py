@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rigid obstacles that move: driven, or free under a force and a moment."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from signorini.checks import components, number, text, vector
+from signorini.errors import InputError
+from signorini.model.obstacle import Circle, Obstacle, Plane
+
+
+@dataclass(frozen=True)
+class Rigid:
+    """A rigid obstacle with a motion of its own: a translation and a small rotation about a point.
+
+    What is prescribed, and force and moment, are multiplied by the factor that steps give its name.
+
+    Parameters
+    ----------
+    name : what contacts, steps and results call it
+    shape : its surface
+    u : displacement of the point, one entry per direction, length: a number prescribes it, None leaves it free
+    rotation : radians, counterclockwise; None leaves it free
+    force : on it in every free direction, None or 0 elsewhere
+    moment : on it about the point, counterclockwise, where the rotation is free
+    point : about which it rotates, length; by default a circle's centre, a plane's point, the middle of a profile
+
+    Raises
+    ------
+    InputError
+        If a force or moment acts on what is prescribed.
+
+    Examples
+    --------
+    >>> punch = Rigid("punch", Circle((0, 3), 2), u=(0, None), force=(None, -10))
+    >>> punch.about, punch.acts
+    ((0.0, 3.0), True)
+    """
+
+    name: str
+    shape: Obstacle
+    u: tuple[float | None, ...] = (0.0, 0.0)
+    rotation: float | Literal["free"] | None = 0.0
+    force: tuple[float | None, ...] | None = None
+    moment: float = 0.0
+    point: tuple[float, ...] | None = None
+
+    def __post_init__(self) -> None:
+        text(self.name, ("name",))
+        if not isinstance(self.shape, Obstacle):
+            raise InputError(f"is {self.shape!r}; expected a Plane, Circle or Profile", where=("shape",))
+        d = self.shape.dimension
+        object.__setattr__(self, "u", components(self.u, ("u",), dimension=d))
+        if self.rotation is not None:
+            turn = None if self.rotation == "free" else number(self.rotation, ("rotation",))
+            object.__setattr__(self, "rotation", turn)
+        if self.force is not None:
+            object.__setattr__(self, "force", components(self.force, ("force",), dimension=d))
+        object.__setattr__(self, "moment", number(self.moment, ("moment",)))
+        if self.point is not None:
+            object.__setattr__(self, "point", vector(self.point, ("point",), dimension=d))
+        if any(part and held is not None for part, held in zip(self.force or (), self.u, strict=False)):
+            raise InputError(
+                f"is {self.force} where u is {self.u}: a force acts in a prescribed direction; expected None there, or "
+                'None (in a deck "free") in u',
+                where=("force",),
+            )
+        if self.moment and self.rotation is not None:
+            raise InputError(
+                'acts on a prescribed rotation; expected rotation None (in a deck "free")', where=("moment",)
+            )
+
+    @property
+    def label(self) -> str:
+        """The name in results and steps."""
+        return self.name
+
+    @property
+    def about(self) -> tuple[float, ...]:
+        """The point about which it rotates."""
+        if self.point is not None:
+            return self.point
+        if isinstance(self.shape, Circle):
+            return self.shape.centre
+        if isinstance(self.shape, Plane):
+            return self.shape.point
+        return tuple(float(x) for x in np.mean(self.shape.points, axis=0))
+
+    @property
+    def turn(self) -> float | None:
+        """The prescribed rotation, radians, None where it is free."""
+        return None if self.rotation is None else float(self.rotation)
+
+    @property
+    def acts(self) -> bool:
+        """Whether it is moved or loaded, so that steps can scale it."""
+        return any(part for part in (*self.u, self.turn, *(self.force or ()), self.moment))
