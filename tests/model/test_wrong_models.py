@@ -10,9 +10,10 @@ from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve
 from signorini.errors import InputError, SolveFailed
 from signorini.fem.generators import quarter_disk, rectangle
-from signorini.model.body import Body, Elastic
+from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
+from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh, join
 from signorini.model.model import Model
 from signorini.model.obstacle import Plane
@@ -76,11 +77,11 @@ IN_THE_MODEL = [
     (lambda: Support("", u=(0, 0)), "on: is ''; expected a name (text)"),
     (
         lambda: Load("top"),
-        "has none of them; expected exactly one of force, traction, pressure, body_force",
+        "has none of them; expected exactly one of force, nodal_forces, traction, pressure, body_force",
     ),
     (
         lambda: Load("top", force=(0, 1), pressure=1.0),
-        "has force and pressure; expected exactly one of force, traction, pressure, body_force",
+        "has force and pressure; expected exactly one of force, nodal_forces, traction, pressure, body_force",
     ),
     (
         lambda: Load("top", pressure=1.0, spread="displacement"),

@@ -33,7 +33,7 @@ class Model:
     ----------
     mesh : the mesh; its names are what the rest speaks of
     kind : "plane strain", "plane stress" or "axisymmetric": coordinates are then the radius and the height, forces and
-        areas are for the whole circumference; a mesh in space is "3d". None (default) is "plane strain" or "3d"
+        areas are for the whole circumference; a mesh in space is "3d". Empty (default) is "plane strain" or "3d"
     thickness : of plane models, length; forces and areas are for this thickness
     bodies : every cell of the mesh belongs to exactly one
     supports, loads, contacts : see :class:`Support`, :class:`Load`, :class:`Contact`
@@ -48,7 +48,7 @@ class Model:
 
     Examples
     --------
-    >>> from signorini.model.body import Elastic
+    >>> from signorini.model.material import Elastic
     >>> mesh = Mesh(points=[[0, 0], [1, 0], [1, 1], [0, 1]], cells={"quad": [[0, 1, 2, 3]]}, bodies={"block": [0]},
     ...             boundaries={"bottom": [[0, 1]], "top": [[2, 3]]})
     >>> block = Body("block", Elastic(E=1.0, nu=0.3))
@@ -59,7 +59,7 @@ class Model:
 
     mesh: Mesh
     _: KW_ONLY
-    kind: Kind | None = None
+    kind: Kind | Literal[""] = ""
     thickness: float = 1.0
     bodies: Sequence[Body] = ()
     supports: Sequence[Support] = ()
@@ -73,7 +73,7 @@ class Model:
     def __post_init__(self) -> None:
         if not isinstance(self.mesh, Mesh):
             raise InputError(f"is {type(self.mesh).__name__}; expected a Mesh", where=("mesh",))
-        if self.kind is None:
+        if not self.kind:
             object.__setattr__(self, "kind", "plane strain" if self.dimension == 2 else "3d")
         choice(self.kind, KINDS, ("kind",), "kind")
         if (self.kind == "3d") != (self.dimension == 3):
@@ -151,10 +151,17 @@ class Model:
         if load.kind == "body_force":
             if load.on not in {body.name for body in self.bodies}:
                 raise InputError(one_of(str(load.on), [body.name for body in self.bodies], "body"), where=where)
-        elif load.kind == "force" and load.spread == "traction":
+        elif load.kind in ("force", "nodal_forces") and load.spread == "traction":
             self._check_place(load.on, where, nodes=True)
         else:
             self._check_place(load.on, where, nodes=False)
+        if load.nodal_forces is not None:
+            expected = (1 if not isinstance(load.on, str) else len(self.mesh.nodes_of(load.on)), self.dimension)
+            if load.nodal_forces.shape != expected:
+                raise InputError(
+                    f"has shape {load.nodal_forces.shape}; expected {expected}, one force for each of the nodes",
+                    where=("load", i, "nodal_forces"),
+                )
         for kind in ("force", "traction", "body_force"):
             self._check_dimension(getattr(load, kind), ("load", i, kind))
 
