@@ -237,6 +237,12 @@ def _rule(element: skfem.Element, degree: int) -> tuple[Array, Array]:
     return points, np.outer(share, part).ravel()
 
 
+def shape_functions(family: str, at: Array) -> tuple[Array, Array]:
+    """Shape functions (n, k) of a family and their gradients (n, k, d) at reference coordinates (d, n)."""
+    element = _ELEMENTS[family].kind()
+    return _shape(element, at, _meshio_order(family, element))
+
+
 def _monomials(at: Array, what: _Element) -> Array:
     return np.stack([np.prod([x**i for x, i in zip(at, powers, strict=True)], axis=0) for powers in what.monomials], 1)
 
