@@ -177,7 +177,8 @@ def _way(part: Part, along: Array, turn: Array) -> str:
     rate = float(np.linalg.norm(turn))
     axis: Array = turn / rate
     centre = part.centre + part.size * np.cross(axis, along) / rate
-    words = f"rotate about the axis through {_spell(centre, part.size)} along {_spell(axis)}"
+    upward = axis * np.sign(axis[np.argmax(np.abs(axis))])
+    words = f"rotate about the axis through {_spell(centre, part.size)} along {_spell(upward)}"
     return words if abs(along @ axis) < 1e-6 * rate else f"{words} while it moves along it"
 
 
