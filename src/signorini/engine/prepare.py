@@ -21,7 +21,7 @@ from signorini.fem.stiffness import stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.friction.problem import CoulombProblem
 from signorini.interface.candidates import candidates
-from signorini.interface.interface import Interface, make_interface
+from signorini.interface.interface import Interface, friction_of, make_interface
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.model.model import Model
 from signorini.solution.scale import Scale, data_scale
@@ -115,7 +115,8 @@ class Prepared(Examined):
                 contacts[i] = replace(contacts[i], interference=interference[contact.label])
                 gap[self.interface.contact == i] += contact.interference - contacts[i].interference
         factor = {name: number(value, ("loads", name)) for name, value in (loads or {}).items()}
-        mu = np.array([contact.coefficient for contact in contacts], float)[self.interface.contact]
+        model = replace(self.model, contacts=contacts)
+        mu = friction_of(self.space, model, self.interface.node, self.interface.contact)
         interface = replace(self.interface, gap=gap, friction=mu)
         constraints = replace(
             self.constraints,
@@ -123,7 +124,6 @@ class Prepared(Examined):
         )
         forces = {name: factor.get(name, 1.0) * f for name, f in self.loads.items()}
         refuse_free_motions(self.space, constraints, interface, self.parts, self.motions)
-        model = replace(self.model, contacts=contacts)
         scale = data_scale(model, forces, constraints, interface)
         return replace(
             self,

@@ -9,6 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
+from signorini.errors import InputError
 from signorini.fem.obstacles import carried
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
@@ -88,11 +89,33 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
         tangents=tangents,
         node=joined("nodes").astype(int),
         contact=index,
-        friction=data("coefficient"),
+        friction=friction_of(space, model, joined("nodes").astype(int), index),
         normal_compliance=data("normal_compliance"),
         tangential_compliance=data("tangential_compliance"),
         sides=tuple(part.sides for part in parts),
     )
+
+
+def friction_of(space: Space, model: Model, node: IntArray, contact: IntArray) -> Array:
+    """Coulomb's coefficient of every pair, (n,).
+
+    Parameters
+    ----------
+    node, contact : (n,) nonmortar nodes of the pairs, and the contacts that they belong to
+
+    Raises
+    ------
+    InputError
+        If a function that gives the friction gives something else, with the contact's index.
+    """
+    friction = np.zeros(len(node))
+    for i, data in enumerate(model.contacts):
+        own = contact == i
+        try:
+            friction[own] = data.coefficients(space.mesh.points[node[own]])
+        except InputError as error:
+            raise error.inside("contact", i) from error
+    return friction
 
 
 def _along(space: Space, relative: sp.csr_array, axes: Array) -> sp.csr_array:

@@ -4,9 +4,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
+from signorini.arrays import Array
 from signorini.checks import choice, number, text
 from signorini.errors import InputError
 from signorini.model.obstacle import Obstacle
@@ -26,7 +30,8 @@ class Contact:
     nonmortar : boundary whose nodes carry the pairs, the pressures and the results
     mortar : boundary of the other body; a rigid :class:`Plane`, :class:`Circle` or :class:`Profile` at rest; or the
         name of a :class:`Rigid` obstacle of the model
-    friction : Coulomb's coefficient, >= 0, or "stick": never slips (it may still open)
+    friction : Coulomb's coefficient, >= 0; "stick": never slips (it may still open); or a function of the points (k, d)
+        that gives the coefficients (k,), such as :class:`Along`
     gap : "geometry"; "zero"; or one initial gap for every pair, length (negative: overlap)
     interference : overlap that is added to it, length, positive presses the bodies together
     normal_compliance, tangential_compliance : of the interface, length per pressure; 0 (default) is the exact law,
@@ -50,7 +55,7 @@ class Contact:
 
     nonmortar: str
     mortar: str | Obstacle
-    friction: float | Literal["stick"] = 0.0
+    friction: float | Literal["stick"] | Callable[[Array], Array] = 0.0
     gap: float | Literal["geometry", "zero"] = "geometry"
     interference: float = 0.0
     normal_compliance: float = 0.0
@@ -65,7 +70,7 @@ class Contact:
         text(self.nonmortar, ("nonmortar",))
         if not isinstance(self.mortar, Obstacle):
             text(self.mortar, ("mortar",))
-        if self.friction != "stick":
+        if self.friction != "stick" and not callable(self.friction):
             if isinstance(self.friction, str):
                 raise InputError(f"is '{self.friction}'; expected a number >= 0 or 'stick'", where=("friction",))
             object.__setattr__(self, "friction", number(self.friction, ("friction",), least=0.0))
@@ -109,5 +114,26 @@ class Contact:
 
     @property
     def coefficient(self) -> float:
-        """Coulomb's coefficient as a number; infinite where the contact sticks."""
+        """Coulomb's coefficient as one number; infinite where the contact sticks, NaN where it varies."""
+        if callable(self.friction):
+            return math.nan
         return math.inf if self.friction == "stick" else float(self.friction)
+
+    def coefficients(self, points: Array) -> Array:
+        """Coulomb's coefficient at points (k, d), (k,); infinite where they stick.
+
+        Raises
+        ------
+        InputError
+            If a function gives anything but one number >= 0 for every point.
+        """
+        if not callable(self.friction):
+            return np.full(len(points), self.coefficient)
+        found = np.asarray(self.friction(points), float)
+        if found.shape != (len(points),) or not (found >= 0.0).all():
+            raise InputError(
+                f"gives an array of shape {found.shape}, smallest {found.min(initial=np.inf):g}; expected one number "
+                f">= 0 for each of {len(points)} points",
+                where=("friction",),
+            )
+        return found
