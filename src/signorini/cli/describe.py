@@ -75,7 +75,7 @@ def _contacts(examined: Examined) -> Rows:
         gap = examined.interface.gap[examined.interface.contact == i]
         pairing = examined.interface.sides[i]
         sides = f"{pairing.nonmortar} on {pairing.mortar}"
-        friction = _friction(examined.interface.friction[examined.interface.contact == i])
+        friction = "tied" if contact.tied else _friction(examined.interface.friction[examined.interface.contact == i])
         initial = f"initial gap {gap.min():.5g} to {gap.max():.5g}"
         rows.append((contact.label, sides, pairing.coupling, friction, f"{len(gap)} pairs", initial))
     return rows

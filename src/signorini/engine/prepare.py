@@ -13,6 +13,7 @@ from signorini.arrays import Array, BoolArray, frozen
 from signorini.checks import number
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
+from signorini.condense.ties import Ties
 from signorini.errors import InputError, one_of
 from signorini.fem.loads import nodal_loads
 from signorini.fem.rigid import Part, describe_motion, free_motions, make_parts, rigid_motions
@@ -76,7 +77,7 @@ class Prepared(Examined):
     @property
     def limited(self) -> bool:
         """Whether pairs that seemed too far apart were left out."""
-        return not (self.condensed.active | self.condensed.held).all()
+        return not (self.condensed.active | self.condensed.settled).all()
 
     def widened(self) -> Prepared:
         """The same with every pair in the law, factorised anew."""
@@ -109,6 +110,9 @@ class Prepared(Examined):
         _refuse_unknown(loads, self.model.scaled_names, "load or moving support", "loads")
         gap = self.interface.gap.copy()
         for i, contact in enumerate(contacts):
+            for key, given in (("friction", friction), ("interference", interference)):
+                if contact.tied and given is not None and contact.label in given:
+                    raise InputError("is tied for good; only contacts can change", where=(key, contact.label))
             if friction is not None and contact.label in friction:
                 contacts[i] = replace(contacts[i], friction=friction[contact.label])
             if interference is not None and contact.label in interference:
@@ -164,7 +168,7 @@ def examine(model: Model) -> Examined:
         loads=loads,
         parts=parts,
         motions=motions,
-        floating=free_motions(motions, constraints, sp.csr_array((0, space.number_of_dofs))),
+        floating=free_motions(motions, constraints, interface.B[np.tile(interface.tied, 2)]),
         scale=data_scale(model, loads, constraints, interface),
     )
 
@@ -211,6 +215,7 @@ def _condensed(examined: Examined, K: sp.csr_array, near: BoolArray, backend: st
             where=("contact",),
         ) from error
     seen = interface.B @ examined.motions @ examined.floating
+    examined = replace(examined, constraints=_with_ties(examined, condensed.ties))
     return Prepared(
         **{field.name: getattr(examined, field.name) for field in fields(Examined)},
         K=K,
@@ -220,6 +225,13 @@ def _condensed(examined: Examined, K: sp.csr_array, near: BoolArray, backend: st
         backend=backend,
         absent=np.zeros(len(interface), bool),
     )
+
+
+def _with_ties(examined: Examined, ties: Ties) -> Constraints:
+    """What moving supports prescribe, and with it what ties make of it at once: pairs that are tied do not part."""
+    constraints, B, T = examined.constraints, examined.interface.B[ties.rows], examined.constraints.transform
+    prescribed = {name: u + T @ ties.closing(B @ u) for name, u in constraints.prescribed.items()}
+    return replace(constraints, prescribed=prescribed)
 
 
 def contact_law(interface: Interface, condensed: Condensed, floating: Array, scale: Scale) -> CoulombProblem:

@@ -17,7 +17,7 @@ _STRAIGHT = 1e-9  # a turn below this is rounding
 
 def initial_gaps(geometry: Array, contact: Contact) -> Array:
     """What a contact makes of the gaps that the geometry has, (n,) length, negative: overlap."""
-    if contact.gap == "zero":
+    if contact.gap == "zero" or contact.tied:
         gap = np.zeros(len(geometry))
     elif contact.gap == "geometry":
         gap = geometry if contact.adjust is None else np.where(geometry <= contact.adjust, 0.0, geometry)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
 from signorini.fem.obstacles import carried
 from signorini.fem.space import Space
@@ -36,6 +36,7 @@ class Interface:
     contact : (n,) index of the contact that a pair belongs to
     friction : (n,) Coulomb's coefficient, infinite where it sticks
     normal_compliance, tangential_compliance : (n,) length per pressure
+    tied : (n,) whether the pair neither slips nor opens
     sides : how every contact was paired
     """
 
@@ -49,6 +50,7 @@ class Interface:
     friction: Array
     normal_compliance: Array
     tangential_compliance: Array
+    tied: BoolArray
     sides: tuple[Sides, ...]
 
     def __len__(self) -> int:
@@ -92,6 +94,7 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
         friction=friction_of(space, model, joined("nodes").astype(int), index),
         normal_compliance=data("normal_compliance"),
         tangential_compliance=data("tangential_compliance"),
+        tied=data("tied").astype(bool),
         sides=tuple(part.sides for part in parts),
     )
 
