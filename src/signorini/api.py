@@ -13,11 +13,13 @@ from signorini.engine.prepare import Prepared
 from signorini.engine.prepare import prepare as prepare_model
 from signorini.engine.solve import solve as solve_history
 from signorini.engine.solve import solve_prepared
-from signorini.errors import SolveFailed
+from signorini.errors import InputError, SolveFailed
 from signorini.model.model import Model
+from signorini.output.checkpoint import read_checkpoint, write_checkpoint
 from signorini.output.table import history_table
 from signorini.output.vtu import write_vtu
 from signorini.plot.contact import plot_contact
+from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.history import History
 
 if TYPE_CHECKING:
@@ -38,19 +40,41 @@ class Solution(History):
         """Write the last state as a VTU file with displacement, stress and von Mises stress."""
         write_vtu(self, Path(path))
 
+    def save_state(self, path: str | Path) -> None:
+        """Write the end of the last finished step, from which :func:`solve` can go on: a NumPy archive, ``*.npz``.
+
+        Raises
+        ------
+        InputError
+            If no step was finished.
+        """
+        if self.end is None:
+            raise InputError("no step was finished; there is no state to save")
+        write_checkpoint(self.end, Path(path))
+
     def plot(self) -> Figure:
         """Draw pressure and friction of every contact at the end of the last step."""
         return plot_contact(self)
 
 
+Start = Checkpoint | History | str | Path
+
+
 def solve(
-    model: Model, *, backend: str = "auto", raise_on_failure: bool = True, clock: Clock | None = None
+    model: Model,
+    *,
+    start: Start | None = None,
+    backend: str = "auto",
+    raise_on_failure: bool = True,
+    clock: Clock | None = None,
 ) -> Solution:
     """Solve every step of a model and certify every increment.
 
     Parameters
     ----------
     model : the problem
+    start : a solution, or the file of its :meth:`Solution.save_state`, from whose end this history goes on; load
+        factors, slips and interferences are those reached there. Mesh, contacts and names of loads must be the same
     backend : of the sparse factorisation, "auto" or a name
     raise_on_failure : otherwise a solution whose ``status`` says why is returned, with the steps finished before
     clock : counts the seconds and tells progress
@@ -72,7 +96,18 @@ def solve(
     >>> sg.solve(model).contact("bottom").pressure.round(12)
     array([3., 3., 3.])
     """
-    return _answered(lambda: solve_history(model, backend=backend, raise_on_failure=raise_on_failure, clock=clock))
+    begin = _checkpoint(start)
+    return _answered(
+        lambda: solve_history(model, start=begin, backend=backend, raise_on_failure=raise_on_failure, clock=clock)
+    )
+
+
+def _checkpoint(start: Start | None) -> Checkpoint | None:
+    if isinstance(start, History):
+        if start.end is None:
+            raise InputError("has finished no step; expected one to go on from", where=("start",))
+        return start.end
+    return read_checkpoint(Path(start)) if isinstance(start, str | Path) else start
 
 
 class PreparedModel:

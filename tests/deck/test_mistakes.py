@@ -133,7 +133,8 @@ MISTAKES = {
     "two loads in one": (
         "force = [0.0, -78.0]",
         "force = [0.0, -78.0]\npressure = 3.0",
-        ":22: load[0]: has force and pressure; expected exactly one of force, traction, pressure, body_force",
+        ":22: load[0]: has force and pressure; expected exactly one of force, nodal_forces, traction, pressure, "
+        "body_force",
     ),
     "no node there": (
         'on = "cut"',
@@ -188,7 +189,7 @@ def test_the_deck_without_mistakes_is_right(tmp_path: Path) -> None:
     [
         ("deck.toml", None, "file not found"),
         ("deck.toml", b"\xff\xfe", "is not a text file (UTF-8); expected a deck, a TOML file"),
-        ("deck.inp", b"*NODE", "Abaqus and CalculiX decks are not supported yet; expected a TOML deck"),
+        ("deck.inp", b"*NODE", "has no *ELEMENT; expected one"),
         ("deck.toml", b"", "there is no mesh; expected [mesh] with a generator or a file"),
     ],
 )

@@ -76,11 +76,11 @@ IN_THE_MODEL = [
     (lambda: Support("", u=(0, 0)), "on: is ''; expected a name (text)"),
     (
         lambda: Load("top"),
-        "has none of them; expected exactly one of force, traction, pressure, body_force",
+        "has none of them; expected exactly one of force, nodal_forces, traction, pressure, body_force",
     ),
     (
         lambda: Load("top", force=(0, 1), pressure=1.0),
-        "has force and pressure; expected exactly one of force, traction, pressure, body_force",
+        "has force and pressure; expected exactly one of force, nodal_forces, traction, pressure, body_force",
     ),
     (
         lambda: Load("top", pressure=1.0, spread="displacement"),

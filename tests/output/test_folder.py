@@ -35,6 +35,7 @@ force = [0.0, -3.0]
 nonmortar = "bottom"
 plane = { point = [0.0, 0.0], normal = [0.0, 1.0] }
 """
+FILES = {"summary.json", "contact.csv", "history.csv", "state.npz", "solution.vtu"}
 PULL = "\n[[step]]\nscale = { top = 1.0 }\n\n[[step]]\nname = 'pull'\nscale = { top = -1.0 }\n"
 
 
@@ -73,7 +74,7 @@ def test_what_was_finished_before_the_failure_stays(deck: Path, tmp_path: Path) 
     deck.write_text(BLOCK + PULL)
     out = tmp_path / "out"
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 3
-    assert names(out) == {"summary.json", "contact.csv", "solution.vtu"}
+    assert names(out) == FILES
     summary = json.loads((out / "summary.json").read_text())
     assert len(summary["steps"]) == 1
     assert "'pull'" in summary["message"]
@@ -89,7 +90,15 @@ def test_a_shorter_series_replaces_a_longer_one_and_nothing_else(deck: Path, tmp
     (out / "solution_best.vtu").write_text("mine too")
     deck.write_text(BLOCK)
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0
-    assert names(out) == {"summary.json", "contact.csv", "solution.vtu", "notes.txt", "solution_best.vtu"}
+    assert names(out) == {
+        "summary.json",
+        "contact.csv",
+        "history.csv",
+        "state.npz",
+        "solution.vtu",
+        "notes.txt",
+        "solution_best.vtu",
+    }
 
 
 @pytest.mark.parametrize("interruption", [KeyboardInterrupt, OSError("no space left on device")])

@@ -5,13 +5,13 @@ from __future__ import annotations
 
 import argparse
 
-from signorini.deck import load
+from signorini.cli.reading import load_deck
 from signorini.errors import InputError
 
 
 def check(options: argparse.Namespace) -> int:
     """Print a deck as it was understood, and notes on it; 0 unless something is wrong."""
-    deck = load(options.deck)
+    deck = load_deck(options)
     from signorini.cli.describe import describe  # everything heavy: a wrong deck never waits for it
     from signorini.engine.prepare import examine
 

@@ -105,6 +105,12 @@ def _steps(model: Model) -> Rows:
 
 
 def _stepping(step: Step) -> str:
+    count = step.segments * step.repeat
+    cycles = f", {step.repeat} cycles" if step.repeat > 1 else ""
+    return _way(step) + (f" in each of {count} segments{cycles}" if count > 1 else "")
+
+
+def _way(step: Step) -> str:
     if step.increments is not None:
         return "1 increment" if step.increments == 1 else f"{step.increments} increments"
     if step.path is None:
@@ -114,7 +120,8 @@ def _stepping(step: Step) -> str:
 
 def _notes(deck: Deck) -> list[str]:
     model = deck.model
-    notes = [f"material '{name}' is not used" for name in deck.unused_materials]
+    notes = [*deck.notes]
+    notes += [f"material '{name}' is not used" for name in deck.unused_materials]
     if not model.contacts:
         notes.append("there is no contact: this is a linear problem")
     if not model.scaled_names and all(contact.interference == 0.0 for contact in model.contacts):

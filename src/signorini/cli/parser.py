@@ -20,16 +20,24 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"signorini {__version__}")
     shared = argparse.ArgumentParser(add_help=False)
     shared.add_argument("--debug", action="store_true", help="show where an internal error happened")
+    keywords = argparse.ArgumentParser(add_help=False)
+    keywords.add_argument("--small-strain", action="store_true", help="solve with small displacements despite NLGEOM")
+    keywords.add_argument(
+        "--increments", choices=("own", "deck"), default="own", help="of an .inp deck (own: as few as are exact)"
+    )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
-    run = commands.add_parser("run", parents=[shared], help="solve a deck and write the results")
-    run.add_argument("deck", metavar="DECK", help="a TOML file")
+    run = commands.add_parser("run", parents=[shared, keywords], help="solve a deck and write the results")
+    run.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
     run.add_argument("-o", dest="folder", metavar="DIR", help="result folder (default: out/ and the deck's name)")
+    run.add_argument(
+        "--from", dest="start", metavar="DIR", help="go on from the end of a run: its result folder, or its state.npz"
+    )
     run.add_argument("--quiet", action="store_true", help="print nothing but errors")
     run.add_argument("--backend", default="auto", metavar="NAME", help="of the factorisation (default: auto)")
 
-    check = commands.add_parser("check", parents=[shared], help="say what would be solved, and what looks wrong")
-    check.add_argument("deck", metavar="DECK", help="a TOML file")
+    check = commands.add_parser("check", parents=[shared, keywords], help="say what would be solved, what looks wrong")
+    check.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
 
     plot = commands.add_parser("plot", parents=[shared], help="draw the results in a folder")
     plot.add_argument("folder", metavar="DIR", help="a folder that 'run' has written")

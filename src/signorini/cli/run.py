@@ -7,14 +7,14 @@ import argparse
 import time
 
 from signorini.cli.progress import progress
-from signorini.deck import load
+from signorini.cli.reading import load_deck
 
 
 def run(options: argparse.Namespace) -> int:
     """Read, solve, write, print; 0 if solved and certified, 3 if not."""
     started = time.perf_counter()
     with progress(quiet=options.quiet) as clock, clock.phase("read"):
-        deck = load(options.deck)
+        deck = load_deck(options)
     from signorini.cli.solving import solve_deck  # everything heavy: a wrong deck never waits for it
 
     return solve_deck(deck, options, clock, started)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+import textwrap
 import time
 from pathlib import Path
 
@@ -14,8 +15,10 @@ from signorini.clock import Clock
 from signorini.deck import Deck
 from signorini.errors import InputError, SolveFailed, one_of
 from signorini.linalg.registry import BACKENDS
+from signorini.output.checkpoint import read_checkpoint
 from signorini.output.folder import open_folder, publish
 from signorini.output.table import history_table
+from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.history import History
 
 
@@ -24,7 +27,7 @@ def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: f
 
     Parameters
     ----------
-    options : ``folder``, ``backend`` and ``quiet`` of the command line
+    options : ``folder``, ``start``, ``backend`` and ``quiet`` of the command line
     clock : with the seconds of reading
     started : ``time.perf_counter()`` at the beginning of the command
 
@@ -34,13 +37,16 @@ def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: f
     """
     if options.backend not in ("auto", *BACKENDS):
         raise InputError(one_of(options.backend, ["auto", *BACKENDS], "back end"), where=("--backend",))
+    start = _start(options.start)
     folder = open_folder(Path(options.folder) if options.folder else Path("out", deck.path.stem))
     with progress(quiet=options.quiet, seconds=clock.seconds) as clock:
-        history = _solve(deck, options.backend, clock)
+        history = _solve(deck, options.backend, clock, start)
         files = publish(history, folder, clock, started=started)
     if not options.quiet:
         if history.solved or history.steps:
             print(history_table(history), end="\n\n")
+        for note in deck.notes:
+            print(textwrap.fill(f"deck: {note}", 112), end="\n\n")
         print(f"{', '.join(file.name for file in files)} in {folder} ({time.perf_counter() - started:.2f} s)")
     if history.solved:
         return 0
@@ -49,10 +55,18 @@ def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: f
     return 3
 
 
-def _solve(deck: Deck, backend: str, clock: Clock) -> History:
+def _start(name: str | None) -> Checkpoint | None:
+    """The state to go on from; read before the folder that holds it may be written to."""
+    if name is None:
+        return None
+    path = Path(name)
+    return read_checkpoint(path / "state.npz" if path.is_dir() else path)
+
+
+def _solve(deck: Deck, backend: str, clock: Clock, start: Checkpoint | None) -> History:
     """The history, finished or not; what is wrong with the deck is told with its line."""
     try:
-        return solve(deck.model, backend=backend, raise_on_failure=False, clock=clock)
+        return solve(deck.model, start=start, backend=backend, raise_on_failure=False, clock=clock)
     except InputError as error:
         raise deck.locate(error) from error
     except SolveFailed as failure:  # before there was any history

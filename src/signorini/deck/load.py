@@ -10,6 +10,9 @@ from types import MappingProxyType
 from typing import Any
 
 from signorini.deck.error import DeckError
+from signorini.deck.inp.block import Block
+from signorini.deck.inp.build import Built, located
+from signorini.deck.inp.load import load_inp
 from signorini.deck.meshes import deck_mesh
 from signorini.deck.parts import (
     deck_bodies,
@@ -53,38 +56,58 @@ class Deck:
     path : of the file, as the user spelled it
     lines : line of every key and table, from 1, by its path
     unused_materials : names of materials that no body is made of
+    notes : how the model differs from what the deck asks for, and what was left out
     """
 
     model: Model
     path: Path
     lines: Mapping[Where, int]
     unused_materials: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
     def locate(self, error: InputError) -> DeckError:
         """The same error with the line of the deck that caused it; for what is found after reading."""
         return _located(error, self.path, self.lines)
 
 
-def read(path: str | Path) -> Model:
+@dataclass(frozen=True, kw_only=True, eq=False)
+class KeywordDeck(Deck):
+    """A deck of keywords.
+
+    Attributes
+    ----------
+    places : keyword of every part of the model, by its path
+    """
+
+    places: Mapping[Where, Block]
+
+    def locate(self, error: InputError) -> DeckError:
+        """The same error with file and line of the keyword that caused it."""
+        return located(error, self.places, self.path)
+
+
+def read(path: str | Path, *, small_strain: bool = False, deck_increments: bool = False) -> Model:
     """Read a deck.
 
     Parameters
     ----------
-    path : a TOML file; mesh files that it names are relative to it
+    path : a TOML file, or an Abaqus or CalculiX deck (``.inp``); files that it names are relative to it
+    small_strain : solve an ``.inp`` deck that asks for large displacements (NLGEOM) with small ones
+    deck_increments : follow the increments of an ``.inp`` deck instead of the package's rule
 
     Raises
     ------
     DeckError
         An :class:`InputError` that begins with file and line: ``deck.toml:12: contact[0].friction: ...``.
     """
-    return load(path).model
+    return load(path, small_strain=small_strain, deck_increments=deck_increments).model
 
 
-def load(path: str | Path) -> Deck:
+def load(path: str | Path, *, small_strain: bool = False, deck_increments: bool = False) -> Deck:
     """Read a deck and keep its lines, so that errors found later can be told with theirs; see :func:`read`."""
     path = Path(path)
     if path.suffix.lower() == ".inp":
-        raise DeckError("Abaqus and CalculiX decks are not supported yet; expected a TOML deck", path=path)
+        return _keywords(load_inp(path, small_strain=small_strain, deck_increments=deck_increments), path)
     data, lines = parse(path)
     try:
         return _deck(data, path, lines)
@@ -92,6 +115,17 @@ def load(path: str | Path) -> Deck:
         raise
     except InputError as error:
         raise _located(error, path, lines) from error
+
+
+def _keywords(built: Built, path: Path) -> KeywordDeck:
+    return KeywordDeck(
+        model=built.model,
+        path=path,
+        lines={},
+        unused_materials=built.unused_materials,
+        notes=built.notes,
+        places=built.places,
+    )
 
 
 def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int]) -> Deck:

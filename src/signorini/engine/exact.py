@@ -54,7 +54,7 @@ def follow_exactly(
     before = state.tangential.copy()
     before[prepared.condensed.active] = _tangential(prepared, segment.pieces[last].h)
     # the law of the rate, on the last piece, is the law of the increment from where the piece began
-    certificate = certified(prepared, applied(prepared, end)[0], after, before, where)
+    certificate = certified(prepared, after, before, where)
     attempt = Attempt(method="exact path", iterations=segment.pivots, end=segment.message)
     return Leg(
         path="exact",

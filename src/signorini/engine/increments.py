@@ -87,7 +87,7 @@ def advance(prepared: Prepared, state: State, point: LoadPoint, where: str) -> t
             moved=moved,
             status=status,
         )
-    return new, certified(prepared, loads, new, state.tangential, where), result
+    return new, certified(prepared, new, state.tangential, where), result
 
 
 def applied(prepared: Prepared, point: LoadPoint) -> tuple[Array, Array]:
@@ -107,19 +107,29 @@ def free_load(prepared: Prepared, point: LoadPoint) -> Array:
     return force
 
 
-def certified(prepared: Prepared, loads: Array, state: State, before: Array, where: str) -> Certificate:
-    """Measure a state; what does not pass is no solution."""
-    certificate = certify(
+def measured(prepared: Prepared, state: State, before: Array | None = None) -> Certificate:
+    """The certificate of a state, whatever it says.
+
+    Parameters
+    ----------
+    before : (n,) tangential displacement at which its slip increment began; its own where not given
+    """
+    return certify(
         prepared.K,
-        loads,
+        applied(prepared, state.point)[0],
         prepared.motions,
         prepared.constraints,
         prepared.interface,
         state,
-        before,
+        state.tangential if before is None else before,
         prepared.scale,
         prepared.absent,
     )
+
+
+def certified(prepared: Prepared, state: State, before: Array, where: str) -> Certificate:
+    """Measure a state; what does not pass is no solution."""
+    certificate = measured(prepared, state, before)
     if certificate.passed:
         return certificate
     raise SolveFailed(

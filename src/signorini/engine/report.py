@@ -43,6 +43,8 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
     instants = tuple(_instants(prepared, leg, cycle_ends))
     cycles = make_cycles(leg, cycle_ends) if len(cycle_ends) > 1 else ()
     steadiness, words = judge(cycles, prepared.scale) if cycles else ("", "")
+    stored, dissipated = stored_energy(prepared, state), (state.dissipation - before.dissipation).sum()
+    spent = stored - stored_energy(prepared, before) + float(dissipated) + state.released - before.released
     strain = 0.5 * float(state.displacement @ (prepared.K @ state.displacement))
     return StepResult(
         name=stage.title,
@@ -54,9 +56,10 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
         obstacles=_obstacles(prepared, state),
         reactions=_reactions(prepared, state),
         strain_energy=strain,
-        interface_energy=stored_energy(prepared, state) - strain,
+        interface_energy=stored - strain,
         work=state.work - before.work,
         released=state.released - before.released,
+        energy_defect=state.work - before.work - spent,
         certificate=Certificate(
             **{key: max(getattr(c, key) for c in certificates) for key in Certificate.__dataclass_fields__}
         ),

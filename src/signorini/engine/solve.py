@@ -11,15 +11,18 @@ import numpy as np
 from signorini.clock import Clock
 from signorini.engine.enter import relaxed, switched
 from signorini.engine.exact import follow_exactly
-from signorini.engine.increments import follow_increments
+from signorini.engine.increments import follow_increments, measured
 from signorini.engine.leg import Leg, Snapshot, joined
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
 from signorini.engine.span import Span, spans
-from signorini.engine.staged import nominal_gap, staged
-from signorini.errors import SolveFailed
+from signorini.engine.staged import absent_pairs, nominal_gap, staged
+from signorini.errors import InputError, SolveFailed
+from signorini.friction.law import OPEN
 from signorini.model.model import Model
 from signorini.model.stage import Stage, stages
+from signorini.solution.certificate import TOLERANCE
+from signorini.solution.checkpoint import Checkpoint, digest
 from signorini.solution.history import History
 from signorini.solution.results import StepResult
 from signorini.solution.state import LoadPoint, State, initial_state
@@ -30,42 +33,87 @@ RELAXED = "friction is lower than what pairs carried: they slip at once, before 
 _BEHIND_A_JUMP = 10  # increments
 
 
-def solve(model: Model, *, backend: str = "auto", raise_on_failure: bool = True, clock: Clock | None = None) -> History:
+def solve(
+    model: Model,
+    *,
+    start: Checkpoint | None = None,
+    backend: str = "auto",
+    raise_on_failure: bool = True,
+    clock: Clock | None = None,
+) -> History:
     """Solve every step of a model and certify every increment; see :func:`signorini.api.solve`, which dresses it."""
-    return solve_prepared(prepare(model, backend=backend, clock=clock), raise_on_failure=raise_on_failure)
+    prepared = prepare(model, backend=backend, clock=clock)
+    return solve_prepared(prepared, start=start, raise_on_failure=raise_on_failure)
 
 
-def solve_prepared(prepared: Prepared, *, raise_on_failure: bool = True) -> History:
+def solve_prepared(prepared: Prepared, *, start: Checkpoint | None = None, raise_on_failure: bool = True) -> History:
     """Solve the load history of a prepared model; see :func:`solve`.
 
     Pairs that were left out as too far apart are looked at after every increment; where one has met the other side, or
     nothing was found without them, everything is solved again with all pairs.
     """
-    history = _follow(prepared)
+    begin = _begin(prepared, start)
+    history = _follow(prepared, begin)
     if prepared.limited and not history.solved:
-        history = _follow(prepared.widened())
+        history = _follow(prepared.widened(), begin)
     if raise_on_failure and not history.solved:
         raise SolveFailed(history.message, status=history.status, solution=history)
     return history
 
 
-def _follow(prepared: Prepared) -> History:
+def _begin(prepared: Prepared, start: Checkpoint | None) -> Checkpoint:
+    """Where the history begins: nothing has moved, or a state that fits and is in equilibrium here too."""
+    model, interface = prepared.model, prepared.interface
+    zero = dict.fromkeys(model.scaled_names, 0.0)
+    if start is None:
+        return checkpoint(
+            prepared, initial_state(zero, prepared.space.number_of_dofs, interface.gap), inactive=frozenset()
+        )
+    start.check(model, interface)
+    point = start.state.point
+    factors = zero | {name: factor for name, factor in point.factors.items() if name in zero}
+    state = replace(start.state, point=replace(point, factors=factors))
+    absent = absent_pairs(prepared, start.inactive)
+    found = measured(replace(prepared, absent=absent), state)
+    if not found.equilibrium <= TOLERANCE:
+        raise InputError(
+            f"is not in equilibrium in this model (residual {found.equilibrium:.1e} of the loads); expected the same "
+            "bodies, materials, supports and loads",
+            where=("start",),
+        )
+    return replace(start, state=state)
+
+
+def _follow(prepared: Prepared, begin: Checkpoint) -> History:
     """Step after step, up to the end or to what stops it."""
-    model = prepared.model
-    schedule = list(stages(model))
-    state = initial_state(dict.fromkeys(model.scaled_names, 0.0), prepared.space.number_of_dofs, prepared.interface.gap)
+    state = begin.state
+    if (state.status[~(prepared.condensed.active | prepared.condensed.held)] != OPEN).any():
+        prepared = prepared.widened()
+    schedule = list(stages(prepared.model, factors=state.point.factors, inactive=begin.inactive))
     steps: list[StepResult] = []
-    now = prepared
+    now, inactive = replace(prepared, absent=absent_pairs(prepared, begin.inactive)), begin.inactive
     prepared.clock.expect(sum((stage.step.increments or 1) * len(stage.ends) for stage in schedule))
     try:
         for stage in schedule:
             absent, now = now.absent, staged(prepared, stage)
             leg, cycle_ends = _step(now, stage, switched(now, state, absent))
             steps.append(step_result(now, stage, leg, cycle_ends))
-            state = leg.after
+            state, inactive = leg.after, stage.inactive
     except SolveFailed as failure:
-        return _history(prepared, failure.status, str(failure), steps)
-    return _history(prepared, "solved", "", steps)
+        return _history(prepared, failure.status, str(failure), steps, checkpoint(prepared, state, inactive=inactive))
+    return _history(prepared, "solved", "", steps, checkpoint(prepared, state, inactive=inactive))
+
+
+def checkpoint(prepared: Prepared, state: State, *, inactive: frozenset[str]) -> Checkpoint:
+    """A state as something to go on from."""
+    return Checkpoint(
+        state=state,
+        inactive=inactive,
+        contacts=tuple(contact.label for contact in prepared.model.contacts),
+        contact=prepared.interface.contact,
+        node=prepared.interface.node,
+        mesh=digest(prepared.model.mesh),
+    )
 
 
 def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[float]]:
@@ -121,7 +169,7 @@ def _increments(stage: Stage, span: Span) -> int:
     return max(1, ceil((stage.step.increments or 1) * share - 1e-9))
 
 
-def _history(prepared: Prepared, status: str, message: str, steps: list[StepResult]) -> History:
+def _history(prepared: Prepared, status: str, message: str, steps: list[StepResult], end: Checkpoint) -> History:
     return History(
         model=prepared.model,
         status=status,
@@ -130,4 +178,5 @@ def _history(prepared: Prepared, status: str, message: str, steps: list[StepResu
         backend=prepared.condensed.factorisation.name,
         timings=dict(prepared.clock.seconds),
         pairs=len(prepared.interface),
+        end=end if steps else None,
     )

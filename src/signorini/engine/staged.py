@@ -31,8 +31,7 @@ def staged(prepared: Prepared, stage: Stage) -> Prepared:
     mu = prepared.interface.friction.copy()
     for name, value in stage.friction.items():
         mu[prepared.interface.contact == labels.index(name)] = value
-    off = [labels.index(name) for name in stage.inactive]
-    absent = np.isin(prepared.interface.contact, off)
+    absent = absent_pairs(prepared, stage.inactive)
     interface = replace(prepared.interface, friction=mu)
     if not absent.any():
         if not stage.friction:
@@ -51,11 +50,15 @@ def staged(prepared: Prepared, stage: Stage) -> Prepared:
     return replace(prepared, interface=interface, condensed=condensed, law=law, absent=absent)
 
 
-def nominal_gap(prepared: Prepared, stage: Stage | None) -> Array:
+def absent_pairs(prepared: Prepared, inactive: frozenset[str]) -> BoolArray:
+    """(n,) Pairs of contacts that are switched off."""
+    off = [i for i, contact in enumerate(prepared.model.contacts) if contact.label in inactive]
+    return np.asarray(np.isin(prepared.interface.contact, off), dtype=np.bool_)
+
+
+def nominal_gap(prepared: Prepared, stage: Stage) -> Array:
     """(n,) Initial gaps under the interferences at the end of a step."""
     gap = prepared.interface.gap.copy()
-    if stage is None:
-        return gap
     for i, contact in enumerate(prepared.model.contacts):
         if contact.label in stage.interference:
             gap[prepared.interface.contact == i] += contact.interference - stage.interference[contact.label]

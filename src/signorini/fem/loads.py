@@ -27,6 +27,9 @@ def _forces(space: Space, model: Model, load: Load, where: Where) -> Array:
     if load.body_force is not None:
         return _body_forces(space, model, str(load.on), np.array(load.body_force))
     forces = np.zeros((len(space.mesh.points), space.dimension))
+    if load.nodal_forces is not None:
+        forces[nodes_at(space, load.on, (*where, "on"))] = load.nodal_forces
+        return forces.ravel()
     if load.force is not None and load.on not in space.mesh.boundaries:
         nodes = nodes_at(space, load.on, (*where, "on"))
         forces[nodes] = _given(load.force) / len(nodes)

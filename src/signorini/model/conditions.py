@@ -4,14 +4,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
+import numpy as np
+
+from signorini.arrays import Array, frozen
 from signorini.checks import choice, components, number, text, vector
 from signorini.errors import InputError
 
 Place = str | tuple[float, ...]
 
-_LOAD_KINDS = ("force", "traction", "pressure", "body_force")
+_LOAD_KINDS = ("force", "nodal_forces", "traction", "pressure", "body_force")
 
 
 @dataclass(frozen=True)
@@ -51,14 +54,16 @@ class Support:
         return any(part for part in self.u)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Load:
-    """A load on a boundary, a node set, a point or a body; exactly one of the four kinds.
+    """A load on a boundary, a node set, a point or a body; exactly one of the kinds.
 
     Parameters
     ----------
-    on : name of a boundary (force, traction, pressure), node set or coordinates (force), or body (body_force)
+    on : name of a boundary (force, traction, pressure), node set or coordinates (force, nodal_forces), or body
+        (body_force)
     force : total force; a component None (in a deck "free") is left alone
+    nodal_forces : (k, d) force of each of the k nodes of a node set, in ascending order
     traction : force per area
     pressure : force per area, positive when it pushes on the body
     body_force : force per volume
@@ -74,6 +79,7 @@ class Load:
 
     on: Place
     force: tuple[float | None, ...] | None = None
+    nodal_forces: Array | None = None
     traction: tuple[float, ...] | None = None
     pressure: float | None = None
     body_force: tuple[float, ...] | None = None
@@ -91,6 +97,8 @@ class Load:
             raise InputError("is 'displacement'; that goes with a total force only", where=("spread",))
         if self.force is not None:
             object.__setattr__(self, "force", components(self.force, ("force",)))
+        if self.nodal_forces is not None:
+            object.__setattr__(self, "nodal_forces", _rows(self.nodal_forces))
         if self.traction is not None:
             object.__setattr__(self, "traction", vector(self.traction, ("traction",)))
         if self.body_force is not None:
@@ -100,7 +108,7 @@ class Load:
 
     @property
     def kind(self) -> str:
-        """Which of force, traction, pressure, body_force it is."""
+        """Which of force, nodal_forces, traction, pressure, body_force it is."""
         return next(kind for kind in _LOAD_KINDS if getattr(self, kind) is not None)
 
     @property
@@ -112,6 +120,16 @@ class Load:
 def spell_place(on: Place) -> str:
     """A place as a name: itself, or ``point(0, 8)``."""
     return on if isinstance(on, str) else f"point({', '.join(f'{x:g}' for x in on)})"
+
+
+def _rows(values: Any) -> Array:
+    try:
+        rows = frozen(values)
+    except (TypeError, ValueError):
+        rows = frozen([])
+    if rows.ndim != 2 or not len(rows) or not np.isfinite(rows).all():
+        raise InputError("is no table of finite numbers; expected one force a node", where=("nodal_forces",))
+    return rows
 
 
 def _place(on: Place) -> Place:

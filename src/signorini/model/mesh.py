@@ -23,7 +23,7 @@ CORNERS = {"triangle": 3, "quad": 4, "triangle6": 3, "quad8": 4, "quad9": 4}
 class Mesh:
     """Points, cells and the names of bodies, boundaries and node sets.
 
-    Nodes are counted from 0 here and from 1 in files that people read (``number = index + 1``, as Gmsh counts). Cells
+    Nodes are counted from 0 here and have numbers in files that people read, from 1 as Gmsh counts by default. Cells
     are counted through all families, in the order of ``cells``.
 
     Parameters
@@ -35,6 +35,8 @@ class Mesh:
     boundaries : name to (m, 2) or (m, 3) array, the two end nodes of each facet, and the middle one of a quadratic cell
         (it may be left out)
     nodes : name to node indices, for supports and forces on points
+    node_numbers : (n,) what results call the nodes, each once; 1, 2, ... if not given
+    cell_numbers : (m,) what they call the cells
 
     Raises
     ------
@@ -54,6 +56,8 @@ class Mesh:
     bodies: Mapping[str, IntArray]
     boundaries: Mapping[str, IntArray] = field(default_factory=dict)
     nodes: Mapping[str, IntArray] = field(default_factory=dict)
+    node_numbers: IntArray | None = None
+    cell_numbers: IntArray | None = None
 
     def __post_init__(self) -> None:
         points = frozen(self.points)
@@ -77,6 +81,9 @@ class Mesh:
         ):
             named = {name: self._indices(i, limit, part, name, widths) for name, i in getattr(self, part).items()}
             object.__setattr__(self, part, MappingProxyType(named))
+        for part, count in (("node_numbers", len(points)), ("cell_numbers", self.number_of_cells)):
+            if getattr(self, part) is not None:
+                object.__setattr__(self, part, _numbers(getattr(self, part), count, part))
 
     @staticmethod
     def _indices(values: IntArray, limit: int, part: str, name: str, widths: tuple[int, ...]) -> IntArray:
@@ -96,6 +103,16 @@ class Mesh:
         """Cells of all families together."""
         return sum(len(nodes) for nodes in self.cells.values())
 
+    @property
+    def labels(self) -> IntArray:
+        """What results call the nodes, (n,)."""
+        return np.arange(1, len(self.points) + 1) if self.node_numbers is None else self.node_numbers
+
+    @property
+    def cell_labels(self) -> IntArray:
+        """What results call the cells, (m,)."""
+        return np.arange(1, self.number_of_cells + 1) if self.cell_numbers is None else self.cell_numbers
+
     def nodes_of(self, name: str) -> IntArray:
         """The sorted nodes of a boundary or node set."""
         found = self.boundaries[name] if name in self.boundaries else self.nodes[name]
@@ -107,6 +124,15 @@ class Mesh:
         if self.boundaries:
             parts.append(f"boundaries: {', '.join(self.boundaries)}")
         return f"Mesh({'; '.join(parts)})"
+
+
+def _numbers(values: IntArray, count: int, part: str) -> IntArray:
+    numbers = frozen(values, np.int64)
+    if numbers.shape != (count,):
+        raise InputError(f"has shape {numbers.shape}; expected ({count},)", where=("mesh", part))
+    if len(np.unique(numbers)) < count:
+        raise InputError("has a number twice; expected a number of its own for each", where=("mesh", part))
+    return numbers
 
 
 def join(meshes: Mapping[str, Mesh]) -> Mesh:

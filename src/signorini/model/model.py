@@ -147,10 +147,17 @@ class Model:
         if load.kind == "body_force":
             if load.on not in {body.name for body in self.bodies}:
                 raise InputError(one_of(str(load.on), [body.name for body in self.bodies], "body"), where=where)
-        elif load.kind == "force" and load.spread == "traction":
+        elif load.kind in ("force", "nodal_forces") and load.spread == "traction":
             self._check_place(load.on, where, nodes=True)
         else:
             self._check_place(load.on, where, nodes=False)
+        if load.nodal_forces is not None:
+            expected = (1 if not isinstance(load.on, str) else len(self.mesh.nodes_of(load.on)), self.dimension)
+            if load.nodal_forces.shape != expected:
+                raise InputError(
+                    f"has shape {load.nodal_forces.shape}; expected {expected}, one force for each of the nodes",
+                    where=("load", i, "nodal_forces"),
+                )
         for kind in ("force", "traction", "body_force"):
             self._check_dimension(getattr(load, kind), ("load", i, kind))
 

@@ -13,6 +13,8 @@ from pathlib import Path
 
 from signorini.clock import Clock
 from signorini.errors import InputError
+from signorini.output.checkpoint import write_checkpoint
+from signorini.output.instants import write_history
 from signorini.output.replacing import replacing
 from signorini.output.rows import write_rows
 from signorini.output.series import series
@@ -21,7 +23,7 @@ from signorini.output.vtu import write_step
 from signorini.solution.history import History
 
 _OURS = re.compile(
-    r"(summary\.json|contact\.csv|solution(_\d{4,})?\.vtu|solution\.pvd|(contact|stress|mesh|history)\.png)"
+    r"(summary\.json|contact\.csv|history\.csv|state\.npz|solution(_\d{4,})?\.vtu|solution\.pvd|(contact|stress|mesh|history)\.png)"
 )
 
 
@@ -93,4 +95,9 @@ def _write_fields(history: History, folder: Path) -> list[str]:
         (folder / "solution.pvd").write_text(series(parts) + "\n", encoding="utf-8")
         names += [*parts, "solution.pvd"]
     write_step(history.model, history.last, folder / "solution.vtu")
-    return [*names, "solution.vtu"]
+    write_history(history, folder / "history.csv")
+    names += ["solution.vtu", "history.csv"]
+    if history.end is not None:
+        write_checkpoint(history.end, folder / "state.npz")
+        names.append("state.npz")
+    return names

@@ -7,6 +7,7 @@ import csv
 from collections.abc import Iterator
 from pathlib import Path
 
+from signorini.arrays import IntArray
 from signorini.output.replacing import replacing
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult
@@ -36,16 +37,17 @@ def write_rows(history: History, path: Path) -> None:
         writer.writerow(COLUMNS)
         for number, step in enumerate(history.steps, start=1):
             for contact in step.contacts:
-                writer.writerows(contact_rows(number, contact))
+                writer.writerows(contact_rows(number, contact, history.model.mesh.labels))
 
 
-def contact_rows(step: int, contact: ContactResult) -> Iterator[tuple[str, ...]]:
+def contact_rows(step: int, contact: ContactResult, numbers: IntArray) -> Iterator[tuple[str, ...]]:
     """Rows of one contact in the order of COLUMNS; numbers are written so that they read back exactly.
 
     Parameters
     ----------
     step : number of the step, from 1
     contact : at the end of that step
+    numbers : of the nodes, in the mesh or deck
     """
     for i in range(len(contact.node)):
         if contact.area[i] > 0:
@@ -53,7 +55,7 @@ def contact_rows(step: int, contact: ContactResult) -> Iterator[tuple[str, ...]]
             yield (
                 str(step),
                 contact.name,
-                str(contact.node[i] + 1),
+                str(numbers[contact.node[i]]),
                 *(_number(value) for value in (x, y, 0.0, contact.area[i], contact.gap[i], contact.pressure[i])),
                 *(_number(value) for value in (contact.traction[i], 0.0, contact.slip[i], 0.0)),
                 str(contact.status[i]),

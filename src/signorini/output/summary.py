@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import asdict
 from typing import Any
 
 from signorini._version import __version__
@@ -25,11 +26,6 @@ def summary(history: History, seconds: Mapping[str, float]) -> dict[str, Any]:
     seconds : by phase; phases that did not happen count 0
     """
     model = history.model
-    steps, stored = [], 0.0
-    for step in history.steps:
-        now = step.strain_energy + step.interface_energy
-        steps.append(_step(model, step, now - stored))
-        stored = now
     return {
         "signorini": __version__,
         "title": model.title,
@@ -48,12 +44,12 @@ def summary(history: History, seconds: Mapping[str, float]) -> dict[str, Any]:
         "timings": {phase: float(seconds.get(phase, 0.0)) for phase in PHASES},
         "backend": history.backend,
         "peak_memory_bytes": peak_memory(),
-        "steps": steps,
+        "steps": [_step(model, step) for step in history.steps],
     }
 
 
-def _step(model: Model, step: StepResult, stored: float) -> dict[str, Any]:
-    """One finished step; ``stored`` is the change of the energy in bodies and interfaces."""
+def _step(model: Model, step: StepResult) -> dict[str, Any]:
+    """One finished step."""
     return {
         "name": step.name,
         "load_factor": step.load_factor,
@@ -64,7 +60,7 @@ def _step(model: Model, step: StepResult, stored: float) -> dict[str, Any]:
             {
                 "load_factor": event.load_factor,
                 "contact": event.contact,
-                "nodes": [node + 1 for node in event.nodes],
+                "nodes": [int(model.mesh.labels[node]) for node in event.nodes],
                 "what": event.what,
             }
             for event in step.events
@@ -85,7 +81,10 @@ def _step(model: Model, step: StepResult, stored: float) -> dict[str, Any]:
         "interface_energy": step.interface_energy,
         "work": step.work,
         "dissipation": float(step.dissipation),
-        "energy_defect": float(step.work - stored - step.dissipation),
+        "released": step.released,
+        "energy_defect": step.energy_defect,
+        "cycles": [asdict(cycle) for cycle in step.cycles],
+        "steadiness": step.steadiness,
         "certificate": _certificate(step.certificate),
         "contacts": [_contact(*pair) for pair in zip(model.contacts, step.contacts, strict=True)],
     }
@@ -113,6 +112,8 @@ def _contact(contact: Contact, result: ContactResult) -> dict[str, Any]:
         "stick": result.count(STICK),
         "slip": result.count(SLIP),
         "max_slip": float(abs(result.slip).max()),
+        "max_sliding": float(result.sliding.max()),
+        "max_slip_amplitude": float(0.5 * result.slip_range.max()),
         "dissipation": result.dissipation,
     }
 

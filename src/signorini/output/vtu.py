@@ -33,7 +33,7 @@ def write_step(model: Model, step: StepResult, path: Path) -> None:
     The points of the bodies come one body after the other, in the order of the model, so that stresses of bodies that
     share nodes are not averaged. Point arrays: ``displacement`` (3 components, length), ``stress`` (xx, yy, zz, xy, yz,
     xz, force per area, tension positive; axisymmetric: x is the radius, y the axis, zz the hoop stress),
-    ``von_mises`` and ``node`` (number in the mesh, from 1). Cell array:
+    ``von_mises`` and ``node`` (number in the mesh or deck). Cell array:
     ``body`` (0, 1, ... in the order of the model).
     """
     import meshio
@@ -49,7 +49,7 @@ def write_step(model: Model, step: StepResult, path: Path) -> None:
             "displacement": _three(step.displacement[nodes]),
             "stress": stress,
             "von_mises": np.concatenate([part.von_mises for part in stresses]),
-            "node": nodes + 1,
+            "node": model.mesh.labels[nodes],
         },
         cell_data={"body": body},
     )

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from signorini.errors import InputError, one_of
 from signorini.model.model import Model
+from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.results import ContactResult, StepResult
 
 PHASES = ("read", "assembly", "factorisation", "condensation", "complementarity", "recovery", "output", "total")
@@ -26,6 +27,7 @@ class History:
     backend : of the factorisation
     timings : seconds by phase
     pairs : contact pairs
+    end : the state at the end of the last finished step, from which another history may go on; None before the first
     """
 
     model: Model
@@ -35,6 +37,7 @@ class History:
     backend: str
     timings: Mapping[str, float]
     pairs: int
+    end: Checkpoint | None = None
 
     @property
     def solved(self) -> bool:

@@ -203,6 +203,7 @@ class StepResult:
     interface_energy : of compliant interfaces
     work : of loads, moving supports and interferences in this step
     released : energy set free at once in this step: in jumps, by changes of the law, by contacts switched off
+    energy_defect : work less what is stored, dissipated and released; rounding on an exact path
     certificate : the worst of every increment, or the end of an exact path
     contacts : in the order of the model
     trace : for every increment the methods tried, in order: iterations, status changes, how each ended
@@ -224,6 +225,7 @@ class StepResult:
     interface_energy: float
     work: float
     released: float
+    energy_defect: float
     certificate: Certificate
     contacts: tuple[ContactResult, ...]
     trace: tuple[tuple[Attempt, ...], ...]

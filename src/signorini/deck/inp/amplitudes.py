@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Factors over time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.arrays import Array, frozen
+from signorini.deck.inp.block import Block
+from signorini.deck.inp.flatten import Placed
+from signorini.errors import one_of
+
+_SMALL = 1e-9  # of a factor: how far it may leave a straight line
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Amplitude:
+    """A factor that is linear between its times, constant before and after them.
+
+    Attributes
+    ----------
+    name : as in the deck
+    times, values : (n,)
+    total : times count from the first step, not from each
+    """
+
+    name: str
+    times: Array
+    values: Array
+    total: bool
+
+    def at(self, time: float) -> float:
+        """The factor at a time."""
+        return float(np.interp(time, self.times, self.values))
+
+    def breaks(self, start: float, end: float) -> Array:
+        """Times in between at which the factor turns away from the straight line from start to end."""
+        inside = (self.times > start) & (self.times < end)
+        line = np.interp(self.times, [start, end], [self.at(start), self.at(end)])
+        bent = np.abs(self.values - line) > _SMALL * max(np.abs(self.values).max(), 1e-300)
+        times: Array = self.times[inside] if (bent & inside).any() else np.empty(0)
+        return times
+
+
+def make_amplitudes(placed: list[Placed]) -> Mapping[str, Amplitude]:
+    """Read all ``*AMPLITUDE`` keywords, by name in capitals.
+
+    Raises
+    ------
+    DeckError
+        If times do not ascend, or the factor is not given as a table.
+    """
+    amplitudes = {}
+    for item in placed:
+        block = item.block
+        if block.keyword != "AMPLITUDE":
+            continue
+        block.refuse_unknown(("NAME", "TIME", "DEFINITION", "VALUE", "INPUT"))
+        block.choice("DEFINITION", ("TABULAR",), "TABULAR")
+        block.choice("VALUE", ("RELATIVE", "ABSOLUTE"), "RELATIVE")
+        total = block.choice("TIME", ("STEP TIME", "TOTAL TIME", "TOTALTIME"), "STEP TIME") != "STEP TIME"
+        flat = [row.number(i, "a time or a factor") for row in block.rows() for i in range(len(row.fields))]
+        if not flat or len(flat) % 2:
+            raise block.error(f"has {len(flat)} numbers; expected pairs of a time and a factor")
+        times, values = frozen(flat[::2]), frozen(flat[1::2])
+        if (np.diff(times) < 0).any():
+            raise block.error("its times do not ascend")
+        name = block.value("NAME")
+        amplitudes[name.upper()] = Amplitude(name=name, times=times, values=values, total=total)
+    return amplitudes
+
+
+def find_amplitude(block: Block, amplitudes: Mapping[str, Amplitude]) -> Amplitude | None:
+    """The amplitude that a keyword names, if any."""
+    if "AMPLITUDE" not in block.parameters:
+        return None
+    name = block.value("AMPLITUDE")
+    if name.upper() not in amplitudes:
+        raise block.error(one_of(name, [a.name for a in amplitudes.values()], "amplitude"))
+    return amplitudes[name.upper()]

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One keyword of an Abaqus or CalculiX deck with its parameters and data lines."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from signorini.deck.error import DeckError
+from signorini.errors import one_of
+
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([EeDd][+-]?\d+)?")
+_LARGEST = 1e300  # of a number in a deck; what is larger leaves no room to compute
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Row:
+    """One data line: its fields without blanks around them, and where it stands.
+
+    Attributes
+    ----------
+    fields : without the empty ones at the end
+    path, line : where it stands, the line from 1
+    """
+
+    fields: tuple[str, ...]
+    path: Path
+    line: int
+
+    def error(self, message: str) -> DeckError:
+        """The message with the place of the line."""
+        return DeckError(message, path=self.path, line=self.line)
+
+    def text(self, i: int, what: str) -> str:
+        """Field i, which must be there."""
+        if i >= len(self.fields) or not self.fields[i]:
+            raise self.error(f"has {len(self.fields)} fields; expected {what} in field {i + 1}")
+        return self.fields[i]
+
+    def number(self, i: int, what: str, default: float | None = None) -> float:
+        """Field i as a number; D may stand for E in its exponent.
+
+        Raises
+        ------
+        DeckError
+            If it is none, or missing and there is no default.
+        """
+        if default is not None and (i >= len(self.fields) or not self.fields[i]):
+            return default
+        word = self.text(i, what)
+        value = to_number(word)
+        if value is None:
+            raise self.error(f"has '{word}' in field {i + 1}; expected {what}, a number")
+        return value
+
+    def whole(self, i: int, what: str, default: int | None = None) -> int:
+        """Field i as a whole number."""
+        value = self.number(i, what, default)
+        if value != int(value):
+            raise self.error(f"has '{self.fields[i]}' in field {i + 1}; expected {what}, a whole number")
+        return int(value)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Block:
+    """A keyword line and the data lines that follow it.
+
+    Attributes
+    ----------
+    keyword : in capitals with single blanks, without the asterisk: ``"CONTACT PAIR"``
+    parameters : in capitals to their values as written, empty where there is none
+    path, line : where the keyword stands, the line from 1
+    chunks : the data lines as they stand, comments cut out: file, first line and bytes of each piece
+    """
+
+    keyword: str
+    parameters: Mapping[str, str]
+    path: Path
+    line: int
+    chunks: tuple[tuple[Path, int, bytes], ...]
+
+    def error(self, message: str) -> DeckError:
+        """The message with keyword and place."""
+        return DeckError(f"*{self.keyword}: {message}", path=self.path, line=self.line)
+
+    def rows(self) -> Iterator[Row]:
+        """The data lines that are not blank."""
+        for path, first, data in self.chunks:
+            for offset, words in enumerate(decode(data).split("\n")):
+                if words.strip():
+                    fields = [field.strip() for field in words.split(",")]
+                    while fields and not fields[-1]:
+                        fields.pop()
+                    yield Row(fields=tuple(fields), path=path, line=first + offset)
+
+    @cached_property
+    def has_data(self) -> bool:
+        """Whether any data line is not blank."""
+        return any(not data.isspace() and data for _, _, data in self.chunks)
+
+    def row(self, what: str) -> Row:
+        """The first data line, which must be there."""
+        for row in self.rows():
+            return row
+        raise self.error(f"has no data line; expected {what}")
+
+    def value(self, name: str, what: str = "a name") -> str:
+        """A parameter that must be there, as written."""
+        if not self.parameters.get(name):
+            raise self.error(f"has no {name}; expected {name}= and {what}")
+        return self.parameters[name]
+
+    def get(self, name: str, default: str = "") -> str:
+        """A parameter in capitals with single blanks, or the default."""
+        return " ".join(self.parameters.get(name, default).upper().split())
+
+    def choice(self, name: str, known: Collection[str], default: str) -> str:
+        """A parameter that is one of the known words, in capitals."""
+        found = self.get(name, default)
+        if found not in known:
+            raise self.error(f"{name}: {one_of(found, known, 'value')}")
+        return found
+
+    def refuse_unknown(self, known: Collection[str], ignored: Collection[str] = ()) -> None:
+        """Stop at a parameter whose effect nobody here knows."""
+        for name in self.parameters:
+            if name not in known and name not in ignored:
+                raise self.error(f"parameter {name} is not supported; known: {', '.join(sorted(known)) or 'none'}")
+
+
+def to_number(word: str) -> float | None:
+    """A number as decks spell it, or None.
+
+    >>> to_number("1.5D-3"), to_number("1e5x")
+    (0.0015, None)
+    """
+    if not _NUMBER.fullmatch(word):
+        return None
+    value = float(word.upper().replace("D", "E"))
+    return value if abs(value) <= _LARGEST else None
+
+
+def decode(data: bytes) -> str:
+    """Text of a deck, whatever its encoding: what is not UTF-8 can only be in comments and names."""
+    return data.decode("utf-8", "replace").replace("\r\n", "\n").replace("\r", "\n")

@@ -1,0 +1,256 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A model from the keywords of a deck."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.arrays import IntArray
+from signorini.deck.error import DeckError
+from signorini.deck.inp.amplitudes import make_amplitudes
+from signorini.deck.inp.block import Block
+from signorini.deck.inp.conditions import Conditions, make_conditions
+from signorini.deck.inp.flatten import Placed
+from signorini.deck.inp.grid import Grid, make_grid
+from signorini.deck.inp.interactions import make_interactions
+from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS
+from signorini.deck.inp.loading import Known, follow_steps
+from signorini.deck.inp.materials import Section, make_materials, make_sections
+from signorini.deck.inp.pairs import make_contacts
+from signorini.deck.inp.places import Places
+from signorini.deck.inp.sets import make_sets
+from signorini.deck.inp.steps import DeckStep, split_steps
+from signorini.deck.inp.supported import refuse_unsupported
+from signorini.deck.inp.surfaces import Edges, make_surfaces
+from signorini.errors import InputError, Where
+from signorini.model.body import Body
+from signorini.model.contact import Contact
+from signorini.model.mesh import NODES_PER_CELL, Mesh
+from signorini.model.model import Kind, Model
+from signorini.model.step import Step
+
+_SMALL_SLIDING = "contact is treated as small sliding: pairs are found on the undeformed bodies"
+_OWN_INCREMENTS = (
+    "increments of the deck are not used: {} follow the package's rule (exact path where there is friction, otherwise "
+    "one increment); --increments deck takes them over"
+)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Built:
+    """A model and what a reader should know of how it was made.
+
+    Attributes
+    ----------
+    model : the model
+    places : keyword of every support, load, contact, body and step, by its path in the model
+    notes : what differs from the deck, and what is left out
+    unused_materials : names of materials that no section has
+    """
+
+    model: Model
+    places: dict[Where, Block]
+    notes: tuple[str, ...]
+    unused_materials: tuple[str, ...]
+
+
+def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increments: bool) -> Built:
+    """Build the model.
+
+    Parameters
+    ----------
+    placed : keywords of the deck, flattened
+    path : of the deck, for messages
+    small_strain : solve with small displacements what asks for large ones (NLGEOM)
+    deck_increments : follow the deck's increments
+
+    Raises
+    ------
+    DeckError
+        For anything that is wrong, or that would change the answer and is not supported.
+    """
+    outside, steps = split_steps(placed)
+    ignored = refuse_unsupported(outside, MODEL_WORDS, "outside a step")
+    for step in steps:
+        ignored = refuse_unsupported(step.placed, STEP_WORDS, "inside a step") | ignored
+    for what, there in (("*NODE", "NODE"), ("*ELEMENT", "ELEMENT"), ("*SOLID SECTION", "SOLID SECTION")):
+        if not any(item.block.keyword == there for item in outside):
+            raise DeckError(f"has no {what}; expected one", path=str(path))
+    if not steps:
+        raise DeckError("has no *STEP; expected at least one", path=str(path))
+    _refuse_large(steps, small_strain)
+
+    grid = make_grid(outside)
+    nodes, elements = make_sets(placed, grid)
+    edges = Edges(grid)
+    surfaces = make_surfaces(outside, edges, nodes, elements)
+    materials = make_materials(outside)
+    sections = make_sections(outside, elements, materials, len(grid.elements.labels))
+    contacts = make_contacts(outside, make_interactions(outside), surfaces, nodes)
+    known = Known(
+        nodes=nodes,
+        elements=elements,
+        surfaces=surfaces,
+        edges=edges,
+        sections=tuple(sections),
+        amplitudes=make_amplitudes(outside),
+    )
+    places = Places(edges, surfaces, nodes)
+    conditions = make_conditions(follow_steps(outside, steps, known), places, steps, sections)
+    model_steps = [_step(step, k, conditions, deck_increments) for k, step in enumerate(steps)]
+    where = _where(sections, contacts, conditions, steps)
+    kind = _kind(grid)
+    try:
+        model = Model(
+            _mesh(grid, sections, places),
+            kind=kind,
+            thickness=_thickness(sections, kind),
+            bodies=[_body(section) for section in sections],
+            supports=conditions.supports,
+            loads=conditions.loads,
+            contacts=[contact for contact, _ in contacts],
+            steps=model_steps,
+            title=_title(outside),
+        )
+    except InputError as error:
+        raise located(error, where, path) from error
+    used = {id(section.substance) for section in sections}
+    return Built(
+        model=model,
+        places=where,
+        notes=tuple(_notes(grid, steps, contacts, ignored, small_strain, deck_increments)),
+        unused_materials=tuple(m.block.value("NAME") for m in materials.values() if id(m) not in used),
+    )
+
+
+def located(error: InputError, places: Mapping[Where, Block], path: object) -> DeckError:
+    """The error with the line of the keyword that its place in the model comes from."""
+    if isinstance(error, DeckError):
+        return error
+    for end in range(len(error.where), 0, -1):
+        block = places.get(error.where[:end])
+        if block is not None:
+            return DeckError(f"*{block.keyword}: {error.message}", path=block.path, line=block.line)
+    return DeckError(error.message, path=str(path), where=error.where)
+
+
+def _refuse_large(steps: Sequence[DeckStep], small_strain: bool) -> None:
+    for step in steps:
+        if step.nlgeom and not small_strain:
+            raise step.block.error(
+                "NLGEOM asks for large displacements, which are not supported; --small-strain solves with small ones"
+            )
+
+
+def _kind(grid: Grid) -> Kind:
+    first = grid.groups[0]
+    for group in grid.groups:
+        if group.type.kind != first.type.kind:
+            raise group.block.error(
+                f"{group.block.value('TYPE')} is {group.type.kind}, but {first.block.value('TYPE')} of line "
+                f"{first.block.line} {first.type.kind}; expected one of them for all elements"
+            )
+        if group.type.family not in NODES_PER_CELL:
+            raise group.block.error(f"TYPE={group.block.value('TYPE')} is not supported")
+    return first.type.kind
+
+
+def _thickness(sections: Sequence[Section], kind: str) -> float:
+    for section in sections if kind != "axisymmetric" else ():
+        if section.thickness != sections[0].thickness:
+            raise section.block.error(
+                f"the thickness is {section.thickness:g}, but {sections[0].thickness:g} in line "
+                f"{sections[0].block.line}; expected one thickness for all"
+            )
+    return 1.0 if kind == "axisymmetric" else sections[0].thickness  # CalculiX: the angle that it cuts out
+
+
+def _mesh(grid: Grid, sections: Sequence[Section], places: Places) -> Mesh:
+    """Cells family by family; their numbers and the bodies follow."""
+    cells: dict[str, IntArray] = {}
+    order = []
+    for family in NODES_PER_CELL:
+        groups = [group for group in grid.groups if group.type.family == family]
+        if groups:
+            cells[family] = np.vstack([group.nodes for group in groups])
+            order += [group.index for group in groups]
+    element = np.concatenate(order)
+    cell_of = np.empty(len(element), np.int64)
+    cell_of[element] = np.arange(len(element))
+    return Mesh(
+        points=grid.points[:, :2],
+        cells=cells,
+        bodies={section.name: np.sort(cell_of[section.elements]) for section in sections},
+        boundaries=places.boundaries,
+        nodes=places.nodes,
+        node_numbers=grid.nodes.labels,
+        cell_numbers=grid.elements.labels[element],
+    )
+
+
+def _body(section: Section) -> Body:
+    elastic = section.substance.elastic
+    assert elastic is not None
+    return Body(section.name, elastic)
+
+
+def _step(step: DeckStep, k: int, conditions: Conditions, deck_increments: bool) -> Step:
+    for label, pattern in conditions.factors.items():
+        amplitude = pattern.amplitudes[k]
+        start = step.start if amplitude is not None and amplitude.total else 0.0
+        if amplitude is not None and len(amplitude.breaks(start, start + step.period)):
+            raise pattern.block.error(
+                f"amplitude '{amplitude.name}' of '{label}' turns inside {step.name}, which is not supported; expected "
+                "straight lines from step to step"
+            )
+    return Step(
+        name=step.name,
+        scale=conditions.scale(k),
+        increments=step.increments if deck_increments else None,
+    )
+
+
+def _where(
+    sections: Sequence[Section],
+    contacts: Sequence[tuple[Contact, Block]],
+    conditions: Conditions,
+    steps: Sequence[DeckStep],
+) -> dict[Where, Block]:
+    places: dict[Where, Block] = {("body", i): section.block for i, section in enumerate(sections)}
+    places |= {("contact", i): block for i, (_, block) in enumerate(contacts)}
+    places |= {("support", i): conditions.blocks[s.label] for i, s in enumerate(conditions.supports)}
+    places |= {("load", i): conditions.blocks[load.label] for i, load in enumerate(conditions.loads)}
+    return places | {("step", i): step.block for i, step in enumerate(steps)}
+
+
+def _title(outside: Sequence[Placed]) -> str:
+    for item in outside:
+        if item.block.keyword == "HEADING":
+            return " ".join(", ".join(row.fields) for row in item.block.rows())[:200]
+    return ""
+
+
+def _notes(
+    grid: Grid,
+    steps: Sequence[DeckStep],
+    contacts: Sequence[tuple[Contact, Block]],
+    ignored: dict[str, int],
+    small_strain: bool,
+    deck_increments: bool,
+) -> list[str]:
+    notes = list(dict.fromkeys(group.type.note for group in grid.groups if group.type.note))
+    if contacts:
+        notes.append(_SMALL_SLIDING)
+    if small_strain and any(step.nlgeom for step in steps):
+        notes.append("NLGEOM is ignored: displacements and strains are taken as small")
+    if not deck_increments and any(step.increments > 1 for step in steps):
+        notes.append(_OWN_INCREMENTS.format(", ".join(step.name for step in steps if step.increments > 1)))
+    if grid.nodes.shifted:
+        notes.append("instances share node numbers: those of later instances are raised to be unique")
+    if ignored:
+        words = ", ".join(f"*{keyword} (line {line})" for keyword, line in sorted(ignored.items(), key=lambda i: i[1]))
+        notes.append(f"ignored, without effect on the answer: {words}")
+    return notes

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From what the deck's steps set to the supports, the loads and the factors of a model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.deck.error import DeckError
+from signorini.deck.inp.block import Block
+from signorini.deck.inp.course import Course, Pattern, unique_label
+from signorini.deck.inp.loading import DIMENSION, Courses
+from signorini.deck.inp.materials import Section
+from signorini.deck.inp.places import Places
+from signorini.deck.inp.steps import DeckStep
+from signorini.model.conditions import Load, Support
+
+_MOST = 1000  # loads of one kind: more would be a field, which takes memory for each
+
+
+@dataclass(kw_only=True)
+class Conditions:
+    """Supports and loads with their factors at the end of every step.
+
+    Attributes
+    ----------
+    supports, loads : of the model
+    blocks : the keyword of each support and load, by label
+    factors : label to its pattern, for what moves or loads
+    """
+
+    supports: list[Support] = field(default_factory=list)
+    loads: list[Load] = field(default_factory=list)
+    blocks: dict[str, Block] = field(default_factory=dict)
+    factors: dict[str, Pattern] = field(default_factory=dict)
+
+    def label(self, name: str) -> str:
+        """The name, or with a number behind it if another support or load bears it."""
+        return unique_label(name, self.blocks)
+
+    def add_support(self, pattern: Pattern, **given: Any) -> None:
+        """Add a support under a name of its own."""
+        support = Support(name=self.label(given.pop("name")), **given)
+        self.supports.append(support)
+        self.blocks[support.label] = pattern.block
+        if support.moves:
+            self.factors[support.label] = pattern
+
+    def add_load(self, pattern: Pattern, **given: Any) -> None:
+        """Add a load under a name of its own."""
+        if len(self.loads) >= _MOST:
+            raise pattern.block.error(f"makes more than {_MOST} different loads; expected uniform ones")
+        load = Load(name=self.label(given.pop("name")), **given)
+        self.loads.append(load)
+        self.blocks[load.label] = pattern.block
+        self.factors[load.label] = pattern
+
+    def scale(self, k: int) -> dict[str, float]:
+        """Factors at the end of step k, by label."""
+        return {label: pattern.factors[k] for label, pattern in self.factors.items()}
+
+
+def make_conditions(
+    courses: Courses, places: Places, steps: Sequence[DeckStep], sections: Sequence[Section]
+) -> Conditions:
+    """Turn courses into supports and loads.
+
+    Raises
+    ------
+    DeckError
+        If a step takes a support away or brings a new one.
+    """
+    _refuse_changes(courses.displacement, steps)
+    conditions = Conditions()
+    _supports(courses.displacement, places, conditions)
+    _forces(courses.force, places, conditions)
+    for pattern in courses.pressure.patterns():
+        for value, keys in _by_value(pattern):
+            if value:
+                on = places.at_edges(keys, pattern.label)
+                conditions.add_load(pattern, on=on, pressure=value, name=on)
+    for pattern in courses.body.patterns():
+        for section in np.unique(pattern.slots // DIMENSION):
+            force = np.zeros(DIMENSION)
+            own = pattern.slots // DIMENSION == section
+            force[pattern.slots[own] % DIMENSION] = pattern.values[own]
+            if force.any():
+                conditions.add_load(pattern, on=sections[section].name, body_force=tuple(force), name=pattern.label)
+    return conditions
+
+
+def _refuse_changes(course: Course, steps: Sequence[DeckStep]) -> None:
+    held = course.slots_by_step()
+    for k in range(1, len(steps)):
+        for gone, word in ((held[k - 1] - held[k], "takes a support away"), (held[k] - held[k - 1], "adds a support")):
+            if gone:
+                first = course.block_of(min(gone))
+                block = next((p.block for p in steps[k].placed if p.block.keyword == "BOUNDARY"), first)
+                raise DeckError(
+                    f"*BOUNDARY: {steps[k].name} {word} (that of line {first.line}), which is not supported",
+                    path=block.path,
+                    line=block.line,
+                )
+
+
+def _supports(course: Course, places: Places, conditions: Conditions) -> None:
+    """Supports at rest hold all directions of a place at once; those that move are one a direction."""
+    resting: dict[str, list[Pattern]] = {}
+    for pattern in course.patterns():
+        if not any(pattern.factors):
+            resting.setdefault(pattern.label, []).append(pattern)
+            continue
+        for value, slots in _by_value(pattern):
+            for axis in range(DIMENSION):
+                nodes = slots[slots % DIMENSION == axis] // DIMENSION
+                if len(nodes):
+                    u = tuple(value if i == axis else None for i in range(DIMENSION))
+                    on = places.at_nodes(nodes, pattern.label)
+                    conditions.add_support(pattern, on=on, u=u, name=f"{pattern.label} u{axis + 1}")
+    for label, patterns in resting.items():
+        slots = np.unique(np.concatenate([pattern.slots for pattern in patterns]))
+        first, second = (slots[slots % DIMENSION == axis] // DIMENSION for axis in range(DIMENSION))
+        both = np.intersect1d(first, second)
+        for nodes, u in (
+            (both, (0.0, 0.0)),
+            (np.setdiff1d(first, both), (0.0, None)),
+            (np.setdiff1d(second, both), (None, 0.0)),
+        ):
+            if len(nodes):
+                conditions.add_support(patterns[0], on=places.at_nodes(nodes, label), u=u, name=label)
+
+
+def _forces(course: Course, places: Places, conditions: Conditions) -> None:
+    for pattern in course.patterns():
+        nodes, where = np.unique(pattern.slots // DIMENSION, return_inverse=True)
+        forces: Array = np.zeros((len(nodes), DIMENSION))
+        forces[where, pattern.slots % DIMENSION] = pattern.values
+        if not forces.any():
+            continue
+        on = places.at_nodes(nodes, pattern.label)
+        if (forces == forces[0]).all():
+            total = tuple(float(part) * len(nodes) for part in forces[0])
+            conditions.add_load(pattern, on=on, force=total, name=pattern.label)
+        else:
+            conditions.add_load(pattern, on=on, nodal_forces=forces, name=pattern.label)
+
+
+def _by_value(pattern: Pattern) -> Iterator[tuple[float, IntArray]]:
+    """Values of a pattern and their slots."""
+    values, which = np.unique(pattern.values, return_inverse=True)
+    for i, value in enumerate(values):
+        yield float(value), pattern.slots[which == i]

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How values on nodes, edges or bodies change from step to step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.deck.inp.amplitudes import Amplitude
+from signorini.deck.inp.block import Block
+from signorini.deck.inp.steps import DeckStep
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Pattern:
+    """Slots that change alike: slot i has ``values[i] * factors[k]`` at the end of step k.
+
+    Attributes
+    ----------
+    label : what the deck calls the place
+    block : the keyword that first set a value there
+    slots : (m,)
+    values : (m,) the largest of each slot, with its sign
+    factors : (steps,)
+    amplitudes : (steps,) the amplitude in each step, or None
+    """
+
+    label: str
+    block: Block
+    slots: IntArray
+    values: Array
+    factors: tuple[float, ...]
+    amplitudes: tuple[Amplitude | None, ...]
+
+
+class Course:
+    """Values of slots (a node and a direction, an edge) step by step: they stay until they are changed or removed."""
+
+    def __init__(self) -> None:
+        self._now: dict[int, tuple[float, int, int]] = {}  # slot to magnitude, amplitude, source
+        self._before: set[int] = set()  # slots set in an earlier step, which a new value replaces
+        self._amplitudes: list[Amplitude | None] = [None]
+        self._sources: list[tuple[str, Block]] = []
+        self._first: dict[int, int] = {}  # slot to the source that set it first
+        self._ends: list[dict[int, tuple[float, int]]] = []  # by step: slot to value at the end, amplitude
+
+    def put(
+        self, slots: IntArray, value: float, label: str, block: Block, amplitude: Amplitude | None, *, adds: bool
+    ) -> None:
+        """Give slots a value; what was set in this step is added to it, or replaced by it."""
+        source = self._source(label, block)
+        index = self._amplitude(amplitude)
+        now, before = self._now, self._before
+        for slot in slots.tolist():
+            old = now.get(slot)
+            base = old[0] if adds and old is not None and slot not in before else 0.0
+            now[slot] = (base + value, index, source)
+            before.discard(slot)
+            self._first.setdefault(slot, source)
+
+    def clear(self) -> None:
+        """Remove every value (``OP=NEW``)."""
+        self._now = {}
+
+    def end_step(self, step: DeckStep) -> None:
+        """Note what there is at the end of a step."""
+        ends = {}
+        for slot, (magnitude, index, _) in self._now.items():
+            amplitude = self._amplitudes[index]
+            time = step.end if amplitude is not None and amplitude.total else step.period
+            ends[slot] = (magnitude * (amplitude.at(time) if amplitude else 1.0), index)
+        self._ends.append(ends)
+        self._before = set(self._now)
+
+    def slots_by_step(self) -> list[set[int]]:
+        """By step the slots that have a value."""
+        return [set(ends) for ends in self._ends]
+
+    def block_of(self, slot: int) -> Block:
+        """The keyword that first set a slot."""
+        return self._sources[self._first[slot]][1]
+
+    def patterns(self) -> Iterator[Pattern]:
+        """Slots that change alike and bear one label, in the order in which the deck names them."""
+        groups: dict[tuple[int, tuple[float, ...], tuple[int, ...]], list[tuple[int, float]]] = {}
+        labels: dict[str, int] = {}
+        for slot, source in self._first.items():
+            history = [ends.get(slot, (0.0, 0)) for ends in self._ends]
+            size = max((value for value, _ in history), key=abs, default=0.0)
+            factors = tuple(round(value / size, 12) if size else 0.0 for value, _ in history)
+            named = labels.setdefault(self._sources[source][0], source)
+            key = (named, factors, tuple(index for _, index in history))
+            groups.setdefault(key, []).append((slot, size))
+        for (source, factors, indices), members in groups.items():
+            label, block = self._sources[source]
+            members.sort()
+            yield Pattern(
+                label=label,
+                block=block,
+                slots=np.array([slot for slot, _ in members], np.int64),
+                values=np.array([value for _, value in members]),
+                factors=factors,
+                amplitudes=tuple(self._amplitudes[index] for index in indices),
+            )
+
+    def _source(self, label: str, block: Block) -> int:
+        if not self._sources or self._sources[-1] != (label, block):
+            self._sources.append((label, block))
+        return len(self._sources) - 1
+
+    def _amplitude(self, amplitude: Amplitude | None) -> int:
+        if amplitude not in self._amplitudes:
+            self._amplitudes.append(amplitude)
+        return self._amplitudes.index(amplitude)
+
+
+def unique_label(label: str, taken: Mapping[str, object]) -> str:
+    """The label, or with a number behind it if another bears it.
+
+    >>> unique_label("top", {"top": 0})
+    'top (2)'
+    """
+    number, name = 1, label
+    while name in taken:
+        number += 1
+        name = f"{label} ({number})"
+    return name

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Parts, instances and assemblies of Abaqus decks as one list of keywords, each with the instance it belongs to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.deck.inp.block import Block, Row
+
+_OUTSIDE = ("ASSEMBLY", "END ASSEMBLY", "END PART", "END INSTANCE")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Scope:
+    """Where names and numbers are known: an instance, or the deck itself (name "").
+
+    Attributes
+    ----------
+    name : of the instance
+    turn, shift : an instance's points are ``turn @ x + shift``
+    """
+
+    name: str = ""
+    turn: Array = field(default_factory=lambda: np.eye(3))
+    shift: Array = field(default_factory=lambda: np.zeros(3))
+
+    def prefixed(self, name: str) -> str:
+        """A name of this scope as the whole deck knows it: ``INSTANCE.NAME``."""
+        return f"{self.name}.{name}" if self.name else name
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Placed:
+    """A keyword and the scope of its names and numbers."""
+
+    block: Block
+    scope: Scope
+
+
+DECK = Scope()
+
+
+def flatten(blocks: list[Block]) -> list[Placed]:
+    """Put the keywords of a part wherever an instance of it stands.
+
+    Raises
+    ------
+    DeckError
+        If an instance names no part, a part or an instance is not ended, or its motion is malformed.
+    """
+    parts: dict[str, list[Block]] = {}
+    placed: list[Placed] = []
+    stream = iter(blocks)
+    for block in stream:
+        if block.keyword == "PART":
+            parts[block.value("NAME").upper()] = list(_until(stream, "END PART", block))
+        elif block.keyword == "INSTANCE":
+            block.refuse_unknown(("NAME", "PART"))
+            name = block.value("PART").upper()
+            if name not in parts:
+                raise block.error(f"there is no part '{name}' before it")
+            scope = _scope(block)
+            inner = list(_until(stream, "END INSTANCE", block))
+            placed += [Placed(block=part, scope=scope) for part in (*parts[name], *inner)]
+        elif block.keyword not in _OUTSIDE:
+            placed.append(Placed(block=block, scope=DECK))
+    return placed
+
+
+def _until(stream: Iterator[Block], end: str, start: Block) -> Iterator[Block]:
+    for block in stream:
+        if block.keyword == end:
+            return
+        yield block
+    raise start.error(f"is not ended; expected *{end}")
+
+
+def _scope(block: Block) -> Scope:
+    """Translation in the first data line, then rotation about the line from a to b by an angle in degrees."""
+    rows = list(block.rows())
+    if len(rows) > 2:
+        raise rows[2].error("*INSTANCE: has a third data line; expected a translation and a rotation")
+    shift = _numbers(rows[0], 3) if rows else np.zeros(3)
+    turn = np.eye(3)
+    if len(rows) == 2:
+        values = _numbers(rows[1], 7)
+        a, axis = values[:3], values[3:6] - values[:3]
+        size = np.linalg.norm(axis)
+        if not size > 0.0:
+            raise rows[1].error("*INSTANCE: the two points of the axis of rotation coincide")
+        turn = rotation(axis / size, np.radians(values[6]))
+        shift = turn @ (shift - a) + a  # the translation comes first
+    return Scope(name=block.value("NAME").upper(), turn=turn, shift=shift)
+
+
+def _numbers(row: Row, count: int) -> Array:
+    return np.array([row.number(i, "a coordinate or an angle", 0.0) for i in range(count)])
+
+
+def rotation(axis: Array, angle: float) -> Array:
+    """Rodrigues' matrix of a turn by an angle, radians, about a unit axis (3,).
+
+    >>> rotation(np.array([0.0, 0.0, 1.0]), np.pi / 2).round(12)[:, 0]
+    array([0., 1., 0.])
+    """
+    x, y, z = axis
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    turn: Array = np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
+    return turn

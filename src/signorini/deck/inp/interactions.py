@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The laws of contact by name."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from signorini.deck.inp.block import Block, Row
+from signorini.deck.inp.flatten import Placed
+
+INTERACTION_WORDS = ("SURFACE BEHAVIOR", "FRICTION")
+"""Keywords that belong to the ``*SURFACE INTERACTION`` before them and that are read here."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Interaction:
+    """A law of contact.
+
+    Attributes
+    ----------
+    block : where it begins
+    friction : Coulomb's coefficient, or "stick"
+    normal_compliance, tangential_compliance : length per pressure
+    tied : the surfaces never part
+    """
+
+    block: Block
+    friction: float | Literal["stick"] = 0.0
+    normal_compliance: float = 0.0
+    tangential_compliance: float = 0.0
+    tied: bool = False
+
+
+def make_interactions(placed: list[Placed]) -> dict[str, Interaction]:
+    """Read all ``*SURFACE INTERACTION`` keywords with what follows them, by name in capitals.
+
+    Raises
+    ------
+    DeckError
+        For laws that are not Signorini's and Coulomb's, possibly with a linear compliance.
+    """
+    found: dict[str, Interaction] = {}
+    current = ""
+    for item in placed:
+        block = item.block
+        if block.keyword == "SURFACE INTERACTION":
+            block.refuse_unknown(("NAME",))
+            current = block.value("NAME").upper()
+            if current in found:
+                raise block.error(f"there is another surface interaction '{block.value('NAME')}'")
+            found[current] = Interaction(block=block)
+        elif block.keyword in INTERACTION_WORDS:
+            if not current:
+                raise block.error("stands before any *SURFACE INTERACTION")
+            found[current] = _with(found[current], block)
+    return found
+
+
+def _with(law: Interaction, block: Block) -> Interaction:
+    if block.keyword == "FRICTION":
+        friction, compliance = read_friction(block)
+        return replace(law, friction=friction, tangential_compliance=compliance)
+    enforcement = ("PENALTY", "AUGMENTED LAGRANGE", "DIRECT", "MECHANICAL CONSTRAINT")  # ours is exact
+    block.refuse_unknown(("PRESSURE-OVERCLOSURE",), enforcement)
+    kind = block.choice("PRESSURE-OVERCLOSURE", ("HARD", "LINEAR", "TIED"), "HARD")
+    if kind == "TIED":
+        return replace(law, tied=True)
+    if kind == "LINEAR":
+        row = block.row("the stiffness, pressure per overlap")
+        return replace(law, normal_compliance=1.0 / _positive(row, 0, "the stiffness, pressure per overlap"))
+    return law
+
+
+def read_friction(block: Block) -> tuple[float | Literal["stick"], float]:
+    """Coefficient and tangential compliance of a ``*FRICTION``; CalculiX's stick slope is the compliance's inverse."""
+    block.refuse_unknown(("ROUGH", "LAGRANGE"), ("SLIP TOLERANCE", "ELASTIC SLIP"))
+    if "ROUGH" in block.parameters:
+        return "stick", 0.0
+    rows = list(block.rows())
+    if len(rows) != 1:
+        raise block.error(f"has {len(rows)} data lines; expected one: a constant coefficient")
+    row = rows[0]
+    coefficient = row.number(0, "the coefficient of friction")
+    if coefficient < 0.0:
+        raise row.error(f"*FRICTION: the coefficient is {coefficient:g}; expected a number >= 0")
+    if any(row.fields[2:]):
+        raise row.error("*FRICTION: a coefficient that depends on pressure or temperature is not supported")
+    slope = _positive(row, 1, "the stick slope, traction per slip") if len(row.fields) > 1 and row.fields[1] else 0.0
+    return coefficient, 1.0 / slope if slope else 0.0
+
+
+def _positive(row: Row, i: int, what: str) -> float:
+    value = row.number(i, what)
+    if not value > 0.0:
+        raise row.error(f"has {value:g} in field {i + 1}; expected {what}, a number > 0")
+    return value

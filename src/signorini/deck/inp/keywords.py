@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which keywords are read, which can be left out without changing the answer, and which cannot."""
+
+from __future__ import annotations
+
+OUTPUT = (
+    "CONTACT FILE",
+    "CONTACT OUTPUT",
+    "CONTACT PRINT",
+    "EL FILE",
+    "EL PRINT",
+    "ELEMENT OUTPUT",
+    "ENERGY FILE",
+    "ENERGY OUTPUT",
+    "ENERGY PRINT",
+    "FACE PRINT",
+    "FILE FORMAT",
+    "FILE OUTPUT",
+    "FILTER",
+    "MONITOR",
+    "NODE FILE",
+    "NODE OUTPUT",
+    "NODE PRINT",
+    "OUTPUT",
+    "PREPRINT",
+    "PRINT",
+    "RESTART",
+    "SECTION FILE",
+    "SECTION PRINT",
+    "TIME POINTS",
+    "USER OUTPUT VARIABLES",
+)
+"""What to write, which does not change the answer."""
+
+HARMLESS = (
+    *OUTPUT,
+    "CONDUCTIVITY",
+    "CONTACT CONTROLS",
+    "CONTACT STABILIZATION",
+    "CONTROLS",
+    "DAMPING",
+    "DIAGNOSTICS",
+    "GAP CONDUCTANCE",
+    "GAP HEAT GENERATION",
+    "HOURGLASS STIFFNESS",
+    "PHYSICAL CONSTANTS",
+    "SECTION CONTROLS",
+    "SOLUTION TECHNIQUE",
+    "SPECIFIC HEAT",
+)
+"""What does not act in a static analysis of displacements, and how other programs find the answer."""
+
+MODEL_WORDS = (
+    "AMPLITUDE",
+    "BOUNDARY",
+    "CLEARANCE",
+    "CONTACT PAIR",
+    "DENSITY",
+    "ELASTIC",
+    "ELEMENT",
+    "ELSET",
+    "EXPANSION",
+    "FRICTION",
+    "HEADING",
+    "MATERIAL",
+    "NODE",
+    "NSET",
+    "SOLID SECTION",
+    "SURFACE",
+    "SURFACE BEHAVIOR",
+    "SURFACE INTERACTION",
+)
+"""What is read outside the steps."""
+
+STEP_WORDS = ("BOUNDARY", "CLOAD", "DLOAD", "DSLOAD", "NSET", "ELSET", "STATIC")
+"""What is read inside the steps."""
+
+
+STRUCTURE = (
+    "ASSEMBLY",
+    "END ASSEMBLY",
+    "END INSTANCE",
+    "END PART",
+    "END STEP",
+    "INCLUDE",
+    "INSTANCE",
+    "PART",
+    "STEP",
+)
+"""What orders the others."""

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From an Abaqus or CalculiX deck to a model."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from signorini.deck.inp.build import Built, build
+from signorini.deck.inp.flatten import flatten
+from signorini.deck.inp.syntax import read_blocks
+
+
+def load_inp(path: Path, *, small_strain: bool = False, deck_increments: bool = False) -> Built:
+    """Read a deck of keywords.
+
+    Parameters
+    ----------
+    small_strain : solve with small displacements what asks for large ones (NLGEOM)
+    deck_increments : follow the deck's increments instead of the package's rule
+
+    Raises
+    ------
+    DeckError
+        With file and line, for what is wrong, or would change the answer and is not supported.
+    """
+    return build(flatten(read_blocks(path)), path, small_strain=small_strain, deck_increments=deck_increments)

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Loads and supports of a deck: what its steps set, change, keep and remove."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.arrays import IntArray
+from signorini.deck.inp.amplitudes import Amplitude, find_amplitude
+from signorini.deck.inp.block import Row
+from signorini.deck.inp.course import Course
+from signorini.deck.inp.flatten import Placed
+from signorini.deck.inp.materials import Section
+from signorini.deck.inp.sets import Sets
+from signorini.deck.inp.steps import DeckStep
+from signorini.deck.inp.surfaces import Edges, Surfaces
+
+DIMENSION = 2
+_HELD, _PULLED = "single nodes", "forces on single nodes"  # labels where the deck gives numbers, not a set
+
+_TYPES = {"ENCASTRE": (1, 2), "PINNED": (1, 2), "XSYMM": (1,), "YSYMM": (2,), "ZSYMM": ()}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Known:
+    """What keywords of loads refer to."""
+
+    nodes: Sets
+    elements: Sets
+    surfaces: Surfaces
+    edges: Edges
+    sections: tuple[Section, ...]
+    amplitudes: Mapping[str, Amplitude]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Courses:
+    """How everything that acts on the bodies changes with the steps.
+
+    Attributes
+    ----------
+    displacement : slots ``DIMENSION * node + axis``, length
+    force : the same slots, force
+    pressure : slots are keys of edges, force per area
+    body : slots ``DIMENSION * section + axis``, force per volume
+    """
+
+    displacement: Course
+    force: Course
+    pressure: Course
+    body: Course
+
+
+def follow_steps(model: list[Placed], steps: list[DeckStep], known: Known) -> Courses:
+    """Read boundaries and loads in the order of the steps.
+
+    Parameters
+    ----------
+    model : keywords outside the steps; boundaries there hold from the first step on
+
+    Raises
+    ------
+    DeckError
+        For what is not supported, with its line.
+    """
+    courses = Courses(displacement=Course(), force=Course(), pressure=Course(), body=Course())
+    readers: Mapping[str, Callable[[Placed, Known, Courses], None]] = {
+        "BOUNDARY": _boundary,
+        "CLOAD": _cload,
+        "DLOAD": _dload,
+        "DSLOAD": _dsload,
+    }
+    for item in model:
+        if item.block.keyword == "BOUNDARY":
+            _boundary(item, known, courses)
+        elif item.block.keyword in readers:
+            raise item.block.error("stands outside the steps; expected loads inside a *STEP")
+    for step in steps:
+        cleared: set[str] = set()
+        for item in step.placed:
+            block = item.block
+            if block.keyword not in readers:
+                continue
+            if block.choice("OP", ("MOD", "NEW"), "MOD") == "NEW" and block.keyword not in cleared:
+                cleared.add(block.keyword)
+                for course in _of(block.keyword, courses):
+                    course.clear()
+            readers[block.keyword](item, known, courses)
+        for course in (courses.displacement, courses.force, courses.pressure, courses.body):
+            course.end_step(step)
+    return courses
+
+
+def _of(keyword: str, courses: Courses) -> tuple[Course, ...]:
+    if keyword == "BOUNDARY":
+        return (courses.displacement,)
+    return (courses.force,) if keyword == "CLOAD" else (courses.pressure, courses.body)
+
+
+def _boundary(item: Placed, known: Known, courses: Courses) -> None:
+    block = item.block
+    block.refuse_unknown(("OP", "AMPLITUDE", "TYPE"), ("LOAD CASE",))
+    block.choice("TYPE", ("DISPLACEMENT",), "DISPLACEMENT")
+    amplitude = find_amplitude(block, known.amplitudes)
+    for row in block.rows():
+        label, nodes = known.nodes.find(row.text(0, "a node or a node set"), item.scope, row)
+        label = _HELD if label.startswith("node ") and label not in known.nodes else label
+        word = row.text(1, "a direction, 1 or 2").upper()
+        if word in _TYPES:
+            axes: tuple[int, ...] = _TYPES[word]
+            value = 0.0
+        else:
+            first = row.whole(1, "a direction, 1 or 2")
+            last = row.whole(2, "the last direction", first)
+            value = row.number(3, "the displacement", 0.0)
+            if first < 1 or last < first:
+                raise row.error(f"*BOUNDARY: directions {first} to {last}; expected 1 or 2")
+            if last > DIMENSION and value != 0.0:
+                raise row.error(f"*BOUNDARY: direction {last} moves by {value:g}; a plane model has 1 and 2 only")
+            axes = tuple(axis for axis in range(first, last + 1) if axis <= DIMENSION)
+        for axis in axes:
+            slots = DIMENSION * nodes + axis - 1
+            courses.displacement.put(slots, value, label, block, amplitude, adds=False)
+
+
+def _cload(item: Placed, known: Known, courses: Courses) -> None:
+    block = item.block
+    block.refuse_unknown(("OP", "AMPLITUDE"), ("LOAD CASE",))
+    amplitude = find_amplitude(block, known.amplitudes)
+    for row in block.rows():
+        label, nodes = known.nodes.find(row.text(0, "a node or a node set"), item.scope, row)
+        label = _PULLED if label.startswith("node ") and label not in known.nodes else label
+        axis = row.whole(1, "a direction, 1 or 2")
+        value = row.number(2, "the force")
+        if not 1 <= axis <= DIMENSION:
+            raise row.error(f"*CLOAD: direction {axis}; expected 1 or 2, a plane model has no other")
+        courses.force.put(DIMENSION * nodes + axis - 1, value, label, block, amplitude, adds=True)
+
+
+def _dload(item: Placed, known: Known, courses: Courses) -> None:
+    block = item.block
+    block.refuse_unknown(("OP", "AMPLITUDE"), ("LOAD CASE",))
+    amplitude = find_amplitude(block, known.amplitudes)
+    for row in block.rows():
+        kind = row.text(1, "the kind of load, like P2").upper()
+        label, elements = known.elements.find(row.text(0, "an element or an element set"), item.scope, row)
+        if kind[:1] == "P" and kind[1:].isdigit():
+            keys = known.edges.keys(elements, kind, row, "*DLOAD")
+            value = row.number(2, "the pressure")
+            name = f"{label} {kind}" if label in known.elements else "single elements"
+            courses.pressure.put(keys, value, name, block, amplitude, adds=True)
+        elif kind == "GRAV":
+            gravity = row.number(2, "the acceleration")
+            direction = np.array([row.number(i, "a component of the direction", 0.0) for i in (3, 4, 5)])
+            size = np.linalg.norm(direction)
+            if not size > 0.0:
+                raise row.error("*DLOAD: gravity has no direction")
+            if direction[2]:
+                raise row.error("*DLOAD: gravity leaves the plane of the model")
+            for i in _whole_sections(elements, label, known, row):
+                density = known.sections[i].substance.density
+                if density is None:
+                    raise row.error(f"*DLOAD: gravity needs *DENSITY in the material of '{known.sections[i].name}'")
+                for axis in range(DIMENSION):
+                    force = density * gravity * float(direction[axis] / size)
+                    slots = np.array([DIMENSION * i + axis])
+                    courses.body.put(slots, force, f"gravity {known.sections[i].name}", block, amplitude, adds=False)
+        elif kind in ("BX", "BY"):
+            for i in _whole_sections(elements, label, known, row):
+                slots = np.array([DIMENSION * i + "XY".index(kind[1])])
+                value = row.number(2, "the force per volume")
+                courses.body.put(slots, value, f"{kind} {known.sections[i].name}", block, amplitude, adds=True)
+        else:
+            raise row.error(f"*DLOAD: '{kind}' is not supported; expected P1 to P4, GRAV, BX or BY")
+
+
+def _dsload(item: Placed, known: Known, courses: Courses) -> None:
+    block = item.block
+    block.refuse_unknown(("OP", "AMPLITUDE"), ("LOAD CASE",))
+    amplitude = find_amplitude(block, known.amplitudes)
+    for row in block.rows():
+        kind = row.text(1, "the kind of load, P").upper()
+        if kind != "P":
+            raise row.error(f"*DSLOAD: '{kind}' is not supported; expected P")
+        name = known.surfaces.find(row.text(0, "a surface"), item.scope, row)
+        keys = known.surfaces.keys[name.upper()]
+        courses.pressure.put(keys, row.number(2, "the pressure"), name, block, amplitude, adds=True)
+
+
+def _whole_sections(elements: IntArray, label: str, known: Known, row: Row) -> list[int]:
+    """Indices of the sections that elements make up."""
+    chosen = np.unique(elements)
+    found = [i for i, section in enumerate(known.sections) if np.isin(section.elements, chosen).all()]
+    covered = sum(len(known.sections[i].elements) for i in found)
+    if covered < len(chosen):
+        raise row.error(f"*DLOAD: '{label}' holds a part of a section; expected whole sections")
+    return found

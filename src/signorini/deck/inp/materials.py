@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Materials, and which elements are made of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from signorini.arrays import IntArray
+from signorini.deck.inp.block import Block
+from signorini.deck.inp.flatten import Placed
+from signorini.deck.inp.sets import Sets
+from signorini.errors import InputError, one_of
+from signorini.model.body import Elastic
+
+MATERIAL_WORDS = ("ELASTIC", "DENSITY", "EXPANSION")
+"""Keywords that belong to the ``*MATERIAL`` before them and that are read here."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Substance:
+    """What a deck says of a material.
+
+    Attributes
+    ----------
+    block : where it begins
+    elastic : None before ``*ELASTIC``
+    density : mass per volume, None if not given
+    expansion : thermal, per degree, None if not given
+    """
+
+    block: Block
+    elastic: Elastic | None = None
+    density: float | None = None
+    expansion: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Section:
+    """Elements that are one body.
+
+    Attributes
+    ----------
+    block : the ``*SOLID SECTION``
+    name : of the body
+    elements : their indices
+    substance : what they are made of
+    thickness : out of plane, length
+    """
+
+    block: Block
+    name: str
+    elements: IntArray
+    substance: Substance
+    thickness: float
+
+
+def make_materials(placed: list[Placed]) -> dict[str, Substance]:
+    """Read all ``*MATERIAL`` keywords with what follows them, by name in capitals.
+
+    Raises
+    ------
+    DeckError
+        For laws that are not linear elasticity with constant moduli.
+    """
+    materials: dict[str, Substance] = {}
+    current = ""
+    for item in placed:
+        block = item.block
+        if block.keyword == "MATERIAL":
+            current = block.value("NAME").upper()
+            if current in materials:
+                raise block.error(f"there is another material '{block.value('NAME')}'")
+            materials[current] = Substance(block=block)
+        elif block.keyword in MATERIAL_WORDS:
+            if not current:
+                raise block.error("stands before any *MATERIAL")
+            materials[current] = _with(materials[current], block)
+    return materials
+
+
+def _with(substance: Substance, block: Block) -> Substance:
+    if block.keyword == "DENSITY":
+        return replace(substance, density=_constant(block, "the density"))
+    if block.keyword == "EXPANSION":
+        block.refuse_unknown(("TYPE", "ZERO"))
+        block.choice("TYPE", ("ISO",), "ISO")
+        return replace(substance, expansion=_constant(block, "the coefficient of expansion"))
+    block.refuse_unknown(("TYPE", "MODULI"))
+    block.choice("TYPE", ("ISO", "ISOTROPIC"), "ISO")
+    block.choice("MODULI", ("LONG TERM", "INSTANTANEOUS"), "LONG TERM")
+    rows = [(row, row.number(0, "Young's modulus"), row.number(1, "Poisson's ratio")) for row in block.rows()]
+    if not rows:
+        raise block.error("has no data line; expected Young's modulus and Poisson's ratio")
+    if len({row[1:] for row in rows}) > 1:
+        raise rows[1][0].error("*ELASTIC: moduli that depend on temperature are not supported; expected one data line")
+    row, modulus, ratio = rows[0]
+    try:
+        return replace(substance, elastic=Elastic(E=modulus, nu=ratio))
+    except InputError as error:
+        raise row.error(f"*ELASTIC: {error}") from error
+
+
+def _constant(block: Block, what: str) -> float:
+    values = {row.number(0, what) for row in block.rows()}
+    if not values:
+        raise block.error(f"has no data line; expected {what}")
+    if len(values) > 1:
+        raise block.error(f"{what} depends on temperature, which is not supported; expected one data line")
+    return values.pop()
+
+
+def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Substance], count: int) -> list[Section]:
+    """Read all ``*SOLID SECTION`` keywords; every element has exactly one.
+
+    Parameters
+    ----------
+    count : of elements
+    """
+    sections: list[Section] = []
+    owner = np.full(count, -1)
+    for item in placed:
+        block = item.block
+        if block.keyword != "SOLID SECTION":
+            continue
+        block.refuse_unknown(("ELSET", "MATERIAL"), ("CONTROLS", "OFFSET"))
+        material = block.value("MATERIAL")
+        if material.upper() not in materials:
+            raise block.error(one_of(material, [m.block.value("NAME") for m in materials.values()], "material"))
+        substance = materials[material.upper()]
+        if substance.elastic is None:
+            raise substance.block.error(f"'{material}' has no *ELASTIC")
+        name, members = elements.find(block.value("ELSET"), item.scope, block)
+        members = np.unique(members)
+        if not len(members):
+            raise block.error(f"element set '{name}' is empty")
+        if (owner[members] >= 0).any():
+            first = members[owner[members] >= 0][0]
+            number = elements.numbering.labels[first]
+            raise block.error(f"element {number} has the section of '{sections[owner[first]].name}' already")
+        owner[members] = len(sections)
+        sections.append(
+            Section(block=block, name=name, elements=members, substance=substance, thickness=_thickness(block))
+        )
+    if (owner < 0).any():
+        number = elements.numbering.labels[np.nonzero(owner < 0)[0][0]]
+        raise sections[-1].block.error(f"element {number} has no section") if sections else InputError("no section")
+    return sections
+
+
+def _thickness(block: Block) -> float:
+    for row in block.rows():
+        thickness = row.number(0, "the thickness", 1.0)
+        if not thickness > 0.0:
+            raise row.error(f"*SOLID SECTION: the thickness is {thickness:g}; expected a number > 0")
+        return thickness
+    return 1.0

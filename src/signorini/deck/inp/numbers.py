@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Data lines of numbers alone, read in bulk; where that fails, line by line, so that the wrong line can be named."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.deck.inp.block import Block
+
+_EXPONENT = bytes.maketrans(b"Dd", b"ee")
+_LETTERS = b"abcdfghijklmnopqrstuvwxyzABCDFGHIJKLMNOPQRSTUVWXYZ"  # but not e: 1e5
+
+
+def bulk(data: bytes) -> tuple[Array, IntArray] | None:
+    """All numbers of some lines and how many each line has (blank lines left out); None if that is not certain.
+
+    >>> bulk(b"1, 0.5, 2\\n\\n2, 1.5D0,\\n")
+    (array([1. , 0.5, 2. , 2. , 1.5]), array([3, 2]))
+    >>> bulk(b"1, , 2\\n") is None
+    True
+    """
+    plain = data.translate(_EXPONENT)
+    compact = plain.translate(None, b" \t") + b"\n"
+    if (
+        b",," in compact
+        or b"\n," in compact
+        or compact.startswith(b",")
+        or len(plain.translate(None, _LETTERS)) != len(plain)
+    ):
+        return None
+    byte = np.frombuffer(compact, np.uint8)
+    ends = np.flatnonzero(byte == ord("\n"))
+    commas = np.searchsorted(np.flatnonzero(byte == ord(",")), ends)
+    starts = np.concatenate([[0], ends[:-1] + 1])
+    trailing = (ends > starts) & (byte[ends - 1] == ord(","))
+    counts: IntArray = (np.diff(commas, prepend=0) + 1 - trailing)[ends > starts]
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", DeprecationWarning)  # how older NumPy tells unmatched data
+            values = np.fromstring(plain.replace(b",", b" "), sep=" ")
+    except (ValueError, DeprecationWarning):
+        return None
+    if len(values) != counts.sum() or not np.isfinite(values).all():
+        return None
+    return values, counts
+
+
+def number_table(block: Block, what: str, *, least: int, most: int) -> Array:
+    """Data lines of numbers as a table, missing ones 0: (n, most).
+
+    Parameters
+    ----------
+    what : what a line should hold, for messages
+    least, most : numbers of a line
+
+    Raises
+    ------
+    DeckError
+        At the first line that does not hold so many numbers.
+    """
+    tables = []
+    for part in _parts(block):
+        found = bulk(part.chunks[0][2])
+        if found is not None and len(found[1]) and found[1].min() == found[1].max() and least <= found[1][0] <= most:
+            table = found[0].reshape(-1, int(found[1][0]))
+            tables.append(np.pad(table, ((0, 0), (0, most - table.shape[1]))))
+        else:
+            tables.append(_by_line(part, what, least, most))
+    return np.vstack(tables) if tables else np.empty((0, most))
+
+
+def record_table(block: Block, size: int, what: str) -> IntArray:
+    """Whole numbers in records of ``size``, each of which may go on over several lines: (n, size).
+
+    Parameters
+    ----------
+    what : what a record should hold, for messages
+
+    Raises
+    ------
+    DeckError
+        At the first line that holds anything else, or where a record ends inside a line or not at all.
+    """
+    tables = []
+    for part in _parts(block):
+        found = bulk(part.chunks[0][2])
+        if found is None or len(found[0]) % size or (found[0] != np.rint(found[0])).any():
+            return _records(block, size, what)
+        ends = np.cumsum(found[1])
+        if not np.isin(np.arange(size, len(found[0]) + 1, size), ends).all() or np.abs(found[0]).max(initial=0) > 2**53:
+            return _records(block, size, what)
+        tables.append(found[0].astype(np.int64).reshape(-1, size))
+    return np.vstack(tables) if tables else np.empty((0, size), np.int64)
+
+
+def whole_numbers(block: Block) -> IntArray | None:
+    """All data as whole numbers in one list; None if anything else is there (names, in sets)."""
+    lists = []
+    for part in _parts(block):
+        found = bulk(part.chunks[0][2])
+        if found is None or (found[0] != np.rint(found[0])).any() or np.abs(found[0]).max(initial=0) > 2**53:
+            return None
+        lists.append(found[0].astype(np.int64))
+    return np.concatenate(lists) if lists else np.empty(0, np.int64)
+
+
+def _parts(block: Block) -> Iterator[Block]:
+    """The block, one piece of its data at a time."""
+    for chunk in block.chunks:
+        yield Block(
+            keyword=block.keyword, parameters=block.parameters, path=block.path, line=block.line, chunks=(chunk,)
+        )
+
+
+def _by_line(block: Block, what: str, least: int, most: int) -> Array:
+    rows = []
+    for row in block.rows():
+        if not least <= len(row.fields) <= most:
+            raise row.error(f"*{block.keyword}: has {len(row.fields)} fields; expected {what}")
+        rows.append([row.number(i, what, 0.0 if i else None) for i in range(most)])
+    return np.array(rows, float).reshape(-1, most)
+
+
+def _records(block: Block, size: int, what: str) -> IntArray:
+    records: list[list[int]] = []
+    current: list[int] = []
+    last = None
+    for last in block.rows():
+        current += [last.whole(i, what) for i in range(len(last.fields))]
+        if len(current) > size:
+            raise last.error(f"*{block.keyword}: has {len(current)} numbers; expected {size}: {what}")
+        if len(current) == size:
+            records.append(current)
+            current = []
+    if current and last is not None:
+        raise last.error(f"*{block.keyword}: ends after {len(current)} numbers; expected {size}: {what}")
+    return np.array(records, np.int64).reshape(-1, size)

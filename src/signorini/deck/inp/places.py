@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Names that a model needs for places: those of the deck where they mean the same, otherwise new ones."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from signorini.arrays import IntArray
+from signorini.deck.inp.course import unique_label
+from signorini.deck.inp.sets import Sets
+from signorini.deck.inp.surfaces import Edges, Surfaces
+
+
+class Places:
+    """Boundaries and node sets of the model's mesh.
+
+    Attributes
+    ----------
+    boundaries : name to (m, 2) end nodes of edges
+    nodes : name to sorted nodes; no name is that of a boundary
+    """
+
+    def __init__(self, edges: Edges, surfaces: Surfaces, sets: Sets) -> None:
+        self._edges = edges
+        self.boundaries: dict[str, IntArray] = dict(surfaces.facets(edges))
+        self.nodes: dict[str, IntArray] = {}
+        self._by_nodes: dict[bytes, str] = {}
+        for name in sets.names:
+            members = sets[name]
+            if len(members):
+                label = unique_label(name, self.boundaries)
+                self.nodes[label] = members
+                self._by_nodes[f"{name}".upper().encode() + members.tobytes()] = label
+
+    def at_nodes(self, nodes: IntArray, label: str) -> str:
+        """A name for sorted nodes: that of the set ``label`` if it has just these."""
+        key = label.upper().encode() + nodes.tobytes()
+        if key not in self._by_nodes:
+            name = unique_label(label, self.boundaries | self.nodes)
+            self.nodes[name] = nodes
+            self._by_nodes[key] = name
+        return self._by_nodes[key]
+
+    def at_edges(self, keys: IntArray, label: str) -> str:
+        """A name for edges: that of the surface ``label`` if it has just these."""
+        ends = self._edges.ends[keys]
+        known = self.boundaries.get(label)
+        if known is not None and np.array_equal(known, ends):
+            return label
+        name = unique_label(label, self.boundaries | self.nodes)
+        self.boundaries[name] = ends
+        return name

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Node sets and element sets by name."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+
+import numpy as np
+
+from signorini.arrays import IntArray
+from signorini.deck.inp.block import Block, Row, to_number
+from signorini.deck.inp.flatten import Placed, Scope
+from signorini.deck.inp.grid import Grid
+from signorini.deck.inp.numbering import Numbering
+from signorini.deck.inp.numbers import number_table, whole_numbers
+from signorini.errors import one_of
+
+_MOST = 10_000_000  # members of a generated set
+
+
+class Sets:
+    """Named sets of nodes or of elements; names in any case, a set may be defined in pieces.
+
+    Parameters
+    ----------
+    numbering : of what the sets hold
+    """
+
+    def __init__(self, numbering: Numbering) -> None:
+        self.numbering = numbering
+        self._pieces: dict[str, list[IntArray]] = defaultdict(list)
+        self._spelled: dict[str, str] = {}
+
+    def add(self, name: str, members: IntArray) -> None:
+        """Add members to a set; the first spelling of its name stays."""
+        self._spelled.setdefault(name.upper(), name)
+        self._pieces[name.upper()].append(members)
+
+    def __contains__(self, name: str) -> bool:
+        return name.upper() in self._pieces
+
+    def __getitem__(self, name: str) -> IntArray:
+        """Sorted members."""
+        key = name.upper()
+        if len(self._pieces[key]) > 1 or not _ascending(self._pieces[key][0]):
+            self._pieces[key] = [np.unique(np.concatenate(self._pieces[key]))]
+        return self._pieces[key][0]
+
+    def spelled(self, name: str) -> str:
+        """The name as the deck first spells it."""
+        return self._spelled[name.upper()]
+
+    @property
+    def names(self) -> list[str]:
+        """All names as first spelled."""
+        return list(self._spelled.values())
+
+    def key(self, word: str, scope: Scope) -> str | None:
+        """The name by which the whole deck knows a set that is called ``word`` in a scope, if there is one."""
+        inner = scope.prefixed(word)
+        return next((name for name in (inner, word) if name in self), None)
+
+    def find(self, word: str, scope: Scope, at: Block | Row) -> tuple[str, IntArray]:
+        """Label and members of a set or of a single number; instances go before a dot: ``PART-1.7``.
+
+        Raises
+        ------
+        DeckError
+            If there is no such set or number.
+        """
+        name = self.key(word, scope)
+        if name is not None:
+            return self.spelled(name), self[name]
+        outer, dot, inner = word.rpartition(".")
+        number = to_number(inner if dot and outer and not outer.isdigit() else word)
+        if number is None or number != int(number):
+            raise at.error(one_of(word, self.names, f"{self.numbering.what} set"))
+        place = Scope(name=outer.upper()) if dot and outer and not outer.isdigit() else scope
+        members = self.numbering.index(place, np.array([int(number)]), at)
+        return f"{self.numbering.what} {word}", members
+
+
+def _ascending(members: IntArray) -> bool:
+    return bool((np.diff(members) > 0).all())
+
+
+def make_sets(placed: list[Placed], grid: Grid) -> tuple[Sets, Sets]:
+    """Node sets and element sets of a deck, in the order of their definitions."""
+    nodes, elements = Sets(grid.nodes), Sets(grid.elements)
+    for group in grid.groups:
+        if group.block.parameters.get("ELSET"):
+            elements.add(group.scope.prefixed(group.block.parameters["ELSET"]), group.index)
+    node_scopes = [item for item in placed if item.block.keyword == "NODE" and item.block.parameters.get("NSET")]
+    for item in node_scopes:
+        numbers = _numbers_of_nodes(item.block)
+        nodes.add(item.scope.prefixed(item.block.parameters["NSET"]), grid.nodes.index(item.scope, numbers, item.block))
+    for item in placed:
+        if item.block.keyword == "NSET":
+            _define(item, "NSET", nodes, elements, grid)
+        elif item.block.keyword == "ELSET":
+            _define(item, "ELSET", elements, elements, grid)
+    return nodes, elements
+
+
+def _numbers_of_nodes(block: Block) -> IntArray:
+    return number_table(block, "a number and up to 3 coordinates", least=1, most=7)[:, 0].astype(np.int64)
+
+
+def _define(item: Placed, key: str, sets: Sets, elements: Sets, grid: Grid) -> None:
+    block = item.block
+    block.refuse_unknown((key, "GENERATE", "INSTANCE", "ELSET", "INPUT"), ("INTERNAL", "UNSORTED"))
+    name = item.scope.prefixed(block.value(key))
+    inside = Scope(name=block.parameters["INSTANCE"].upper()) if block.parameters.get("INSTANCE") else item.scope
+    if key == "NSET" and block.parameters.get("ELSET"):
+        members = elements.find(block.parameters["ELSET"], inside, block)[1]
+        sets.add(name, _nodes_of(grid, members))
+        return
+    if "GENERATE" in block.parameters:
+        sets.add(name, _generated(block, sets.numbering, inside))
+        return
+    numbers = whole_numbers(block)
+    if numbers is not None:
+        sets.add(name, sets.numbering.index(inside, numbers, block))
+        return
+    sets.add(name, np.empty(0, np.int64))
+    for row in block.rows():
+        for word in row.fields:
+            if word:
+                sets.add(name, sets.find(word, inside, row)[1])
+
+
+def _generated(block: Block, numbering: Numbering, scope: Scope) -> IntArray:
+    """Members from first to last by steps; numbers in between that nothing has are left out, as CalculiX does."""
+    pieces: list[IntArray] = [np.empty(0, np.int64)]
+    for row in block.rows():
+        first, last = row.whole(0, "the first number"), row.whole(1, "the last number", row.whole(0, "a number"))
+        step = row.whole(2, "the step", 1)
+        if step < 1 or last < first or (last - first) // step > _MOST:
+            raise row.error(f"*{block.keyword}: goes from {first} to {last} by {step}; expected an ascending range")
+        pieces.append(numbering.find(scope.name, np.arange(first, last + 1, step))[0])
+    return np.concatenate(pieces)
+
+
+def _nodes_of(grid: Grid, elements: IntArray) -> IntArray:
+    pieces = [group.nodes[np.isin(group.index, elements)].ravel() for group in grid.groups]
+    return np.unique(np.concatenate([np.empty(0, np.int64), *pieces]))

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From files to keywords with their data, each with its line; nothing is understood yet.
+
+A line that begins with ``*`` is a keyword, with ``**`` a comment; every other line is data of the keyword before it
+(before the first keyword it is a title). Case, blanks and line ends do not matter; a keyword line that ends with a
+comma goes on in the next line, if that can be parameters.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from signorini.deck.error import DeckError
+from signorini.deck.inp.block import Block, decode
+from signorini.deck.inp.words import canonical
+
+_DEPTH = 10  # of files that include files
+_SHOWN = 60  # characters of a line in messages
+
+
+def read_blocks(path: Path) -> list[Block]:
+    """All keywords of a deck in order, with those of the files that it includes.
+
+    Parameters
+    ----------
+    path : the deck; files that it includes must lie in its folder or below
+
+    Raises
+    ------
+    DeckError
+        If a file is missing or unreadable, or a keyword line is malformed.
+    """
+    blocks: list[_Open] = []
+    _read(path, path.parent.resolve(), blocks, 0, None)
+    return [block.closed() for block in blocks]
+
+
+class _Open:
+    """A keyword that still takes data lines."""
+
+    def __init__(self, keyword: str, parameters: dict[str, str], path: Path, line: int) -> None:
+        self.keyword, self.parameters, self.path, self.line = keyword, parameters, path, line
+        self.chunks: list[tuple[Path, int, bytes]] = []
+
+    def closed(self) -> Block:
+        return Block(
+            keyword=self.keyword,
+            parameters=self.parameters,
+            path=self.path,
+            line=self.line,
+            chunks=tuple(self.chunks),
+        )
+
+
+def _read(path: Path, root: Path, blocks: list[_Open], depth: int, by: _Open | None) -> None:
+    """Append the keywords of one file; data before its first keyword belong to the keyword before it, if any."""
+    for line, starred, data in _pieces(_bytes(path, by)):
+        if not starred:
+            if blocks and data and not data.isspace():
+                blocks[-1].chunks.append((path, line, data))
+            continue
+        opened = _keyword(data, path, line)
+        if opened.keyword == "INCLUDE":
+            if depth == _DEPTH:
+                raise _error(opened, f"is the {_DEPTH + 1}th file inside another; does a file include itself?")
+            _read(_inside(opened, root), root, blocks, depth + 1, opened)
+            continue
+        blocks.append(opened)
+        if opened.keyword in ("NODE", "ELEMENT", "NSET", "ELSET", "AMPLITUDE") and "INPUT" in opened.parameters:
+            opened.chunks.append((_inside(opened, root), 1, _bytes(_inside(opened, root), opened)))
+
+
+def _bytes(path: Path, by: _Open | None) -> bytes:
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        words = "file not found" if isinstance(error, FileNotFoundError) else f"cannot be read: {error.strerror}"
+        if isinstance(error, IsADirectoryError):
+            words = "is a folder; expected a deck"
+        if by is None:
+            raise DeckError(words, path=path) from error
+        raise _error(by, f"'{path}': {words}") from error
+    except ValueError as error:  # a name that no file can have
+        raise DeckError(f"cannot be read: {error}", path=path) from error
+    if b"\0" in data:
+        message = "is not a text file; expected a deck of keywords, like *NODE"
+        raise DeckError(message, path=path) if by is None else _error(by, f"'{path}' {message}")
+    if b"\r" in data:
+        data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    return data.removeprefix(b"\xef\xbb\xbf")
+
+
+def _pieces(data: bytes) -> Iterator[tuple[int, bool, bytes]]:
+    """First line, whether it is a keyword, and bytes of every keyword line and every run of data; no comments."""
+    at, line = 0, 1
+    for start in _starred(data):
+        if start < at:
+            continue  # a continuation of a keyword line that begins with an asterisk
+        if start > at:
+            yield line, False, data[at:start]
+            line += data.count(b"\n", at, start)
+        end = _end(data, start)
+        words = data[start:end].strip()
+        comment = words.startswith(b"**") or words == b"*"
+        while not comment and data[start:end].rstrip().endswith(b",") and _goes_on(data[end : _end(data, end)]):
+            end = _end(data, end)
+        if not comment:
+            yield line, True, data[start:end]
+        line += data.count(b"\n", start, end)
+        at = end
+    if at < len(data):
+        yield line, False, data[at:]
+
+
+def _starred(data: bytes) -> Iterator[int]:
+    """Where lines begin whose first mark is an asterisk."""
+    star = data.find(b"*")
+    while star >= 0:
+        start = data.rfind(b"\n", 0, star) + 1
+        if not data[start:star].strip():
+            yield start
+        star = data.find(b"*", _end(data, star))
+
+
+def _goes_on(line: bytes) -> bool:
+    """Whether a line can go on with the parameters of the one before: it is neither a keyword nor data."""
+    if b"=" in line:
+        return not line.lstrip().startswith(b"*")
+    words = [word.strip() for word in line.split(b",")]
+    return all(word[:1].isalpha() for word in words if word) and any(words)
+
+
+def _end(data: bytes, start: int) -> int:
+    """Where the line that starts at ``start`` ends, its line end included."""
+    end = data.find(b"\n", start)
+    return len(data) if end < 0 else end + 1
+
+
+def _keyword(data: bytes, path: Path, line: int) -> _Open:
+    name, *words = _fields(decode(data).strip()[1:].replace("\n", " "))
+    opened = _Open(canonical(name), {}, path, line)
+    for word in words:
+        key, _, value = word.partition("=")
+        key = canonical(key)
+        if key:
+            if key in opened.parameters:
+                raise _error(opened, f"has {key} twice")
+            opened.parameters[key] = _unquoted(value.strip())
+        elif value:
+            raise _error(opened, f"has '{word.strip()[:_SHOWN]}'; expected NAME=value")
+    return opened
+
+
+def _fields(text: str) -> list[str]:
+    """Parts between commas, those inside quotation marks not counted."""
+    if '"' not in text:
+        return text.split(",")
+    return re.findall(r'(?:"[^"]*"|[^,])+', text) or [text]
+
+
+def _unquoted(word: str) -> str:
+    return word[1:-1] if len(word) > 1 and word[0] == word[-1] == '"' else word
+
+
+def _inside(opened: _Open, root: Path) -> Path:
+    """The file that INPUT names, which must lie in the deck's folder or below."""
+    name = opened.parameters.get("INPUT", "")
+    if not name:
+        raise _error(opened, "has no INPUT; expected INPUT= and a file")
+    try:
+        path = (root / name).resolve()
+    except (OSError, ValueError, RuntimeError) as error:
+        raise _error(opened, f"'{name[:_SHOWN]}' is no file name") from error
+    if not path.is_relative_to(root):
+        raise _error(opened, f"'{name[:_SHOWN]}' lies outside the folder of the deck; expected a file in it")
+    return path
+
+
+def _error(opened: _Open, message: str) -> DeckError:
+    return DeckError(f"*{opened.keyword}: {message}", path=opened.path, line=opened.line)

@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whole decks: the model that they mean, and what is refused rather than left out."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.cli import main
+from signorini.deck import DeckError, load
+
+DECKS = Path(__file__).parent / "decks"
+TWO_BLOCKS = (DECKS / "two_blocks.inp").read_text()
+
+
+def in_python() -> sg.Model:
+    """What two_blocks.inp says."""
+    low = sg.rectangle(width=2.0, height=1.0, nx=2, ny=1)
+    mesh = sg.join({"low": low, "up": sg.rectangle(width=2.0, height=1.0, nx=2, ny=1, origin=(0.0, 1.0))})
+    steel = sg.Elastic(E=210e3, nu=0.3)
+    return sg.Model(
+        mesh,
+        bodies=[sg.Body("low", steel), sg.Body("up", steel)],
+        supports=[
+            sg.Support("low.bottom", u=(0, 0)),
+            sg.Support("up.top", u=(0.01, None), name="drag"),
+            sg.Support("up.top", u=(None, -0.001), name="press"),
+        ],
+        contacts=[sg.Contact("up.bottom", "low.top", friction=0.3)],
+        steps=[sg.Step(scale={"press": 1.0}), sg.Step(scale={"drag": 1.0})],
+    )
+
+
+@pytest.mark.parametrize("name", ["two_blocks.inp", "instances.inp"])
+def test_a_deck_is_the_model_that_it_means(name: str) -> None:
+    found, expected = sg.solve(sg.read(DECKS / name)), sg.solve(in_python())
+    for mine, theirs in zip(found.steps, expected.steps, strict=True):
+        assert mine.contacts[0].normal_force == pytest.approx(theirs.contacts[0].normal_force, rel=1e-10, abs=1e-9)
+        assert mine.contacts[0].tangential_force == pytest.approx(theirs.contacts[0].tangential_force, abs=1e-9)
+        assert mine.strain_energy == pytest.approx(theirs.strain_energy, rel=1e-10)
+
+
+def test_numbers_of_the_deck_survive(tmp_path: Path) -> None:
+    assert main(["run", str(DECKS / "two_blocks.inp"), "-o", str(tmp_path), "--quiet"]) == 0
+    with (tmp_path / "contact.csv").open() as file:
+        assert {row["node"] for row in csv.DictReader(file)} == {"11", "12", "13"}
+    model = sg.read(DECKS / "two_blocks.inp")
+    assert model.mesh.cell_labels.tolist() == [10, 20, 30, 40]
+
+
+def test_instances_get_numbers_of_their_own() -> None:
+    deck = load(DECKS / "instances.inp")
+    assert deck.model.mesh.labels.tolist() == [*range(1, 7), *range(7, 13)]
+    assert any("raised" in note for note in deck.notes)
+    # turned by half a turn, the first node of the upper block is its upper right corner
+    assert deck.model.mesh.points[6] == pytest.approx([2.0, 2.0])
+
+
+def test_what_is_left_out_is_told_once() -> None:
+    notes = load(DECKS / "instances.inp").notes
+    assert sum("*OUTPUT" in note and "*RESTART" in note for note in notes) == 1
+    assert any("small sliding" in note for note in notes)
+    assert any("--increments deck" in note for note in notes)
+
+
+def test_increments_of_the_deck() -> None:
+    model = sg.read(DECKS / "instances.inp", deck_increments=True)
+    assert [step.increments for step in model.steps] == [10, 1]
+    assert [step.increments for step in sg.read(DECKS / "instances.inp").steps] == [None, None]
+
+
+def edited(folder: Path, old: str, new: str) -> Path:
+    assert old in TWO_BLOCKS
+    deck = folder / "deck.inp"
+    deck.write_text(TWO_BLOCKS.replace(old, new, 1))
+    return deck
+
+
+# what is changed, to what, how the line that is named begins, what is said
+WRONG = {
+    "plasticity": ("210000., .3\n", "210000., .3\n*PLASTIC\n300.\n", "*PLASTIC", r"\*PLASTIC: is not supported"),
+    "element": ("10, 1, 2, 5, 4", "10, 1, 2, 5, 99", "*ELEMENT", "there is no node 99"),
+    "twice": ("20, 2, 3, 6, 5", "10, 2, 3, 6, 5", "*ELEMENT", "element 10 is there twice"),
+    "type": ("TYPE=CPE4", "TYPE=C3D8R", "*ELEMENT", "three-dimensional"),
+    "beam": ("TYPE=CPE4", "TYPE=B31", "*ELEMENT", "TYPE=B31 is not supported; expected CPE"),
+    "set": ("Base, 1, 2", "Basis, 1, 2", "Basis", "unknown node set 'Basis'; did you mean 'Base'"),
+    "face": ("Upper, S1", "Upper, S5", "Upper, S5", "face 'S5' is not supported; expected S1 to S4"),
+    "direction": ("Top, 1, 1\n", "Top, 1, 7, 0.1\n", "Top, 1, 7", "direction 7 moves"),
+    "nlgeom": ("*STEP\n", "*STEP, NLGEOM\n", "*STEP", "--small-strain"),
+    "dynamics": ("*STATIC\n", "*DYNAMIC\n", "*DYNAMIC", r"\*DYNAMIC: is not supported"),
+    "poisson": ("210000., .3", "210000., .5", "210000.", "nu: is 0.5; expected a number > -1 and < 0.5"),
+    "friction": ("0.3\n*CONTACT", "-0.3\n*CONTACT", "-0.3", "expected a number >= 0"),
+    "parameter": ("*BOUNDARY\nBase", "*BOUNDARY, SUBMODEL\nBase", "*BOUNDARY", "parameter SUBMODEL is not supported"),
+    "material": (
+        "MATERIAL=Steel\n1.",
+        "MATERIAL=Stell\n1.",
+        "*SOLID",
+        "unknown material 'Stell'; did you mean 'Steel'",
+    ),
+    "released": ("*BOUNDARY\nTop, 1, 1, 0.01", "*BOUNDARY, OP=NEW\nBase, 1, 2", "*BOUNDARY", "takes a support away"),
+    "not a number": ("2.0D0", "2.0.0", "14, 0.", "has '2.0.0'"),
+    "outside": ("*STEP\n", "*CLOAD\n14, 2, 1.\n*STEP\n", "*CLOAD", "is not supported outside a step"),
+    "unfinished": ("0.01\n*END STEP", "0.01\n", "*STEP", "is not ended"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_what_changes_the_answer_stops_with_its_line(tmp_path: Path, case: str) -> None:
+    old, new, begins, said = WRONG[case]
+    deck = edited(tmp_path, old, new)
+    with pytest.raises(DeckError, match=said) as caught:
+        load(deck)
+    assert caught.value.line is not None
+    assert deck.read_text().splitlines()[caught.value.line - 1].startswith(begins)
+
+
+def test_small_strain_is_asked_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    deck = str(edited(tmp_path, "*STEP\n", "*STEP, NLGEOM\n"))
+    assert main(["check", deck]) == 2
+    assert "NLGEOM asks for large displacements" in capsys.readouterr().err
+    assert main(["check", deck, "--small-strain"]) == 0
+    assert "NLGEOM is ignored" in capsys.readouterr().out
+
+
+def test_loads_carry_over_change_and_go(tmp_path: Path) -> None:
+    """A force that stays, is doubled, is removed and reversed; a pressure that a set and single elements share."""
+    steps = """*STEP
+*STATIC
+*CLOAD
+14, 2, -3.
+Top, 2, -1.
+*DLOAD
+Upper, P3, 5.
+*END STEP
+*STEP
+*STATIC
+*CLOAD
+Top, 2, -2.
+*END STEP
+*STEP
+*STATIC
+*CLOAD, OP=NEW
+*DLOAD
+Upper, P3, -5.
+*END STEP
+"""
+    model = sg.read(edited(tmp_path, TWO_BLOCKS[TWO_BLOCKS.index("*STEP") :], steps))
+    loads = {load.label: load for load in model.loads}
+    total = []
+    for factors in model.factors()[1:]:
+        force = 0.0
+        for name, given in loads.items():
+            if given.pressure is not None:
+                force -= 2.0 * given.pressure * factors[name]
+            elif given.force is not None:
+                force += given.force[1] * factors[name]
+            else:
+                force += given.nodal_forces[:, 1].sum() * factors[name]
+        total.append(force)
+    # -3 and three times -1, pressure 5 on length 2; then the forces of the set are replaced, not those of node 14 ...
+    assert total == pytest.approx([-6.0 - 10.0, -6.0 - 10.0, 10.0])
+
+
+def test_a_deck_of_many_nodes_is_read_in_bulk(tmp_path: Path) -> None:
+    n = 120
+    grid = np.arange(1, n * n + 1).reshape(n, n)
+    nodes = "".join(f"{k}, {i}., {j}.\n" for k, (j, i) in zip(grid.ravel(), np.ndindex(n, n), strict=True))
+    corners = np.stack([grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]], axis=-1).reshape(-1, 4)
+    cells = "".join(f"{e}, {a}, {b}, {c}, {d}\n" for e, (a, b, c, d) in enumerate(corners, start=1))
+    deck = tmp_path / "big.inp"
+    deck.write_text(
+        f"*NODE, NSET=N\n{nodes}*ELEMENT, TYPE=CPS4, ELSET=E\n{cells}*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n"
+        "*SOLID SECTION, ELSET=E, MATERIAL=M\n0.5\n*BOUNDARY\n1, 1, 2\n2, 2\n*STEP\n*STATIC\n*CLOAD\n3, 1, 1.\n"
+        "*END STEP\n"
+    )
+    model = sg.read(deck)
+    assert model.mesh.number_of_cells == (n - 1) ** 2
+    assert (model.kind, model.thickness) == ("plane stress", 0.5)
