@@ -150,7 +150,7 @@ def _on_side(
     coupling, how = _couple(space, model, side, mortar, contact, where)
     normals = side_normals(space, constraints, side, coupling.nodes)
     gap = np.sum((coupling.relative @ points) * normals, axis=1)
-    if how == "mortar":
+    if how != "nodes":
         gap = without_chords(gap, coupling.nodes, coupling.relative, side, mortar)
     partner = symmetric_partners(space, constraints, coupling.nodes, normals, mortar.nodes)
     return Pairs(
