@@ -20,9 +20,10 @@ if TYPE_CHECKING:
     from signorini.errors import InputError, SignoriniError, SolveFailed
     from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
     from signorini.fem.read import read_mesh
-    from signorini.model.body import Body, Elastic
+    from signorini.model.body import Body
     from signorini.model.conditions import Load, Support
     from signorini.model.contact import Contact
+    from signorini.model.material import Elastic, Orthotropic
     from signorini.model.mesh import Mesh, join
     from signorini.model.model import Model
     from signorini.model.obstacle import Circle, Plane, Profile
@@ -38,6 +39,7 @@ __all__ = [
     "Load",
     "Mesh",
     "Model",
+    "Orthotropic",
     "Plane",
     "Profile",
     "Rigid",
@@ -66,9 +68,10 @@ _HOMES = {
     "signorini.errors": ("InputError", "SignoriniError", "SolveFailed"),
     "signorini.fem.generators": ("annulus", "half_disk", "quarter_disk", "rectangle"),
     "signorini.fem.read": ("read_mesh",),
-    "signorini.model.body": ("Body", "Elastic"),
+    "signorini.model.body": ("Body",),
     "signorini.model.conditions": ("Load", "Support"),
     "signorini.model.contact": ("Contact",),
+    "signorini.model.material": ("Elastic", "Orthotropic"),
     "signorini.model.mesh": ("Mesh", "join"),
     "signorini.model.model": ("Model",),
     "signorini.model.obstacle": ("Circle", "Plane", "Profile"),

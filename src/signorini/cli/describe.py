@@ -7,6 +7,7 @@ import numpy as np
 
 from signorini.deck import Deck
 from signorini.engine.prepare import Examined
+from signorini.fem.locking import thin_bodies
 from signorini.fem.rigid import describe_motion
 from signorini.model.model import Model
 from signorini.model.step import Step
@@ -35,7 +36,7 @@ def describe(deck: Deck, examined: Examined) -> list[str]:
         ("steps", _steps(model)),
     ):
         lines += ["", title, *(align(rows) if rows else ["  none"])]
-    notes = [*_notes(deck), *_contact_notes(examined), *_motion_notes(examined)]
+    notes = [*_notes(deck), *_bending_notes(examined), *_contact_notes(examined), *_motion_notes(examined)]
     return [*lines, "", "notes", *(f"  {note}" for note in notes or ["nothing looks wrong"])]
 
 
@@ -43,8 +44,8 @@ def _bodies(model: Model) -> Rows:
     return [
         (
             body.name,
-            f"E {body.material.E:g}",
-            f"nu {body.material.nu:g}",
+            str(body.material),
+            *(["incompatible modes"] if body.formulation == "incompatible" else []),
             f"{len(model.mesh.bodies[body.name])} elements",
         )
         for body in model.bodies
@@ -118,6 +119,14 @@ def _notes(deck: Deck) -> list[str]:
     if not model.scaled_names and all(contact.interference == 0.0 for contact in model.contacts):
         notes.append("nothing is loaded or moved")
     return notes
+
+
+def _bending_notes(examined: Examined) -> list[str]:
+    return [
+        f"body '{name}' is at most two linear quadrilaterals thick: too stiff where it bends; take formulation = "
+        "'incompatible', quadratic cells or more layers"
+        for name in thin_bodies(examined.space, examined.model)
+    ]
 
 
 def _contact_notes(examined: Examined) -> list[str]:

@@ -9,9 +9,10 @@ from typing import Any
 from signorini.checks import text
 from signorini.deck.table import check_keys, make, table, tables
 from signorini.errors import InputError, Where, one_of
-from signorini.model.body import Body, Elastic
+from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
+from signorini.model.material import Elastic, Material, Orthotropic
 from signorini.model.obstacle import Circle, Plane, Profile
 from signorini.model.rigid import Rigid
 from signorini.model.step import Step
@@ -37,20 +38,22 @@ _OBSTACLES = {"plane": Plane, "circle": Circle, "profile": Profile}
 _OBSTACLE_KEYS = ("name", *_OBSTACLES, "u", "rotation", "force", "moment", "point")
 
 
-def deck_materials(data: Mapping[str, Any]) -> dict[str, Elastic]:
-    """``[material.NAME]`` by name."""
-    materials = table(data.get("material", {}), ("material",))
-    return {
-        name: make(Elastic, table(entry, ("material", name)), ("material", name)) for name, entry in materials.items()
-    }
+def deck_materials(data: Mapping[str, Any]) -> dict[str, Material]:
+    """``[material.NAME]`` by name; with ``E1`` orthotropic."""
+    found: dict[str, Material] = {}
+    for name, entry in table(data.get("material", {}), ("material",)).items():
+        given = table(entry, ("material", name))
+        where = ("material", name)
+        found[name] = make(Orthotropic, given, where) if "E1" in given else make(Elastic, given, where)
+    return found
 
 
-def deck_bodies(data: Mapping[str, Any], materials: Mapping[str, Elastic]) -> list[Body]:
+def deck_bodies(data: Mapping[str, Any], materials: Mapping[str, Material]) -> list[Body]:
     """``[[body]]``, each with the material that it names."""
     bodies = []
     for i, entry in enumerate(tables(data, "body")):
         where: Where = ("body", i)
-        check_keys(entry, where, known=["name", "material"], needed=["name", "material"])
+        check_keys(entry, where, known=["name", "material", "formulation"], needed=["name", "material"])
         name = text(entry["material"], (*where, "material"))
         if name not in materials:
             raise InputError(one_of(name, materials, "material"), where=(*where, "material"))

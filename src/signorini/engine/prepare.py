@@ -15,6 +15,7 @@ from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
 from signorini.errors import InputError, one_of
 from signorini.fem.loads import nodal_loads
+from signorini.fem.locking import refuse_locking
 from signorini.fem.rigid import Part, describe_motion, free_motions, make_parts, rigid_motions
 from signorini.fem.space import Space, make_space
 from signorini.fem.stiffness import stiffness
@@ -149,6 +150,7 @@ def examine(model: Model) -> Examined:
     InputError
         If something in the model does not fit the mesh, or a body can move freely: it is named, with its motion.
     """
+    refuse_locking(model)
     space = make_space(model.mesh, axisymmetric=model.axisymmetric, obstacles=len(model.obstacles))
     constraints = make_constraints(space, model)
     loads = nodal_loads(space, model)

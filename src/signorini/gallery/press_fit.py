@@ -4,9 +4,10 @@
 from __future__ import annotations
 
 from signorini.fem.generators import Cells, annulus
-from signorini.model.body import Body, Elastic
+from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact
+from signorini.model.material import Elastic
 from signorini.model.mesh import join
 from signorini.model.model import Kind, Model
 

@@ -3,17 +3,34 @@
 
 from __future__ import annotations
 
+from typing import Protocol
+
 import numpy as np
 from scipy.spatial import KDTree
 
 from signorini.arrays import Array, IntArray
-from signorini.fem.boundary import Boundary
 
 # of the tributary length: how far a partner may lie beside the normal
 _BESIDE = 0.05
 
 
-def match_nodes(points: Array, nonmortar: Boundary, mortar: Boundary) -> tuple[IntArray, str]:
+class Side(Protocol):
+    """What is asked of a side: a plane boundary, or a surface in space."""
+
+    @property
+    def nodes(self) -> IntArray:
+        """(k,) Sorted nodes."""
+
+    @property
+    def nodal_lengths(self) -> Array:
+        """(k,) Tributary length of every node."""
+
+    @property
+    def nodal_normals(self) -> Array:
+        """(k, d) Outward unit normals."""
+
+
+def match_nodes(points: Array, nonmortar: Side, mortar: Side) -> tuple[IntArray, str]:
     """For every nonmortar node its partner on the mortar side, one to one, or why there is none.
 
     The nearest node is the partner, looked for from either side: where a curved surface leaves a flat one only the
@@ -21,7 +38,7 @@ def match_nodes(points: Array, nonmortar: Boundary, mortar: Boundary) -> tuple[I
 
     Parameters
     ----------
-    points : (n, 2) coordinates of all nodes, length
+    points : (n, d) coordinates of all nodes, length
 
     Returns
     -------
@@ -76,4 +93,4 @@ def _tangential(vectors: Array, normals: Array) -> Array:
 
 
 def _spell(point: Array) -> str:
-    return f"({point[0]:.6g}, {point[1]:.6g})"
+    return "(" + ", ".join(f"{part:.6g}" for part in point) + ")"

@@ -13,6 +13,7 @@ from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary
 from signorini.fem.line import line_shapes
 from signorini.interface.coupling import Coupling
+from signorini.interface.dual import dual_functions
 from signorini.interface.overlap import Overlaps, interpolate, parameter
 
 _COVERED = 1e-8  # of the full weight of a node: with less it carries no pair
@@ -111,12 +112,7 @@ def _duals(side: Boundary, overlaps: Overlaps, at: Array, weights: Array, n: int
     mass = np.zeros((len(side.facets), 2, 2))
     np.add.at(mass, overlaps.first, np.einsum("pq,pqa,pqb->pab", weights, hats, hats))
     share = mass.sum(axis=2)
-    total = share.sum(axis=1)
-    covered = total > 0.0
-    dual = np.zeros_like(mass)
-    inverse = np.linalg.pinv(mass[covered] / total[covered, None, None], 1e-10, hermitian=True)
-    dual[covered] = (share[covered] / total[covered, None])[:, :, None] * inverse
-    multiplier = np.einsum("pab,pqb->pqa", dual[overlaps.first], hats) * weights[..., None]
+    multiplier = np.einsum("pab,pqb->pqa", dual_functions(mass)[overlaps.first], hats) * weights[..., None]
     weight: Array = np.bincount(side.facets[:, :2].ravel(), share.ravel(), n).astype(float)
     return weight, multiplier
 

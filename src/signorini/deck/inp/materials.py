@@ -12,7 +12,7 @@ from signorini.deck.inp.block import Block
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.sets import Sets
 from signorini.errors import InputError, one_of
-from signorini.model.body import Elastic
+from signorini.model.material import Elastic
 
 MATERIAL_WORDS = ("ELASTIC", "DENSITY", "EXPANSION")
 """Keywords that belong to the ``*MATERIAL`` before them and that are read here."""

@@ -1,0 +1,279 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Common part of two plane pieces of faces, and integrals over it; compiled.
+
+A nonmortar piece spans a plane; a mortar piece is projected on it along its normal. Both are convex polygons there and
+are clipped (Sutherland, Hodgman 1974); the common polygon is cut into triangles from its centroid.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.interface.spatial.faces import shapes, slopes
+
+_EMPTY = 1e-14
+_STEPS = 30
+
+
+@njit(cache=True)
+def _cross(a: Array, b: Array, out: Array) -> float:
+    """a x b into out; its length."""
+    out[0] = a[1] * b[2] - a[2] * b[1]
+    out[1] = a[2] * b[0] - a[0] * b[2]
+    out[2] = a[0] * b[1] - a[1] * b[0]
+    return math.sqrt(out[0] ** 2 + out[1] ** 2 + out[2] ** 2)
+
+
+@njit(cache=True)
+def _plane(piece: Array, axes: Array, centre: Array, flat: Array) -> float:
+    """Axes (3, 3: two along, the normal), centre, and plane coordinates (c, 2) of a piece; its area."""
+    c = len(piece)
+    for e in range(3):
+        centre[e] = 0.0
+        for a in range(c):
+            centre[e] += piece[a, e] / c
+    along, across = np.empty(3), np.empty(3)
+    for e in range(3):
+        along[e], across[e] = piece[2, e] - piece[0, e], piece[c - 1, e] - piece[1, e]
+    size = _cross(along, across, axes[2])
+    length = math.sqrt(along[0] ** 2 + along[1] ** 2 + along[2] ** 2)
+    for e in range(3):
+        axes[2, e] /= size
+        axes[0, e] = along[e] / length
+    _cross(axes[2], axes[0], axes[1])
+    _flatten(piece, axes, centre, flat)
+    return _area(flat, c)
+
+
+@njit(cache=True)
+def _flatten(piece: Array, axes: Array, centre: Array, flat: Array) -> None:
+    """Plane coordinates of the corners of a piece."""
+    for a in range(len(piece)):
+        for e in range(2):
+            flat[a, e] = 0.0
+            for f in range(3):
+                flat[a, e] += (piece[a, f] - centre[f]) * axes[e, f]
+
+
+@njit(cache=True)
+def _area(polygon: Array, count: int) -> float:
+    area = 0.0
+    for a in range(count):
+        b = (a + 1) % count
+        area += 0.5 * (polygon[a, 0] * polygon[b, 1] - polygon[a, 1] * polygon[b, 0])
+    return area
+
+
+@njit(cache=True)
+def _middle(polygon: Array, count: int) -> tuple[float, float]:
+    x, y = 0.0, 0.0
+    for a in range(count):
+        x += polygon[a, 0] / count
+        y += polygon[a, 1] / count
+    return x, y
+
+
+@njit(cache=True)
+def _clipped(polygon: Array, count: int, window: Array, sides: int, spare: Array) -> int:
+    """Cut a convex polygon, in place, to a convex window run through counter-clockwise; how many corners are left."""
+    for j in range(sides):
+        a_x, a_y = window[j, 0], window[j, 1]
+        e_x, e_y = window[(j + 1) % sides, 0] - a_x, window[(j + 1) % sides, 1] - a_y
+        left = 0
+        for i in range(count):
+            s_x, s_y = polygon[i, 0], polygon[i, 1]
+            t_x, t_y = polygon[(i + 1) % count, 0], polygon[(i + 1) % count, 1]
+            here, there = e_x * (s_y - a_y) - e_y * (s_x - a_x), e_x * (t_y - a_y) - e_y * (t_x - a_x)
+            if here >= 0.0:
+                spare[left, 0], spare[left, 1] = s_x, s_y
+                left += 1
+            if (here > 0.0 and there < 0.0) or (here < 0.0 and there > 0.0):
+                cut = here / (here - there)
+                spare[left, 0], spare[left, 1] = s_x + cut * (t_x - s_x), s_y + cut * (t_y - s_y)
+                left += 1
+        count = left
+        for i in range(count):
+            polygon[i, 0], polygon[i, 1] = spare[i, 0], spare[i, 1]
+        if count < 3:
+            return 0
+    return count
+
+
+@njit(cache=True)
+def _common(flat: Array, c: int, other: Array, o: int, polygon: Array, spare: Array) -> int:
+    """Corners of the common part of two pieces in one plane; the second runs the other way round."""
+    window = np.empty((o, 2))
+    for a in range(o):
+        window[a, 0], window[a, 1] = other[o - 1 - a, 0], other[o - 1 - a, 1]
+    if _area(window, o) <= 0.0:
+        return 0
+    for a in range(c):
+        polygon[a, 0], polygon[a, 1] = flat[a, 0], flat[a, 1]
+    return _clipped(polygon, c, window, o, spare)
+
+
+@njit(cache=True)
+def overlap_areas(first: Array, second: Array, i: IntArray, j: IntArray) -> tuple[Array, Array]:
+    """Area of the common part of pairs of pieces, and the distance from the first to the second over its centroid.
+
+    Parameters
+    ----------
+    first, second : (p, 3 or 4, 3) corners of the pieces of both sides
+    i, j : (k,) the pairs
+    """
+    c, o = first.shape[1], second.shape[1]
+    axes, centre, flat, other = np.empty((3, 3)), np.empty(3), np.empty((4, 2)), np.empty((4, 2))
+    polygon, spare = np.empty((16, 2)), np.empty((16, 2))
+    along, across, normal = np.empty(3), np.empty(3), np.empty(3)
+    area, distance = np.zeros(len(i)), np.zeros(len(i))
+    for k in range(len(i)):
+        whole = _plane(first[i[k]], axes, centre, flat)
+        _flatten(second[j[k]], axes, centre, other)
+        count = _common(flat, c, other, o, polygon, spare)
+        if count < 3:
+            continue
+        common = _area(polygon, count)
+        if common <= _EMPTY * whole:
+            continue
+        area[k] = common
+        x, y = _middle(polygon, count)
+        piece, upright, height = second[j[k]], 0.0, 0.0
+        for e in range(3):
+            along[e], across[e] = piece[2, e] - piece[0, e], piece[o - 1, e] - piece[1, e]
+        _cross(along, across, normal)
+        for e in range(3):
+            middle = 0.0
+            for a in range(o):
+                middle += piece[a, e] / o
+            upright += normal[e] * axes[2, e]
+            height += normal[e] * (middle - centre[e] - x * axes[0, e] - y * axes[1, e])
+        distance[k] = height / upright
+    return area, distance
+
+
+@njit(cache=True)
+def _inside(flat: Array, c: int, x: float, y: float, places: Array, found: Array) -> float:
+    """Reference place of the point (x, y) of a piece whose corners are at ``flat``, and the area per reference area.
+
+    ``places`` are the reference coordinates of its corners: the piece is part of a larger face.
+    """
+    if c == 3:
+        a_x, a_y = flat[1, 0] - flat[0, 0], flat[1, 1] - flat[0, 1]
+        b_x, b_y = flat[2, 0] - flat[0, 0], flat[2, 1] - flat[0, 1]
+        size = a_x * b_y - a_y * b_x
+        r = ((x - flat[0, 0]) * b_y - (y - flat[0, 1]) * b_x) / size
+        s = (a_x * (y - flat[0, 1]) - a_y * (x - flat[0, 0])) / size
+        for e in range(2):
+            found[e] = (1 - r - s) * places[0, e] + r * places[1, e] + s * places[2, e]
+        p_x, p_y = places[1, 0] - places[0, 0], places[1, 1] - places[0, 1]
+        q_x, q_y = places[2, 0] - places[0, 0], places[2, 1] - places[0, 1]
+        return size / (p_x * q_y - p_y * q_x)
+    r, s, size = 0.5, 0.5, 1.0
+    for _ in range(_STEPS):
+        off_x = (1 - s) * ((1 - r) * flat[0, 0] + r * flat[1, 0]) + s * (r * flat[2, 0] + (1 - r) * flat[3, 0]) - x
+        off_y = (1 - s) * ((1 - r) * flat[0, 1] + r * flat[1, 1]) + s * (r * flat[2, 1] + (1 - r) * flat[3, 1]) - y
+        a_x = (1 - s) * (flat[1, 0] - flat[0, 0]) + s * (flat[2, 0] - flat[3, 0])
+        a_y = (1 - s) * (flat[1, 1] - flat[0, 1]) + s * (flat[2, 1] - flat[3, 1])
+        b_x = (1 - r) * (flat[3, 0] - flat[0, 0]) + r * (flat[2, 0] - flat[1, 0])
+        b_y = (1 - r) * (flat[3, 1] - flat[0, 1]) + r * (flat[2, 1] - flat[1, 1])
+        size = a_x * b_y - a_y * b_x
+        step_r, step_s = (b_y * off_x - b_x * off_y) / size, (a_x * off_y - a_y * off_x) / size
+        r, s = r - step_r, s - step_s
+        if abs(step_r) + abs(step_s) < 1e-15:
+            break
+    for e in range(2):
+        low = (1 - r) * places[0, e] + r * places[1, e]
+        high = (1 - r) * places[3, e] + r * places[2, e]
+        found[e] = (1 - s) * low + s * high
+    width, depth = places[2, 0] - places[0, 0], places[2, 1] - places[0, 1]
+    return size / (width * depth)
+
+
+@njit(cache=True)
+def _true_area(nodes: Array, place: Array, D: Array) -> float:
+    """Area of a face per reference area at a reference place."""
+    c = len(nodes)
+    slopes(c, place[0], place[1], D)
+    x, y, normal = np.zeros(3), np.zeros(3), np.empty(3)
+    for a in range(c):
+        for e in range(3):
+            x[e] += D[0, a] * nodes[a, e]
+            y[e] += D[1, a] * nodes[a, e]
+    return _cross(x, y, normal)
+
+
+@njit(cache=True)
+def integrate(
+    first: Array,
+    first_nodes: Array,
+    first_places: Array,
+    second: Array,
+    second_count: int,
+    second_places: Array,
+    i: IntArray,
+    j: IntArray,
+    rule: Array,
+    weights: Array,
+    mass: Array,
+    own: Array,
+    other: Array,
+    chosen: BoolArray,
+) -> None:
+    """Add up integrals over the common parts of pairs of pieces.
+
+    With N the hats of the corners, N_j all functions of the nonmortar face, N_l those of the mortar face, at the same
+    Gauss points: ``mass = int N N``, ``own = int N N_j``, ``other = int N N_l``. The area is that of the nonmortar face
+    itself, curved as it is.
+
+    Parameters
+    ----------
+    first, second : (p, 3 or 4, 3) corners of the pieces, piece after piece of every face
+    first_nodes : (m, c, 3) nodes of the nonmortar faces
+    first_places, second_places : (s, 3 or 4, 2) reference coordinates of the pieces of a face
+    second_count : nodes of a mortar face
+    i, j : (k,) pairs of pieces
+    rule, weights : (q, 3) barycentric coordinates and weights of a quadrature of the triangle, which sum to 1
+    mass, own : (m, corners, corners), (m, corners, c), added to
+    other : (k, corners, second_count), added to
+    chosen : (k,) pairs to integrate
+    """
+    c, o, nodes = first.shape[1], second.shape[1], first_nodes.shape[1]
+    s_1, s_2 = len(first_places), len(second_places)
+    axes, centre, flat, projected = np.empty((3, 3)), np.empty(3), np.empty((4, 2)), np.empty((4, 2))
+    polygon, spare = np.empty((16, 2)), np.empty((16, 2))
+    hats, N, M, D = np.empty(4), np.empty(9), np.empty(9), np.empty((2, 9))
+    here, there = np.empty(2), np.empty(2)
+    for k in range(len(i)):
+        if not chosen[k]:
+            continue
+        face = i[k] // s_1
+        whole = _plane(first[i[k]], axes, centre, flat)
+        _flatten(second[j[k]], axes, centre, projected)
+        count = _common(flat, c, projected, o, polygon, spare)
+        m_x, m_y = _middle(polygon, count)
+        for a in range(count):
+            b = (a + 1) % count
+            p_x, p_y, q_x, q_y = polygon[a, 0], polygon[a, 1], polygon[b, 0], polygon[b, 1]
+            triangle = 0.5 * ((p_x - m_x) * (q_y - m_y) - (p_y - m_y) * (q_x - m_x))
+            if triangle <= _EMPTY * whole:
+                continue
+            for g in range(len(weights)):
+                x = rule[g, 0] * m_x + rule[g, 1] * p_x + rule[g, 2] * q_x
+                y = rule[g, 0] * m_y + rule[g, 1] * p_y + rule[g, 2] * q_y
+                stretch = _inside(flat, c, x, y, first_places[i[k] % s_1], here)
+                _inside(projected, o, x, y, second_places[j[k] % s_2], there)
+                w = weights[g] * triangle * _true_area(first_nodes[face], here, D) / stretch
+                shapes(c, here[0], here[1], hats)
+                shapes(nodes, here[0], here[1], N)
+                shapes(second_count, there[0], there[1], M)
+                for e in range(c):
+                    for f in range(c):
+                        mass[face, e, f] += w * hats[e] * hats[f]
+                    for f in range(nodes):
+                        own[face, e, f] += w * hats[e] * N[f]
+                    for f in range(second_count):
+                        other[k, e, f] += w * hats[e] * M[f]

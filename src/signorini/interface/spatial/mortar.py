@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Mortar coupling in space with dual multipliers: sides whose faces need not match, in kind or place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.errors import InputError, Where
+from signorini.interface.coupling import Coupling
+from signorini.interface.dual import dual_functions
+from signorini.interface.spatial.candidates import near_pairs, nearest_layers
+from signorini.interface.spatial.clip import integrate, overlap_areas
+from signorini.interface.spatial.faces import pieces
+from signorini.interface.spatial.surface import Block, Surface, reference_rule, search_distance
+
+_COVERED = 1e-8  # of the full weight of a node: with less it carries no pair
+_DEGREE = {3: 1, 4: 2, 6: 2, 8: 3, 9: 4}  # of the shape functions, by nodes of a face
+_MANY = 8  # Gauss points a direction where functions are no polynomials: exact to 1e-13
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Overlaps:
+    """Pairs of pieces of one nonmortar and one mortar block."""
+
+    mortar: Block
+    i: IntArray
+    j: IntArray
+    chosen: BoolArray
+
+
+def mortar_coupling(nonmortar: Surface, mortar: Surface, *, search: float | None = None, where: Where = ()) -> Coupling:
+    """Weigh both sides with the functions dual to the hats of the nonmortar corner nodes.
+
+    On the covered part of every nonmortar face, ``psi = diag(int N) (int N N^T)^-1 N``, N the hats of its corners, so
+    that ``int psi_a N_b = delta_ab int N_a``; with ``w_k = int psi_k`` pair k sees
+
+        sum_j (int psi_k N_j / w_k) x_j  -  sum_l (int psi_k N_l^mortar / w_k) x_l .
+
+    The weights reproduce linear fields where the surfaces coincide, and ``sum_k w_k P_kl = int N_l^mortar``: uniform
+    pressure passes exactly. Of linear faces the first sum is the node itself. Quadratic faces have pairs at their
+    corners only (their own dual functions oscillate); for clipping four plane pieces stand for each of them. Areas are
+    those of the nonmortar faces themselves, warped or curved as they are.
+
+    Parameters
+    ----------
+    nonmortar, mortar : the sides, on the same array of points; the coarser one is the better nonmortar side
+    search : how far apart faces can be along their normal, length; None: half the size of the smaller side
+    where : what errors call the contact
+
+    Raises
+    ------
+    InputError
+        If no faces are opposite each other.
+
+    References
+    ----------
+    Puso, Laursen (2004), Computer Methods in Applied Mechanics and Engineering 193:601-629. Popp, Gitterle, Gee, Wall
+    (2010), International Journal for Numerical Methods in Engineering 83:1428-1465. Popp, Wohlmuth, Gee, Wall (2012),
+    SIAM Journal on Scientific Computing 34:B421-B446.
+
+    Examples
+    --------
+    >>> from signorini.interface.spatial.surface import make_surface
+    >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    >>> upper, lower = make_surface(2 * square, [[3, 2, 1, 0]]), make_surface(2 * square, [[4, 5, 6, 7]])
+    >>> coupling = mortar_coupling(upper, lower)
+    >>> coupling.area.round(12).tolist(), coupling.relative.toarray()[0].round(12).tolist()
+    ([0.25, 0.25, 0.25, 0.25], [1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0])
+    """
+    n = len(nonmortar.points)
+    reach = search_distance(nonmortar, mortar) if search is None else search
+    weight, full = np.zeros(n), np.zeros(n)
+    full[nonmortar.nodes] = nonmortar.nodal_areas
+    keeps, gives = sp.csr_array((n, n)), sp.csr_array((n, n))
+    for block in nonmortar.blocks:
+        overlaps = _overlaps(block, mortar, reach)
+        share, own, other = _block_integrals(block, overlaps, n)
+        weight += share
+        keeps, gives = keeps + own, gives + other
+    nodes = np.nonzero(weight > _COVERED * full)[0]
+    if not len(nodes):
+        raise InputError(
+            f"no face of the nonmortar side has one of the mortar side opposite it within {reach:.4g} along its "
+            "normal; expected surfaces that face each other, or another 'search'",
+            where=where,
+        )
+    relative = sp.csr_array(sp.diags_array(1.0 / weight[nodes]) @ (keeps - gives)[nodes])
+    return Coupling(nodes=nodes, area=weight[nodes], relative=relative)
+
+
+def _corners(block: Block) -> Array:
+    """(p, 3 or 4, 3) Corners of all pieces of a block, piece after piece of every face."""
+    corners = block.plane_pieces
+    return np.ascontiguousarray(corners.reshape(-1, *corners.shape[2:]))
+
+
+def _overlaps(block: Block, mortar: Surface, search: float) -> list[_Overlaps]:
+    """Pairs of pieces that are opposite each other, by blocks of the mortar side."""
+    first = _corners(block)
+    found = []
+    for other in mortar.blocks:
+        second = _corners(other)
+        i, j = near_pairs(first, second, search)
+        found.append((other, i, j, *overlap_areas(first, second, i, j)))
+    i, area, distance = (np.concatenate([part[k] for part in found]) for k in (1, 3, 4))
+    order = np.argsort(i, kind="stable")
+    chosen = np.empty(len(i), np.bool_)
+    # the pieces of a quadratic face are triangles or quadrilaterals in space, plane or nearly so
+    spans = np.cross(first[:, 2] - first[:, 0], first[:, -1] - first[:, 1])
+    whole = 0.5 * np.linalg.norm(spans, axis=1)
+    chosen[order] = nearest_layers(area[order], distance[order], i[order], whole, search)
+    result, start = [], 0
+    for other, i, j, *_ in found:
+        result.append(_Overlaps(mortar=other, i=i, j=j, chosen=chosen[start : start + len(i)]))
+        start += len(i)
+    return result
+
+
+def _block_integrals(block: Block, overlaps: list[_Overlaps], n: int) -> tuple[Array, sp.csr_array, sp.csr_array]:
+    """``int psi_k`` (n,), ``int psi_k N_j`` of the block itself and ``int psi_k N_l`` of the other side, (n, n)."""
+    m, c = block.corners.shape
+    mass, own = np.zeros((m, c, c)), np.zeros((m, c, block.nodes_a_face))
+    others = []
+    for part in overlaps:
+        count = part.mortar.nodes_a_face
+        other = np.zeros((len(part.i), c, count))
+        places, weights = reference_rule(3, _points(block, part.mortar))
+        integrate(
+            _corners(block),
+            block.points,
+            pieces(block.nodes_a_face),
+            _corners(part.mortar),
+            count,
+            pieces(count),
+            part.i,
+            part.j,
+            np.column_stack([1.0 - places.sum(axis=1), places]),
+            2.0 * weights,
+            mass,
+            own,
+            other,
+            part.chosen,
+        )
+        others.append(other)
+    share = mass.sum(axis=2)
+    dual = dual_functions(mass)
+    weight: Array = np.bincount(block.corners.ravel(), share.ravel(), n).astype(float)
+    if block.nodes_a_face <= 4:
+        keeps = sp.csr_array(sp.diags_array(weight))
+    else:
+        keeps = _spread(block.corners, block.faces, np.einsum("mab,mbj->maj", dual, own), n)
+    gives = sp.csr_array((n, n))
+    per_face = len(pieces(block.nodes_a_face))
+    for part, other in zip(overlaps, others, strict=True):
+        k = np.nonzero(part.chosen)[0]
+        face, opposite = part.i[k] // per_face, part.j[k] // len(pieces(part.mortar.nodes_a_face))
+        values = np.einsum("kab,kbl->kal", dual[face], other[k])
+        gives = gives + _spread(block.corners[face], part.mortar.faces[opposite], values, n)
+    return weight, keeps, sp.csr_array(gives)
+
+
+def _points(block: Block, mortar: Block) -> int:
+    """Gauss points a direction that integrate hats times shape functions; collapsed they are exact to 2 k - 2."""
+    if not (block.parallelograms and mortar.parallelograms):
+        return _MANY
+    hats = _DEGREE[block.corners.shape[1]]
+    return (hats + max(_DEGREE[block.nodes_a_face], _DEGREE[mortar.nodes_a_face])) // 2 + 2
+
+
+def _spread(rows: IntArray, columns: IntArray, values: Array, n: int) -> sp.csr_array:
+    """Values (k, a, b) of rows (k, a) and columns (k, b), summed into an (n, n) matrix."""
+    i, j = (np.broadcast_to(part, values.shape).ravel() for part in (rows[:, :, None], columns[:, None, :]))
+    return sp.csr_array((values.ravel(), (i, j)), shape=(n, n))

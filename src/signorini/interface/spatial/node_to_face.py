@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Nodes on the faces opposite: the simple coupling of sides that do not match; and node opposite node."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.spatial import KDTree
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.errors import InputError, Where
+from signorini.interface.coupling import Coupling
+from signorini.interface.matching import match_nodes
+from signorini.interface.spatial.candidates import FACING
+from signorini.interface.spatial.faces import CORNERS, shapes_at
+from signorini.interface.spatial.projection import meet
+from signorini.interface.spatial.surface import Block, Surface, search_distance
+
+_BESIDE = 1e-9  # of the reference face: how far beyond its edge a node still lies on it
+
+
+def node_to_face(nonmortar: Surface, mortar: Surface, *, search: float | None = None, where: Where = ()) -> Coupling:
+    """Every nonmortar corner node against the point that its normal meets on the mortar side; nodes that meet none are
+    left.
+
+    It fails the patch test where the meshes do not match.
+
+    Parameters
+    ----------
+    nonmortar, mortar : the sides, on the same array of points
+    search : how far apart node and face can be, length; None: half the size of the smaller side
+    where : what errors call the contact
+
+    Raises
+    ------
+    InputError
+        If no node meets a face.
+    """
+    reach = search_distance(nonmortar, mortar) if search is None else search
+    n, nodes = len(nonmortar.points), nonmortar.corners
+    own = np.searchsorted(nonmortar.nodes, nodes)
+    best, gives = np.full(len(nodes), np.inf), sp.csr_array((len(nodes), n))
+    for block in mortar.blocks:
+        distance, weights = _nearest(nonmortar.points[nodes], nonmortar.nodal_normals[own], block, reach, n)
+        nearer = distance < best
+        best = np.minimum(best, distance)
+        keep, take = sp.diags_array(np.where(nearer, 0.0, 1.0)), sp.diags_array(np.where(nearer, 1.0, 0.0))
+        gives = sp.csr_array(keep @ gives + take @ weights)
+    met = np.nonzero(np.isfinite(best))[0]
+    if not len(met):
+        raise InputError(
+            f"no node of the nonmortar side meets the mortar side within {reach:.4g} along its normal; expected "
+            "surfaces that face each other, or another 'search'",
+            where=where,
+        )
+    picked = sp.csr_array((np.ones(len(nodes)), (np.arange(len(nodes)), nodes)), shape=(len(nodes), n))
+    return Coupling(
+        nodes=nodes[met],
+        area=nonmortar.nodal_areas[own[met]],
+        relative=sp.csr_array((picked - gives)[met]),
+    )
+
+
+def node_pairs(nonmortar: Surface, mortar: Surface) -> tuple[Coupling | None, str]:
+    """Node opposite node, where two linear sides match; otherwise None and why they do not, in words."""
+    if not (nonmortar.linear and mortar.linear):
+        return None, "quadratic faces have no pairs at their middle nodes; expected linear faces"
+    partner, reason = match_nodes(nonmortar.points, nonmortar, mortar)
+    if reason:
+        return None, reason
+    nodes, k = nonmortar.nodes, len(nonmortar.nodes)
+    rows = np.tile(np.arange(k), 2)
+    values = np.repeat([1.0, -1.0], k)
+    relative = sp.csr_array((values, (rows, np.concatenate([nodes, partner]))), shape=(k, len(nonmortar.points)))
+    return Coupling(nodes=nodes, area=nonmortar.nodal_areas, relative=relative), ""
+
+
+def _nearest(points: Array, normals: Array, block: Block, search: float, n: int) -> tuple[Array, sp.csr_array]:
+    """Distance (p,) of points to the nearest face of a block along their normals, infinite where there is none, and the
+    weights (p, n) of its nodes.
+    """
+    i, j = _near(points, block, search)
+    places, distance = meet(points, normals, block.points, i, j)
+    outward = block.outward(np.full((1, 2), 1.0 / 3.0))[:, 0]
+    outward /= np.linalg.norm(outward, axis=1, keepdims=True)
+    facing = np.sum(normals[i] * outward[j], axis=1) < FACING
+    there = np.nonzero(_within(block.nodes_a_face, places) & (np.abs(distance) <= search) & facing)[0]
+    there = there[np.lexsort([np.abs(distance[there]), i[there]])]
+    found, first = np.unique(i[there], return_index=True)
+    chosen = there[first]
+    result = np.full(len(points), np.inf)
+    result[found] = np.abs(distance[chosen])
+    values = shapes_at(block.nodes_a_face, places[chosen])
+    rows = np.repeat(found, block.nodes_a_face)
+    entries = (values.ravel(), (rows, block.faces[j[chosen]].ravel()))
+    return result, sp.csr_array(entries, shape=(len(points), n))
+
+
+def _near(points: Array, block: Block, search: float) -> tuple[IntArray, IntArray]:
+    """Pairs of a point and a face that it may meet."""
+    centres = block.points.mean(axis=1)
+    radius = np.linalg.norm(block.points - centres[:, None], axis=2).max()
+    tree = KDTree(centres)
+    closest, _ = tree.query(points)
+    lists = tree.query_ball_point(points, radius + np.minimum(2.0 * closest, search), return_sorted=True)
+    count = np.array([len(found) for found in lists], int)
+    return np.repeat(np.arange(len(count)), count), np.concatenate([np.asarray(found, int) for found in lists])
+
+
+def _within(count: int, places: Array) -> BoolArray:
+    """Reference coordinates that lie on the face; NaN do not."""
+    x, y = places.T
+    if CORNERS[count] == 3:
+        return np.asarray((x >= -_BESIDE) & (y >= -_BESIDE) & (x + y <= 1 + _BESIDE), dtype=np.bool_)
+    return np.asarray((np.abs(x) <= 1 + _BESIDE) & (np.abs(y) <= 1 + _BESIDE), dtype=np.bool_)

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where lines meet faces, plane or curved; compiled."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from signorini.arrays import Array, IntArray
+from signorini.interface.spatial.faces import shapes, slopes
+
+_STEPS = 20
+_STILL = 1e-14
+
+
+@njit(cache=True)
+def _step(first: Array, second: Array, third: Array, rhs: Array, out: Array) -> bool:
+    """Solve ``[first second third] out = rhs`` by Cramer's rule; False where the columns are dependent."""
+    a = second[1] * third[2] - second[2] * third[1]
+    b = second[2] * third[0] - second[0] * third[2]
+    c = second[0] * third[1] - second[1] * third[0]
+    whole = first[0] * a + first[1] * b + first[2] * c
+    if abs(whole) < 1e-300:
+        return False
+    out[0] = (rhs[0] * a + rhs[1] * b + rhs[2] * c) / whole
+    a = rhs[1] * third[2] - rhs[2] * third[1]
+    b = rhs[2] * third[0] - rhs[0] * third[2]
+    c = rhs[0] * third[1] - rhs[1] * third[0]
+    out[1] = (first[0] * a + first[1] * b + first[2] * c) / whole
+    a = second[1] * rhs[2] - second[2] * rhs[1]
+    b = second[2] * rhs[0] - second[0] * rhs[2]
+    c = second[0] * rhs[1] - second[1] * rhs[0]
+    out[2] = (first[0] * a + first[1] * b + first[2] * c) / whole
+    return True
+
+
+@njit(cache=True)
+def meet(points: Array, directions: Array, faces: Array, i: IntArray, j: IntArray) -> tuple[Array, Array]:
+    """Reference place (k, 2) and signed distance (k,) where the line through a point meets a face; NaN where none.
+
+    Parameters
+    ----------
+    points, directions : (p, 3) and unit vectors; distances count along them
+    faces : (m, c, 3) nodes of faces
+    i, j : (k,) pairs of a point and a face
+    """
+    c = faces.shape[1]
+    places, distance = np.full((len(i), 2), np.nan), np.full(len(i), np.nan)
+    N, D, off, step = np.empty(9), np.empty((2, 9)), np.empty(3), np.empty(3)
+    along, across, back = np.empty(3), np.empty(3), np.empty(3)
+    for k in range(len(i)):
+        centre = 1.0 / 3.0 if c == 3 or c == 6 else 0.0
+        x, y, t = centre, centre, 0.0
+        for _ in range(_STEPS):
+            shapes(c, x, y, N)
+            slopes(c, x, y, D)
+            for e in range(3):
+                back[e] = -directions[i[k], e]
+                off[e] = points[i[k], e] - t * back[e]
+                along[e], across[e] = 0.0, 0.0
+                for a in range(c):
+                    off[e] -= N[a] * faces[j[k], a, e]
+                    along[e] += D[0, a] * faces[j[k], a, e]
+                    across[e] += D[1, a] * faces[j[k], a, e]
+            if not _step(along, across, back, off, step):
+                break
+            x, y, t = x + step[0], y + step[1], t + step[2]
+            if abs(x) + abs(y) > 1e3:
+                break
+            if abs(step[0]) + abs(step[1]) < _STILL:
+                places[k, 0], places[k, 1], distance[k] = x, y, t
+                break
+    return places, distance

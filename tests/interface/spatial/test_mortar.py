@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Mortar weights in space: linear fields, exact integrals, partial cover, rotation, cost; the simpler couplings."""
+
+import numpy as np
+import pytest
+from face_samples import grid, rotation, turned, two_sides
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from signorini.errors import InputError
+from signorini.interface.spatial.candidates import near_pairs
+from signorini.interface.spatial.faces import shapes_at
+from signorini.interface.spatial.mortar import mortar_coupling
+from signorini.interface.spatial.node_to_face import node_pairs, node_to_face
+from signorini.interface.spatial.surface import make_surface, reference_rule
+
+KINDS = (3, 4, 6, 8, 9)
+
+knots = st.lists(st.floats(0.05, 0.95), min_size=0, max_size=3).map(
+    lambda inner: np.unique(np.round([0.0, *inner, 1.0], 1))
+)
+
+
+def fields(points):
+    """1, x, y, z."""
+    return np.column_stack([np.ones(len(points)), points])
+
+
+def passed(coupling):
+    """Forces of a unit pressure on all nodes, (n,)."""
+    return coupling.area @ coupling.relative
+
+
+def nodal_integrals(side):
+    """``int N`` of every shape function of a side, (n,)."""
+    total = np.zeros(len(side.points))
+    for block in side.blocks:
+        places, weights = reference_rule(block.corners.shape[1], 6)
+        size = np.linalg.norm(block.outward(places), axis=2) * weights
+        np.add.at(total, block.faces, size @ shapes_at(block.nodes_a_face, places))
+    return total
+
+
+@settings(deadline=None, derandomize=True, max_examples=40)
+@given(
+    kinds=st.tuples(st.sampled_from(KINDS), st.sampled_from(KINDS)),
+    x=st.tuples(knots, knots, knots, knots),
+    jiggle=st.sampled_from([0.0, 0.7]),
+    seed=st.integers(0, 99),
+)
+def test_covered_sides_reproduce_linear_fields_and_integrals(kinds, x, jiggle, seed):
+    upper, lower = grid(x[0], x[1], kinds[0], jiggle, seed), grid(x[2], x[3], kinds[1], jiggle, seed + 1)
+    points, side, other = two_sides(upper, lower, turn=rotation(seed))
+    coupling = mortar_coupling(side, other)
+    np.testing.assert_array_equal(coupling.nodes, side.corners)
+    assert (coupling.area > 0).all()
+    full = side.nodal_areas[np.searchsorted(side.nodes, coupling.nodes)]
+    np.testing.assert_allclose(coupling.relative @ fields(points), 0.0, atol=1e-12)
+    # on quadrilaterals that are no parallelograms the integrands are rational functions
+    near = {"atol": 1e-11 if jiggle else 1e-14}
+    np.testing.assert_allclose(coupling.area, full, **near)
+    np.testing.assert_allclose(passed(coupling), nodal_integrals(side) - nodal_integrals(other), **near)
+    above = coupling.relative[:, side.nodes].sum(axis=1)
+    np.testing.assert_allclose(above, 1.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_gap_between_planes_is_found_exactly(kind):
+    points, side, other = two_sides(grid([0, 0.4, 1], [0, 1], kind), grid([0, 0.3, 1], [0, 0.8, 1], 4), gap=0.25)
+    coupling = mortar_coupling(side, other)
+    np.testing.assert_allclose(coupling.relative @ points, np.tile([0, 0, 0.25], (len(coupling.nodes), 1)), atol=1e-13)
+
+
+def test_a_side_of_triangles_and_quadrilaterals_is_one_side():
+    flat, quads = grid([0, 0.5, 1], [0, 0.5, 1], 4, 0.4)
+    mixed = [quads[:2], quads[2:, [0, 1, 2]], quads[2:, [0, 2, 3]]]
+    below, lower = grid(np.linspace(0, 1, 4), [0, 0.35, 1], 3, 0.4)
+    points = np.zeros((len(flat) + len(below), 3))
+    points[:, :2] = np.concatenate([flat, below])
+    upper = make_surface(points, *(turned(faces) for faces in mixed))
+    for one, two in (
+        (upper, make_surface(points, lower + len(flat))),
+        (make_surface(points, turned(lower + len(flat))), make_surface(points, *mixed)),
+    ):
+        coupling = mortar_coupling(one, two)
+        np.testing.assert_allclose(coupling.relative @ fields(points), 0.0, atol=1e-13)
+        np.testing.assert_allclose(passed(coupling), nodal_integrals(one) - nodal_integrals(two), atol=1e-13)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("edge", [0.31, 0.52, 0.9])
+def test_partly_covered_faces_pass_uniform_pressure(kind, edge):
+    # the mortar side ends inside nonmortar faces: weights are those of the covered part
+    points, side, other = two_sides(
+        grid([0, 0.5, 1], [0, 0.5, 1], kind, 0.5), grid([0, edge / 2, edge], [0, 0.6, 1], 4)
+    )
+    coupling = mortar_coupling(side, other)
+    assert (coupling.area > 0).all()
+    np.testing.assert_allclose(coupling.area.sum(), edge, rtol=1e-12)
+    np.testing.assert_allclose(coupling.relative @ fields(points), 0.0, atol=1e-9)
+    np.testing.assert_allclose(passed(coupling)[other.nodes], -nodal_integrals(other)[other.nodes], atol=1e-12)
+
+
+def test_turning_and_shifting_space_changes_no_weight():
+    upper, lower = grid([0, 0.4, 1], [0, 0.7, 1], 4, 0.6), grid([0, 0.3, 1], [0, 0.2, 1], 6, 0.6)
+    points, side, other = two_sides(upper, lower, gap=0.1)
+    before = mortar_coupling(side, other)
+    moved = points @ rotation(7).T + [5.0, -3.0, 2.0]
+    after = mortar_coupling(
+        make_surface(moved, *(b.faces for b in side.blocks)), make_surface(moved, *(b.faces for b in other.blocks))
+    )
+    np.testing.assert_allclose(after.relative.toarray(), before.relative.toarray(), atol=1e-12)
+    np.testing.assert_allclose(after.area, before.area, rtol=1e-13)
+
+
+def test_areas_of_curved_faces_are_those_of_the_faces():
+    flat, faces = grid(np.linspace(-1, 1, 5), np.linspace(-1, 1, 5), 9)
+    below, lower = grid(np.linspace(-1, 1, 7), np.linspace(-1, 1, 7), 9)
+    xy = np.concatenate([flat, below])
+    points = np.column_stack([xy, 0.2 * (xy**2).sum(axis=1)])
+    side, other = make_surface(points, turned(faces)), make_surface(points, lower + len(flat))
+    coupling = mortar_coupling(side, other)
+    # rim faces overhang by what chords cut off
+    np.testing.assert_allclose(coupling.area.sum(), nodal_integrals(side).sum(), rtol=2e-3)
+    gap = np.sum(
+        (coupling.relative @ points) * -side.nodal_normals[np.searchsorted(side.nodes, coupling.nodes)], axis=1
+    )
+    assert np.abs(gap).max() < 0.2 * 0.25**2
+
+
+def test_of_faces_behind_each_other_only_the_nearest_are_opposite():
+    flat, faces = grid([0, 0.5, 1], [0, 0.5, 1], 4)
+    n = len(flat)
+    layers = [np.column_stack([flat, np.full(n, z)]) for z in (0.0, -0.1, -0.2)]
+    points = np.concatenate(layers)
+    coupling = mortar_coupling(make_surface(points, turned(faces)), make_surface(points, faces + n, faces + 2 * n))
+    np.testing.assert_allclose(coupling.area.sum(), 1.0)
+    np.testing.assert_allclose((coupling.relative @ points)[:, 2], 0.1)
+
+
+def test_faces_that_look_the_same_way_or_are_too_far_apart_are_refused():
+    flat, faces = grid([0, 1], [0, 1], 4)
+    points = np.concatenate([np.column_stack([flat, np.full(4, z)]) for z in (0.0, 0.5)])
+    up, down = make_surface(points, faces), make_surface(points, turned(faces) + 4)
+    with pytest.raises(InputError, match="no face of the nonmortar side has one of the mortar side opposite"):
+        mortar_coupling(up, make_surface(points, faces + 4), where=("contact", 0))
+    with pytest.raises(InputError, match=r"within 0\.1 along its normal"):
+        mortar_coupling(up, down, search=0.1)
+    assert len(mortar_coupling(up, down, search=0.6).nodes) == 4
+
+
+def test_the_number_of_pairs_tested_grows_like_that_of_the_faces():
+    per_face = []
+    for n in (8, 16, 32):
+        _, side, other = two_sides(
+            grid(np.linspace(0, 1, n + 1), np.linspace(0, 1, n + 1), 4, 0.5),
+            grid(np.linspace(0, 1, 3 * n // 2 + 1), np.linspace(0, 1, 3 * n // 2 + 1), 4, 0.5),
+        )
+        corners = [part.blocks[0].plane_pieces[:, 0] for part in (side, other)]
+        per_face.append(len(near_pairs(*corners, search=0.5)[0]) / n**2)
+    assert max(per_face) < 16
+    assert per_face[2] < 1.1 * per_face[1]
+
+
+@pytest.mark.parametrize("kinds", [(3, 3), (4, 4), (6, 9), (8, 3)])
+def test_nodes_on_faces_reproduce_linear_fields_but_not_pressure(kinds):
+    upper, lower = grid([0, 0.4, 1], [0, 0.7, 1], kinds[0], 0.6), grid([0, 0.3, 1], [0, 0.2, 1], kinds[1], 0.6)
+    points, side, other = two_sides(upper, lower, turn=rotation(2))
+    coupling = node_to_face(side, other)
+    np.testing.assert_array_equal(coupling.nodes, side.corners)
+    np.testing.assert_allclose(coupling.relative @ fields(points), 0.0, atol=1e-12)
+    assert np.abs(passed(coupling)[other.nodes] + nodal_integrals(other)[other.nodes]).max() > 1e-3
+
+
+def test_a_node_meets_a_curved_face_where_its_normal_does():
+    below, lower = grid([-1, 1], [-1, 1], 9)
+    points = np.concatenate(
+        [[[0.3, 0.2, 1.0], [0.4, 0.2, 1.0], [0.3, 0.4, 1.0]], np.column_stack([below, 0.25 * (below**2).sum(axis=1)])]
+    )
+    coupling = node_to_face(make_surface(points, [[0, 2, 1]]), make_surface(points, lower + 3), search=2.0)
+    np.testing.assert_allclose((coupling.relative @ points)[0], [0, 0, 1 - 0.25 * 0.13], atol=1e-14)
+    with pytest.raises(InputError, match="no node of the nonmortar side meets"):
+        node_to_face(make_surface(points, [[0, 1, 2]]), make_surface(points, lower + 3))
+
+
+@pytest.mark.parametrize("kind", [3, 4])
+def test_matching_sides_pair_their_nodes(kind):
+    upper = grid([0, 0.4, 1], [0, 0.7, 1], kind, 0.6)
+    order = np.random.default_rng(0).permutation(len(upper[0]))
+    lower = upper[0][order], np.argsort(order)[upper[1]]
+    points, side, other = two_sides(upper, lower, gap=0.05, turn=rotation(1))
+    coupling, reason = node_pairs(side, other)
+    assert not reason
+    np.testing.assert_allclose(
+        coupling.relative @ points, np.tile(0.05 * rotation(1)[:, 2], (len(side.nodes), 1)), atol=1e-15
+    )
+    mortar = mortar_coupling(side, other)
+    np.testing.assert_allclose(mortar.relative.toarray(), coupling.relative.toarray(), atol=1e-12)
+    np.testing.assert_allclose(mortar.area, coupling.area, rtol=1e-12)
+
+
+def test_sides_that_do_not_match_say_so():
+    _, side, other = two_sides(grid([0, 0.4, 1], [0, 1], 4), grid([0, 0.6, 1], [0, 1], 4))
+    assert "has no partner across the gap" in node_pairs(side, other)[1]
+    _, side, other = two_sides(grid([0, 1], [0, 1], 4), grid([0, 0.6, 1], [0, 1], 4))
+    assert "4 nodes and the mortar side 6" in node_pairs(side, other)[1]
+    _, side, other = two_sides(grid([0, 1], [0, 1], 8), grid([0, 1], [0, 1], 8))
+    assert node_pairs(side, other)[0] is None
