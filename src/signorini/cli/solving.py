@@ -15,8 +15,8 @@ from signorini.clock import Clock
 from signorini.deck import Deck
 from signorini.errors import InputError, SolveFailed, one_of
 from signorini.linalg.registry import BACKENDS
-from signorini.output.checkpoint import read_checkpoint
 from signorini.output.archive import read_archive
+from signorini.output.checkpoint import read_checkpoint
 from signorini.output.folder import open_folder, publish
 from signorini.output.table import history_table
 from signorini.solution.checkpoint import Checkpoint

@@ -27,8 +27,8 @@ from signorini.deck.scan import line_of
 from signorini.deck.syntax import parse
 from signorini.deck.table import check_keys
 from signorini.errors import InputError, Where
-from signorini.model.prints import Table
 from signorini.model.model import KINDS, Model
+from signorini.model.prints import Table
 
 _KEYS = (
     "title",

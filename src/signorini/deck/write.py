@@ -92,7 +92,7 @@ def _given(part: Any) -> dict[str, Any]:
         default = field.default_factory() if field.default_factory is not MISSING else field.default
         if type(value) in _OBSTACLES:
             found[_OBSTACLES[type(value)]] = _given(value)
-        elif isinstance(value, np.ndarray) or value is not default and value != default:
+        elif isinstance(value, np.ndarray) or (value is not default and value != default):
             found[field.name] = value
     return found
 

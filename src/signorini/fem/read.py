@@ -66,11 +66,21 @@ def read_mesh(path: str | Path) -> Mesh:
         cells=families,
         bodies={name: np.concatenate(parts) for name, parts in bodies.items()} or {"body": np.arange(start)},
         boundaries=_boundaries(named, cells),
-        nodes={name: np.unique(np.vstack(cells[_POINTS])[index]) for name, index in named[_POINTS].items()}
-        | {key.removeprefix(NAMED): np.flatnonzero(on) for key, on in found.point_data.items() if key.startswith(NAMED)},
+        nodes=_nodes(found, named, cells),
         node_numbers=found.point_data.get(NODE_NUMBER),
         cell_numbers=_cell_numbers(found, families),
     )
+
+
+def _nodes(
+    found: meshio.Mesh, named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntArray]]
+) -> dict[str, IntArray]:
+    """Node sets, from cells that are points and from arrays on points."""
+    sets = {name: np.unique(np.vstack(cells[_POINTS])[index]) for name, index in named[_POINTS].items()}
+    for key, on in found.point_data.items():
+        if key.startswith(NAMED):
+            sets[key.removeprefix(NAMED)] = np.flatnonzero(on)
+    return sets
 
 
 def _cell_numbers(found: meshio.Mesh, families: Collection[str]) -> IntArray | None:

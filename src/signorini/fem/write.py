@@ -39,11 +39,13 @@ def write_mesh(mesh: Mesh, path: Path) -> None:
         flag = np.zeros(sum(sizes), np.int8)
         flag[first : first + len(facets)] = 1
         previous = data.get(NAMED + name)
-        data[NAMED + name] = np.split(flag, ends) if previous is None else [
-            a | b for a, b in zip(previous, np.split(flag, ends), strict=True)
-        ]
+        data[NAMED + name] = (
+            np.split(flag, ends)
+            if previous is None
+            else [a | b for a, b in zip(previous, np.split(flag, ends), strict=True)]
+        )
         first += len(facets)
-    point_data = {}
+    point_data: dict[str, IntArray] = {}
     for name, nodes in mesh.nodes.items():
         flag = np.zeros(len(mesh.points), np.int8)
         flag[nodes] = 1

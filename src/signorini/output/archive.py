@@ -23,7 +23,8 @@ _FROM = 65536  # bytes: smaller arrays are not worth compressing
 def write_archive(history: History, path: Path) -> None:
     """Write a history.
 
-    Arrays lie under paths like ``/steps/0/displacement``, each once however often it occurs; the text dataset ``structure`` holds the rest as JSON.
+    Arrays lie under paths like ``/steps/0/displacement``, each once however often it occurs; the text dataset
+    ``structure`` holds the rest as JSON.
 
     Parameters
     ----------
@@ -32,7 +33,6 @@ def write_archive(history: History, path: Path) -> None:
     import h5py
 
     with replacing(path) as aside, h5py.File(aside, "w") as file:
-
         known: dict[tuple[str, bytes], str] = {}
 
         def keep(name: str, array: AnyArray) -> str:

@@ -3,14 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from pathlib import Path
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.fem.space import make_space
-from signorini.fem.stress import cell_stresses
+from signorini.fem.stress import point_stresses
 from signorini.model.model import Model
 from signorini.model.prints import Table
 from signorini.output.replacing import replacing
@@ -40,7 +40,7 @@ def _lines(model: Model, step: StepResult, table: Table, time: float) -> Iterato
         elif table.of == "cells":
             head = " stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz)"
             yield from ("", f"{head} {end}", "")
-            yield from _stresses(model, step, table.members)
+            yield from _stresses(model, step, set(table.members.tolist()))
         else:
             yield from _contact(model, step, table, quantity, time)
 
@@ -55,14 +55,13 @@ def _nodes(model: Model, step: StepResult, table: Table, quantity: str, end: str
         yield from ("", f" total force (fx,fy,fz) {end}", "", f"      {_spelled(rows.sum(axis=0))}")
 
 
-def _stresses(model: Model, step: StepResult, cells: IntArray) -> Iterator[str]:
+def _stresses(model: Model, step: StepResult, cells: Set[int]) -> Iterator[str]:
     order = [0, 1, 2, 3, 5, 4]
     labels = model.mesh.cell_labels
-    for first, stress in cell_stresses(make_space(model.mesh), model, step.displacement):
-        own = cells[(cells >= first) & (cells < first + len(stress))]
-        for cell in own.tolist():
-            for point, values in enumerate(stress[cell - first][:, order], start=1):
-                yield f"{labels[cell]:10d}{point:4d} {_spelled(values)}"
+    for index, stress in point_stresses(make_space(model.mesh), model, step.displacement):
+        for cell, points in zip(index.tolist(), stress[..., order], strict=True):
+            if cell in cells:
+                yield from (f"{labels[cell]:10d}{q:4d} {_spelled(values)}" for q, values in enumerate(points, start=1))
 
 
 def _contact(model: Model, step: StepResult, table: Table, quantity: str, time: float) -> Iterator[str]:
@@ -80,7 +79,10 @@ def _contact(model: Model, step: StepResult, table: Table, quantity: str, time: 
         return
     zero = np.zeros(len(contact.node))
     if quantity == "CDIS":
-        head, columns = "relative contact displacement (slave node,normal,tang1,tang2)", (contact.gap, contact.slip, zero)
+        head, columns = (
+            "relative contact displacement (slave node,normal,tang1,tang2)",
+            (contact.gap, contact.slip, zero),
+        )
     else:
         head, columns = "contact stress (slave node,press,tang1,tang2)", (contact.pressure, contact.traction, zero)
     yield from ("", f" {head} for {sides} and time {time:14.7E}", "")

@@ -13,12 +13,12 @@ from pathlib import Path
 
 from signorini.clock import Clock
 from signorini.errors import InputError
-from signorini.output.checkpoint import write_checkpoint
-from signorini.output.instants import write_history
 from signorini.model.prints import Table
 from signorini.output.archive import write_archive
+from signorini.output.checkpoint import write_checkpoint
 from signorini.output.dat import write_dat
 from signorini.output.frd import write_frd
+from signorini.output.instants import write_history
 from signorini.output.replacing import replacing
 from signorini.output.rows import write_rows
 from signorini.output.series import series
@@ -53,7 +53,8 @@ def open_folder(path: Path) -> Path:
     return path
 
 
-def publish(history: History, folder: Path, clock: Clock, *, started: float, tables: Sequence[Table] | None = None
+def publish(
+    history: History, folder: Path, clock: Clock, *, started: float, tables: Sequence[Table] | None = None
 ) -> list[Path]:
     """Write a history, finished or not, in place of whatever an earlier run left in the folder.
 

@@ -43,7 +43,8 @@ def _document(history: History) -> Iterator[str]:
     model = history.model
     mesh = model.mesh
     used = np.unique(np.concatenate([cells.ravel() for cells in mesh.cells.values()]))
-    yield f"    1C{model.title[:66]}\n    1UPGM               signorini\n    1UVERSION           Version {__version__}\n"
+    yield f"    1C{model.title[:66]}\n    1UPGM               signorini\n"
+    yield f"    1UVERSION           Version {__version__}\n"
     for number, body in enumerate(model.bodies, start=1):
         yield f"    1UMAT{number:5d}{body.name[:60]}\n"
     labels = mesh.labels[used]
@@ -92,7 +93,7 @@ def _fields(model: Model, step: StepResult, used: IntArray) -> Iterator[tuple[st
         values = np.zeros((len(model.mesh.points), 6))
         for contact in step.contacts:
             columns = (contact.gap, contact.slip, contact.pressure, contact.traction)
-            values[np.ix_(contact.node, (0, 1, 3, 4))] = np.column_stack(columns)
+            values[contact.node[:, None], [0, 1, 3, 4]] = np.column_stack(columns)
         parts = [f" -5  {name:8s}    1    4{i:5d}{j:5d}\n" for name, (_, i, j) in zip(_CONTACT, _TENSOR, strict=True)]
         yield "CONTACT", parts, values[used]
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
 from functools import cache
 from types import MappingProxyType
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -81,8 +81,11 @@ def to_plain(value: Any, path: str, keep: Callable[[str, AnyArray], str]) -> Any
     name = type(value).__name__
     if _kinds().get(name) is not type(value):
         raise TypeError(f"{type(value)} at '{path}' is not stored")
-    parts = {field.name: to_plain(getattr(value, field.name), f"{path}/{field.name}", keep) for field in fields(value)}
-    return {_MARK: "class", "name": name, "of": parts}
+    own = {
+        field.name: to_plain(getattr(value, field.name), f"{path}/{field.name}", keep)
+        for field in fields(cast(Any, value))
+    }
+    return {_MARK: "class", "name": name, "of": own}
 
 
 def from_plain(plain: Any, get: Callable[[str], AnyArray]) -> Any:
@@ -112,7 +115,7 @@ def from_plain(plain: Any, get: Callable[[str], AnyArray]) -> Any:
     expected = {field.name for field in fields(made_of)} if made_of is not None else set()
     if made_of is None or set(plain["of"]) != expected:
         raise InputError(f"holds a {plain['name']} as another version of signorini has it; expected this version's")
-    made = object.__new__(made_of)
+    made: Any = object.__new__(made_of)
     for key, part in plain["of"].items():
         object.__setattr__(made, key, from_plain(part, get))
     return made

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -29,6 +30,7 @@ from signorini.deck.inp.surfaces import Edges, make_surfaces
 from signorini.errors import InputError, Where
 from signorini.model.body import Body
 from signorini.model.contact import Contact
+from signorini.model.material import Orthotropic
 from signorini.model.mesh import NODES_PER_CELL, Mesh
 from signorini.model.model import Kind, Model
 from signorini.model.prints import Table
@@ -112,7 +114,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
             _mesh(grid, sections, places),
             kind=kind,
             thickness=_thickness(sections, kind),
-            bodies=[_body(section) for section in sections],
+            bodies=[_body(section, grid) for section in sections],
             supports=conditions.supports,
             loads=conditions.loads,
             contacts=[contact for contact, _ in contacts],
@@ -196,10 +198,25 @@ def _mesh(grid: Grid, sections: Sequence[Section], places: Places) -> Mesh:
     )
 
 
-def _body(section: Section) -> Body:
-    elastic = section.substance.elastic
+def _body(section: Section, grid: Grid) -> Body:
+    substance = section.substance
+    elastic, alpha = substance.elastic, substance.expansion or 0.0
     assert elastic is not None
-    return Body(section.name, elastic)
+    given: dict[str, Any] = {"density": substance.density or 0.0}
+    if isinstance(elastic, Orthotropic):
+        given |= {"angle": section.angle, "expansion1": alpha, "expansion2": alpha, "expansion3": alpha}
+    else:
+        given |= {"expansion": alpha}
+    own = [group for group in grid.groups if np.isin(group.index, section.elements).any()]
+    incompatible = any(group.type.incompatible for group in own)
+    try:
+        return Body(
+            section.name,
+            replace(elastic, **given),
+            formulation="incompatible" if incompatible else "standard",
+        )
+    except InputError as error:
+        raise substance.block.error(str(error)) from error
 
 
 def _step(step: DeckStep, k: int, conditions: Conditions, deck_increments: bool) -> Step:

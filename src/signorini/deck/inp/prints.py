@@ -24,7 +24,7 @@ _SAME = {"CDISP": "CDIS", "CSTRESS": "CSTR", "CFN": "CF", "CFS": "CF"}
 def make_tables(
     steps: Sequence[DeckStep], nodes: Sets, elements: Sets, mesh: Mesh, contacts: Sequence[tuple[Contact, Block]]
 ) -> Iterator[Table]:
-    """``*NODE PRINT`` (U, RF), ``*EL PRINT`` (S) and ``*CONTACT PRINT`` (CDIS, CSTR, CF); other quantities are left out.
+    """``*NODE PRINT`` (U, RF), ``*EL PRINT`` (S) and ``*CONTACT PRINT`` (CDIS, CSTR, CF); others are left out.
 
     Raises
     ------
@@ -53,7 +53,9 @@ def make_tables(
                         )
                     continue
                 of: Literal["nodes", "cells"] = "nodes" if keyword == "NODE PRINT" else "cells"
-                place, members = _members(item, "NSET" if of == "nodes" else "ELSET", nodes if of == "nodes" else elements)
+                place, members = _members(
+                    item, "NSET" if of == "nodes" else "ELSET", nodes if of == "nodes" else elements
+                )
                 yield Table(
                     step=k,
                     of=of,
