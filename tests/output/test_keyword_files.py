@@ -23,9 +23,10 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def read_frd(
-    path: Path,
-) -> tuple[dict[int, list[float]], dict[int, list[int]], list[tuple[str, dict[int, list[float]]]]]:
+Numbered = dict[int, list[float]]
+
+
+def read_frd(path: Path) -> tuple[Numbered, dict[int, list[int]], list[tuple[str, Numbered]]]:
     """Nodes, elements and the fields in order: columns are of fixed width, as programs that read .frd expect."""
     nodes: Numbered = {}
     elements: dict[int, list[int]] = {}
