@@ -53,6 +53,7 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
         increments=0 if leg.path == "exact" else len(leg.trace),
         events=leg.events,
         displacement=frozen(prepared.space.at_nodes(state.displacement)),
+        external=frozen(prepared.space.at_nodes(state.external)),
         obstacles=_obstacles(prepared, state),
         reactions=_reactions(prepared, state),
         strain_energy=strain,
