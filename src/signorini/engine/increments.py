@@ -13,7 +13,7 @@ from signorini.engine.prepare import Prepared
 from signorini.engine.span import Span
 from signorini.errors import SolveFailed
 from signorini.fem.rigid import describe_motion
-from signorini.friction.law import OPEN
+from signorini.friction.law import OPEN, STICK
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.result import CoulombResult
 from signorini.friction.solve import solve_coulomb
@@ -78,6 +78,7 @@ def advance(
         moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
         status = np.full(n, OPEN)
         status[active] = result.state
+        status[interface.tied] = STICK
         new = next_state(
             state,
             prepared.K,
@@ -152,7 +153,7 @@ def _balanced(
     move (an arc that leaves its foundation) magnify.
     """
     condensed, interface, scale, law = prepared.condensed, prepared.interface, prepared.scale, prepared.law
-    rows, T = condensed.active_rows, prepared.constraints.transform
+    rows, T, ties = condensed.active_rows, prepared.constraints.transform, condensed.ties
     forces, moved, free = np.zeros(len(offset)), np.zeros(len(offset)), np.zeros_like(f)
     load, start = f, _start(prepared, state)
     lacking = np.zeros(len(rows))
@@ -169,7 +170,10 @@ def _balanced(
             moved[rows] = np.concatenate([result.gap, result.slip.T.ravel()]) / condensed.root
             free = condensed.displacement(reduced, moved[rows], forces[rows], offset[rows])
             u = T @ free
+            forces[ties.rows] = 0.0
             residual = f + T.T @ (interface.B.T @ forces - prepared.K @ u)
+            forces[ties.rows] = ties.forces(residual)
+            residual += ties.B.T @ forces[ties.rows]
             misfit = (offset + interface.B @ u - moved)[rows] + condensed.compliance * forces[rows]
             misfit[guided] = 0.0
         size = max(np.abs(residual).max(initial=0.0) / scale.force, np.abs(misfit).max(initial=0.0) / scale.length)

@@ -89,7 +89,7 @@ def law_tensor(D: Array, *, hoop: bool = False) -> Array:
 
 
 def _compliance(material: Orthotropic) -> Array:
-    """Strain 1, 2, 3, 12, 23, 13 from stress, (6, 6); shear across the plane as in it where it is not given."""
+    """Strain 1, 2, 3, 12, 23, 13 from stress, (6, 6); G12 stands for moduli that plane models do not need."""
     E1, E2 = material.E1, material.E2
     shear = [1.0 / (modulus or material.G12) for modulus in (material.G12, material.G23, material.G13)]
     S = np.diag([1.0 / E1, 1.0 / E2, 1.0 / material.E3, *shear])

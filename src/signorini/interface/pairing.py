@@ -28,6 +28,8 @@ from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle, Plane
 
+_FINER = 0.8  # of the mortar side's mean facet length
+
 
 @dataclass(frozen=True, kw_only=True)
 class Sides:
@@ -37,11 +39,13 @@ class Sides:
     ----------
     nonmortar, mortar : the sides as they were taken; an obstacle in words
     coupling : "nodes", "mortar", "node-to-segment" or "obstacle"
+    finer : whether the nonmortar side has clearly the shorter facets: its pressures can oscillate
     """
 
     nonmortar: str
     mortar: str
     coupling: str
+    finer: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -151,10 +155,10 @@ def _on_side(
     coupling, how = _couple(space, model, side, mortar, contact, where)
     normals = side_normals(space, constraints, side, coupling.nodes)
     gap = np.sum((coupling.relative @ points) * normals, axis=1)
-    if how == "mortar" and side.dimension == 2 and not (side.quadratic or mortar.quadratic):
+    plane = side.dimension == 2
+    if how != "nodes" and plane:
         gap = without_chords(gap, coupling.nodes, coupling.relative, side, mortar)
     partner = symmetric_partners(space, constraints, coupling.nodes, normals, mortar.nodes)
-    plane = side.dimension == 2
     return Pairs(
         nodes=coupling.nodes,
         area=coupling.area,
@@ -163,7 +167,12 @@ def _on_side(
         relative=coupling.relative,
         sliding=_mirrored(coupling, partner.max(axis=1)) if plane else coupling.relative,
         mirrored=(partner >= 0) & (not plane),
-        sides=Sides(nonmortar=names[0], mortar=names[1], coupling=how),
+        sides=Sides(
+            nonmortar=names[0],
+            mortar=names[1],
+            coupling=how,
+            finer=how == "mortar" and float(side.lengths.mean()) < _FINER * float(mortar.lengths.mean()),
+        ),
     )
 
 

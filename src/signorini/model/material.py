@@ -127,6 +127,11 @@ class Orthotropic:
             )
 
     @property
+    def solid(self) -> bool:
+        """Whether the shear moduli of all planes are given."""
+        return self.G13 is not None and self.G23 is not None
+
+    @property
     def _determinant(self) -> float:
         """Of the normal compliances, times E1 E2 E3."""
         squares = self.nu12**2 * self.E2 / self.E1 + self.nu13**2 * self.E3 / self.E1 + self.nu23**2 * self.E3 / self.E2

@@ -16,6 +16,7 @@ from signorini.errors import InputError, one_of
 from signorini.model.body import Body
 from signorini.model.conditions import BODY_LOADS, Foundation, Load, Support
 from signorini.model.contact import Contact
+from signorini.model.material import Orthotropic
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Obstacle
 from signorini.model.rigid import Rigid
@@ -142,6 +143,8 @@ class Model:
             if body.name not in known:
                 raise InputError(one_of(body.name, known, "body"), where=("body", i, "name"))
             count[known[body.name]] += 1
+            if self.dimension == 3 and isinstance(body.material, Orthotropic) and not body.material.solid:
+                raise InputError("has no G13 and G23; a model in space needs them", where=("body", i, "material"))
         if (count == 1).all():
             return
         cell = int(np.nonzero(count != 1)[0][0])
@@ -291,6 +294,8 @@ class Model:
             for name in getattr(step, key):
                 if name not in known:
                     raise InputError(one_of(name, known, "contact"), where=("step", i, key))
+                if self.contacts[known.index(name)].tied:
+                    raise InputError(f"'{name}' is tied for good; a step cannot change it", where=("step", i, key))
 
     @property
     def scaled_names(self) -> tuple[str, ...]:

@@ -92,7 +92,8 @@ def certify(
     normal, tangential = r[:n] / scale.force, interface.across(r[n:]) / scale.force
     sliding = moved[n:] - before / scale.length
     slip = interface.across(sliding)
-    bound = np.zeros(n)
+    gap, tension = np.where(interface.tied, -np.abs(gap), gap), np.where(interface.tied, 0.0, normal)
+    bound = np.where(interface.tied, np.inf, 0.0)
     np.multiply(interface.friction, normal, out=bound, where=normal > 0)
     room = bound - tangential
     # 0 where friction opposes the slip, 2 where it goes with it
@@ -102,10 +103,11 @@ def certify(
     friction = np.maximum(np.minimum(slip, np.maximum(room, 0.0)), along)
     if absent is not None:
         gap, normal, room, friction = (np.where(absent, 0.0, part) for part in (gap, normal, room, friction))
+        tension = np.where(absent, 0.0, tension)
     return Certificate(
         equilibrium=_largest(np.abs(np.concatenate([residual, balance]))) / scale.force,
         penetration=_largest(-gap),
-        tension=_largest(-normal),
+        tension=_largest(-tension),
         cone=_largest(-room),
         complementarity=_largest(np.concatenate([np.minimum(gap, normal), friction])),
     )

@@ -209,6 +209,7 @@ class StepResult:
     increments : solved in this step; 0 on an exact path
     events : of an exact path, in order
     displacement : (nodes, d) length
+    external : (nodes, d) loads and reactions of supports, force
     obstacles : moving obstacles by name
     factors : load factors at its end, by name
     reactions : support or elastic foundation to its force on the bodies, (d,)
@@ -232,6 +233,7 @@ class StepResult:
     increments: int
     events: tuple[PairEvent, ...]
     displacement: Array
+    external: Array
     obstacles: Mapping[str, ObstacleResult]
     factors: Mapping[str, float]
     reactions: Mapping[str, Array]
