@@ -14,7 +14,7 @@ from signorini._version import __version__
 
 if TYPE_CHECKING:
     from signorini import lcp
-    from signorini.api import Solution, prepare, solve
+    from signorini.api import Solution, load, prepare, solve
     from signorini.deck import read
     from signorini.engine import paper
     from signorini.errors import InputError, SignoriniError, SolveFailed
@@ -54,6 +54,7 @@ __all__ = [
     "half_disk",
     "join",
     "lcp",
+    "load",
     "paper",
     "prepare",
     "quarter_disk",
@@ -64,7 +65,7 @@ __all__ = [
 ]
 
 _HOMES = {
-    "signorini.api": ("Solution", "prepare", "solve"),
+    "signorini.api": ("Solution", "load", "prepare", "solve"),
     "signorini.deck": ("read",),
     "signorini.errors": ("InputError", "SignoriniError", "SolveFailed"),
     "signorini.fem.generators": ("annulus", "half_disk", "quarter_disk", "rectangle"),

@@ -57,6 +57,7 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
         events=leg.events,
         displacement=frozen(prepared.space.at_nodes(state.displacement)),
         factors=dict(state.point.factors),
+        external=frozen(prepared.space.at_nodes(state.external)),
         obstacles=_obstacles(prepared, state),
         reactions=_reactions(prepared, state),
         strain_energy=elastic - springs + heat(state),

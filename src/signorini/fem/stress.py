@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -78,6 +78,23 @@ def body_stresses(
         stress[:, :4] = total[i, nodes] / weight[i, nodes, None]
         result.append(BodyStress(body=body.name, nodes=nodes, stress=stress))
     return result
+
+
+def point_stresses(
+    space: Space, model: Model, displacement: Array, factors: Mapping[str, float] | None = None
+) -> Iterator[tuple[IntArray, Array]]:
+    """Stresses at the best points of the cells, group by group: cells (m,) and stresses (m, p, 6) as nodes have them.
+
+    Parameters
+    ----------
+    displacement, factors : as :func:`body_stresses`
+    """
+    temperature = temperatures(space, model, factors or {})
+    for group in groups(space, model):
+        found = _cell_stresses(space, model, group, displacement, temperature)
+        stress = np.zeros((*found.shape[:2], 6))
+        stress[..., :4] = found
+        yield group.block.first + group.index, stress
 
 
 def _cell_stresses(space: Space, model: Model, group: Group, displacement: Array, temperature: Array | None) -> Array:

@@ -197,6 +197,7 @@ class StepResult:
     increments : solved in this step; 0 on an exact path
     events : of an exact path, in order
     displacement : (nodes, d) length
+    external : (nodes, d) loads and reactions of supports, force
     obstacles : moving obstacles by name
     factors : load factors at its end, by name
     reactions : support or elastic foundation to its force on the bodies, (d,)
@@ -220,6 +221,7 @@ class StepResult:
     increments: int
     events: tuple[PairEvent, ...]
     displacement: Array
+    external: Array
     obstacles: Mapping[str, ObstacleResult]
     factors: Mapping[str, float]
     reactions: Mapping[str, Array]
