@@ -16,6 +16,7 @@ import skfem
 from skfem.models.elasticity import linear_elasticity
 
 from signorini.fem.assembly import Cells, stiffness
+from signorini.fem.elasticity import isotropic, law_tensor
 
 
 def cells_of(mesh: Any, element: Any) -> tuple[Any, Cells]:
@@ -26,8 +27,7 @@ def cells_of(mesh: Any, element: Any) -> tuple[Any, Cells]:
         nodes=basis.element_dofs.T,
         shape_gradients=np.moveaxis(gradients, 2, 0),
         weights=weights,
-        lame_lambda=1.3,
-        lame_mu=0.7,
+        law=law_tensor(isotropic(1.3, 0.7)[None, : 2 * mesh.dim(), : 2 * mesh.dim()]),
     )
 
 

@@ -28,9 +28,10 @@ from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.fem.generators import rectangle
 from signorini.gallery.cylinder import zhu_cylinder
-from signorini.model.body import Body, Elastic
+from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact
+from signorini.model.material import Elastic
 from signorini.model.model import Model
 from signorini.model.obstacle import Plane
 

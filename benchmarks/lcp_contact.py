@@ -20,9 +20,10 @@ from signorini.fem.generators import rectangle
 from signorini.friction.problem import CoulombProblem
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.lcp.problems import PosedLCP
-from signorini.model.body import Body, Elastic
+from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact
+from signorini.model.material import Elastic
 from signorini.model.model import Model
 from signorini.model.obstacle import Plane
 

@@ -23,6 +23,7 @@ import skfem
 from scipy import sparse
 
 from signorini.fem.assembly import Cells, stiffness
+from signorini.fem.elasticity import isotropic, law_tensor
 from signorini.linalg import BACKENDS, factorise
 from signorini.linalg.pardiso import available
 
@@ -51,8 +52,7 @@ def block(cells: tuple[int, ...]) -> tuple[sparse.csr_array, np.ndarray, np.ndar
             nodes=basis.element_dofs.T,
             shape_gradients=np.moveaxis(gradients, 2, 0),
             weights=weights,
-            lame_lambda=0.58,
-            lame_mu=0.38,
+            law=law_tensor(isotropic(0.58, 0.38)[None, : 2 * d, : 2 * d]),
         ),
     )
     height = np.repeat(basis.doflocs[-1], d)

@@ -14,22 +14,25 @@ from signorini._version import __version__
 
 if TYPE_CHECKING:
     from signorini import lcp
-    from signorini.api import Solution, prepare, solve
+    from signorini.api import Solution, load, prepare, solve
     from signorini.deck import read
     from signorini.engine import paper
     from signorini.errors import InputError, SignoriniError, SolveFailed
     from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
     from signorini.fem.read import read_mesh
-    from signorini.model.body import Body, Elastic
+    from signorini.model.body import Body
     from signorini.model.conditions import Load, Support
     from signorini.model.contact import Contact
+    from signorini.model.material import Elastic, Orthotropic
     from signorini.model.mesh import Mesh, join
     from signorini.model.model import Model
     from signorini.model.obstacle import Circle, Plane, Profile
     from signorini.model.rigid import Rigid
     from signorini.model.step import Step
+    from signorini.model.varying import Along
 
 __all__ = [
+    "Along",
     "Body",
     "Circle",
     "Contact",
@@ -38,6 +41,7 @@ __all__ = [
     "Load",
     "Mesh",
     "Model",
+    "Orthotropic",
     "Plane",
     "Profile",
     "Rigid",
@@ -51,6 +55,7 @@ __all__ = [
     "half_disk",
     "join",
     "lcp",
+    "load",
     "paper",
     "prepare",
     "quarter_disk",
@@ -61,19 +66,21 @@ __all__ = [
 ]
 
 _HOMES = {
-    "signorini.api": ("Solution", "prepare", "solve"),
+    "signorini.api": ("Solution", "load", "prepare", "solve"),
     "signorini.deck": ("read",),
     "signorini.errors": ("InputError", "SignoriniError", "SolveFailed"),
     "signorini.fem.generators": ("annulus", "half_disk", "quarter_disk", "rectangle"),
     "signorini.fem.read": ("read_mesh",),
-    "signorini.model.body": ("Body", "Elastic"),
+    "signorini.model.body": ("Body",),
     "signorini.model.conditions": ("Load", "Support"),
     "signorini.model.contact": ("Contact",),
+    "signorini.model.material": ("Elastic", "Orthotropic"),
     "signorini.model.mesh": ("Mesh", "join"),
     "signorini.model.model": ("Model",),
     "signorini.model.obstacle": ("Circle", "Plane", "Profile"),
     "signorini.model.rigid": ("Rigid",),
     "signorini.model.step": ("Step",),
+    "signorini.model.varying": ("Along",),
 }
 _MODULES = {"lcp": "signorini.lcp", "paper": "signorini.engine.paper"}
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}

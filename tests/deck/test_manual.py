@@ -12,8 +12,9 @@ from signorini.deck import DeckError, read
 from signorini.deck.load import _KEYS
 from signorini.deck.meshes import GENERATORS
 from signorini.deck.parts import _CONTACT_KEYS, _OBSTACLE_KEYS
-from signorini.model.body import Elastic
+from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
+from signorini.model.material import Elastic, Orthotropic
 from signorini.model.step import Step
 
 MANUAL = (Path(__file__).parents[2] / "docs" / "deck.md").read_text()
@@ -37,7 +38,7 @@ def test_every_key_is_explained() -> None:
     keys = {*_CONTACT_KEYS, *_OBSTACLE_KEYS, *GENERATORS, "generator", "file"} | {
         key for key in _KEYS if f"[{key}" not in MANUAL
     }
-    keys |= {field.name for kind in (Support, Load, Step, Elastic) for field in fields(kind)}
+    keys |= {field.name for kind in (Support, Load, Step, Body, Elastic, Orthotropic) for field in fields(kind)}
     keys |= {name for generator in GENERATORS.values() for name in inspect.signature(generator).parameters}
     missing = sorted(key for key in keys if not re.search(rf"`{key}[` ]", MANUAL))
     assert not missing

@@ -105,3 +105,42 @@ def test_a_gap_that_closes_under_force_is_a_jump_to_a_candidate():
     assert any("a jump" in note and "candidate" in note for note in step.notes)
     with pytest.raises(sg.SolveFailed, match="a jump"):
         sg.solve(replace(falling, steps=[sg.Step(name="press", path="exact")]))
+
+
+def rough_block(jump):
+    """Clamped on the left, pressed on a very rough floor, lifted on the right: a node cannot let go gradually."""
+    return sg.Model(
+        sg.rectangle(nx=2, ny=2),
+        bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.3))],
+        supports=[sg.Support("left", u=(0.0, 0.0))],
+        loads=[
+            sg.Load("bottom", traction=(0.0, -2.0), name="press"),
+            sg.Load("right", traction=(0.0, 2.0), name="lift"),
+        ],
+        contacts=[sg.Contact("bottom", sg.Plane(point=(0, 0), normal=(0, 1)), friction=4.0, name="floor")],
+        steps=[sg.Step(scale={"press": 1.0}), sg.Step(name="lift", scale={"lift": 1.0}, jump=jump)],
+    )
+
+
+def test_a_jump_is_followed_by_choice_and_called_a_candidate():
+    with pytest.raises(sg.SolveFailed, match=r"^step 'lift' at 75\.8110..%: a jump"):
+        sg.solve(rough_block("stop"))
+    step = sg.solve(rough_block("follow")).last
+    assert step.path == "exact"
+    assert [instant.what for instant in step.instants][-3:] == ["jump", "landing", "segment"]
+    jump, landing = step.instants[-3:-1]
+    assert jump.load_factor == landing.load_factor == pytest.approx(1.7581108, abs=1e-6)
+    assert any("candidate" in note for note in step.notes)
+    assert step.released > 0.0
+    assert abs(step.energy_defect) < 1e-12 * step.work
+    # the last state is an equilibrium that increments from there hold
+    assert step.certificate.passed
+
+
+def test_gross_sliding_is_not_followed():
+    steps = [
+        sg.Step(name="press", scale={"press": 1.0}),
+        sg.Step(name="pull", scale={"push": 2.0}, jump="follow", path="exact"),
+    ]
+    with pytest.raises(sg.SolveFailed, match=r"gross sliding.*; no equilibrium that it could land on was found"):
+        sg.solve(replace(dragged_block(friction=0.2), steps=steps))

@@ -13,6 +13,14 @@ MIXED = ("triangle+quad", "triangle6+quad8", "triangle6+quad9", "quad8+quad9")
 KINDS = ("plane strain", "plane stress", "axisymmetric")
 
 
+def lame(model):
+    """Lame's parameters of the only body; lambda is the plane one in plane stress."""
+    (body,) = model.bodies
+    E, nu = body.material.E, body.material.nu
+    shear = E / (2 * (1 + nu))
+    return (2 * shear * nu / (1 - nu) if model.kind == "plane stress" else 2 * shear * nu / (1 - 2 * nu)), shear
+
+
 def block(family, *, n=3, x=(1.0, 2.0), crooked=0.03):
     """A block from x to x, 1 high; its edges bend where the family allows it."""
     names = family.split("+")

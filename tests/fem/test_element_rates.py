@@ -8,12 +8,14 @@ meshes whose inner nodes are moved off the grid.
 import numpy as np
 import pytest
 import scipy.sparse.linalg
+from families import lame
 
 from signorini.fem.generators import rectangle
 from signorini.fem.space import make_space
-from signorini.fem.stiffness import lame_parameters, stiffness
+from signorini.fem.stiffness import stiffness
 from signorini.fem.stress import body_stresses
-from signorini.model.body import Body, Elastic
+from signorini.model.body import Body
+from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh
 from signorini.model.model import Model
 
@@ -56,12 +58,12 @@ def crooked_square(n, cells):
 def errors(n, cells, kind):
     model = Model(crooked_square(n, cells), kind=kind, bodies=[Body("block", Elastic(E=3.0, nu=0.3))])
     space = make_space(model.mesh)
-    (lame,), (shear,) = lame_parameters(model)
+    lambda_, shear = lame(model)
     K, points = stiffness(space, model), model.mesh.points
     (block,), (volumes,) = space.blocks, space.volumes
     at = np.einsum("qk,mki->mqi", block.values, points[block.cells])
     load = np.zeros_like(points)
-    np.add.at(load, block.cells, np.einsum("mq,qk,mqi->mki", volumes, block.values, body_force(at, lame, shear)))
+    np.add.at(load, block.cells, np.einsum("mq,qk,mqi->mki", volumes, block.values, body_force(at, lambda_, shear)))
     rim = np.unique(np.concatenate([facets.ravel() for facets in model.mesh.boundaries.values()]))
     held = space.dofs(rim).ravel()
     free = np.setdiff1d(np.arange(points.size), held)
@@ -80,7 +82,7 @@ def errors(n, cells, kind):
     h1 = np.sqrt(np.sum(weights[..., None, None] * (gradient - slope(at)) ** 2))
     (stress,) = body_stresses(space, model, u)
     strain = slope(points)
-    xx = (lame + 2 * shear) * strain[:, 0, 0] + lame * strain[:, 1, 1]
+    xx = (lambda_ + 2 * shear) * strain[:, 0, 0] + lambda_ * strain[:, 1, 1]
     xy = shear * (strain[:, 0, 1] + strain[:, 1, 0])
     inside = np.setdiff1d(stress.nodes, rim)
     nodal = max(

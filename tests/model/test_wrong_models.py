@@ -10,9 +10,10 @@ from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve
 from signorini.errors import InputError, SolveFailed
 from signorini.fem.generators import quarter_disk, rectangle
-from signorini.model.body import Body, Elastic
+from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
+from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh, join
 from signorini.model.model import Model
 from signorini.model.obstacle import Plane
@@ -57,7 +58,10 @@ IN_THE_MODEL = [
     (lambda: Elastic(E="soft", nu=0.3), "E: is 'soft'; expected a number > 0"),
     (lambda: Elastic(E=float("nan"), nu=0.3), "E: is nan; expected a number > 0"),
     (lambda: Contact("bottom", FLOOR, friction=-0.1), "friction: is -0.1; expected a number >= 0"),
-    (lambda: Contact("bottom", FLOOR, friction="rough"), "friction: is 'rough'; expected a number >= 0 or 'stick'"),
+    (
+        lambda: Contact("bottom", FLOOR, friction="rough"),
+        "friction: is 'rough'; expected a number >= 0, 'stick' or 'tied'",
+    ),
     (lambda: Contact("bottom", FLOOR, gap="none"), "gap: is 'none'; expected 'geometry', 'zero' or a number"),
     (
         lambda: Contact("bottom", FLOOR, normal_compliance=-1.0),

@@ -13,9 +13,10 @@ from signorini.engine.solve import solve
 from signorini.fem.generators import rectangle
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit
-from signorini.model.body import Body, Elastic
+from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
+from signorini.model.material import Elastic
 from signorini.model.mesh import join
 from signorini.model.model import Model
 from signorini.model.obstacle import Plane

@@ -11,9 +11,10 @@ from signorini.engine.solve import solve
 from signorini.fem.generators import rectangle
 from signorini.gallery.blocks import dragged_block, stacked_blocks
 from signorini.gallery.cylinder import zhu_cylinder
-from signorini.model.body import Body, Elastic
+from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
+from signorini.model.material import Elastic
 from signorini.model.model import Model
 from signorini.model.obstacle import Plane
 from signorini.model.step import Step

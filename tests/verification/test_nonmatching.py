@@ -9,9 +9,10 @@ import pytest
 from signorini.engine.solve import solve
 from signorini.fem.generators import rectangle
 from signorini.gallery.blocks import block_on_foundation, stacked_blocks
-from signorini.model.body import Body, Elastic
+from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
+from signorini.model.material import Elastic
 from signorini.model.mesh import join
 from signorini.model.model import Model
 from signorini.model.obstacle import Circle, Profile

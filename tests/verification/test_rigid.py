@@ -10,9 +10,10 @@ from signorini.deck import read
 from signorini.engine.solve import solve
 from signorini.errors import InputError
 from signorini.fem.generators import rectangle
-from signorini.model.body import Body, Elastic
+from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
+from signorini.model.material import Elastic
 from signorini.model.mesh import join
 from signorini.model.model import Model
 from signorini.model.obstacle import Circle, Plane, Profile

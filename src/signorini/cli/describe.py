@@ -5,8 +5,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from signorini.arrays import Array
 from signorini.deck import Deck
 from signorini.engine.prepare import Examined
+from signorini.fem.locking import thin_bodies
 from signorini.fem.rigid import describe_motion
 from signorini.model.model import Model
 from signorini.model.step import Step
@@ -35,7 +37,7 @@ def describe(deck: Deck, examined: Examined) -> list[str]:
         ("steps", _steps(model)),
     ):
         lines += ["", title, *(align(rows) if rows else ["  none"])]
-    notes = [*_notes(deck), *_contact_notes(examined), *_motion_notes(examined)]
+    notes = [*_notes(deck), *_bending_notes(examined), *_contact_notes(examined), *_motion_notes(examined)]
     return [*lines, "", "notes", *(f"  {note}" for note in notes or ["nothing looks wrong"])]
 
 
@@ -43,8 +45,8 @@ def _bodies(model: Model) -> Rows:
     return [
         (
             body.name,
-            f"E {body.material.E:g}",
-            f"nu {body.material.nu:g}",
+            str(body.material),
+            *(["incompatible modes"] if body.formulation == "incompatible" else []),
             f"{len(model.mesh.bodies[body.name])} elements",
         )
         for body in model.bodies
@@ -74,10 +76,18 @@ def _contacts(examined: Examined) -> Rows:
         gap = examined.interface.gap[examined.interface.contact == i]
         pairing = examined.interface.sides[i]
         sides = f"{pairing.nonmortar} on {pairing.mortar}"
-        friction = "sticks" if contact.friction == "stick" else f"friction {contact.friction:g}"
+        friction = "tied" if contact.tied else _friction(examined.interface.friction[examined.interface.contact == i])
         initial = f"initial gap {gap.min():.5g} to {gap.max():.5g}"
         rows.append((contact.label, sides, pairing.coupling, friction, f"{len(gap)} pairs", initial))
     return rows
+
+
+def _friction(mu: Array) -> str:
+    """Of the pairs of one contact."""
+    if np.isinf(mu).all():
+        return "sticks"
+    low, high = mu.min(), mu.max()
+    return f"friction {low:g}" if low == high else f"friction {low:g} to {high:g}"
 
 
 def _steps(model: Model) -> Rows:
@@ -120,6 +130,14 @@ def _notes(deck: Deck) -> list[str]:
     return notes
 
 
+def _bending_notes(examined: Examined) -> list[str]:
+    return [
+        f"body '{name}' is at most two linear quadrilaterals thick: too stiff where it bends; take formulation = "
+        "'incompatible', quadratic cells or more layers"
+        for name in thin_bodies(examined.space, examined.model)
+    ]
+
+
 def _contact_notes(examined: Examined) -> list[str]:
     notes, interface, model = [], examined.interface, examined.model
     size = float(np.ptp(model.mesh.points, axis=0).max())
@@ -131,7 +149,8 @@ def _contact_notes(examined: Examined) -> list[str]:
             notes.append(
                 f"contact '{contact.label}' overlaps by up to {-gap.min():.4g} at the start; it will be pressed"
             )
-        coulomb = contact.friction != "stick" and contact.friction > 0.0
+        mu = interface.friction[interface.contact == i]
+        coulomb = bool(((mu > 0.0) & np.isfinite(mu)).any())
         if coulomb and any(step.increments == 1 for step in model.steps):
             notes.append(f"contact '{contact.label}' has friction, and a step one increment: it starts from zero slip")
     return notes

@@ -9,12 +9,14 @@ from typing import Any
 from signorini.checks import text
 from signorini.deck.table import check_keys, make, table, tables
 from signorini.errors import InputError, Where, one_of
-from signorini.model.body import Body, Elastic
+from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
+from signorini.model.material import Elastic, Material, Orthotropic
 from signorini.model.obstacle import Circle, Plane, Profile
 from signorini.model.rigid import Rigid
 from signorini.model.step import Step
+from signorini.model.varying import Along
 
 _CONTACT_KEYS = (
     "name",
@@ -37,20 +39,22 @@ _OBSTACLES = {"plane": Plane, "circle": Circle, "profile": Profile}
 _OBSTACLE_KEYS = ("name", *_OBSTACLES, "u", "rotation", "force", "moment", "point")
 
 
-def deck_materials(data: Mapping[str, Any]) -> dict[str, Elastic]:
-    """``[material.NAME]`` by name."""
-    materials = table(data.get("material", {}), ("material",))
-    return {
-        name: make(Elastic, table(entry, ("material", name)), ("material", name)) for name, entry in materials.items()
-    }
+def deck_materials(data: Mapping[str, Any]) -> dict[str, Material]:
+    """``[material.NAME]`` by name; with ``E1`` orthotropic."""
+    found: dict[str, Material] = {}
+    for name, entry in table(data.get("material", {}), ("material",)).items():
+        given = table(entry, ("material", name))
+        where = ("material", name)
+        found[name] = make(Orthotropic, given, where) if "E1" in given else make(Elastic, given, where)
+    return found
 
 
-def deck_bodies(data: Mapping[str, Any], materials: Mapping[str, Elastic]) -> list[Body]:
+def deck_bodies(data: Mapping[str, Any], materials: Mapping[str, Material]) -> list[Body]:
     """``[[body]]``, each with the material that it names."""
     bodies = []
     for i, entry in enumerate(tables(data, "body")):
         where: Where = ("body", i)
-        check_keys(entry, where, known=["name", "material"], needed=["name", "material"])
+        check_keys(entry, where, known=["name", "material", "formulation"], needed=["name", "material"])
         name = text(entry["material"], (*where, "material"))
         if name not in materials:
             raise InputError(one_of(name, materials, "material"), where=(*where, "material"))
@@ -76,6 +80,16 @@ def deck_steps(data: Mapping[str, Any]) -> list[Step]:
 def deck_contacts(data: Mapping[str, Any]) -> list[Contact]:
     """``[[contact]]``, each with a ``mortar`` boundary or a rigid obstacle."""
     return [_contact(entry, ("contact", i)) for i, entry in enumerate(tables(data, "contact"))]
+
+
+def _along(entry: dict[str, Any], where: Where) -> Along:
+    """``{ x = [...], mu = [...] }``."""
+    axes = [key for key in entry if key != "mu"]
+    if "mu" not in entry or len(axes) != 1:
+        raise InputError(
+            f"has {', '.join(entry) or 'nothing'}; expected one coordinate and mu, as in x, mu", where=where
+        )
+    return make(Along, {"axis": axes[0], "at": entry[axes[0]], "values": entry["mu"]}, where)
 
 
 def deck_obstacles(data: Mapping[str, Any]) -> list[Rigid]:
@@ -104,6 +118,8 @@ def _placed(kind: Any, entry: dict[str, Any], where: Where) -> Any:
 def _contact(entry: dict[str, Any], where: Where) -> Contact:
     check_keys(entry, where, known=_CONTACT_KEYS, needed=["nonmortar"])
     given = dict(entry)
+    if isinstance(given.get("friction"), dict):
+        given["friction"] = _along(given["friction"], (*where, "friction"))
     sides = [key for key in ("mortar", *_OBSTACLES) if key in given]
     if len(sides) != 1:
         found = "both " + " and ".join(f"'{key}'" for key in sides) if sides else "no other side"

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.arrays import BoolArray
-from signorini.engine.exact import stored_energy
+from signorini.engine.exact import set_free, stored_energy
 from signorini.engine.increments import advance
 from signorini.engine.prepare import Prepared
 from signorini.friction.law import OPEN
@@ -62,22 +62,6 @@ def relaxed(prepared: Prepared, state: State, where: str) -> tuple[State, Certif
     if not (~prepared.absent & (tangential > (1.0 + _MORE) * bound + 1e-12 * size)).any():
         return None
     after, certificate, result = advance(prepared, state, state.point, f"{where}, friction lowered")
-    return set_free(prepared, state, after), certificate, result.trace
-
-
-def set_free(prepared: Prepared, before: State, after: State) -> State:
-    """The state after something that happened at once at constant loads, with its energy.
-
-    Friction takes the mean of its forces before and after times the slip; what else the bodies lose is set free.
-    """
-    n = len(prepared.interface)
-    increment = np.where(prepared.absent, 0.0, after.slip - before.slip)
-    taken = np.maximum(-0.5 * (before.forces + after.forces)[n:] * increment, 0.0)
-    loss = stored_energy(prepared, before) - stored_energy(prepared, after)
-    work = 0.5 * (before.external + after.external) @ (after.displacement - before.displacement)
-    return replace(
-        after,
-        dissipation=before.dissipation + taken,
-        work=before.work + float(work),
-        released=before.released + loss + float(work) - float(taken.sum()),
-    )
+    increment = np.where(prepared.absent, 0.0, after.slip - state.slip)
+    taken = np.maximum(-0.5 * (state.forces + after.forces)[n:] * increment, 0.0)
+    return set_free(prepared, state, after, taken=taken), certificate, result.trace

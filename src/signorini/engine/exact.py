@@ -10,21 +10,30 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.engine.increments import applied, certified, free_load, refuse_overlap
-from signorini.engine.leg import Leg, Snapshot
+from signorini.engine.leg import Leg, Snapshot, joined
 from signorini.engine.prepare import Prepared
 from signorini.engine.span import Span
 from signorini.errors import SolveFailed
-from signorini.friction.exact import PathState, Segment, follow, initial_state
+from signorini.friction.exact import Landing, PathState, Segment, follow, initial_state, land
 from signorini.friction.law import OPEN, STICK
 from signorini.solution.results import PairEvent
 from signorini.solution.state import LoadPoint, State, next_state
 from signorini.trace import Attempt
 
+_JUMPS = 100  # most that one part of a step may hold
+_NO_LANDING = "no equilibrium that it could land on was found"
 _SPENT = 1e-9  # of the friction bound: what a slipping pair may lack of it
 
 
 def follow_exactly(
-    prepared: Prepared, where: str, span: Span, state: State, end: LoadPoint, *, whole: bool = False
+    prepared: Prepared,
+    where: str,
+    span: Span,
+    state: State,
+    end: LoadPoint,
+    *,
+    whole: bool = False,
+    jumps: bool = False,
 ) -> Leg:
     """Follow a straight part of a step from a state to a point of the load history.
 
@@ -33,19 +42,46 @@ def follow_exactly(
     where : name of the step, for messages
     span : the part of the history that this is
     whole : whether the displacement of the bodies is recovered at every event
+    jumps : whether the history goes on behind jumps, from the next equilibrium that is found at their load
 
     Raises
     ------
     SolveFailed
-        With status "jump" where the history cannot go on gradually; "not_found" where the path was lost.
+        With status "jump" where the history cannot go on gradually, or not at all; "not_found" where the path was lost.
     """
     prepared.clock.increment(f"{where}, event by event")
     refuse_overlap(prepared, _offset(prepared, end)[: len(prepared.interface)], where)
-    with prepared.clock.phase("complementarity"):
-        start = _start(prepared, state)
-        segment = follow(prepared.law, start, _right_hand_side(prepared, end))
-    if not segment.followed:
-        raise _lost(prepared, where, span, segment)
+    legs: list[Leg] = []
+    while True:
+        with prepared.clock.phase("complementarity"):
+            start = _start(prepared, state)
+            segment = follow(prepared.law, start, _right_hand_side(prepared, end))
+        if segment.followed:
+            legs.append(_leg(prepared, where, span, state, start, segment, end, whole=whole))
+            return joined(legs)
+        lost = _lost(prepared, where, span, segment)
+        landing = land(prepared.law, start, segment) if jumps and len(legs) < _JUMPS else None
+        if segment.jump is None or landing is None:
+            raise lost if not jumps or segment.jump is None else SolveFailed(f"{lost}; {_NO_LANDING}", status="jump")
+        limit = state.point.towards(end, segment.jump.factor)
+        before = replace(span, high=span.part(segment.jump.factor), ends="jump")
+        legs.append(_leg(prepared, where, before, state, start, segment, limit, whole=whole))
+        legs.append(_landed(prepared, where, before, legs[-1].after, landing))
+        state, span = legs[-1].after, replace(span, low=before.high)
+
+
+def _leg(
+    prepared: Prepared,
+    where: str,
+    span: Span,
+    state: State,
+    start: PathState,
+    segment: Segment,
+    end: LoadPoint,
+    *,
+    whole: bool,
+) -> Leg:
+    """A segment that was followed as far as to ``end``."""
     with prepared.clock.phase("recovery"):
         whole = whole or bool(state.point.given.any())
         visited = _visited(prepared, span, state, start, segment, end, whole=whole)
@@ -64,6 +100,47 @@ def follow_exactly(
         trace=((attempt,),),
         snapshots=visited,
         events=_events(prepared, span, segment),
+    )
+
+
+def _landed(prepared: Prepared, where: str, span: Span, state: State, landing: Landing) -> Leg:
+    """From a jump to where it lands, at the same load."""
+    with prepared.clock.phase("recovery"):
+        recovered = _recovered(prepared, state, state.point, landing.state)
+        after = set_free(prepared, state, recovered, taken=recovered.dissipation - state.dissipation)
+    # its slip is that of a whole curve: the law is asked of its last state alone
+    certificate = certified(prepared, after, after.tangential, where)
+    freed = after.released - state.released
+    note = (
+        f"{where} at {span.high:.6%}: a jump, followed through {landing.events} events to the next equilibrium at that "
+        f"load; it sets energy {freed:.6g} free and is a candidate: inertia may lead elsewhere"
+    )
+    attempt = Attempt(method="beyond a jump", iterations=landing.events, end="landed")
+    return Leg(
+        path="exact",
+        before=state,
+        after=after,
+        certificates=(certificate,),
+        trace=((attempt,),),
+        snapshots=(Snapshot(load_factor=span.factor(1.0), what="landing", state=after),),
+        notes=(note,),
+    )
+
+
+def set_free(prepared: Prepared, before: State, after: State, *, taken: Array) -> State:
+    """The state after something that happened at once at constant loads, with its energy.
+
+    Parameters
+    ----------
+    taken : (n,) by friction; what else the bodies lose is set free
+    """
+    loss = stored_energy(prepared, before) - stored_energy(prepared, after)
+    work = 0.5 * (before.external + after.external) @ (after.displacement - before.displacement)
+    return replace(
+        after,
+        dissipation=before.dissipation + taken,
+        work=before.work + float(work),
+        released=before.released + loss + float(work) - float(taken.sum()),
     )
 
 
@@ -124,13 +201,15 @@ def _visited(
         pressed = _recovered(prepared, state, state.point, start)
         last = _balanced(prepared, state, pressed, float(start.dissipation.sum()))
         found.append(Snapshot(load_factor=span.factor(0.0), what="start", state=last))
-    visited = {event.factor: event.state for event in segment.events if 0.0 < event.factor < 1.0}
-    for s, now in {**visited, 1.0: segment.end}.items():
+    reached = segment.pieces[-1].factor
+    visited = {event.factor: event.state for event in segment.events if 0.0 < event.factor < reached}
+    for factor, now in {**visited, reached: segment.end}.items():
+        s = 1.0 if factor == reached else factor / reached
         point, recovered = state.point.towards(end, s), whole or s == 1.0
         if recovered:
-            lost = sum(loss for t, loss in losses if since < t <= s)
+            lost = sum(loss for t, loss in losses if since < t <= factor)
             here = _balanced(prepared, last, _recovered(prepared, last, point, now), lost)
-            last, since = here, s
+            last, since = here, factor
         else:
             here = _on_the_way(prepared, last, point, now)
         what = span.ends if s == 1.0 else "event"
@@ -151,7 +230,7 @@ def _on_the_way(prepared: Prepared, last: State, point: LoadPoint, now: PathStat
     forces[rows] = condensed.root * now.r
     moved[rows] = now.h / condensed.root
     status, slip, dissipation = np.full(n, OPEN), last.slip.copy(), last.dissipation.copy()
-    status[active] = now.state
+    status[active], status[prepared.interface.tied] = now.state, STICK
     slip[active] = now.slip / condensed.root[half:]
     dissipation[active] = now.dissipation
     return replace(
@@ -179,6 +258,8 @@ def _recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState
     outside = np.setdiff1d(np.arange(2 * n), rows)
     moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
     moved[n:] -= last.tangential
+    forces, ties = seen.forces.copy(), condensed.ties
+    forces[ties.rows] = ties.forces(T.T @ (loads + interface.B.T @ forces - prepared.K @ displacement))
     after = next_state(
         last,
         prepared.K,
@@ -187,7 +268,7 @@ def _recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState
         point=point,
         loads=loads,
         displacement=displacement,
-        forces=seen.forces,
+        forces=forces,
         moved=moved,
         status=seen.status,
     )
@@ -212,7 +293,7 @@ def _tangential(prepared: Prepared, h: Array) -> Array:
 def _events(prepared: Prepared, span: Span, segment: Segment) -> tuple[PairEvent, ...]:
     """The events by contact and node."""
     interface, labels = prepared.interface, [contact.label for contact in prepared.model.contacts]
-    pairs = np.nonzero(prepared.condensed.active)[0]
+    pairs, reached = np.nonzero(prepared.condensed.active)[0], segment.pieces[-1].factor
     found = []
     for event in segment.events:
         own = pairs[list(event.pairs)]
@@ -220,7 +301,7 @@ def _events(prepared: Prepared, span: Span, segment: Segment) -> tuple[PairEvent
             nodes = interface.node[own[interface.contact[own] == contact]]
             found.append(
                 PairEvent(
-                    load_factor=span.factor(event.factor),
+                    load_factor=span.factor(event.factor / reached if reached else 0.0),
                     contact=labels[contact],
                     nodes=tuple(int(node) for node in nodes),
                     what=event.what,

@@ -155,9 +155,11 @@ def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPo
     if step.path != "exact" and (step.path is not None or step.increments is not None or not rubbing):
         return follow_increments(prepared, _increments(stage, span), stage.name, span, state, end)
     try:
-        return follow_exactly(prepared, stage.name, span, state, end, whole=step.at == "events")
+        return follow_exactly(
+            prepared, stage.name, span, state, end, whole=step.at == "events", jumps=step.follows_jumps
+        )
     except SolveFailed as failure:
-        if step.path == "exact":
+        if step.path == "exact" or step.jump == "stop":
             raise
         leg = follow_increments(prepared, _BEHIND_A_JUMP, stage.name, span, state, end)
         return replace(leg, notes=(f"{failure}; followed in {_BEHIND_A_JUMP} increments to what is a candidate",))

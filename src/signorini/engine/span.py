@@ -23,14 +23,14 @@ class Span:
     ----------
     number : of the step, from 1
     low, high : parts of the step, 0 .. 1
-    ends : what is at its end: "segment" of the loads, or a time "asked" for
+    ends : what is at its end: "segment" of the loads, a time "asked" for, or a "jump"
     cycle : number of the cycle that ends here, 0 where none does
     """
 
     number: int
     low: float
     high: float
-    ends: Literal["segment", "asked"]
+    ends: Literal["segment", "asked", "jump"]
     cycle: int = 0
 
     def part(self, t: float) -> float:

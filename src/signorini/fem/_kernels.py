@@ -90,8 +90,11 @@ def add_block(
     gradients: Array,
     values: Array,
     weights: Array,
-    lame_lambda: Array,
-    lame_mu: Array,
+    measure: Array,
+    modes: Array,
+    entries: IntArray,
+    law: Array,
+    material: IntArray,
     rows: IntArray,
     columns: Int32Array,
     data: Array,
@@ -99,15 +102,19 @@ def add_block(
     """Add the stiffness of the elements of one kind; give (-1, 0), or the first bad element and what is wrong with it.
 
     The products ``C = sum_q w g g^T`` of all gradient components are summed first, which is one rank-one update per
-    point; the constitutive law then combines their entries once per element. With `values`, (nq, k), the body is
-    axisymmetric: ``N_a / r`` joins the gradients as a further component. Wrong may be: 1 the element is folded or has
-    no volume, 2 it reaches over the axis.
+    point; the constitutive law then combines their entries once per element: the term t adds ``law[m, t]`` times the
+    product of the components ``entries[t, 1]`` and ``entries[t, 2]`` to the stiffness of the directions r and s,
+    ``entries[t, 0] = d r + s``. With `values`, (nq, k), the body is axisymmetric: ``N_a / r`` joins the
+    gradients as a further component. `modes`, (M, nq, k', e), are the gradients of k' internal modes, eliminated
+    element by element. Wrong may be: 1 the element is folded or has no volume, 2 it reaches over the axis.
     """
     nodes, d = cells.shape[1], points.shape[1]
-    ring = len(values) > 0
+    ring, inner = len(values) > 0, modes.shape[2]
     e = d + 1 if ring else d
-    C = np.empty((nodes * e, nodes * e))
-    g = np.empty(nodes * e)
+    every = nodes + inner
+    C = np.empty((every * e, every * e))
+    K = np.empty((every * d, every * d))
+    g = np.empty(every * e)
     x = np.empty((nodes, d))
     J, I = np.eye(3), np.empty((3, 3))  # noqa: E741
     for t in range(len(cells)):
@@ -130,12 +137,17 @@ def add_block(
                     return t, 2
                 for a in range(nodes):
                     g[a * e + d] = values[q, a] / radius
-                w *= 2.0 * np.pi * radius
-            for i in range(nodes * e):
+            for a in range(inner):
+                for i in range(e):
+                    g[(nodes + a) * e + i] = modes[t, q, a, i]
+            w *= measure[t, q]
+            for i in range(every * e):
                 wg = w * g[i]
-                for j in range(nodes * e):
+                for j in range(every * e):
                     C[i, j] += wg * g[j]
-        _scatter(C, cells[t], d, ring, lame_lambda[t], lame_mu[t], rows, columns, data)
+        _combine(C, every, d, e, entries, law[material[t]], K)
+        _eliminate(K, nodes * d)
+        _scatter(K, cells[t], d, rows, columns, data)
     return -1, 0
 
 
@@ -180,19 +192,35 @@ def _gradients(x: Array, reference: Array, J: Array, I: Array, g: Array, e: int)
 
 
 @njit(cache=True)
-def _scatter(
-    C: Array,
-    cell: Int32Array,
-    d: int,
-    ring: bool,
-    lam: float,
-    mu: float,
-    rows: IntArray,
-    columns: Int32Array,
-    data: Array,
-) -> None:
-    """Combine the products of gradients by Hooke's law and add them to the matrix."""
-    e = d + 1 if ring else d
+def _combine(C: Array, nodes: int, d: int, e: int, entries: IntArray, law: Array, K: Array) -> None:
+    """Combine the products of gradients by the law of the material."""
+    total = np.empty(d * d)
+    for a in range(nodes):
+        for b in range(a, nodes):
+            row, column = a * e, b * e
+            for t in range(d * d):
+                total[t] = 0.0
+            for t in range(len(law)):
+                total[entries[t, 0]] += law[t] * C[row + entries[t, 1], column + entries[t, 2]]
+            for r in range(d):
+                for s in range(d):
+                    K[a * d + r, b * d + s] = total[r * d + s]
+                    K[b * d + s, a * d + r] = total[r * d + s]
+
+
+@njit(cache=True)
+def _eliminate(K: Array, keep: int) -> None:
+    """Eliminate the unknowns behind the first `keep`, the last one first; they bear no load."""
+    for p in range(len(K) - 1, keep - 1, -1):
+        for i in range(p):
+            factor = K[i, p] / K[p, p]
+            for j in range(p):
+                K[i, j] -= factor * K[p, j]
+
+
+@njit(cache=True)
+def _scatter(K: Array, cell: Int32Array, d: int, rows: IntArray, columns: Int32Array, data: Array) -> None:
+    """Add the matrix of an element."""
     for a in range(len(cell)):
         low, high = rows[cell[a]], rows[cell[a] + 1]
         for b in range(len(cell)):
@@ -203,19 +231,7 @@ def _scatter(
                     p = middle + 1
                 else:
                     end = middle
-            dot = 0.0
-            for r in range(d):
-                dot += C[a * e + r, b * e + r]
             for r in range(d):
                 at = d * d * low + r * d * (high - low) + d * (p - low)
                 for s in range(d):
-                    v = lam * C[a * e + r, b * e + s] + mu * C[a * e + s, b * e + r]
-                    if r == s:
-                        v += mu * dot
-                    if ring and r == 0:
-                        v += lam * C[a * e + d, b * e + s]
-                    if ring and s == 0:
-                        v += lam * C[a * e + r, b * e + d]
-                    if ring and r == 0 and s == 0:
-                        v += (lam + 2.0 * mu) * C[a * e + d, b * e + d]
-                    data[at + s] += v
+                    data[at + s] += K[a * d + r, b * d + s]

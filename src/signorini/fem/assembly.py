@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The stiffness matrix of linear elasticity, for any Lagrange elements in two and three dimensions.
 
-    K_(a r)(b s) = sum_e int_e  lambda d_r N_a d_s N_b + mu (d_s N_a d_r N_b + delta_rs grad N_a . grad N_b)
+    K_(a r)(b s) = sum_e int_e  c_risj d_i N_a d_j N_b
 
 The unknown of node a and component r is ``d a + r``, which is the numbering of scikit-fem's `ElementVector`. Geometry
 and displacement share the shape functions (isoparametric elements); an element whose edges are straight has its
@@ -31,18 +31,21 @@ class Cells:
     nodes : (M, k) the nodes of every element
     shape_gradients : (nq, k, d) reference gradients of the shape functions at the points of a quadrature
     weights : (nq,) weights of the quadrature on the reference element
-    lame_lambda, lame_mu : (M,) or one number, Lame's constants, force / length^2; plane stress is a matter of lambda
-    thickness : (M,) or one number, length; multiplies the stiffness (1 in space and in axisymmetric bodies)
-    shape_values : (nq, k) the shape functions themselves; only axisymmetric bodies need them
+    law : (n, d, e, d, e) c_risj of the materials, force / length^2, see :func:`signorini.fem.elasticity.law_tensor`
+    material : (M,) which of the laws is each element's, or one number
+    measure : (M, nq), (M, 1) or one number, what a point of the plane stands for: thickness or circumference, length
+    shape_values : (nq, k) the shape functions themselves; axisymmetric bodies need them for the hoop strain
+    modes : (M, nq, k', e) gradients of internal modes of each element, which are eliminated; None without
     """
 
     nodes: ArrayLike
     shape_gradients: Array
     weights: Array
-    lame_lambda: ArrayLike
-    lame_mu: ArrayLike
-    thickness: ArrayLike = 1.0
+    law: Array
+    material: ArrayLike = 0
+    measure: ArrayLike = 1.0
     shape_values: Array | None = None
+    modes: Array | None = None
 
 
 def stiffness(points: Array, blocks: Cells | Sequence[Cells], *, axisymmetric: bool = False) -> sparse.csr_array:
@@ -54,7 +57,7 @@ def stiffness(points: Array, blocks: Cells | Sequence[Cells], *, axisymmetric: b
     ----------
     points : (N, d) coordinates of the nodes, length; axisymmetric: (radius, height)
     blocks : the elements, one block per kind; all share the numbering of the nodes
-    axisymmetric : integrate over the whole circumference, with the hoop strain u_r / r
+    axisymmetric : with the hoop strain u_r / r
 
     Returns
     -------
@@ -71,10 +74,11 @@ def stiffness(points: Array, blocks: Cells | Sequence[Cells], *, axisymmetric: b
     One linear triangle of unit legs with lambda = 0, mu = 1/2 stretched along x: the energy is half its area.
 
     >>> import numpy as np
+    >>> from signorini.fem.elasticity import isotropic, law_tensor
     >>> corner = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     >>> gradients = np.array([[[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]]])
-    >>> triangle = Cells(nodes=[[0, 1, 2]], shape_gradients=gradients, weights=np.array([0.5]), lame_lambda=0.0,
-    ...                  lame_mu=0.5)
+    >>> triangle = Cells(nodes=[[0, 1, 2]], shape_gradients=gradients, weights=np.array([0.5]),
+    ...                  law=law_tensor(isotropic(0.0, 0.5)[None, :4, :4]))
     >>> K = stiffness(corner, triangle)
     >>> u = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
     >>> float(u @ K @ u)
@@ -92,15 +96,23 @@ def stiffness(points: Array, blocks: Cells | Sequence[Cells], *, axisymmetric: b
     indptr, indices = _kernels.unknown_pattern(rows, columns, d)
     data = np.zeros(len(indices))
     for number, (block, cells) in enumerate(zip(blocks, nodes, strict=True)):
-        values = _values(block, number) if axisymmetric else np.empty((0, 0))
+        law, e = np.ascontiguousarray(block.law, dtype=np.float64), d + 1 if axisymmetric else d
+        if law.ndim != 5 or law.shape[1:] != (d, e, d, e):
+            raise InputError(f"block {number}: law has shape {law.shape}; expected (n, {d}, {e}, {d}, {e})")
+        entries = np.argwhere((law != 0.0).any(axis=0))
+        points_per_cell = (len(cells), len(block.weights))
+        modes = np.empty((*points_per_cell, 0, e)) if block.modes is None else block.modes
         element, wrong = _kernels.add_block(
             points,
             cells,
             np.ascontiguousarray(block.shape_gradients, dtype=np.float64),
-            values,
+            _values(block, number) if axisymmetric else np.empty((0, 0)),
             np.ascontiguousarray(block.weights, dtype=np.float64),
-            _per_element(block.lame_lambda, block.thickness, len(cells)),
-            _per_element(block.lame_mu, block.thickness, len(cells)),
+            np.ascontiguousarray(np.broadcast_to(block.measure, points_per_cell), dtype=np.float64),
+            np.ascontiguousarray(modes, dtype=np.float64),
+            np.column_stack([entries[:, 0] * d + entries[:, 2], entries[:, 1], entries[:, 3]]).astype(np.uint32),
+            np.ascontiguousarray(law[:, *entries.T]),
+            np.ascontiguousarray(np.broadcast_to(block.material, len(cells)), dtype=np.int64),
             rows,
             columns,
             data,
@@ -129,10 +141,6 @@ def _values(block: Cells, number: int) -> Array:
     if block.shape_values is None or block.shape_values.shape != expected:
         raise InputError(f"block {number}: an axisymmetric body needs shape_values of shape {expected}")
     return np.ascontiguousarray(block.shape_values, dtype=np.float64)
-
-
-def _per_element(constant: ArrayLike, thickness: ArrayLike, count: int) -> Array:
-    return np.ascontiguousarray(np.broadcast_to(np.multiply(constant, thickness), (count,)), dtype=np.float64)
 
 
 def _complaint(element: int, block: int, wrong: int, corners: Array) -> str:

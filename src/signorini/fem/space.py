@@ -133,6 +133,10 @@ class Space:
             for jacobian, block in zip(self.jacobians, self.blocks, strict=True)
         )
 
+    def volumes_of(self, block: Block) -> Array:
+        """Area of each quadrature point of a block, (m, q)."""
+        return next(v for b, v in zip(self.blocks, self.volumes, strict=True) if b is block)
+
     def _jacobians(self, block: Block, gradients: Array) -> Array:
         result: Array = np.einsum("mki,qkj->mqij", self.mesh.points[block.cells], gradients)
         return result

@@ -6,46 +6,35 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array
 from signorini.fem.assembly import Cells
 from signorini.fem.assembly import stiffness as assemble
+from signorini.fem.elasticity import elasticities, law_tensor
+from signorini.fem.kinematics import groups, mode_gradients
+from signorini.fem.measure import measure
 from signorini.fem.space import Space
 from signorini.model.model import Model
 
 
-def lame_parameters(model: Model) -> tuple[Array, Array]:
-    """Lame's parameters (lambda, G) of every body, force per area; lambda is the plane one in plane stress.
-
-    ``lambda = E nu / ((1 + nu)(1 - 2 nu))``; plane stress ``2 lambda G / (lambda + 2 G)``.
-    """
-    E = np.array([body.material.E for body in model.bodies])
-    nu = np.array([body.material.nu for body in model.bodies])
-    shear = np.array([body.material.shear_modulus for body in model.bodies])
-    lame = E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
-    if model.kind == "plane stress":
-        lame = 2.0 * lame * shear / (lame + 2.0 * shear)
-    return lame, shear
-
-
 def stiffness(space: Space, model: Model) -> sp.csr_array:
-    """``K_ij = int (lambda div phi_i div phi_j + 2 G eps(phi_i):eps(phi_j)) dx``, (dofs, dofs).
+    """``K_ij = int eps(phi_i) : C : eps(phi_j) dx``, (dofs, dofs).
 
     ``dx`` holds the thickness; of axisymmetric bodies ``2 pi r dr dz``, and their strain has the hoop part ``u_r / r``.
     """
-    lame, shear = lame_parameters(model)
-    owner = model.body_of_cells()
+    law = law_tensor(elasticities(model), hoop=model.axisymmetric)
     blocks = []
-    for block in space.blocks:
-        own = owner[block.first : block.first + len(block.cells)]
+    for group in groups(space, model):
+        block = group.block
+        across = measure(model, np.einsum("qk,mki->mqi", block.values, space.mesh.points[group.cells]))
         blocks.append(
             Cells(
-                nodes=block.cells,
+                nodes=group.cells,
                 shape_gradients=block.gradients,
                 weights=block.weights,
-                lame_lambda=lame[own],
-                lame_mu=shear[own],
-                thickness=model.thickness,
+                law=law,
+                material=group.body,
+                measure=across,
                 shape_values=block.values,
+                modes=mode_gradients(space, model, group) if group.incompatible else None,
             )
         )
     K = assemble(space.mesh.points, blocks, axisymmetric=model.axisymmetric)

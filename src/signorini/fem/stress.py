@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.fem.space import Block, Space
-from signorini.fem.stiffness import lame_parameters
+from signorini.fem.elasticity import elasticities
+from signorini.fem.kinematics import Group, groups, kinematics
+from signorini.fem.space import Space
 from signorini.model.model import Model
 
 
@@ -54,45 +56,40 @@ def body_stresses(space: Space, model: Model, displacement: Array) -> list[BodyS
     ----------
     displacement : (n, 2), length
     """
-    total = [np.zeros((len(space.mesh.points), 6)) for _ in model.bodies]
-    weight = [np.zeros(len(space.mesh.points)) for _ in model.bodies]
-    owner = model.body_of_cells()
-    lame, shear = lame_parameters(model)
-    for block, volumes in zip(space.blocks, space.volumes, strict=True):
-        own = owner[block.first : block.first + len(block.cells)]
-        gradients = space.gradients(block, block.stress_gradients)
-        slope = np.einsum("mqki,mkj->mqij", gradients, displacement[block.cells])
-        hoop = _hoop(block, space.mesh.points, displacement) if model.axisymmetric else np.zeros(slope.shape[:2])
-        stress = _stress(slope, hoop, lame[own], shear[own], model)
-        at_nodes = np.einsum("kq,mqc->mkc", block.to_nodes, stress)
-        area = volumes.sum(axis=1)
-        for i in range(len(model.bodies)):
-            here = own == i
-            np.add.at(total[i], block.cells[here], at_nodes[here] * area[here, None, None])
-            np.add.at(weight[i], block.cells[here], area[here, None])
+    count = len(space.mesh.points)
+    total, weight = np.zeros((len(model.bodies), count, 4)), np.zeros((len(model.bodies), count))
+    for group in groups(space, model):
+        cells = group.cells
+        at_nodes = np.einsum("kq,mqc->mkc", group.block.to_nodes, cell_stresses(space, model, group, displacement))
+        area = space.volumes_of(group.block)[group.index].sum(axis=1)
+        np.add.at(total, (group.body[:, None], cells), at_nodes * area[:, None, None])
+        np.add.at(weight, (group.body[:, None], cells), area[:, None])
     result = []
     for i, body in enumerate(model.bodies):
         nodes = np.nonzero(weight[i])[0]
-        result.append(BodyStress(body=body.name, nodes=nodes, stress=total[i][nodes] / weight[i][nodes, None]))
+        stress = np.zeros((len(nodes), 6))
+        stress[:, :4] = total[i, nodes] / weight[i, nodes, None]
+        result.append(BodyStress(body=body.name, nodes=nodes, stress=stress))
     return result
 
 
-def _hoop(block: Block, points: Array, displacement: Array) -> Array:
-    """Hoop strain ``u_r / r``, (m, p)."""
-    radius, moved = (field[block.cells, 0] @ block.stress_values.T for field in (points, displacement))
-    strain: Array = moved / radius
-    return strain
+def point_stresses(space: Space, model: Model, displacement: Array) -> Iterator[tuple[IntArray, Array]]:
+    """Stresses at the best points of the cells, group by group: cells (m,) and stresses (m, p, 6) as nodes have them.
+
+    Parameters
+    ----------
+    displacement : (n, 2), length
+    """
+    for group in groups(space, model):
+        found = cell_stresses(space, model, group, displacement)
+        stress = np.zeros((*found.shape[:2], 6))
+        stress[..., :4] = found
+        yield group.block.first + group.index, stress
 
 
-def _stress(slope: Array, hoop: Array, lame: Array, shear: Array, model: Model) -> Array:
-    """Stress components (m, p, 6) from displacement gradients (m, p, 2, 2), Lame parameters (m,) of the plane kind."""
-    lame, shear = lame[:, None], shear[:, None]
-    xx, yy = slope[..., 0, 0], slope[..., 1, 1]
-    trace = lame * (xx + yy + hoop)
-    stress = np.zeros((*xx.shape, 6))
-    stress[..., 0] = trace + 2.0 * shear * xx
-    stress[..., 1] = trace + 2.0 * shear * yy
-    if model.kind != "plane stress":
-        stress[..., 2] = trace + 2.0 * shear * hoop
-    stress[..., 3] = shear * (slope[..., 0, 1] + slope[..., 1, 0])
-    return stress
+def cell_stresses(space: Space, model: Model, group: Group, displacement: Array) -> Array:
+    """Stresses xx, yy, zz, xy at the best points of the cells of a group, (m, p, 4)."""
+    D = elasticities(model)[group.body]
+    points = kinematics(space, model, group, best=True)
+    stress = np.einsum("mcd,mqd->mqc", D, points.strain(displacement[group.cells]))
+    return points.relaxed(D, stress)[1]

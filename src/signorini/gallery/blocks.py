@@ -9,9 +9,10 @@ import numpy as np
 
 from signorini.arrays import BoolArray
 from signorini.fem.generators import Cells, rectangle
-from signorini.model.body import Body, Elastic
+from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
+from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh, join
 from signorini.model.model import Model
 from signorini.model.obstacle import Plane

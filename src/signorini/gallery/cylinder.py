@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from typing import Literal
 
 from signorini.fem.generators import Cells, quarter_disk
-from signorini.model.body import Body, Elastic
+from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
+from signorini.model.material import Elastic
 from signorini.model.model import Model
 from signorini.model.obstacle import Plane
 from signorini.model.step import Step

@@ -48,7 +48,7 @@ class Model:
 
     Examples
     --------
-    >>> from signorini.model.body import Elastic
+    >>> from signorini.model.material import Elastic
     >>> mesh = Mesh(points=[[0, 0], [1, 0], [1, 1], [0, 1]], cells={"quad": [[0, 1, 2, 3]]}, bodies={"block": [0]},
     ...             boundaries={"bottom": [[0, 1]], "top": [[2, 3]]})
     >>> block = Body("block", Elastic(E=1.0, nu=0.3))
@@ -258,6 +258,8 @@ class Model:
             for name in getattr(step, key):
                 if name not in known:
                     raise InputError(one_of(name, known, "contact"), where=("step", i, key))
+                if self.contacts[known.index(name)].tied:
+                    raise InputError(f"'{name}' is tied for good; a step cannot change it", where=("step", i, key))
 
     @property
     def scaled_names(self) -> tuple[str, ...]:

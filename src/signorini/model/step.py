@@ -36,6 +36,8 @@ class Step:
     increments : equal parts in which every segment is solved; None leaves it to ``path``
     path : "increments", or "exact": from event to event (a pair closes, opens, slips, sticks), without any step size.
         None chooses: "increments" where their number is given or nothing rubs (one is exact then), otherwise "exact"
+    jump : where an exact path has no gradual continuation, "stop" there, or "follow" the equilibria to the next one at
+        that load, which is called a candidate. None stops where the path is asked to be exact, otherwise follows
 
     Examples
     --------
@@ -53,6 +55,7 @@ class Step:
     active: Sequence[str] = ()
     increments: int | None = None
     path: Literal["increments", "exact"] | None = None
+    jump: Literal["stop", "follow"] | None = None
 
     def __post_init__(self) -> None:
         if self.name:
@@ -62,6 +65,8 @@ class Step:
             whole(self.increments, ("increments",))
         if self.path is not None:
             choice(self.path, ("increments", "exact"), ("path",), "path")
+        if self.jump is not None:
+            choice(self.jump, ("stop", "follow"), ("jump",), "answer to jumps")
         if self.path == "exact" and self.increments is not None:
             raise InputError("has a number of increments, but the path is exact; expected one of both")
         if self.scale is not None:
@@ -78,6 +83,11 @@ class Step:
 
     def _set(self, key: str, value: Any) -> None:
         object.__setattr__(self, key, MappingProxyType(value) if isinstance(value, dict) else value)
+
+    @property
+    def follows_jumps(self) -> bool:
+        """Whether an exact path goes on behind a jump."""
+        return self.jump == "follow" or (self.jump is None and self.path is None)
 
     @property
     def segments(self) -> int:

@@ -46,6 +46,6 @@ def data_scale(model: Model, loads: Mapping[str, Array], constraints: Constraint
     overlaps = [overlap for stage in history for overlap in stage.interference.values()]
     length = max([*moved, *overlaps, float(np.max(-interface.gap, initial=0.0))])
     across = 0.5 * float(model.mesh.points[:, 0].max()) if model.axisymmetric else model.thickness
-    stiffness = min(body.material.E for body in model.bodies) * across
+    stiffness = min(body.material.smallest_modulus for body in model.bodies) * across
     force = max(force, stiffness * length) or stiffness
     return Scale(force=force, length=force / stiffness)

@@ -93,7 +93,7 @@ def follow(problem: CoulombProblem, start: PathState, b_end: Array, *, settings:
     >>> [(round(4.0 * event.factor, 9), event.what) for event in pulled.events], pulled.end.h.round(6).tolist()
     ([(1.0, 'slips'), (2.0, 'opens')], [0.666667, 2.333333])
     """
-    walk = _Walk(problem, start, b_end, settings or PathSettings())
+    walk = Walk(problem, start, b_end, settings or PathSettings())
     while walk.factor < 1.0:
         failure = walk.turn() or walk.advance()
         if failure is not None:
@@ -101,8 +101,20 @@ def follow(problem: CoulombProblem, start: PathState, b_end: Array, *, settings:
     return walk.segment("followed", None, f"followed through {len(walk.events)} events")
 
 
-class _Walk:
-    """The state of one call of `follow`."""
+class Walk:
+    """One straight way of the load from a state, gone piece by piece.
+
+    Parameters
+    ----------
+    problem, start, b_end, settings : see `follow`
+
+    Attributes
+    ----------
+    now, factor : the state reached, and the part of the way behind
+    acting : pairs whose event it is
+    load : (2n,) rate of b
+    responses : of the interface
+    """
 
     def __init__(self, problem: CoulombProblem, start: PathState, b_end: Array, settings: PathSettings) -> None:
         n = problem.pairs
@@ -145,12 +157,7 @@ class _Walk:
 
     def turn(self) -> NoRates | None:
         """Find the rates from here on; what changes its state is an event."""
-        now, forced = self.now, self.forced
-        state = now.state
-        closing = self.acting[state[self.acting] == OPEN]
-        law = RateLaw.at(
-            mu=self.problem.mu, forced=forced, state=state, h=now.h, r=now.r, width=self.width, closing=closing
-        )
+        state, law = self.now.state, self.law()
         found: Rates | NoRates | None = None
         if self.rates is not None:
             found = drive(self.responses, law, self.load, self.rates, self.acting)
@@ -160,9 +167,27 @@ class _Walk:
             found = find_rates(self.responses, law, self.load, state, self._guesses(law, state))
         if isinstance(found, NoRates):
             return found
-        self._change(found.state)
-        self.rates = found
+        self.enter(found)
         return None
+
+    def law(self) -> RateLaw:
+        """The law of the rates here."""
+        now = self.now
+        closing = self.acting[now.state[self.acting] == OPEN]
+        return RateLaw.at(
+            mu=self.problem.mu,
+            forced=self.forced,
+            state=now.state,
+            h=now.h,
+            r=now.r,
+            width=self.width,
+            closing=closing,
+        )
+
+    def enter(self, rates: Rates) -> None:
+        """Go on with these rates; what changes its state is an event."""
+        self._change(rates.state)
+        self.rates = rates
 
     def _guesses(self, law: RateLaw, state: IntArray) -> list[IntArray]:
         """As before, the acting pairs in their natural next state; and with every pair at a corner sticking."""

@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Strains of the cells, their internal modes included, and the forces that stresses make of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.fem.measure import measure
+from signorini.fem.space import Block, Space
+from signorini.model.model import Model
+
+INTERNAL = 2
+"""Internal modes of a cell of the incompatible formulation."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Group:
+    """Cells of one family and one formulation.
+
+    Attributes
+    ----------
+    block : their family
+    index : (m,) which of its cells
+    body : (m,) index of the body of each
+    incompatible : whether they have internal modes
+    """
+
+    block: Block
+    index: IntArray
+    body: IntArray
+    incompatible: bool
+
+    @property
+    def cells(self) -> IntArray:
+        """(m, k) nodes."""
+        return self.block.cells[self.index]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Kinematics:
+    """Gradients of shape functions and internal modes at points of the cells of a group.
+
+    Attributes
+    ----------
+    gradients : (m, q, k + modes, e) in space; the third component, if any, is the shape function over the radius
+    values : (q, k) shape functions of the nodes
+    weights : (m, q) volume of each point
+    nodes : k
+    """
+
+    gradients: Array
+    values: Array
+    weights: Array
+    nodes: int
+
+    def strain(self, u: Array) -> Array:
+        """Strains xx, yy, zz, xy (twice the tensor's) of displacements (m, k or k + modes, 2), (m, q, 4)."""
+        g = self.gradients[:, :, : u.shape[1]]
+        slope = np.einsum("mqai,maj->mqij", g, u)
+        hoop = slope[..., 2, 0] if g.shape[-1] == 3 else np.zeros(slope.shape[:2])
+        shear = slope[..., 0, 1] + slope[..., 1, 0]
+        return np.stack([slope[..., 0, 0], slope[..., 1, 1], hoop, shear], axis=-1)
+
+    def forces(self, stress: Array) -> Array:
+        """``int B^T sigma`` on nodes and modes, (m, k + modes, 2), of stresses (m, q, 4)."""
+        tensor = stress[..., [[0, 3], [3, 1]]] * self.weights[..., None, None]
+        force: Array = np.einsum("mqai,mqij->maj", self.gradients[..., :2], tensor)
+        if self.gradients.shape[-1] == 3:
+            force[..., 0] += np.einsum("mqa,mq->ma", self.gradients[..., 2], stress[..., 2] * self.weights)
+        return force
+
+    def relaxed(self, D: Array, stress: Array) -> tuple[Array, Array]:
+        """Amplitudes (m, modes, 2) that bring the modes into balance, and the stresses with them, (m, q, 4).
+
+        Parameters
+        ----------
+        D : (m, 4, 4) law of each cell
+        stress : (m, q, 4) before the modes give way
+        """
+        modes = self.gradients.shape[2] - self.nodes
+        if not modes:
+            return np.zeros((len(D), 0, 2)), stress
+        unit = np.zeros((2 * modes, len(D), self.nodes + modes, 2))
+        for i in range(2 * modes):
+            unit[i, :, self.nodes + i // 2, i % 2] = 1.0
+        strains = np.stack([self.strain(u) for u in unit], axis=-1)
+        stresses = np.einsum("mcd,mqdi->mqci", D, strains)
+        K = np.einsum("mq,mqci,mqcj->mij", self.weights, strains, stresses)
+        out_of_balance = self.forces(stress)[:, self.nodes :].reshape(len(D), -1)
+        amplitude = -np.linalg.solve(K, out_of_balance[..., None])[..., 0]
+        return amplitude.reshape(-1, modes, 2), stress + np.einsum("mqci,mi->mqc", stresses, amplitude)
+
+
+def groups(space: Space, model: Model) -> Iterator[Group]:
+    """All cells, by family and formulation."""
+    owner = model.body_of_cells()
+    incompatible = np.array([body.formulation == "incompatible" for body in model.bodies])
+    for block in space.blocks:
+        body = owner[block.first : block.first + len(block.cells)]
+        special = incompatible[body] if block.family == "quad" else np.zeros(len(body), bool)
+        for kind in (False, True):
+            index = np.nonzero(special == kind)[0]
+            if len(index):
+                yield Group(block=block, index=index, body=body[index], incompatible=kind)
+
+
+def kinematics(space: Space, model: Model, group: Group, *, best: bool = False) -> Kinematics:
+    """Gradients at the quadrature points of a group, or at the points where its stresses are best.
+
+    The two are the same for linear quadrilaterals, which alone have internal modes.
+    """
+    block, points = group.block, space.mesh.points[group.cells]
+    values, reference = (block.stress_values, block.stress_gradients) if best else (block.values, block.gradients)
+    jacobians = np.einsum("mki,qkj->mqij", points, reference)
+    gradients = np.einsum("qkj,mqji->mqki", reference, np.linalg.inv(jacobians))
+    at = np.einsum("qk,mki->mqi", values, points)
+    if model.axisymmetric:
+        gradients = np.concatenate([gradients, (values / at[..., :1])[..., None]], axis=-1)
+    weights = np.abs(np.linalg.det(jacobians)) * measure(model, at)
+    weights = weights * (1.0 / len(values) if best else block.weights)
+    if group.incompatible:
+        gradients = np.concatenate([gradients, mode_gradients(space, model, group)], axis=2)
+    return Kinematics(gradients=gradients, values=values, weights=weights, nodes=group.cells.shape[1])
+
+
+def mode_gradients(space: Space, model: Model, group: Group) -> Array:
+    """Gradients of the modes ``1 - xi^2``, ``1 - eta^2`` of quadrilaterals at their quadrature points, (m, q, 2, e).
+
+    ``J_0^-T grad P det J_0 / det J`` with the Jacobian of the centre, less the mean over the cell: a constant stress
+    does no work on the modes, so the patch test is passed. They have no hoop strain.
+
+    References
+    ----------
+    Taylor, Beresford, Wilson (1976), Int. J. Numer. Methods Eng. 10, 1211; the mean: Ibrahimbegovic, Wilson (1991),
+    Commun. Appl. Numer. Methods 7, 187.
+    """
+    block, points = group.block, space.mesh.points[group.cells]
+    jacobians = np.einsum("mki,qkj->mqij", points, block.gradients)
+    centre = jacobians.mean(axis=1)
+    xi = block.values @ [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+    slopes = -2.0 * xi[:, :, None] * np.eye(2)
+    determinants = np.linalg.det(jacobians)
+    ratio = np.linalg.det(centre)[:, None] / determinants
+    modes = np.einsum("mq,qpj,mji->mqpi", ratio, slopes, np.linalg.inv(centre))
+    weights = np.abs(determinants) * measure(model, np.einsum("qk,mki->mqi", block.values, points))
+    modes -= np.einsum("mq,mqpi->mpi", weights, modes)[:, None] / weights.sum(axis=1)[:, None, None, None]
+    if model.axisymmetric:
+        modes = np.concatenate([modes, np.zeros((*modes.shape[:3], 1))], axis=-1)
+    return modes
