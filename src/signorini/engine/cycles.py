@@ -71,7 +71,10 @@ def judge(cycles: Sequence[Cycle], scale: Scale) -> tuple[str, str]:
         return "steady", words
     drifts = _since(cycles, repeats)
     if drifts is not None:
-        return "ratchets", f"ratchets from cycle {drifts} on: forces repeat, the contact moves on by {last.drift:.6g} a cycle"
+        return (
+            "ratchets",
+            f"ratchets from cycle {drifts} on: forces repeat, the contact moves on by {last.drift:.6g} a cycle",
+        )
     words = f"not steady after {len(cycles)} cycles: the last changes forces by {last.change:.2g} of the largest"
     return "not yet", words
 
