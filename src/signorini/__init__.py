@@ -14,7 +14,7 @@ from signorini._version import __version__
 
 if TYPE_CHECKING:
     from signorini import lcp
-    from signorini.api import Solution, prepare, solve
+    from signorini.api import Solution, load, prepare, solve
     from signorini.deck import read
     from signorini.engine import paper
     from signorini.errors import InputError, SignoriniError, SolveFailed
@@ -29,8 +29,10 @@ if TYPE_CHECKING:
     from signorini.model.obstacle import Circle, Plane, Profile
     from signorini.model.rigid import Rigid
     from signorini.model.step import Step
+    from signorini.model.varying import Along
 
 __all__ = [
+    "Along",
     "Body",
     "Circle",
     "Contact",
@@ -53,6 +55,7 @@ __all__ = [
     "half_disk",
     "join",
     "lcp",
+    "load",
     "paper",
     "prepare",
     "quarter_disk",
@@ -63,7 +66,7 @@ __all__ = [
 ]
 
 _HOMES = {
-    "signorini.api": ("Solution", "prepare", "solve"),
+    "signorini.api": ("Solution", "load", "prepare", "solve"),
     "signorini.deck": ("read",),
     "signorini.errors": ("InputError", "SignoriniError", "SolveFailed"),
     "signorini.fem.generators": ("annulus", "half_disk", "quarter_disk", "rectangle"),
@@ -77,6 +80,7 @@ _HOMES = {
     "signorini.model.obstacle": ("Circle", "Plane", "Profile"),
     "signorini.model.rigid": ("Rigid",),
     "signorini.model.step": ("Step",),
+    "signorini.model.varying": ("Along",),
 }
 _MODULES = {"lcp": "signorini.lcp", "paper": "signorini.engine.paper"}
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}

@@ -15,7 +15,10 @@ from signorini.engine.solve import solve as solve_history
 from signorini.engine.solve import solve_prepared
 from signorini.errors import InputError, SolveFailed
 from signorini.model.model import Model
+from signorini.output.archive import read_archive, write_archive
 from signorini.output.checkpoint import read_checkpoint, write_checkpoint
+from signorini.output.folder import ARCHIVE
+from signorini.output.frd import write_frd
 from signorini.output.table import history_table
 from signorini.output.vtu import write_vtu
 from signorini.plot.contact import plot_contact
@@ -24,6 +27,13 @@ from signorini.solution.history import History
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+
+_WRITERS: Mapping[str, Callable[[History, Path], None]] = {
+    ".vtu": write_vtu,
+    ".h5": write_archive,
+    ".frd": write_frd,
+}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -37,8 +47,22 @@ class Solution(History):
         return history_table(self)
 
     def write(self, path: str | Path) -> None:
-        """Write the last state as a VTU file with displacement, stress and von Mises stress."""
-        write_vtu(self, Path(path))
+        """Write the last state, or everything, as the file's name says.
+
+        Parameters
+        ----------
+        path : ``.vtu``: the last state with displacement, stress and von Mises stress; ``.h5``: everything, to be read
+            again with :func:`load`; ``.frd``: all steps, as CalculiX writes them
+
+        Raises
+        ------
+        InputError
+            For any other name, or if no step was finished.
+        """
+        path = Path(path)
+        if path.suffix.lower() not in _WRITERS:
+            raise InputError(f"is '{path}'; expected a name that ends in {', '.join(_WRITERS)}", where=("path",))
+        _WRITERS[path.suffix.lower()](self, path)
 
     def save_state(self, path: str | Path) -> None:
         """Write the end of the last finished step, from which :func:`solve` can go on: a NumPy archive, ``*.npz``.
@@ -169,6 +193,24 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
     19.5
     """
     return PreparedModel(prepare_model(model, backend=backend, clock=clock))
+
+
+def load(path: str | Path) -> Solution:
+    """Read a solution that was written as ``.h5``, by :meth:`Solution.write` or ``signorini run``.
+
+    Every number is the same. Another history can go on from it: ``solve(model, start=load(path).end)``.
+
+    Parameters
+    ----------
+    path : of the file, or of the result folder that holds it
+
+    Raises
+    ------
+    InputError
+        If there is none, or it was written by a version with other data.
+    """
+    path = Path(path)
+    return _dressed(read_archive(path / ARCHIVE if path.is_dir() else path))
 
 
 def _answered(run: Callable[[], History]) -> Solution:

@@ -200,7 +200,7 @@ def test_series(results: tuple[Results, dict[str, Any]]) -> None:
     found, _ = results
     steps = len(found.summary["steps"])
     names = [f"solution_{number:04d}.vtu" for number in range(1, steps + 1)] if steps > 1 else []
-    expected = {"summary.json", "contact.csv", "history.csv", "state.npz", "solution.vtu", *names}
+    expected = {"summary.json", "contact.csv", "history.csv", "state.npz", "solution.vtu", "solution.h5", *names}
     expected |= {"solution.pvd"} if names else set()
     assert {file.name for file in found.folder.iterdir()} == expected
     if names:

@@ -35,7 +35,7 @@ force = [0.0, -3.0]
 nonmortar = "bottom"
 plane = { point = [0.0, 0.0], normal = [0.0, 1.0] }
 """
-FILES = {"summary.json", "contact.csv", "history.csv", "state.npz", "solution.vtu"}
+FILES = {"summary.json", "contact.csv", "history.csv", "state.npz", "solution.vtu", "solution.h5"}
 PULL = "\n[[step]]\nscale = { top = 1.0 }\n\n[[step]]\nname = 'pull'\nscale = { top = -1.0 }\n"
 
 
@@ -95,6 +95,7 @@ def test_a_shorter_series_replaces_a_longer_one_and_nothing_else(deck: Path, tmp
         "contact.csv",
         "history.csv",
         "state.npz",
+        "solution.h5",
         "solution.vtu",
         "notes.txt",
         "solution_best.vtu",

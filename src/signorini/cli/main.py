@@ -17,6 +17,8 @@ DONE, FAILED, WRONG_INPUT, NO_SOLUTION, INTERRUPTED = 0, 1, 2, 3, 130
 _COMMANDS = {
     "run": "signorini.cli.run",
     "check": "signorini.cli.check",
+    "convert": "signorini.cli.convert",
+    "diff": "signorini.cli.differ",
     "plot": "signorini.cli.draw",
     "verify": "signorini.cli.suites",
     "bench": "signorini.cli.suites",

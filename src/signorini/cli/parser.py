@@ -39,6 +39,15 @@ def make_parser() -> argparse.ArgumentParser:
     check = commands.add_parser("check", parents=[shared, keywords], help="say what would be solved, what looks wrong")
     check.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
 
+    convert = commands.add_parser("convert", parents=[shared, keywords], help="write a deck as TOML, its mesh as .vtu")
+    convert.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
+    convert.add_argument("-o", dest="output", metavar="FILE", help="TOML file (default: the deck's name with .toml)")
+
+    diff = commands.add_parser("diff", parents=[shared], help="compare two results; exit code 1 if they differ")
+    diff.add_argument("first", metavar="A", help="a folder that 'run' has written, or its archive (.h5)")
+    diff.add_argument("second", metavar="B", help="the other")
+    diff.add_argument("--tolerance", type=float, default=1e-6, metavar="X", help="of every quantity's size")
+
     plot = commands.add_parser("plot", parents=[shared], help="draw the results in a folder")
     plot.add_argument("folder", metavar="DIR", help="a folder that 'run' has written")
     plot.add_argument("--what", choices=("contact", "stress", "mesh", "history"), default="contact")

@@ -15,6 +15,7 @@ from signorini.clock import Clock
 from signorini.deck import Deck
 from signorini.errors import InputError, SolveFailed, one_of
 from signorini.linalg.registry import BACKENDS
+from signorini.output.archive import read_archive
 from signorini.output.checkpoint import read_checkpoint
 from signorini.output.folder import open_folder, publish
 from signorini.output.table import history_table
@@ -41,7 +42,7 @@ def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: f
     folder = open_folder(Path(options.folder) if options.folder else Path("out", deck.path.stem))
     with progress(quiet=options.quiet, seconds=clock.seconds) as clock:
         history = _solve(deck, options.backend, clock, start)
-        files = publish(history, folder, clock, started=started)
+        files = publish(history, folder, clock, started=started, tables=deck.tables)
     if not options.quiet:
         if history.solved or history.steps:
             print(history_table(history), end="\n\n")
@@ -60,6 +61,11 @@ def _start(name: str | None) -> Checkpoint | None:
     if name is None:
         return None
     path = Path(name)
+    if path.suffix.lower() in (".h5", ".hdf5"):
+        end = read_archive(path).end
+        if end is None:
+            raise InputError(f"'{path}' holds no finished step to go on from", where=("--from",))
+        return end
     return read_checkpoint(path / "state.npz" if path.is_dir() else path)
 
 

@@ -28,6 +28,7 @@ from signorini.deck.syntax import parse
 from signorini.deck.table import check_keys
 from signorini.errors import InputError, Where
 from signorini.model.model import KINDS, Model
+from signorini.model.prints import Table
 
 _KEYS = (
     "title",
@@ -56,6 +57,7 @@ class Deck:
     path : of the file, as the user spelled it
     lines : line of every key and table, from 1, by its path
     unused_materials : names of materials that no body is made of
+    tables : that a deck of keywords asks for; None for other decks
     notes : how the model differs from what the deck asks for, and what was left out
     """
 
@@ -64,6 +66,7 @@ class Deck:
     lines: Mapping[Where, int]
     unused_materials: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    tables: tuple[Table, ...] | None = None
 
     def locate(self, error: InputError) -> DeckError:
         """The same error with the line of the deck that caused it; for what is found after reading."""
@@ -124,6 +127,7 @@ def _keywords(built: Built, path: Path) -> KeywordDeck:
         lines={},
         unused_materials=built.unused_materials,
         notes=built.notes,
+        tables=built.tables,
         places=built.places,
     )
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 import contextlib
 import io
 from collections import defaultdict
+from collections.abc import Collection
 from pathlib import Path
 
 import meshio
@@ -16,6 +17,12 @@ from signorini.errors import InputError
 from signorini.model.mesh import NODES_PER_CELL, Mesh
 
 _LINES, _POINTS = ("line", "line3"), "vertex"
+NAMED = "set:"
+"""Before the name of a set, in arrays of 0 and 1 on cells or points."""
+
+NODE_NUMBER = "number"
+"""Array of the numbers of nodes, or of cells."""
+
 _PLANE = 1e-9  # of the size: how far a plane mesh may leave its plane
 
 
@@ -23,7 +30,8 @@ def read_mesh(path: str | Path) -> Mesh:
     """Read a plane mesh; physical groups (or named cell sets) become bodies, boundaries and node sets.
 
     Surfaces become bodies, curves boundaries, points node sets. Cells without a name form the body "body" if no cell
-    has one. Nodes keep their order: number k of the file is index k - 1.
+    has one. Nodes keep their order: number k of the file is index k - 1, unless an array
+    ``number`` says otherwise. Arrays ``set:NAME`` of 0 and 1 name sets too (:mod:`signorini.fem.write`).
 
     Parameters
     ----------
@@ -58,8 +66,30 @@ def read_mesh(path: str | Path) -> Mesh:
         cells=families,
         bodies={name: np.concatenate(parts) for name, parts in bodies.items()} or {"body": np.arange(start)},
         boundaries=_boundaries(named, cells),
-        nodes={name: np.unique(np.vstack(cells[_POINTS])[index]) for name, index in named[_POINTS].items()},
+        nodes=_nodes(found, named, cells),
+        node_numbers=found.point_data.get(NODE_NUMBER),
+        cell_numbers=_cell_numbers(found, families),
     )
+
+
+def _nodes(
+    found: meshio.Mesh, named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntArray]]
+) -> dict[str, IntArray]:
+    """Node sets, from cells that are points and from arrays on points."""
+    sets = {name: np.unique(np.vstack(cells[_POINTS])[index]) for name, index in named[_POINTS].items()}
+    for key, on in found.point_data.items():
+        if key.startswith(NAMED):
+            sets[key.removeprefix(NAMED)] = np.flatnonzero(on)
+    return sets
+
+
+def _cell_numbers(found: meshio.Mesh, families: Collection[str]) -> IntArray | None:
+    """Numbers of the cells, family by family."""
+    if NODE_NUMBER not in found.cell_data:
+        return None
+    numbers = found.cell_data[NODE_NUMBER]
+    pairs = list(zip(found.cells, numbers, strict=True))
+    return np.concatenate([part for family in families for block, part in pairs if block.type == family])
 
 
 def _boundaries(named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntArray]]) -> dict[str, IntArray]:
@@ -109,6 +139,9 @@ def _named_parts(found: meshio.Mesh, path: Path) -> tuple[dict[str, dict[str, In
             for name, members in found.cell_sets.items():
                 if members[number] is not None and len(members[number]):
                     named[family][name].append(counts[family] + np.asarray(members[number], int))
+        for key, on in found.cell_data.items():
+            if key.startswith(NAMED) and on[number].any():
+                named[family][key.removeprefix(NAMED)].append(counts[family] + np.flatnonzero(on[number]))
         cells[family].append(np.asarray(block.data, np.int64))
         counts[family] += len(block.data)
     return defaultdict(dict, {f: {n: np.concatenate(p) for n, p in parts.items()} for f, parts in named.items()}), cells

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -70,6 +71,20 @@ def body_stresses(space: Space, model: Model, displacement: Array) -> list[BodyS
         stress[:, :4] = total[i, nodes] / weight[i, nodes, None]
         result.append(BodyStress(body=body.name, nodes=nodes, stress=stress))
     return result
+
+
+def point_stresses(space: Space, model: Model, displacement: Array) -> Iterator[tuple[IntArray, Array]]:
+    """Stresses at the best points of the cells, group by group: cells (m,) and stresses (m, p, 6) as nodes have them.
+
+    Parameters
+    ----------
+    displacement : (n, 2), length
+    """
+    for group in groups(space, model):
+        found = cell_stresses(space, model, group, displacement)
+        stress = np.zeros((*found.shape[:2], 6))
+        stress[..., :4] = found
+        yield group.block.first + group.index, stress
 
 
 def cell_stresses(space: Space, model: Model, group: Group, displacement: Array) -> Array:

@@ -8,12 +8,16 @@ import os
 import re
 import tempfile
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from signorini.clock import Clock
 from signorini.errors import InputError
+from signorini.model.prints import Table
+from signorini.output.archive import write_archive
 from signorini.output.checkpoint import write_checkpoint
+from signorini.output.dat import write_dat
+from signorini.output.frd import write_frd
 from signorini.output.instants import write_history
 from signorini.output.replacing import replacing
 from signorini.output.rows import write_rows
@@ -23,8 +27,13 @@ from signorini.output.vtu import write_step
 from signorini.solution.history import History
 
 _OURS = re.compile(
-    r"(summary\.json|contact\.csv|history\.csv|state\.npz|solution(_\d{4,})?\.vtu|solution\.pvd|(contact|stress|mesh|history)\.png)"
+    r"(summary\.json|(contact|history)\.csv|state\.npz|solution(_\d{4,})?\.vtu|solution\.(pvd|h5|frd|dat)|"
+    r"(contact|stress|mesh|history)\.png)"
 )
+
+
+ARCHIVE = "solution.h5"
+"""The whole history, in a result folder."""
 
 
 def open_folder(path: Path) -> Path:
@@ -44,7 +53,9 @@ def open_folder(path: Path) -> Path:
     return path
 
 
-def publish(history: History, folder: Path, clock: Clock, *, started: float) -> list[Path]:
+def publish(
+    history: History, folder: Path, clock: Clock, *, started: float, tables: Sequence[Table] | None = None
+) -> list[Path]:
     """Write a history, finished or not, in place of whatever an earlier run left in the folder.
 
     Everything is written aside first; then earlier results go, and the new files come under their names, the summary
@@ -55,6 +66,8 @@ def publish(history: History, folder: Path, clock: Clock, *, started: float) -> 
     history : with no finished step, only a summary is written, which says why
     folder : that :func:`open_folder` opened
     clock : its seconds go into the summary, and those of the output are added to it
+    tables : that a deck of keywords asks for: what its users expect is written too, ``.frd`` and, if there are any,
+        ``.dat``
     started : ``time.perf_counter()`` at the beginning of the run
 
     Returns
@@ -64,7 +77,7 @@ def publish(history: History, folder: Path, clock: Clock, *, started: float) -> 
     with tempfile.TemporaryDirectory(dir=folder, prefix=".writing-") as name:
         aside = Path(name)
         with clock.phase("output"):
-            names = _write_fields(history, aside)
+            names = _write_fields(history, aside, tables)
         seconds = clock.seconds | {"total": time.perf_counter() - started}
         write_summary(history, aside / "summary.json", seconds)
         for old in folder.iterdir():
@@ -82,7 +95,7 @@ def write_summary(history: History, path: Path, seconds: Mapping[str, float]) ->
         aside.write_text(words + "\n", encoding="utf-8")
 
 
-def _write_fields(history: History, folder: Path) -> list[str]:
+def _write_fields(history: History, folder: Path, tables: Sequence[Table] | None) -> list[str]:
     """Rows and fields of the finished steps; their names."""
     if not history.steps:
         return []
@@ -100,4 +113,12 @@ def _write_fields(history: History, folder: Path) -> list[str]:
     if history.end is not None:
         write_checkpoint(history.end, folder / "state.npz")
         names.append("state.npz")
+    write_archive(history, folder / ARCHIVE)
+    names.append(ARCHIVE)
+    if tables is not None:
+        write_frd(history, folder / "solution.frd")
+        names.append("solution.frd")
+    if tables:
+        write_dat(history, tables, folder / "solution.dat")
+        names.append("solution.dat")
     return names

@@ -197,6 +197,7 @@ class StepResult:
     increments : solved in this step; 0 on an exact path
     events : of an exact path, in order
     displacement : (nodes, d) length
+    external : (nodes, d) loads and reactions of supports, force
     obstacles : moving obstacles by name
     reactions : support to its force on the bodies, (d,)
     strain_energy : of the bodies
@@ -219,6 +220,7 @@ class StepResult:
     increments: int
     events: tuple[PairEvent, ...]
     displacement: Array
+    external: Array
     obstacles: Mapping[str, ObstacleResult]
     reactions: Mapping[str, Array]
     strain_energy: float

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from signorini.deck.inp.loading import Known, follow_steps
 from signorini.deck.inp.materials import Section, make_materials, make_sections
 from signorini.deck.inp.pairs import make_contacts
 from signorini.deck.inp.places import Places
+from signorini.deck.inp.prints import make_tables
 from signorini.deck.inp.sets import make_sets
 from signorini.deck.inp.steps import DeckStep, split_steps
 from signorini.deck.inp.supported import refuse_unsupported
@@ -28,8 +30,10 @@ from signorini.deck.inp.surfaces import Edges, make_surfaces
 from signorini.errors import InputError, Where
 from signorini.model.body import Body
 from signorini.model.contact import Contact
+from signorini.model.material import Orthotropic
 from signorini.model.mesh import NODES_PER_CELL, Mesh
 from signorini.model.model import Kind, Model
+from signorini.model.prints import Table
 from signorini.model.step import Step
 
 _SMALL_SLIDING = "contact is treated as small sliding: pairs are found on the undeformed bodies"
@@ -49,12 +53,14 @@ class Built:
     places : keyword of every support, load, contact, body and step, by its path in the model
     notes : what differs from the deck, and what is left out
     unused_materials : names of materials that no section has
+    tables : that the steps ask for
     """
 
     model: Model
     places: dict[Where, Block]
     notes: tuple[str, ...]
     unused_materials: tuple[str, ...]
+    tables: tuple[Table, ...]
 
 
 def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increments: bool) -> Built:
@@ -108,7 +114,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
             _mesh(grid, sections, places),
             kind=kind,
             thickness=_thickness(sections, kind),
-            bodies=[_body(section) for section in sections],
+            bodies=[_body(section, grid) for section in sections],
             supports=conditions.supports,
             loads=conditions.loads,
             contacts=[contact for contact, _ in contacts],
@@ -122,6 +128,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
         model=model,
         places=where,
         notes=tuple(_notes(grid, steps, contacts, ignored, small_strain, deck_increments)),
+        tables=tuple(make_tables(steps, nodes, elements, model.mesh, contacts)),
         unused_materials=tuple(m.block.value("NAME") for m in materials.values() if id(m) not in used),
     )
 
@@ -191,10 +198,25 @@ def _mesh(grid: Grid, sections: Sequence[Section], places: Places) -> Mesh:
     )
 
 
-def _body(section: Section) -> Body:
-    elastic = section.substance.elastic
+def _body(section: Section, grid: Grid) -> Body:
+    substance = section.substance
+    elastic, alpha = substance.elastic, substance.expansion or 0.0
     assert elastic is not None
-    return Body(section.name, elastic)
+    given: dict[str, Any] = {"density": substance.density or 0.0}
+    if isinstance(elastic, Orthotropic):
+        given |= {"angle": section.angle, "expansion1": alpha, "expansion2": alpha, "expansion3": alpha}
+    else:
+        given |= {"expansion": alpha}
+    own = [group for group in grid.groups if np.isin(group.index, section.elements).any()]
+    incompatible = any(group.type.incompatible for group in own)
+    try:
+        return Body(
+            section.name,
+            replace(elastic, **given),
+            formulation="incompatible" if incompatible else "standard",
+        )
+    except InputError as error:
+        raise substance.block.error(str(error)) from error
 
 
 def _step(step: DeckStep, k: int, conditions: Conditions, deck_increments: bool) -> Step:

@@ -15,7 +15,8 @@ _SOLIDS = ("C3D4", "C3D6", "C3D8", "C3D10", "C3D15", "C3D20")
 _VARIANTS = {
     "": "",
     "R": "reduced integration is not used: all elements are integrated fully",
-    "I": "incompatible modes are not used: elements of first order bend too stiffly in coarse meshes",
+    "I": "",
+    "IH": "",
     "H": "",
     "M": "modified formulation is not used: it is an ordinary quadratic triangle",
     "RH": "reduced integration is not used: all elements are integrated fully",
@@ -31,11 +32,13 @@ class ElementType:
     ----------
     family : of cells, as "quad8"
     kind : of the model, as "plane strain"
+    incompatible : with incompatible modes
     note : how it differs from what the deck asks for, empty if it does not
     """
 
     family: str
     kind: Kind
+    incompatible: bool = False
     note: str = ""
 
     @property
@@ -61,7 +64,12 @@ def element_type(block: Block) -> ElementType:
     prefix, size, variant = name[:3], name[3:4], name[4:]
     if prefix in _PLANES and size in _FAMILIES and variant in _VARIANTS:
         note = f"{name}: {_VARIANTS[variant]}" if _VARIANTS[variant] else ""
-        return ElementType(family=_FAMILIES[size], kind=cast(Kind, _PLANES[prefix]), note=note)
+        if variant.startswith("I") and size != "4":
+            raise block.error(f"TYPE={name} is not supported; incompatible modes are for 4 nodes")
+        incompatible = variant.startswith("I")
+        return ElementType(
+            family=_FAMILIES[size], kind=cast(Kind, _PLANES[prefix]), incompatible=incompatible, note=note
+        )
     if name.startswith(_SOLIDS):
         raise block.error(f"TYPE={name} is three-dimensional, which this version does not have")
     raise block.error(

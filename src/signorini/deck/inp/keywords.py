@@ -65,6 +65,7 @@ MODEL_WORDS = (
     "MATERIAL",
     "NODE",
     "NSET",
+    "ORIENTATION",
     "SOLID SECTION",
     "SURFACE",
     "SURFACE BEHAVIOR",

@@ -12,7 +12,7 @@ from signorini.deck.inp.block import Block
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.sets import Sets
 from signorini.errors import InputError, one_of
-from signorini.model.material import Elastic
+from signorini.model.material import Elastic, Material, Orthotropic
 
 MATERIAL_WORDS = ("ELASTIC", "DENSITY", "EXPANSION")
 """Keywords that belong to the ``*MATERIAL`` before them and that are read here."""
@@ -31,7 +31,7 @@ class Substance:
     """
 
     block: Block
-    elastic: Elastic | None = None
+    elastic: Material | None = None
     density: float | None = None
     expansion: float | None = None
 
@@ -46,6 +46,7 @@ class Section:
     name : of the body
     elements : their indices
     substance : what they are made of
+    angle : of the material's axes, degrees
     thickness : out of plane, length
     """
 
@@ -53,6 +54,7 @@ class Section:
     name: str
     elements: IntArray
     substance: Substance
+    angle: float
     thickness: float
 
 
@@ -88,8 +90,10 @@ def _with(substance: Substance, block: Block) -> Substance:
         block.choice("TYPE", ("ISO",), "ISO")
         return replace(substance, expansion=_constant(block, "the coefficient of expansion"))
     block.refuse_unknown(("TYPE", "MODULI"))
-    block.choice("TYPE", ("ISO", "ISOTROPIC"), "ISO")
     block.choice("MODULI", ("LONG TERM", "INSTANTANEOUS"), "LONG TERM")
+    kind = block.choice("TYPE", ("ISO", "ISOTROPIC", "ENGINEERING CONSTANTS"), "ISO")
+    if kind == "ENGINEERING CONSTANTS":
+        return replace(substance, elastic=_orthotropic(block))
     rows = [(row, row.number(0, "Young's modulus"), row.number(1, "Poisson's ratio")) for row in block.rows()]
     if not rows:
         raise block.error("has no data line; expected Young's modulus and Poisson's ratio")
@@ -100,6 +104,20 @@ def _with(substance: Substance, block: Block) -> Substance:
         return replace(substance, elastic=Elastic(E=modulus, nu=ratio))
     except InputError as error:
         raise row.error(f"*ELASTIC: {error}") from error
+
+
+def _orthotropic(block: Block) -> Orthotropic:
+    """Nine constants in two lines: E1, E2, E3, nu12, nu13, nu23, G12, G13, G23; the last two do not act here."""
+    rows = list(block.rows())
+    words = [(row, i) for row in rows for i in range(len(row.fields))]
+    if len(words) not in (9, 10):
+        raise block.error(f"has {len(words)} constants; expected 9: E1, E2, E3, nu12, nu13, nu23, G12, G13, G23")
+    values = [row.number(i, "a constant") for row, i in words]
+    keys = ("E1", "E2", "E3", "nu12", "nu13", "nu23", "G12")
+    try:
+        return Orthotropic(**dict(zip(keys, values, strict=False)))
+    except InputError as error:
+        raise rows[0].error(f"*ELASTIC: {error}") from error
 
 
 def _constant(block: Block, what: str) -> float:
@@ -119,12 +137,13 @@ def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Sub
     count : of elements
     """
     sections: list[Section] = []
+    angles = make_orientations(placed)
     owner = np.full(count, -1)
     for item in placed:
         block = item.block
         if block.keyword != "SOLID SECTION":
             continue
-        block.refuse_unknown(("ELSET", "MATERIAL"), ("CONTROLS", "OFFSET"))
+        block.refuse_unknown(("ELSET", "MATERIAL", "ORIENTATION"), ("CONTROLS", "OFFSET"))
         material = block.value("MATERIAL")
         if material.upper() not in materials:
             raise block.error(one_of(material, [m.block.value("NAME") for m in materials.values()], "material"))
@@ -140,13 +159,56 @@ def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Sub
             number = elements.numbering.labels[first]
             raise block.error(f"element {number} has the section of '{sections[owner[first]].name}' already")
         owner[members] = len(sections)
+        angle = _angle(block, angles)
         sections.append(
-            Section(block=block, name=name, elements=members, substance=substance, thickness=_thickness(block))
+            Section(
+                block=block,
+                name=name,
+                elements=members,
+                substance=substance,
+                angle=angle,
+                thickness=_thickness(block),
+            )
         )
     if (owner < 0).any():
         number = elements.numbering.labels[np.nonzero(owner < 0)[0][0]]
         raise sections[-1].block.error(f"element {number} has no section") if sections else InputError("no section")
     return sections
+
+
+def make_orientations(placed: list[Placed]) -> dict[str, float]:
+    """Angle of every ``*ORIENTATION`` from the x axis, degrees, by name in capitals.
+
+    Raises
+    ------
+    DeckError
+        For systems that are not rectangular, or turn out of the plane.
+    """
+    angles: dict[str, float] = {}
+    for item in placed:
+        block = item.block
+        if block.keyword != "ORIENTATION":
+            continue
+        block.refuse_unknown(("NAME", "SYSTEM", "DEFINITION"))
+        block.choice("SYSTEM", ("RECTANGULAR",), "RECTANGULAR")
+        block.choice("DEFINITION", ("COORDINATES",), "COORDINATES")
+        rows = list(block.rows())
+        if len(rows) != 1:
+            raise block.error(f"has {len(rows)} data lines; expected one, two points on and beside the first axis")
+        a, b = (np.array([rows[0].number(3 * k + i, "a coordinate", 0.0) for i in range(3)]) for k in (0, 1))
+        if a[2] or b[2] or not a[0] * b[1] - a[1] * b[0] > 0.0:
+            raise rows[0].error("*ORIENTATION: its axes do not lie in the plane with the third towards the reader")
+        angles[block.value("NAME").upper()] = float(np.degrees(np.arctan2(a[1], a[0])))
+    return angles
+
+
+def _angle(block: Block, angles: dict[str, float]) -> float:
+    if "ORIENTATION" not in block.parameters:
+        return 0.0
+    name = block.value("ORIENTATION")
+    if name.upper() not in angles:
+        raise block.error(one_of(name.upper(), angles, "orientation"))
+    return angles[name.upper()]
 
 
 def _thickness(block: Block) -> float:

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From a model to a deck: a TOML file and its mesh beside it."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import MISSING, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from signorini.model.model import Model
+from signorini.model.obstacle import Circle, Plane, Profile
+
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
+_OBSTACLES = {Plane: "plane", Circle: "circle", Profile: "profile"}
+_FREE = ("u", "force", "rotation")  # where None means free and is said
+
+
+def write_deck(model: Model, path: Path) -> list[Path]:
+    """Write a deck that is read as the same model, and the mesh that it names.
+
+    Parameters
+    ----------
+    path : of the TOML file; the mesh is written as ``.vtu`` under the same name
+
+    Returns
+    -------
+    The two files
+    """
+    from signorini.fem.write import write_mesh  # brings meshio with it
+
+    mesh = path.with_suffix(".vtu")
+    write_mesh(model.mesh, mesh)
+    path.write_text(deck_text(model, mesh.name), encoding="utf-8")
+    return [path, mesh]
+
+
+def deck_text(model: Model, mesh: str) -> str:
+    """A deck as text.
+
+    Parameters
+    ----------
+    mesh : the mesh file's name
+
+    Examples
+    --------
+    >>> from signorini.gallery.cylinder import zhu_cylinder
+    >>> print(*deck_text(zhu_cylinder(), "disk.vtu").splitlines()[:7], sep="\\n")
+    title = "Elastic cylinder on a rigid foundation"
+    kind = "plane strain"
+    <BLANKLINE>
+    [mesh]
+    file = "disk.vtu"
+    <BLANKLINE>
+    [material."material 1"]
+    """
+    return "\n".join(_lines(model, mesh)) + "\n"
+
+
+def _lines(model: Model, mesh: str) -> Iterator[str]:
+    top = {key: getattr(model, key) for key in ("title", "kind", "thickness", "units")}
+    if model.kind == "axisymmetric":
+        del top["thickness"]
+    defaults = {field.name: field.default for field in fields(model)}
+    yield from (f"{key} = {_value(value)}" for key, value in top.items() if value != defaults[key] or key == "kind")
+    yield from ("", "[mesh]", f"file = {_value(mesh)}")
+    materials: dict[Any, str] = {}
+    for body in model.bodies:
+        if body.material not in materials:
+            materials[body.material] = f"material {len(materials) + 1}"
+            yield from ("", f"[material.{_key(materials[body.material])}]", *_entries(_given(body.material)))
+    for body in model.bodies:
+        yield from ("", "[[body]]", *_entries(_given(body) | {"material": materials[body.material]}))
+    for key, members in (("support", model.supports), ("load", model.loads), ("obstacle", model.obstacles)):
+        for member in members:
+            yield from ("", f"[[{key}]]", *_entries(_given(member)))
+    for contact in model.contacts:
+        yield from ("", "[[contact]]", *_entries(_given(contact)))
+    for step in model.steps:
+        yield from ("", "[[step]]", *_entries(_given(step)))
+
+
+def _given(part: Any) -> dict[str, Any]:
+    """The fields of a part that differ from their defaults; a rigid shape goes under its own key."""
+    found = {}
+    for field in fields(part):
+        value = getattr(part, field.name)
+        default = field.default_factory() if field.default_factory is not MISSING else field.default
+        if type(value) in _OBSTACLES:
+            found[_OBSTACLES[type(value)]] = _given(value)
+        elif isinstance(value, np.ndarray) or (value is not default and value != default):
+            found[field.name] = value
+    return found
+
+
+def _entries(table: Mapping[str, Any]) -> Iterator[str]:
+    for key, value in table.items():
+        if value is not None or key in _FREE:
+            yield f"{_key(key)} = {_value(value)}"
+
+
+def _key(key: str) -> str:
+    return key if _BARE.fullmatch(key) else _value(key)
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if value is None:
+        return '"free"'
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{_key(key)} = {_value(part)}" for key, part in value.items()) + " }"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_value(part) for part in value) + "]"
+    return repr(value)

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Two histories side by side: how far apart their results are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from signorini.arrays import Array, IntArray
+from signorini.solution.history import History
+from signorini.solution.results import ContactResult, StepResult
+
+_Labels = tuple[IntArray, IntArray]
+_ENERGIES = ("strain_energy", "interface_energy", "work", "dissipation")
+_STRESSES, _LENGTHS = ("pressure", "traction"), ("gap", "slip")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Difference:
+    """How far one quantity is apart.
+
+    Attributes
+    ----------
+    step : name of the step
+    quantity : as ``"displacement"`` or ``"arc: pressure"``
+    kind : what it is compared with: "length", "force", "stress" or "energy"
+    largest : largest absolute difference
+    size : largest absolute value of its kind in the step, gaps not counted
+    where : the node with the largest difference, None for what has no nodes
+    """
+
+    step: str
+    quantity: str
+    kind: str
+    largest: float
+    size: float
+    where: int | None = None
+
+    @property
+    def relative(self) -> float:
+        """Largest difference over the size; 0 where nothing differs."""
+        return self.largest / self.size if self.size else float(self.largest > 0.0)
+
+
+def compare(first: History, second: History) -> tuple[list[Difference], list[str]]:
+    """Compare step by step what both have: nodes by their numbers, supports and contacts by their names.
+
+    Returns
+    -------
+    Differences, and words for what only one has
+    """
+    differences: list[Difference] = []
+    words: list[str] = []
+    for what, a, b in (
+        ("status", first.status, second.status),
+        ("kind", first.model.kind, second.model.kind),
+        ("steps", len(first.steps), len(second.steps)),
+        ("nodes", len(first.model.mesh.points), len(second.model.mesh.points)),
+    ):
+        if a != b:
+            words.append(f"{what}: {a} and {b}")
+    labels = first.model.mesh.labels, second.model.mesh.labels
+    for mine, theirs in zip(first.steps, second.steps, strict=False):
+        words += _alone(mine, theirs)
+        found = list(_step(mine, theirs, labels))
+        sizes: dict[str, float] = {}
+        for d in found:
+            if not d.quantity.endswith("gap"):  # a gap that is wide says nothing of the size of motions
+                sizes[d.kind] = max(sizes.get(d.kind, 0.0), d.size)
+        differences += [replace(d, size=sizes[d.kind]) for d in found]
+    return differences, list(dict.fromkeys(words))
+
+
+def _alone(mine: StepResult, theirs: StepResult) -> Iterator[str]:
+    contacts = ([contact.name for contact in step.contacts] for step in (mine, theirs))
+    for what, names in (("support", (list(mine.reactions), list(theirs.reactions))), ("contact", tuple(contacts))):
+        for name in dict.fromkeys([*names[0], *names[1]]):
+            if name not in names[0] or name not in names[1]:
+                yield f"{what} '{name}' is only in the {'first' if name in names[0] else 'second'}"
+
+
+def _step(mine: StepResult, theirs: StepResult, labels: _Labels) -> Iterator[Difference]:
+    step = mine.name
+    yield _field(step, "displacement", "length", labels, (mine.displacement, theirs.displacement))
+    for key in _ENERGIES:
+        yield _values(step, key.replace("_", " "), "energy", getattr(mine, key), getattr(theirs, key))
+    for name in mine.reactions:
+        if name in theirs.reactions:
+            yield _values(step, f"reaction {name}", "force", mine.reactions[name], theirs.reactions[name])
+    others = {contact.name: contact for contact in theirs.contacts}
+    for contact in mine.contacts:
+        if contact.name in others:
+            yield from _contact(step, contact, others[contact.name], labels)
+
+
+def _contact(step: str, mine: ContactResult, theirs: ContactResult, labels: _Labels) -> Iterator[Difference]:
+    nodes = labels[0][mine.node], labels[1][theirs.node]
+    for kind, keys in (("stress", _STRESSES), ("length", _LENGTHS)):
+        for key in keys:
+            yield _field(step, f"{mine.name}: {key}", kind, nodes, (getattr(mine, key), getattr(theirs, key)))
+    for key in ("normal_force", "tangential_force"):
+        words = f"{mine.name}: {key.replace('_', ' ')}"
+        yield _values(step, words, "force", getattr(mine, key), getattr(theirs, key))
+
+
+def _field(step: str, quantity: str, kind: str, nodes: _Labels, values: tuple[Array, Array]) -> Difference:
+    """Over the nodes that both have."""
+    common, i, j = np.intersect1d(nodes[0], nodes[1], return_indices=True)
+    if not len(common) or values[0].shape[1:] != values[1].shape[1:]:
+        return Difference(step=step, quantity=quantity, kind=kind, largest=np.inf, size=0.0)
+    a, b = values[0][i].reshape(len(common), -1), values[1][j].reshape(len(common), -1)
+    apart = np.abs(a - b).max(axis=1)
+    worst = int(apart.argmax())
+    size = float(max(np.abs(a).max(), np.abs(b).max()))
+    where = int(common[worst])
+    return Difference(step=step, quantity=quantity, kind=kind, largest=float(apart[worst]), size=size, where=where)
+
+
+def _values(step: str, quantity: str, kind: str, a: ArrayLike, b: ArrayLike) -> Difference:
+    mine, theirs = np.atleast_1d(a), np.atleast_1d(b)
+    if mine.shape != theirs.shape:
+        return Difference(step=step, quantity=quantity, kind=kind, largest=np.inf, size=0.0)
+    size = float(max(np.abs(mine).max(initial=0.0), np.abs(theirs).max(initial=0.0)))
+    largest = float(np.abs(mine - theirs).max(initial=0.0))
+    return Difference(step=step, quantity=quantity, kind=kind, largest=largest, size=size)

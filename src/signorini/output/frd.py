@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Results as CalculiX writes them (``.frd``, text), for cgx, PrePoMax and converters such as ccx2paraview."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from signorini._version import __version__
+from signorini.arrays import Array, IntArray
+from signorini.fem.space import make_space
+from signorini.fem.stress import body_stresses
+from signorini.model.model import Model
+from signorini.output.replacing import replacing
+from signorini.solution.history import History
+from signorini.solution.results import StepResult
+
+# family: number of the element type, nodes of it that are written
+_TYPES = {"triangle": (7, 3), "triangle6": (8, 6), "quad": (9, 4), "quad8": (10, 8), "quad9": (10, 8)}
+_TENSOR = (("SXX", 1, 1), ("SYY", 2, 2), ("SZZ", 3, 3), ("SXY", 1, 2), ("SYZ", 2, 3), ("SZX", 3, 1))
+_CONTACT = ("COPEN", "CSLIP1", "CSLIP2", "CPRESS", "CSHEAR1", "CSHEAR2")
+
+
+def write_frd(history: History, path: Path) -> None:
+    """Write the end of every step: DISP, FORC, STRESS (averaged at nodes) and CONTACT on the nonmortar nodes.
+
+    Nodes and elements keep their numbers in the mesh or deck.
+
+    Raises
+    ------
+    InputError
+        If no step was finished.
+    """
+    _ = history.last
+    with replacing(path) as aside, aside.open("w", encoding="ascii", errors="replace", newline="\n") as file:
+        for lines in _document(history):
+            file.write(lines)
+
+
+def _document(history: History) -> Iterator[str]:
+    model = history.model
+    mesh = model.mesh
+    used = np.unique(np.concatenate([cells.ravel() for cells in mesh.cells.values()]))
+    yield f"    1C{model.title[:66]}\n    1UPGM               signorini\n"
+    yield f"    1UVERSION           Version {__version__}\n"
+    for number, body in enumerate(model.bodies, start=1):
+        yield f"    1UMAT{number:5d}{body.name[:60]}\n"
+    labels = mesh.labels[used]
+    yield f"    2C                  {len(used):12d}                                     1\n"
+    yield _records(labels, _three(mesh.points[used]))
+    yield " -3\n"
+    yield f"    3C                  {mesh.number_of_cells:12d}                                     1\n"
+    yield from _elements(model)
+    yield " -3\n"
+    count = 0
+    for number, step in enumerate(history.steps, start=1):
+        for name, parts, values in _fields(model, step, used):
+            count += 1
+            yield f"    1PSTEP{count:26d}{number:12d}{number:12d}\n"
+            yield f"  100CL{100 + number:5d}{float(number):12.5E}{len(used):12d}{'':20s}0{number:5d}{'':10s} 1\n"
+            yield f" -4  {name:8s}{len(parts):5d}    1\n" + "".join(parts)
+            yield _records(labels, values) + " -3\n"
+    yield " 9999\n"
+
+
+def _elements(model: Model) -> Iterator[str]:
+    labels, owner, first = model.mesh.cell_labels, model.body_of_cells() + 1, 0
+    for family, cells in model.mesh.cells.items():
+        kind, width = _TYPES[family]
+        nodes = model.mesh.labels[cells[:, :width]]
+        lines = []
+        for row, cell in enumerate(nodes.tolist(), start=first):
+            lines.append(f" -1{labels[row]:10d}{kind:5d}    0{owner[row]:5d}\n -2")
+            lines.append("".join(f"{node:10d}" for node in cell) + "\n")
+        first += len(cells)
+        yield "".join(lines)
+
+
+def _fields(model: Model, step: StepResult, used: IntArray) -> Iterator[tuple[str, list[str], Array]]:
+    """Name, component lines and values (nodes, k) of every field."""
+    yield "DISP", _vector("D"), _three(step.displacement[used])
+    yield "FORC", _vector("F"), _three(step.external[used])
+    total, count = np.zeros((len(model.mesh.points), 6)), np.zeros(len(model.mesh.points))
+    for part in body_stresses(make_space(model.mesh), model, step.displacement):
+        total[part.nodes] += part.stress
+        count[part.nodes] += 1
+    stress = total[used] / np.maximum(count[used], 1)[:, None]
+    tensor = [f" -5  {name:8s}    1    4{i:5d}{j:5d}\n" for name, i, j in _TENSOR]
+    yield "STRESS", tensor, stress
+    if step.contacts:
+        values = np.zeros((len(model.mesh.points), 6))
+        for contact in step.contacts:
+            columns = (contact.gap, contact.slip, contact.pressure, contact.traction)
+            values[contact.node[:, None], [0, 1, 3, 4]] = np.column_stack(columns)
+        parts = [f" -5  {name:8s}    1    4{i:5d}{j:5d}\n" for name, (_, i, j) in zip(_CONTACT, _TENSOR, strict=True)]
+        yield "CONTACT", parts, values[used]
+
+
+def _vector(letter: str) -> list[str]:
+    parts = [f" -5  {letter}{i:<7d}    1    2{i:5d}    0\n" for i in (1, 2, 3)]
+    return [*parts, " -5  ALL         1    2    0    0    1ALL\n"]
+
+
+def _records(labels: IntArray, values: Array) -> str:
+    """One line a node."""
+    line = " -1%10d" + "%12.5E" * values.shape[1]
+    rows: Sequence[Sequence[float]] = values.tolist()
+    return "".join(line % (label, *row) + "\n" for label, row in zip(labels.tolist(), rows, strict=True))
+
+
+def _three(plane: Array) -> Array:
+    return np.column_stack([plane, np.zeros((len(plane), 3 - plane.shape[1]))])

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Frozen data as plain text and arrays apart, and back, exactly."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable, Mapping
+from dataclasses import fields, is_dataclass
+from functools import cache
+from types import MappingProxyType
+from typing import Any, cast
+
+import numpy as np
+
+from signorini.arrays import frozen
+from signorini.errors import InputError
+
+AnyArray = np.ndarray[Any, Any]
+
+_HOMES = (
+    "signorini.trace",
+    "signorini.model.body",
+    "signorini.model.conditions",
+    "signorini.model.contact",
+    "signorini.model.obstacle",
+    "signorini.model.rigid",
+    "signorini.model.mesh",
+    "signorini.model.model",
+    "signorini.model.step",
+    "signorini.solution.certificate",
+    "signorini.solution.checkpoint",
+    "signorini.solution.history",
+    "signorini.solution.results",
+    "signorini.solution.state",
+)
+_MARK = "$"
+_SMALL = 32  # entries: smaller arrays stay in the text
+
+
+@cache
+def _kinds() -> Mapping[str, type]:
+    """Classes that files may hold, by name: the frozen data of models and solutions, and nothing else."""
+    found = {}
+    for home in _HOMES:
+        for name, kind in vars(importlib.import_module(home)).items():
+            if isinstance(kind, type) and is_dataclass(kind) and kind.__module__.startswith("signorini."):
+                found[name] = kind
+    return MappingProxyType(found)
+
+
+def to_plain(value: Any, path: str, keep: Callable[[str, AnyArray], str]) -> Any:
+    """What JSON can hold; larger arrays are given to ``keep`` with a path, and it says under which path they are.
+
+    Parameters
+    ----------
+    value : numbers, texts, arrays, lists, tables and classes of this package, nested
+    path : of the value, as ``"steps/0"``
+
+    Examples
+    --------
+    >>> from_plain(to_plain({"a": (1, None), "b": np.ones(2)}, "", str), len)
+    {'a': (1, None), 'b': array([1., 1.])}
+    """
+    if value is None or isinstance(value, bool | int | float | str):
+        return value
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, np.ndarray):
+        told = {_MARK: "array", "dtype": value.dtype.str}
+        if value.size <= _SMALL:
+            return told | {"shape": list(value.shape), "of": value.ravel().tolist()}
+        return told | {"path": keep(path, value)}
+    if isinstance(value, list | tuple | frozenset):
+        members = sorted(value) if isinstance(value, frozenset) else value
+        parts = [to_plain(part, f"{path}/{i}", keep) for i, part in enumerate(members)]
+        return parts if isinstance(value, list) else {_MARK: type(value).__name__, "of": parts}
+    if isinstance(value, Mapping):
+        kind = "table" if isinstance(value, dict) else "proxy"
+        pairs = [[key, to_plain(part, f"{path}/{_safe(key)}", keep)] for key, part in value.items()]
+        return {_MARK: kind, "of": pairs}
+    name = type(value).__name__
+    if _kinds().get(name) is not type(value):
+        raise TypeError(f"{type(value)} at '{path}' is not stored")
+    own = {
+        field.name: to_plain(getattr(value, field.name), f"{path}/{field.name}", keep)
+        for field in fields(cast(Any, value))
+    }
+    return {_MARK: "class", "name": name, "of": own}
+
+
+def from_plain(plain: Any, get: Callable[[str], AnyArray]) -> Any:
+    """What :func:`to_plain` was given; nothing is computed anew, so that every number is the same.
+
+    Raises
+    ------
+    InputError
+        If it names a class that this version does not have, or with other fields.
+    """
+    if isinstance(plain, list):
+        return [from_plain(part, get) for part in plain]
+    if not isinstance(plain, dict):
+        return plain
+    mark = plain[_MARK]
+    if mark == "array":
+        kind = np.dtype(plain["dtype"])
+        if "path" in plain:
+            return frozen(get(plain["path"]), kind)
+        return frozen(np.array(plain["of"], kind).reshape(plain["shape"]), kind)
+    if mark in ("tuple", "frozenset"):
+        return {"tuple": tuple, "frozenset": frozenset}[mark](from_plain(part, get) for part in plain["of"])
+    if mark in ("table", "proxy"):
+        pairs = {key: from_plain(part, get) for key, part in plain["of"]}
+        return pairs if mark == "table" else MappingProxyType(pairs)
+    made_of = _kinds().get(plain["name"])
+    expected = {field.name for field in fields(made_of)} if made_of is not None else set()
+    if made_of is None or set(plain["of"]) != expected:
+        raise InputError(f"holds a {plain['name']} as another version of signorini has it; expected this version's")
+    made: Any = object.__new__(made_of)
+    for key, part in plain["of"].items():
+        object.__setattr__(made, key, from_plain(part, get))
+    return made
+
+
+def _safe(key: Any) -> str:
+    return str(key).replace("/", "|") or "_"

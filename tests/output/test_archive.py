@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Archives and decks that are written are read back exactly."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import signorini as sg
+from signorini.cli import main
+from signorini.deck.write import write_deck
+from signorini.errors import InputError
+from signorini.gallery.cylinder import zhu_cylinder
+from signorini.output.compare import compare
+from signorini.output.plain import from_plain, to_plain
+
+DECKS = Path(__file__).parents[1] / "deck" / "inp" / "decks"
+
+
+def plain(value: object) -> str:
+    """Everything in a value, arrays spelled in full: equal only for equal values."""
+    arrays: dict[str, list[object]] = {}
+
+    def keep(path: str, array: np.ndarray) -> str:
+        arrays[path] = array.tolist()
+        return path
+
+    return json.dumps([to_plain(value, "", keep), arrays])
+
+
+@pytest.fixture(scope="module")
+def solution() -> sg.Solution:
+    return sg.solve(sg.read(DECKS / "two_blocks.inp"))
+
+
+def test_an_archive_holds_everything_exactly(solution: sg.Solution, tmp_path: Path) -> None:
+    solution.write(tmp_path / "all.h5")
+    again = sg.load(tmp_path / "all.h5")
+    assert type(again) is type(solution)
+    assert plain({**vars(again)}) == plain({**vars(solution)})
+    assert str(again) == str(solution)
+    differences, words = compare(solution, again)
+    assert words == []
+    assert all(difference.largest == 0.0 for difference in differences)
+
+
+def test_a_history_goes_on_from_an_archive(solution: sg.Solution, tmp_path: Path) -> None:
+    whole = sg.read(DECKS / "two_blocks.inp")
+    sg.solve(replace(whole, steps=whole.steps[:1])).write(tmp_path / "half.h5")
+    second = sg.solve(replace(whole, steps=whole.steps[1:]), start=sg.load(tmp_path / "half.h5").end)
+    assert np.array_equal(second.last.displacement, solution.last.displacement)
+
+
+@pytest.mark.parametrize("name", ["two_blocks.inp", "cylinder"])
+def test_a_model_survives_its_deck(name: str, tmp_path: Path) -> None:
+    model = zhu_cylinder(friction=0.4) if name == "cylinder" else sg.read(DECKS / name)
+    write_deck(model, tmp_path / "deck.toml")
+    assert plain(vars(sg.read(tmp_path / "deck.toml"))) == plain(vars(model))
+
+
+NAMES = st.text(st.characters(codec="utf-8", exclude_categories=["Cs", "Cc"]), min_size=1, max_size=6)
+
+
+@settings(max_examples=25, deadline=None)
+@given(title=NAMES, force=st.floats(-1e300, 1e300), name=NAMES, tilt=st.floats(-1, 1))
+def test_any_words_and_numbers_survive(
+    tmp_path_factory: pytest.TempPathFactory, title: str, force: float, name: str, tilt: float
+) -> None:
+    block = sg.rectangle(width=1.0, height=1.0, nx=1, ny=1)
+    model = sg.Model(
+        block,
+        title=title,
+        bodies=[sg.Body("block", sg.Elastic(E=1.0, nu=0.3), formulation="incompatible")],
+        supports=[sg.Support("left", u=(None, 0.0), name="held")],
+        loads=[sg.Load("top", force=(force, None), name=name)] if name != "held" else [],
+        contacts=[sg.Contact("bottom", sg.Circle(centre=(tilt, -1.0), radius=1.0), friction="stick")],
+    )
+    path = tmp_path_factory.mktemp("deck") / "deck.toml"
+    write_deck(model, path)
+    assert plain(vars(sg.read(path))) == plain(vars(model))
+
+
+def test_results_are_compared(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    deck = str(DECKS / "two_blocks.inp")
+    changed = tmp_path / "deck.inp"
+    changed.write_text(Path(deck).read_text().replace("-0.001", "-0.0011"))
+    for source, folder in ((deck, "a"), (str(changed), "b")):
+        assert main(["run", source, "-o", str(tmp_path / folder), "--quiet"]) == 0
+    assert main(["diff", str(tmp_path / "a"), str(tmp_path / "a" / "solution.h5")]) == 0
+    assert "none apart" in capsys.readouterr().out
+    assert main(["diff", str(tmp_path / "a"), str(tmp_path / "b")]) == 1
+    assert "Sslave: pressure" in capsys.readouterr().out
+    assert main(["diff", str(tmp_path / "a"), str(tmp_path / "b"), "--tolerance", "0.5"]) == 0
+
+
+@pytest.mark.parametrize("content", [None, b"", b"no archive", b"\x89HDF\r\n\x1a\n"])
+def test_what_is_no_archive_is_refused(content: bytes | None, tmp_path: Path) -> None:
+    path = tmp_path / "x.h5"
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(InputError, match="archive"):
+        sg.load(path)
+
+
+def test_another_version_is_refused() -> None:
+    with pytest.raises(InputError, match="another version"):
+        from_plain({"$": "class", "name": "Support", "of": {"on": "a"}}, lambda _: np.empty(0))
+
+
+def test_unknown_endings_are_refused(solution: sg.Solution) -> None:
+    with pytest.raises(InputError, match=r"expected a name that ends in \.vtu"):
+        solution.write("x.txt")
