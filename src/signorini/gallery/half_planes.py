@@ -35,7 +35,7 @@ def graded(fine: float, spacing: float, far: float, growth: float = 1.15) -> Arr
     """Grid lines from 0 to ``far``: equal up to ``fine``, then each cell ``growth`` times as long.
 
     >>> graded(1.0, 0.5, 3.0, 2.0).tolist()
-    [0.0, 0.5, 1.0, 3.0]
+    [0.0, 0.5, 1.0, 2.0, 3.0]
     """
     lines = list(np.linspace(0.0, fine, round(fine / spacing) + 1))
     step = spacing * growth
@@ -50,7 +50,7 @@ def equal_half_planes(
 ) -> Model:
     """Two equal cylinders as two blocks, their difference of height in the lower side of the upper one.
 
-    The top of the upper block moves without turning; "press" and "pull" are the whole forces P = {P} and mu P on it.
+    The top of the upper block moves without turning; "press" and "pull" at factor 1 are P and mu P on it.
 
     Parameters
     ----------
