@@ -73,6 +73,12 @@ def make_grid(placed: list[Placed]) -> Grid:
     return Grid(points=points, nodes=nodes, elements=elements, groups=tuple(groups))
 
 
+def nodes_of(grid: Grid, elements: IntArray) -> IntArray:
+    """The sorted nodes of elements."""
+    pieces = [group.nodes[np.isin(group.index, elements)].ravel() for group in grid.groups]
+    return np.unique(np.concatenate([np.empty(0, np.int64), *pieces]))
+
+
 def _nodes(placed: list[Placed]) -> tuple[Numbering, Array]:
     nodes, points = Numbering("node"), [np.empty((0, 3))]
     for scope, blocks in _by_scope(placed):

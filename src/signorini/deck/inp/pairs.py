@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from signorini.deck.inp.block import Block, Row, to_number
@@ -25,9 +26,18 @@ _IGNORED = (
 )
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Pair:
+    """A contact, the keyword that it comes from, and the name of its law in capitals."""
+
+    contact: Contact
+    block: Block
+    interaction: str = ""
+
+
 def make_contacts(
     placed: list[Placed], interactions: Mapping[str, Interaction], surfaces: Surfaces, nodes: Sets
-) -> list[tuple[Contact, Block]]:
+) -> list[Pair]:
     """Read all ``*CONTACT PAIR`` keywords: the slave side is nonmortar.
 
     Raises
@@ -36,7 +46,7 @@ def make_contacts(
         For an unknown surface or interaction, or a surface without edges.
     """
     clearances = _clearances(placed, surfaces)
-    found: list[tuple[Contact, Block]] = []
+    found: list[Pair] = []
     for item in placed:
         block = item.block
         if block.keyword != "CONTACT PAIR":
@@ -63,10 +73,10 @@ def make_contacts(
                 friction=law.friction,
                 normal_compliance=law.normal_compliance,
                 tangential_compliance=law.tangential_compliance,
-                name=slave if not any(other.nonmortar == slave for other, _ in found) else f"{slave} on {master}",
+                name=slave if not any(other.contact.nonmortar == slave for other in found) else f"{slave} on {master}",
                 **given,
             )
-            found.append((contact, block))
+            found.append(Pair(contact=contact, block=block, interaction=name.upper()))
     return found
 
 

@@ -10,7 +10,7 @@ from signorini.deck.inp.block import Block
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.keywords import HARMLESS, STEP_WORDS
 
-_IGNORED = ("INC", "NAME", "UNSYMM", "SOLVER", "CONVERT SDI", "EXTRAPOLATION", "PERTURBATION MASS")
+_IGNORED = ("INC", "INCF", "NAME", "UNSYMM", "SOLVER", "CONVERT SDI", "EXTRAPOLATION", "PERTURBATION MASS")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
