@@ -24,6 +24,7 @@ from signorini.friction.problem import CoulombProblem
 from signorini.interface.candidates import candidates
 from signorini.interface.interface import Interface, make_interface
 from signorini.linalg.protocol import NotPositiveDefinite
+from signorini.model.conditions import Load, Temperature
 from signorini.model.model import Model
 from signorini.solution.scale import Scale, data_scale
 
@@ -59,7 +60,7 @@ class Prepared(Examined):
 
     Attributes
     ----------
-    K : (dofs, dofs) stiffness, supports not applied
+    K : (dofs, dofs) stiffness of bodies and elastic foundations, supports not applied
     condensed : the interface as the bodies feel it
     law : the contact law on it, without load; ``dataclasses.replace(law, b=...)`` shares what it has computed
     clock : seconds spent so far
@@ -124,7 +125,8 @@ class Prepared(Examined):
         )
         forces = {name: factor.get(name, 1.0) * f for name, f in self.loads.items()}
         refuse_free_motions(self.space, constraints, interface, self.parts, self.motions)
-        model = replace(self.model, contacts=contacts)
+        hot = [replace(load, temperature=_times(load, factor)) for load in self.model.loads]
+        model = replace(self.model, contacts=contacts, loads=hot)
         scale = data_scale(model, forces, constraints, interface)
         return replace(
             self,
@@ -183,6 +185,8 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
     with clock.phase("assembly"):
         examined = examine(model)
         K = stiffness(examined.space, model)
+        for springs in examined.constraints.springs.values():
+            K = sp.csr_array(K + springs.T @ springs)
     return _condensed(examined, K, _near(examined), backend, clock)
 
 
@@ -241,6 +245,16 @@ def _size(interface: Interface, condensed: Condensed, scale: Scale) -> float:
     """Of the right-hand side of the law; gaps far larger than the displacements leave their rounding in it."""
     gap = float(np.abs(interface.gap[condensed.active]).max(initial=0.0))
     return max(scale.length, _ROUNDING * gap) * float(condensed.root.max(initial=1.0))
+
+
+def _times(load: Load, factors: Mapping[str, float]) -> Temperature | None:
+    """The temperature of a load times its factor; stresses refer to it, other loads are in the nodal forces."""
+    given, factor = load.temperature, factors.get(load.label, 1.0)
+    if given is None or factor == 1.0:
+        return given
+    if callable(given):
+        return lambda points: factor * given(points)
+    return factor * given
 
 
 def _refuse_unknown(given: Mapping[str, float] | None, known: Sequence[str], what: str, key: str) -> None:
