@@ -29,8 +29,10 @@ if TYPE_CHECKING:
     from signorini.model.obstacle import Circle, Plane, Profile
     from signorini.model.rigid import Rigid
     from signorini.model.step import Step
+    from signorini.model.varying import Along
 
 __all__ = [
+    "Along",
     "Body",
     "Circle",
     "Contact",
@@ -79,6 +81,7 @@ _HOMES = {
     "signorini.model.obstacle": ("Circle", "Plane", "Profile"),
     "signorini.model.rigid": ("Rigid",),
     "signorini.model.step": ("Step",),
+    "signorini.model.varying": ("Along",),
 }
 _MODULES = {"lcp": "signorini.lcp", "paper": "signorini.engine.paper"}
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from signorini.engine.prepare import prepare
+from signorini.engine.solve import solve
+from signorini.errors import InputError
 from signorini.fem.generators import annulus, half_disk, rectangle
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit
@@ -92,6 +94,70 @@ def test_a_curved_body_on_a_flat_one_pairs_from_either_side(swap, lift):
     np.testing.assert_allclose(points[interface.node][:, 0], points[np.concatenate(partner)][:, 0], atol=1e-9)
     assert (interface.gap >= lift - 1e-12).all()
     assert interface.gap.min() == pytest.approx(lift, abs=1e-12)
+
+
+def slabs(lower=4, lift=0.0, **contact):
+    """Two slabs, the upper one higher by ``lift`` at its right end."""
+    upper = rectangle(width=2.0, height=1.0, nx=6, ny=2, origin=(0.0, 1.0))
+    upper = replace(upper, points=upper.points + np.outer(upper.points[:, 0] * lift / 2.0, (0.0, 1.0)))
+    return Model(
+        join({"upper": upper, "lower": rectangle(width=2.0, height=1.0, nx=lower, ny=2)}),
+        bodies=[Body("upper", STEEL), Body("lower", STEEL)],
+        supports=[Support("lower.bottom", u=(0, 0)), Support("upper.top", u=(0, -0.1))],
+        contacts=[Contact("upper.bottom", "lower.top", **contact)],
+    )
+
+
+@pytest.mark.parametrize("lower", [4, 6])
+def test_gaps_are_as_asked_for(lower):
+    """From the geometry, closed up to a distance, or zero; the interference comes on top."""
+
+    def gaps(**contact):
+        prepared = prepare(slabs(lower, 0.3, **contact))
+        order = np.argsort(prepared.model.mesh.points[prepared.interface.node, 0])
+        return prepared.interface.gap[order]
+
+    straight = 0.05 * np.arange(7) * np.cos(np.arctan(0.15))
+    np.testing.assert_allclose(gaps(), straight, atol=0.02)
+    closed = gaps(adjust=0.12)
+    assert (closed[:3] == 0.0).all()
+    assert (closed[3:] == gaps()[3:]).all()
+    assert (gaps(gap="zero") == 0.0).all()
+    np.testing.assert_allclose(gaps(gap="zero", interference=0.02), -0.02)
+    np.testing.assert_allclose(gaps(adjust=0.12, interference=0.02), closed - 0.02)
+
+
+@pytest.mark.parametrize("coupling", ["mortar", "node-to-segment", "nodes"])
+def test_supports_on_both_sides_leave_no_redundant_pair(coupling):
+    """A side whose nodes are all held, partly opposite held nodes: the law is asked where something can move."""
+    model = slabs(6 if coupling == "nodes" else 4, coupling=coupling, friction=0.3)
+    held = [Support("lower.top", u=(0, 0)), Support("lower.bottom", u=(0, 0)), Support("upper.top", u=(0, -0.1))]
+    history = solve(replace(model, supports=held))
+    assert history.last.certificate.passed
+    assert history.contact("upper.bottom").closed.all()
+    both = [*held, Support("upper.bottom", u=(0, 0))]
+    prepared = prepare(replace(model, supports=both))
+    assert prepared.condensed.held.all()
+    assert solve(replace(model, supports=both)).last.certificate.passed
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"interference": 0.6}, "the two sides overlap with the interference of 0.6 by 0.6 at node"),
+        ({"gap": -0.5}, "the two sides overlap by 0.5 at node"),
+        ({"search": 1e-3, "gap": "geometry"}, None),
+        ({"coupling": "nodes"}, "expected matching meshes"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused(change, said):
+    if said is None:
+        assert len(prepare(slabs(**change)).interface) == 7
+        return
+    with pytest.raises(InputError) as caught:
+        prepare(slabs(**change))
+    assert said in str(caught.value)
+    assert caught.value.where[:2] == ("contact", 0)
 
 
 @pytest.mark.parametrize("thickness", [1.0, 2.5])

@@ -58,7 +58,10 @@ IN_THE_MODEL = [
     (lambda: Elastic(E="soft", nu=0.3), "E: is 'soft'; expected a number > 0"),
     (lambda: Elastic(E=float("nan"), nu=0.3), "E: is nan; expected a number > 0"),
     (lambda: Contact("bottom", FLOOR, friction=-0.1), "friction: is -0.1; expected a number >= 0"),
-    (lambda: Contact("bottom", FLOOR, friction="rough"), "friction: is 'rough'; expected a number >= 0 or 'stick'"),
+    (
+        lambda: Contact("bottom", FLOOR, friction="rough"),
+        "friction: is 'rough'; expected a number >= 0, 'stick' or 'tied'",
+    ),
     (lambda: Contact("bottom", FLOOR, gap="none"), "gap: is 'none'; expected 'geometry', 'zero' or a number"),
     (
         lambda: Contact("bottom", FLOOR, normal_compliance=-1.0),

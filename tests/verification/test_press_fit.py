@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lame's press fit on matching meshes: the closed form and the rate at which it is met."""
+"""Lame's press fit: the closed form and the rate at which it is met, on meshes that match or not."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -42,3 +44,25 @@ def test_friction_changes_nothing_where_nothing_slides():
     smooth, rough = (solve(press_fit(friction=mu)).contact("fit") for mu in (0.0, 0.3))
     np.testing.assert_allclose(rough.pressure, smooth.pressure, rtol=1e-9)
     np.testing.assert_allclose(rough.traction, 0.0, atol=1e-9 * reference("plane stress"))
+
+
+@pytest.mark.parametrize("cells", ["quad", "quad8", "triangle6"])
+@pytest.mark.parametrize("interference", [0.01, 1e-5])
+@pytest.mark.parametrize("along", [(12, 17), (8, 24)])
+def test_meshes_that_do_not_match(cells, interference, along):
+    """Facets on one circle leave gaps that are no gaps, however small the interference is beside them."""
+    contact = solve(press_fit(n_radial=6, n_angular=along, interference=interference, cells=cells)).contact("fit")
+    assert contact.coupling == "mortar"
+    np.testing.assert_allclose(contact.pressure, reference("plane stress") * interference / 0.01, rtol=0.01)
+
+
+def test_the_coarser_side_is_the_smoother_one():
+    """The finer side as nonmortar is noted; the coarser one can be asked for."""
+    model = press_fit(n_angular=(24, 12))
+    noted = solve(model)
+    assert any("'fit': the nonmortar side is the finer one" in note for note in noted.last.notes)
+    chosen = solve(replace(model, contacts=[replace(model.contacts[0], side="coarser")]))
+    assert chosen.contact("fit").nonmortar == "hub.inner"
+    assert not chosen.last.notes
+    spread = [np.ptp(history.contact("fit").pressure) for history in (noted, chosen)]
+    assert spread[1] < 0.1 * spread[0]

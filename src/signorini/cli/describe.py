@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from signorini.arrays import Array
 from signorini.deck import Deck
 from signorini.engine.prepare import Examined
 from signorini.fem.locking import thin_bodies
@@ -83,10 +84,18 @@ def _contacts(examined: Examined) -> Rows:
         gap = examined.interface.gap[examined.interface.contact == i]
         pairing = examined.interface.sides[i]
         sides = f"{pairing.nonmortar} on {pairing.mortar}"
-        friction = "sticks" if contact.friction == "stick" else f"friction {contact.friction:g}"
+        friction = "tied" if contact.tied else _friction(examined.interface.friction[examined.interface.contact == i])
         initial = f"initial gap {gap.min():.5g} to {gap.max():.5g}"
         rows.append((contact.label, sides, pairing.coupling, friction, f"{len(gap)} pairs", initial))
     return rows
+
+
+def _friction(mu: Array) -> str:
+    """Of the pairs of one contact."""
+    if np.isinf(mu).all():
+        return "sticks"
+    low, high = mu.min(), mu.max()
+    return f"friction {low:g}" if low == high else f"friction {low:g} to {high:g}"
 
 
 def _steps(model: Model) -> Rows:
@@ -148,7 +157,8 @@ def _contact_notes(examined: Examined) -> list[str]:
             notes.append(
                 f"contact '{contact.label}' overlaps by up to {-gap.min():.4g} at the start; it will be pressed"
             )
-        coulomb = contact.friction != "stick" and contact.friction > 0.0
+        mu = interface.friction[interface.contact == i]
+        coulomb = bool(((mu > 0.0) & np.isfinite(mu)).any())
         if coulomb and any(step.increments == 1 for step in model.steps):
             notes.append(f"contact '{contact.label}' has friction, and a step one increment: it starts from zero slip")
     return notes

@@ -6,11 +6,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.clock import Clock
+from signorini.condense.ties import Springs, Ties, make_springs, make_ties
 from signorini.interface.interface import Interface
 from signorini.linalg.protocol import Factorisation, Reduced
 from signorini.linalg.registry import factorise
@@ -42,6 +42,7 @@ class Condensed:
     root : (2 a,) square roots of D, force per length to the 1/2
     dofs : (m,) the contact dofs among the free displacements
     compliance : (2 a,) of the interface, C, length per force
+    ties : tied pairs, which are no unknowns of the law: all displacements here leave them at rest
     B : (2 a, m) relative displacements of the active pairs in terms of them, B_c
     """
 
@@ -53,7 +54,8 @@ class Condensed:
     dofs: IntArray
     B: sp.csr_array
     compliance: Array
-    _cholesky: tuple[Array, bool]
+    ties: Ties
+    _springs: Springs
 
     @property
     def active_rows(self) -> IntArray:
@@ -112,15 +114,22 @@ class Condensed:
             active=self.active & kept,
             held=self.held,
             dofs=self.dofs,
+            ties=self.ties,
         )
+
+    @property
+    def settled(self) -> BoolArray:
+        """(n,) Pairs that the law need not be asked of, because supports or ties hold them."""
+        settled = self.held.copy()
+        settled[self.ties.rows % len(settled)] = True
+        return settled
 
     @property
     def _softening(self) -> Array:
         return 1.0 / (1.0 + self.root**2 * self.compliance)
 
     def _solve(self, f_c: Array) -> Array:
-        solved: Array = scipy.linalg.cho_solve(self._cholesky, f_c)
-        return solved
+        return self._springs.solve(f_c)
 
 
 def condense(
@@ -155,15 +164,16 @@ def condense(
     B = sp.csr_array(sp.diags_array(np.where(size > _HELD, 1.0, 0.0)) @ B)
     B.eliminate_zeros()
     held = size[:n] <= _HELD
-    active = candidates & ~held
+    active = candidates & ~held & ~interface.tied
     pairs = np.nonzero(active)[0]
+    ties = make_ties(B, np.nonzero(np.tile(interface.tied, 2) & (size > _HELD))[0])
     B = B[np.concatenate([pairs, n + pairs])]
-    dofs = np.unique(B.indices)
+    dofs = np.unique(np.concatenate([B.indices, ties.B.indices]))
     with clock.phase("factorisation"):
         factorisation = factorise(K, dofs, nodes=nodes, backend=backend)
     with clock.phase("condensation"):
         K_c = sp.csr_array(K[dofs][:, dofs])
-        return _condense(factorisation, K_c, sp.csr_array(B[:, dofs]), interface, active, held, dofs)
+        return _condense(factorisation, K_c, sp.csr_array(B[:, dofs]), interface, active, held, dofs, ties)
 
 
 def _condense(
@@ -174,13 +184,14 @@ def _condense(
     active: BoolArray,
     held: BoolArray,
     dofs: IntArray,
+    ties: Ties,
 ) -> Condensed:
     """From the contact dofs to the pairs."""
     pairs = np.nonzero(active)[0]
     stiffness = _interface_stiffness(K_c, B_c, interface, pairs)
     area = np.tile(interface.area[pairs], 2)
     compliance = np.concatenate([interface.normal_compliance[pairs], interface.tangential_compliance[pairs]]) / area
-    return _image(factorisation, B_c, stiffness, compliance, active=active, held=held, dofs=dofs)
+    return _image(factorisation, B_c, stiffness, compliance, active=active, held=held, dofs=dofs, ties=ties)
 
 
 def _image(
@@ -192,14 +203,13 @@ def _image(
     active: BoolArray,
     held: BoolArray,
     dofs: IntArray,
+    ties: Ties,
 ) -> Condensed:
     """The image form for a stiffness D and a compliance C of the interface, each (2 a,)."""
     softening = 1.0 / (1.0 + stiffness * compliance)
-    springs = factorisation.schur() + (B_c.T @ sp.diags_array(stiffness * softening) @ B_c).toarray()
-    cholesky, A = (springs, True), np.zeros((0, 0))
-    if len(dofs):
-        cholesky = scipy.linalg.cho_factor(springs, lower=True, overwrite_a=True, check_finite=False)
-        A = B_c @ scipy.linalg.cho_solve(cholesky, B_c.T.toarray(), check_finite=False)
+    stiff = factorisation.schur() + (B_c.T @ sp.diags_array(stiffness * softening) @ B_c).toarray()
+    springs = make_springs(stiff, ties.B[:, dofs].toarray())
+    A = B_c @ springs.solve(B_c.T.toarray()) if len(dofs) else np.zeros((0, 0))
     root = np.sqrt(stiffness)
     W = (root * softening)[:, None] * A * (root * softening)
     W[np.diag_indices_from(W)] += stiffness * softening * compliance
@@ -212,7 +222,8 @@ def _image(
         dofs=dofs,
         B=B_c,
         compliance=compliance,
-        _cholesky=cholesky,
+        ties=ties,
+        _springs=springs,
     )
 
 

@@ -16,6 +16,7 @@ from signorini.model.material import Elastic, Material, Orthotropic
 from signorini.model.obstacle import Circle, Plane, Profile
 from signorini.model.rigid import Rigid
 from signorini.model.step import Step
+from signorini.model.varying import Along
 
 _CONTACT_KEYS = (
     "name",
@@ -86,6 +87,16 @@ def deck_contacts(data: Mapping[str, Any]) -> list[Contact]:
     return [_contact(entry, ("contact", i)) for i, entry in enumerate(tables(data, "contact"))]
 
 
+def _along(entry: dict[str, Any], where: Where) -> Along:
+    """``{ x = [...], mu = [...] }``."""
+    axes = [key for key in entry if key != "mu"]
+    if "mu" not in entry or len(axes) != 1:
+        raise InputError(
+            f"has {', '.join(entry) or 'nothing'}; expected one coordinate and mu, as in x, mu", where=where
+        )
+    return make(Along, {"axis": axes[0], "at": entry[axes[0]], "values": entry["mu"]}, where)
+
+
 def deck_obstacles(data: Mapping[str, Any]) -> list[Rigid]:
     """``[[obstacle]]``, each with a shape."""
     return [_obstacle(entry, ("obstacle", i)) for i, entry in enumerate(tables(data, "obstacle"))]
@@ -112,6 +123,8 @@ def _placed(kind: Any, entry: dict[str, Any], where: Where) -> Any:
 def _contact(entry: dict[str, Any], where: Where) -> Contact:
     check_keys(entry, where, known=_CONTACT_KEYS, needed=["nonmortar"])
     given = dict(entry)
+    if isinstance(given.get("friction"), dict):
+        given["friction"] = _along(given["friction"], (*where, "friction"))
     sides = [key for key in ("mortar", *_OBSTACLES) if key in given]
     if len(sides) != 1:
         found = "both " + " and ".join(f"'{key}'" for key in sides) if sides else "no other side"

@@ -230,7 +230,7 @@ def _on_the_way(prepared: Prepared, last: State, point: LoadPoint, now: PathStat
     forces[rows] = condensed.root * now.r
     moved[rows] = now.h / condensed.root
     status, slip, dissipation = np.full(n, OPEN), last.slip.copy(), last.dissipation.copy()
-    status[active] = now.state
+    status[active], status[prepared.interface.tied] = now.state, STICK
     slip[active] = now.slip / condensed.root[half:]
     dissipation[active] = now.dissipation
     return replace(
@@ -258,6 +258,8 @@ def _recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState
     outside = np.setdiff1d(np.arange(2 * n), rows)
     moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
     moved[n:] -= last.tangential
+    forces, ties = seen.forces.copy(), condensed.ties
+    forces[ties.rows] = ties.forces(T.T @ (loads + interface.B.T @ forces - prepared.K @ displacement))
     after = next_state(
         last,
         prepared.K,
@@ -266,7 +268,7 @@ def _recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState
         point=point,
         loads=loads,
         displacement=displacement,
-        forces=seen.forces,
+        forces=forces,
         moved=moved,
         status=seen.status,
     )

@@ -13,7 +13,7 @@ from signorini.engine.prepare import Prepared
 from signorini.engine.span import Span
 from signorini.errors import SolveFailed
 from signorini.fem.rigid import describe_motion
-from signorini.friction.law import OPEN
+from signorini.friction.law import OPEN, STICK
 from signorini.friction.result import CoulombResult
 from signorini.friction.solve import solve_coulomb
 from signorini.solution.certificate import Certificate, certify
@@ -74,6 +74,7 @@ def advance(prepared: Prepared, state: State, point: LoadPoint, where: str) -> t
         moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
         status = np.full(n, OPEN)
         status[active] = result.state
+        status[interface.tied] = STICK
         new = next_state(
             state,
             prepared.K,
@@ -146,7 +147,7 @@ def _balanced(prepared: Prepared, f: Array, offset: Array, state: State) -> tupl
     move (an arc that leaves its foundation) magnify.
     """
     condensed, interface, scale, law = prepared.condensed, prepared.interface, prepared.scale, prepared.law
-    n, rows, T = len(interface), condensed.active_rows, prepared.constraints.transform
+    n, rows, T, ties = len(interface), condensed.active_rows, prepared.constraints.transform, condensed.ties
     forces, moved, free = np.zeros(2 * n), np.zeros(2 * n), np.zeros_like(f)
     load, start = f, state.status[condensed.active] if state.forces.any() else None
     lacking = np.zeros(len(rows))
@@ -163,7 +164,10 @@ def _balanced(prepared: Prepared, f: Array, offset: Array, state: State) -> tupl
             moved[rows] = np.concatenate([result.gap, result.slip]) / condensed.root
             free = condensed.displacement(reduced, moved[rows], forces[rows], offset[rows])
             u = T @ free
+            forces[ties.rows] = 0.0
             residual = f + T.T @ (interface.B.T @ forces - prepared.K @ u)
+            forces[ties.rows] = ties.forces(residual)
+            residual += ties.B.T @ forces[ties.rows]
             misfit = (offset + interface.B @ u - moved)[rows] + condensed.compliance * forces[rows]
             misfit[guided] = 0.0
         size = max(np.abs(residual).max(initial=0.0) / scale.force, np.abs(misfit).max(initial=0.0) / scale.length)

@@ -101,7 +101,7 @@ def formulate(model: Model | Prepared, *, E_n: float, E_tau: float) -> PaperForm
     E_n, E_tau = number(E_n, ("E_n",), above=0.0), number(E_tau, ("E_tau",), above=0.0)
     interface, condensed = prepared.interface, prepared.condensed
     for i, contact in enumerate(prepared.model.contacts):
-        if contact.friction == "stick" or contact.normal_compliance or contact.tangential_compliance:
+        if contact.friction in ("stick", "tied") or contact.normal_compliance or contact.tangential_compliance:
             raise InputError("the paper's law has a finite friction and its own penalties", where=("contact", i))
     if not condensed.active.any():
         raise InputError("there is none that can move; the paper's LCP needs one", where=("contact",))

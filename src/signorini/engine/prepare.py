@@ -13,6 +13,7 @@ from signorini.arrays import Array, BoolArray, frozen
 from signorini.checks import number
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
+from signorini.condense.ties import Ties
 from signorini.errors import InputError, one_of
 from signorini.fem.loads import nodal_loads
 from signorini.fem.locking import refuse_locking
@@ -22,7 +23,7 @@ from signorini.fem.stiffness import stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.friction.problem import CoulombProblem
 from signorini.interface.candidates import candidates
-from signorini.interface.interface import Interface, make_interface
+from signorini.interface.interface import Interface, friction_of, make_interface
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.model.conditions import Load, Temperature
 from signorini.model.model import Model
@@ -78,7 +79,7 @@ class Prepared(Examined):
     @property
     def limited(self) -> bool:
         """Whether pairs that seemed too far apart were left out."""
-        return not (self.condensed.active | self.condensed.held).all()
+        return not (self.condensed.active | self.condensed.settled).all()
 
     def widened(self) -> Prepared:
         """The same with every pair in the law, factorised anew."""
@@ -111,13 +112,17 @@ class Prepared(Examined):
         _refuse_unknown(loads, self.model.scaled_names, "load or moving support", "loads")
         gap = self.interface.gap.copy()
         for i, contact in enumerate(contacts):
+            for key, given in (("friction", friction), ("interference", interference)):
+                if contact.tied and given is not None and contact.label in given:
+                    raise InputError("is tied for good; only contacts can change", where=(key, contact.label))
             if friction is not None and contact.label in friction:
                 contacts[i] = replace(contacts[i], friction=friction[contact.label])
             if interference is not None and contact.label in interference:
                 contacts[i] = replace(contacts[i], interference=interference[contact.label])
                 gap[self.interface.contact == i] += contact.interference - contacts[i].interference
         factor = {name: number(value, ("loads", name)) for name, value in (loads or {}).items()}
-        mu = np.array([contact.coefficient for contact in contacts], float)[self.interface.contact]
+        model = replace(self.model, contacts=contacts)
+        mu = friction_of(self.space, model, self.interface.node, self.interface.contact)
         interface = replace(self.interface, gap=gap, friction=mu)
         constraints = replace(
             self.constraints,
@@ -125,8 +130,7 @@ class Prepared(Examined):
         )
         forces = {name: factor.get(name, 1.0) * f for name, f in self.loads.items()}
         refuse_free_motions(self.space, constraints, interface, self.parts, self.motions)
-        hot = [replace(load, temperature=_times(load, factor)) for load in self.model.loads]
-        model = replace(self.model, contacts=contacts, loads=hot)
+        model = replace(model, loads=[replace(load, temperature=_times(load, factor)) for load in model.loads])
         scale = data_scale(model, forces, constraints, interface)
         return replace(
             self,
@@ -168,7 +172,7 @@ def examine(model: Model) -> Examined:
         loads=loads,
         parts=parts,
         motions=motions,
-        floating=free_motions(motions, constraints, sp.csr_array((0, space.number_of_dofs))),
+        floating=free_motions(motions, constraints, interface.B[np.tile(interface.tied, 2)]),
         scale=data_scale(model, loads, constraints, interface),
     )
 
@@ -217,6 +221,7 @@ def _condensed(examined: Examined, K: sp.csr_array, near: BoolArray, backend: st
             where=("contact",),
         ) from error
     seen = interface.B @ examined.motions @ examined.floating
+    examined = replace(examined, constraints=_with_ties(examined, condensed.ties))
     return Prepared(
         **{field.name: getattr(examined, field.name) for field in fields(Examined)},
         K=K,
@@ -226,6 +231,13 @@ def _condensed(examined: Examined, K: sp.csr_array, near: BoolArray, backend: st
         backend=backend,
         absent=np.zeros(len(interface), bool),
     )
+
+
+def _with_ties(examined: Examined, ties: Ties) -> Constraints:
+    """What moving supports prescribe, and with it what ties make of it at once: pairs that are tied do not part."""
+    constraints, B, T = examined.constraints, examined.interface.B[ties.rows], examined.constraints.transform
+    prescribed = {name: u + T @ ties.closing(B @ u) for name, u in constraints.prescribed.items()}
+    return replace(constraints, prescribed=prescribed)
 
 
 def contact_law(interface: Interface, condensed: Condensed, floating: Array, scale: Scale) -> CoulombProblem:

@@ -73,7 +73,7 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
         instants=instants,
         cycles=cycles,
         steadiness=steadiness,
-        notes=(*_notes(prepared, leg), *((words,) if words else ())),
+        notes=(*_notes(prepared, leg), *_finer_notes(prepared), *((words,) if words else ())),
     )
 
 
@@ -85,6 +85,16 @@ def _notes(prepared: Prepared, leg: Leg) -> tuple[str, ...]:
         return leg.notes
     closed = rubbing & (leg.after.status != OPEN) & (leg.before.gap > 1e-9 * prepared.scale.length)
     return (ONE_INCREMENT, GROWN) if closed.any() else (ONE_INCREMENT,)
+
+
+def _finer_notes(prepared: Prepared) -> tuple[str, ...]:
+    """Contacts whose nonmortar side is the finer one."""
+    return tuple(
+        f"contact '{contact.label}': the nonmortar side is the finer one, its pressures can oscillate; name the sides "
+        "the other way round, or take side = 'coarser'"
+        for contact, sides in zip(prepared.model.contacts, prepared.interface.sides, strict=True)
+        if sides.finer and not contact.tied
+    )
 
 
 def _reactions(prepared: Prepared, state: State) -> dict[str, Array]:

@@ -15,7 +15,7 @@ from signorini.model.model import Kind, Model
 def press_fit(
     *,
     n_radial: int = 4,
-    n_angular: int = 12,
+    n_angular: int | tuple[int, int] = 12,
     kind: Kind = "plane stress",
     interference: float = 0.01,
     friction: float = 0.0,
@@ -25,12 +25,13 @@ def press_fit(
 
     Parameters
     ----------
-    n_radial, n_angular : cells in each ring
+    n_radial, n_angular : cells in each ring; along the fit one number, or those of shaft and hub
     """
+    along = (n_angular, n_angular) if isinstance(n_angular, int) else n_angular
     mesh = join(
         {
-            name: annulus(inner=a, outer=b, n_radial=n_radial, n_angular=n_angular, angle=90.0, cells=cells)
-            for name, a, b in (("shaft", 1.0, 2.0), ("hub", 2.0, 3.0))
+            name: annulus(inner=a, outer=b, n_radial=n_radial, n_angular=n, angle=90.0, cells=cells)
+            for name, a, b, n in (("shaft", 1.0, 2.0, along[0]), ("hub", 2.0, 3.0, along[1]))
         }
     )
     return Model(

@@ -12,12 +12,13 @@ from signorini.fem.boundary import Boundary
 from signorini.model.contact import Contact
 
 _KINK = np.pi / 6.0  # a turn between two facets beyond this is a corner, not a curve
-_STRAIGHT = 1e-9  # a turn below this is rounding
+_STRAIGHT = 1e-9  # a turn, or a bulge of a length of one, below this is rounding
+_ROOM = 1.25  # times the bound: curvatures are estimates
 
 
 def initial_gaps(geometry: Array, contact: Contact) -> Array:
     """What a contact makes of the gaps that the geometry has, (n,) length, negative: overlap."""
-    if contact.gap == "zero":
+    if contact.gap == "zero" or contact.tied:
         gap = np.zeros(len(geometry))
     elif contact.gap == "geometry":
         gap = geometry if contact.adjust is None else np.where(geometry <= contact.adjust, 0.0, geometry)
@@ -27,34 +28,32 @@ def initial_gaps(geometry: Array, contact: Contact) -> Array:
 
 
 def without_chords(gap: Array, nodes: IntArray, relative: sp.csr_array, nonmortar: Boundary, mortar: Boundary) -> Array:
-    """Gaps (n,), 0 where they are no more than what chords leave between two surfaces that are meant to match.
+    """Gaps (n,), 0 where they are no more than what facets leave between two surfaces that are meant to match.
 
-    Two different polygons on one curve of curvature kappa are up to ``h^2 kappa / 8`` of both apart, which would ruin
-    the pressure. All gaps must be as small as that, and one side hollow where the other bulges: otherwise they are
-    meant, and stay.
+    Two different polygons on one curve of curvature kappa are up to ``h^2 kappa / 8`` of both apart, parabolas
+    ``h^4 kappa^3 / 512``: it would ruin the pressure. All gaps must be as small as that, and one side hollow where the
+    other bulges: otherwise they are meant, and stay.
 
     Parameters
     ----------
     nodes : (n,) nonmortar nodes of the pairs
     relative : (n, nodes of the mesh), see :class:`signorini.interface.coupling.Coupling`
     """
-    count = relative.shape[1]
-    own, other = _sags(nonmortar, count), _sags(mortar, count)
+    own, other = (_parabola_sags(side) if side.quadratic else _chord_sags(side) for side in (nonmortar, mortar))
+    mine, opposite = np.zeros(relative.shape[1]), np.zeros(relative.shape[1])
+    mine[nonmortar.nodes], opposite[mortar.nodes] = own, other
+    mine = mine[nodes]
     pattern = relative.tocoo()
-    opposite = np.zeros(len(nodes))
-    np.minimum.at(opposite, pattern.row, np.minimum(other[pattern.col], 0.0))
-    hollow = -opposite
-    np.maximum.at(opposite, pattern.row, np.maximum(other[pattern.col], 0.0))
-    bulging, mine = opposite, own[nodes]
-    sag = np.where(mine > 0.0, mine + hollow, -mine + bulging)
-    curved = np.where(mine > 0.0, hollow > 0.0, (mine < 0.0) & (bulging > 0.0))
-    return np.zeros_like(gap) if (curved & (np.abs(gap) <= sag)).all() else gap
+    fits = np.zeros(len(nodes))  # the largest sag of the other side that is hollow where this one bulges
+    np.maximum.at(fits, pattern.row, -np.sign(mine)[pattern.row] * opposite[pattern.col])
+    meant = (mine == 0.0) | (fits == 0.0) | (np.abs(gap) > _ROOM * (np.abs(mine) + fits))
+    return gap if meant.any() else np.zeros_like(gap)
 
 
-def _sags(side: Boundary, count: int) -> Array:
-    """Largest ``h^2 kappa / 8`` of the facets at each node, positive where the side bulges, (count,); 0 elsewhere."""
-    start, end = side.facets[:, 0], side.facets[:, 1]
-    leaving = np.full(count, -1)
+def _chord_sags(side: Boundary) -> Array:
+    """Largest ``h^2 kappa / 8`` of the straight facets at each node, positive where the side bulges, (k,)."""
+    start, end = (np.searchsorted(side.nodes, side.facets[:, i]) for i in (0, 1))
+    leaving = np.full(len(side.nodes), -1)
     leaving[start] = np.arange(len(start))
     following = leaving[end]
     one, two = side.normals, side.normals[following]
@@ -62,14 +61,28 @@ def _sags(side: Boundary, count: int) -> Array:
     smooth = (following >= 0) & (np.abs(turn) < _KINK) & (np.abs(turn) > _STRAIGHT)
     at, turn = end[smooth], turn[smooth]
     here, after = side.lengths[smooth], side.lengths[following[smooth]]
-    sag = turn * np.maximum(here, after) ** 2 / (4.0 * (here + after))  # kappa = 2 turn / (h_1 + h_2)
-    result = np.zeros(count)
-    result[at] = sag
+    result = np.zeros(len(side.nodes))
+    result[at] = turn * np.maximum(here, after) ** 2 / (4.0 * (here + after))  # kappa = 2 turn / (h_1 + h_2)
     # at the ends of a side the curve goes on as beside them
     for near, far in ((start[smooth], at), (end[following[smooth]], at)):
         lone = result[near] == 0.0
         result[near[lone]] = result[far[lone]]
     return result
+
+
+def _parabola_sags(side: Boundary) -> Array:
+    """Largest ``h^4 kappa^3 / 512`` of the quadratic facets at each node, positive where the side bulges, (k,)."""
+    first, second, middle = (side.points[:, i] for i in range(3))
+    length = np.linalg.norm(second - first, axis=1)
+    bulge = np.sum((middle - 0.5 * (first + second)) * side.normals, axis=1)
+    bulge[np.abs(bulge) < _STRAIGHT * length] = 0.0
+    sag = bulge**3 / length**2  # kappa = 8 bulge / h^2
+    result = np.zeros(len(side.nodes))
+    place = np.searchsorted(side.nodes, side.facets)
+    np.maximum.at(result, place, np.maximum(sag, 0.0)[:, None])
+    hollow = np.zeros(len(side.nodes))
+    np.minimum.at(hollow, place, np.minimum(sag, 0.0)[:, None])
+    return np.where(result > 0.0, result, hollow)
 
 
 def refuse_deep_overlap(gap: Array, nodes: IntArray, contact: Contact, element: float, where: Where) -> None:

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.errors import InputError
 from signorini.fem.obstacles import carried
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
@@ -35,6 +36,7 @@ class Interface:
     contact : (n,) index of the contact that a pair belongs to
     friction : (n,) Coulomb's coefficient, infinite where it sticks
     normal_compliance, tangential_compliance : (n,) length per pressure
+    tied : (n,) whether the pair neither slips nor opens
     sides : how every contact was paired
     """
 
@@ -48,6 +50,7 @@ class Interface:
     friction: Array
     normal_compliance: Array
     tangential_compliance: Array
+    tied: BoolArray
     sides: tuple[Sides, ...]
 
     def __len__(self) -> int:
@@ -88,11 +91,34 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
         tangents=tangents,
         node=joined("nodes").astype(int),
         contact=index,
-        friction=data("coefficient"),
+        friction=friction_of(space, model, joined("nodes").astype(int), index),
         normal_compliance=data("normal_compliance"),
         tangential_compliance=data("tangential_compliance"),
+        tied=data("tied").astype(bool),
         sides=tuple(part.sides for part in parts),
     )
+
+
+def friction_of(space: Space, model: Model, node: IntArray, contact: IntArray) -> Array:
+    """Coulomb's coefficient of every pair, (n,).
+
+    Parameters
+    ----------
+    node, contact : (n,) nonmortar nodes of the pairs, and the contacts that they belong to
+
+    Raises
+    ------
+    InputError
+        If a function that gives the friction gives something else, with the contact's index.
+    """
+    friction = np.zeros(len(node))
+    for i, data in enumerate(model.contacts):
+        own = contact == i
+        try:
+            friction[own] = data.coefficients(space.mesh.points[node[own]])
+        except InputError as error:
+            raise error.inside("contact", i) from error
+    return friction
 
 
 def _along(space: Space, relative: sp.csr_array, axes: Array) -> sp.csr_array:

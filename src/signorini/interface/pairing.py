@@ -26,6 +26,8 @@ from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle, Plane
 
+_FINER = 0.8  # of the mortar side's mean facet length
+
 
 @dataclass(frozen=True, kw_only=True)
 class Sides:
@@ -35,11 +37,13 @@ class Sides:
     ----------
     nonmortar, mortar : the sides as they were taken; an obstacle in words
     coupling : "nodes", "mortar", "node-to-segment" or "obstacle"
+    finer : whether the nonmortar side has clearly the shorter facets: its pressures can oscillate
     """
 
     nonmortar: str
     mortar: str
     coupling: str
+    finer: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -146,7 +150,7 @@ def _on_side(
     coupling, how = _couple(space, model, side, mortar, contact, where)
     normals = side_normals(space, constraints, side, coupling.nodes)
     gap = np.sum((coupling.relative @ points) * normals, axis=1)
-    if how == "mortar" and not (side.quadratic or mortar.quadratic):
+    if how != "nodes":
         gap = without_chords(gap, coupling.nodes, coupling.relative, side, mortar)
     partner = symmetric_partners(space, constraints, coupling.nodes, normals, mortar.nodes)
     return Pairs(
@@ -156,7 +160,12 @@ def _on_side(
         normals=normals,
         relative=coupling.relative,
         sliding=_mirrored(coupling, partner),
-        sides=Sides(nonmortar=names[0], mortar=names[1], coupling=how),
+        sides=Sides(
+            nonmortar=names[0],
+            mortar=names[1],
+            coupling=how,
+            finer=how == "mortar" and float(side.lengths.mean()) < _FINER * float(mortar.lengths.mean()),
+        ),
     )
 
 

@@ -4,9 +4,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
+from signorini.arrays import Array
 from signorini.checks import choice, number, text
 from signorini.errors import InputError
 from signorini.model.obstacle import Obstacle
@@ -26,7 +30,9 @@ class Contact:
     nonmortar : boundary whose nodes carry the pairs, the pressures and the results
     mortar : boundary of the other body; a rigid :class:`Plane`, :class:`Circle` or :class:`Profile` at rest; or the
         name of a :class:`Rigid` obstacle of the model
-    friction : Coulomb's coefficient, >= 0, or "stick": never slips (it may still open)
+    friction : Coulomb's coefficient, >= 0; "stick": never slips (it may still open); "tied": neither slips nor
+        opens, nor presses initial gaps, which count as filled; or a function of the points (k, d) that gives the
+        coefficients (k,), such as :class:`Along`
     gap : "geometry"; "zero"; or one initial gap for every pair, length (negative: overlap)
     interference : overlap that is added to it, length, positive presses the bodies together
     normal_compliance, tangential_compliance : of the interface, length per pressure; 0 (default) is the exact law,
@@ -50,7 +56,7 @@ class Contact:
 
     nonmortar: str
     mortar: str | Obstacle
-    friction: float | Literal["stick"] = 0.0
+    friction: float | Literal["stick", "tied"] | Callable[[Array], Array] = 0.0
     gap: float | Literal["geometry", "zero"] = "geometry"
     interference: float = 0.0
     normal_compliance: float = 0.0
@@ -65,9 +71,11 @@ class Contact:
         text(self.nonmortar, ("nonmortar",))
         if not isinstance(self.mortar, Obstacle):
             text(self.mortar, ("mortar",))
-        if self.friction != "stick":
+        if self.friction not in ("stick", "tied") and not callable(self.friction):
             if isinstance(self.friction, str):
-                raise InputError(f"is '{self.friction}'; expected a number >= 0 or 'stick'", where=("friction",))
+                raise InputError(
+                    f"is '{self.friction}'; expected a number >= 0, 'stick' or 'tied'", where=("friction",)
+                )
             object.__setattr__(self, "friction", number(self.friction, ("friction",), least=0.0))
         if self.gap not in ("geometry", "zero"):
             if isinstance(self.gap, str):
@@ -84,6 +92,10 @@ class Contact:
             object.__setattr__(self, "adjust", number(self.adjust, ("adjust",), least=0.0))
         if isinstance(self.mortar, Obstacle):
             self.check_alone()
+        if self.tied:
+            for key in ("interference", "normal_compliance", "tangential_compliance"):
+                if getattr(self, key):
+                    raise InputError("is given, but a tied contact is neither pressed nor compliant", where=(key,))
         if self.adjust is not None and self.gap != "geometry":
             raise InputError("goes with gap = 'geometry' only", where=("adjust",))
 
@@ -108,6 +120,32 @@ class Contact:
         return self.name or self.nonmortar
 
     @property
+    def tied(self) -> bool:
+        """Whether it neither slips nor opens."""
+        return self.friction == "tied"
+
+    @property
     def coefficient(self) -> float:
-        """Coulomb's coefficient as a number; infinite where the contact sticks."""
-        return math.inf if self.friction == "stick" else float(self.friction)
+        """Coulomb's coefficient as one number; infinite where it sticks or is tied, NaN where it varies."""
+        if callable(self.friction):
+            return math.nan
+        return math.inf if self.friction in ("stick", "tied") else float(self.friction)
+
+    def coefficients(self, points: Array) -> Array:
+        """Coulomb's coefficient at points (k, d), (k,); infinite where they stick.
+
+        Raises
+        ------
+        InputError
+            If a function gives anything but one number >= 0 for every point.
+        """
+        if not callable(self.friction):
+            return np.full(len(points), self.coefficient)
+        found = np.asarray(self.friction(points), float)
+        if found.shape != (len(points),) or not (found >= 0.0).all():
+            raise InputError(
+                f"gives an array of shape {found.shape}, smallest {found.min(initial=np.inf):g}; expected one number "
+                f">= 0 for each of {len(points)} points",
+                where=("friction",),
+            )
+        return found

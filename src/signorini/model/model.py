@@ -287,6 +287,8 @@ class Model:
             for name in getattr(step, key):
                 if name not in known:
                     raise InputError(one_of(name, known, "contact"), where=("step", i, key))
+                if self.contacts[known.index(name)].tied:
+                    raise InputError(f"'{name}' is tied for good; a step cannot change it", where=("step", i, key))
 
     @property
     def scaled_names(self) -> tuple[str, ...]:

@@ -102,7 +102,7 @@ def _contact(contact: Contact, result: ContactResult) -> dict[str, Any]:
         "nonmortar": result.nonmortar,
         "mortar": result.mortar,
         "coupling": result.coupling,
-        "friction": contact.friction,
+        "friction": "varies" if callable(contact.friction) else contact.friction,
         "normal_force": _list(result.normal_force),
         "tangential_force": _list(result.tangential_force),
         "max_pressure": float(result.pressure[worst]),

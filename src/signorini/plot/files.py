@@ -120,7 +120,7 @@ class ResultFolder:
                     pressure=_columns(own, "pressure")[:, 0],
                     traction=_columns(own, "traction_1")[:, 0],
                     status=np.array([row["status"] for row in own]),
-                    friction=math.inf if friction == "stick" else float(friction),
+                    friction=math.inf if isinstance(friction, str) else float(friction),
                 )
             )
         return curves

@@ -90,7 +90,8 @@ def certify(
     normal, tangential = r[:n] / scale.force, r[n:] / scale.force
     gap = (state.point.gap + moved[:n] + interface.normal_compliance * r[:n] / interface.area) / scale.length
     slip = (moved[n:] + interface.tangential_compliance * r[n:] / interface.area - before) / scale.length
-    bound = np.zeros(n)
+    gap, tension = np.where(interface.tied, -np.abs(gap), gap), np.where(interface.tied, 0.0, normal)
+    bound = np.where(interface.tied, np.inf, 0.0)
     np.multiply(interface.friction, normal, out=bound, where=normal > 0)
     room = bound - np.abs(tangential)
     along = np.where(tangential * slip > 0, np.minimum(np.abs(tangential), np.abs(slip)), 0.0)
@@ -98,10 +99,11 @@ def certify(
     friction = np.maximum(np.minimum(np.abs(slip), np.maximum(room, 0.0)), along)
     if absent is not None:
         gap, normal, room, friction = (np.where(absent, 0.0, part) for part in (gap, normal, room, friction))
+        tension = np.where(absent, 0.0, tension)
     return Certificate(
         equilibrium=_largest(np.abs(np.concatenate([residual, balance]))) / scale.force,
         penetration=_largest(-gap),
-        tension=_largest(-normal),
+        tension=_largest(-tension),
         cone=_largest(-room),
         complementarity=_largest(np.concatenate([np.minimum(gap, normal), friction])),
     )

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tied pairs: relative displacements that are zero whatever acts on them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+import scipy.linalg.lapack
+import scipy.sparse as sp
+
+from signorini.arrays import Array, IntArray
+
+_DEPENDENT = 1e-10  # of the largest: what is left of a row that follows from the others, squared
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Ties:
+    """``B_t z = 0`` for independent rows; where several ties meet at a node one may follow from the others.
+
+    Attributes
+    ----------
+    rows : (t,) rows of the interface's B, normals and tangents of tied pairs
+    B : (t, z) in terms of the free displacements
+    """
+
+    rows: IntArray
+    B: sp.csr_array
+    _gram: Array
+
+    def shares(self, values: Array) -> Array:
+        """``(B_t B_t^T)^-1 values``, (t, ...)."""
+        if not len(self.rows):
+            return values
+        solved: Array = scipy.linalg.cho_solve((self._gram, True), values)
+        return solved
+
+    def forces(self, residual: Array) -> Array:
+        """Forces r_t of the ties with ``residual + B_t^T r_t`` as small as can be, (t,).
+
+        Parameters
+        ----------
+        residual : (z,) what the other forces leave of equilibrium, ``f + B^T r - K z``
+        """
+        return -self.shares(self.B @ residual)
+
+    def closing(self, moved: Array) -> Array:
+        """The smallest free displacements z with ``B_t z = -moved``, (z,); moved (t,) is what supports impose."""
+        z: Array = -(self.B.T @ self.shares(moved))
+        return z
+
+
+def make_ties(B: sp.csr_array, rows: IntArray) -> Ties:
+    """Choose independent rows.
+
+    Parameters
+    ----------
+    B : (2 n, z) relative displacements of all pairs in terms of the free displacements
+    rows : those of tied pairs that are not held by supports
+    """
+    own = sp.csr_array(B[rows])
+    gram = (own @ own.T).toarray()
+    if not len(rows):
+        return Ties(rows=rows, B=own, _gram=gram)
+    size = np.sqrt(np.diag(gram))
+    _, pivots, rank, _ = scipy.linalg.lapack.dpstrf(gram / np.outer(size, size), lower=1, tol=_DEPENDENT)
+    chosen = np.sort(pivots[:rank] - 1)
+    own = sp.csr_array(own[chosen])
+    return Ties(rows=rows[chosen], B=own, _gram=np.linalg.cholesky((own @ own.T).toarray()))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Springs:
+    """The condensed bodies with the springs of the interface, ``S + B_c^T D^ B_c``, and their ties.
+
+    Attributes
+    ----------
+    cholesky : of the matrix, lower
+    across : (m, t) what forces of the ties move
+    gram : Cholesky factor of what they move of themselves, (t, t)
+    """
+
+    cholesky: Array
+    across: Array
+    gram: Array
+
+    def solve(self, load: Array) -> Array:
+        """Displacements (m, ...) under a load (m, ...) that leave the ties at rest."""
+        moved: Array = scipy.linalg.cho_solve((self.cholesky, True), load, check_finite=False)
+        if self.across.shape[1]:
+            moved -= self.across @ scipy.linalg.cho_solve((self.gram, True), self.across.T @ load, check_finite=False)
+        return moved
+
+
+def make_springs(matrix: Array, ties: Array) -> Springs:
+    """Factorise.
+
+    Parameters
+    ----------
+    matrix : (m, m) symmetric; regular once the ties are stiff; it is overwritten
+    ties : (t, m) B_t on the contact dofs
+
+    Raises
+    ------
+    LinAlgError
+        If it is not.
+    """
+    if not len(matrix):
+        return Springs(cholesky=matrix, across=np.zeros((0, len(ties))), gram=np.zeros((len(ties), len(ties))))
+    if len(ties):
+        stiff = np.trace(matrix) / len(matrix)
+        matrix = matrix + stiff * (ties.T @ ties)
+    cholesky = scipy.linalg.cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)[0]
+    across = scipy.linalg.cho_solve((cholesky, True), ties.T, check_finite=False)
+    return Springs(cholesky=cholesky, across=across, gram=np.linalg.cholesky(ties @ across))
