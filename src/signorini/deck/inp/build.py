@@ -22,7 +22,7 @@ from signorini.deck.inp.interactions import make_interactions
 from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS
 from signorini.deck.inp.loading import Known, follow_steps
 from signorini.deck.inp.materials import Section, make_materials, make_sections
-from signorini.deck.inp.pairs import Pair, make_contacts
+from signorini.deck.inp.pairs import Pair, make_contacts, make_ties
 from signorini.deck.inp.places import Places
 from signorini.deck.inp.prints import make_tables
 from signorini.deck.inp.sets import make_sets
@@ -98,6 +98,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
     sections = make_sections(outside, elements, materials, grid)
     interactions = make_interactions(outside)
     contacts = make_contacts(outside, interactions, surfaces, nodes)
+    contacts += make_ties(outside, surfaces, contacts)
     known = Known(
         nodes=nodes,
         elements=elements,
@@ -261,7 +262,7 @@ def _notes(
     deck_increments: bool,
 ) -> list[str]:
     notes = list(dict.fromkeys(group.type.note for group in grid.groups if group.type.note))
-    if contacts:
+    if any(not pair.contact.tied for pair in contacts):
         notes.append(_SMALL_SLIDING)
     if small_strain and any(step.nlgeom for step in steps):
         notes.append("NLGEOM is ignored: displacements and strains are taken as small")

@@ -71,6 +71,7 @@ MODEL_WORDS = (
     "SURFACE",
     "SURFACE BEHAVIOR",
     "SURFACE INTERACTION",
+    "TIE",
 )
 """What is read outside the steps."""
 
