@@ -121,7 +121,8 @@ class Prepared(Examined):
                 contacts[i] = replace(contacts[i], interference=interference[contact.label])
                 gap[self.interface.contact == i] += contact.interference - contacts[i].interference
         factor = {name: number(value, ("loads", name)) for name, value in (loads or {}).items()}
-        model = replace(self.model, contacts=contacts)
+        hot = [replace(load, temperature=_times(load, factor)) for load in self.model.loads]
+        model = replace(self.model, contacts=contacts, loads=hot)
         mu = friction_of(self.space, model, self.interface.node, self.interface.contact)
         interface = replace(self.interface, gap=gap, friction=mu)
         constraints = replace(
@@ -130,7 +131,6 @@ class Prepared(Examined):
         )
         forces = {name: factor.get(name, 1.0) * f for name, f in self.loads.items()}
         refuse_free_motions(self.space, constraints, interface, self.parts, self.motions)
-        model = replace(model, loads=[replace(load, temperature=_times(load, factor)) for load in model.loads])
         scale = data_scale(model, forces, constraints, interface)
         return replace(
             self,

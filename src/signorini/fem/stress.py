@@ -87,8 +87,7 @@ def point_stresses(
 
     Parameters
     ----------
-    displacement : (n, 2), length
-    factors : load factors by name, for the temperatures; a model without any needs none
+    displacement, factors : as :func:`body_stresses`
     """
     temperature = temperatures(space, model, factors or {})
     for group in groups(space, model):
