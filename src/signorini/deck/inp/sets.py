@@ -8,7 +8,7 @@ from collections import defaultdict
 import numpy as np
 
 from signorini.arrays import IntArray
-from signorini.deck.inp.block import Block, Row, to_number
+from signorini.deck.inp.block import MOST, Block, Row, to_number
 from signorini.deck.inp.flatten import Placed, Scope
 from signorini.deck.inp.grid import Grid, nodes_of
 from signorini.deck.inp.numbering import Numbering
@@ -73,7 +73,7 @@ class Sets:
             return self.spelled(name), self[name]
         outer, dot, inner = word.rpartition(".")
         number = to_number(inner if dot and outer and not outer.isdigit() else word)
-        if number is None or number != int(number):
+        if number is None or number != int(number) or abs(number) >= MOST:
             raise at.error(one_of(word, self.names, f"{self.numbering.what} set"))
         place = Scope(name=outer.upper()) if dot and outer and not outer.isdigit() else scope
         members = self.numbering.index(place, np.array([int(number)]), at)
