@@ -68,8 +68,8 @@ def match_nodes(points: Array, nonmortar: Side, mortar: Side, labels: IntArray) 
         worst = int(np.argmax(np.where(wrong, beside, -1.0)))
         return partner, (
             f"node {labels[first[worst]]} at {_spell(points[first[worst]])} has no partner across the gap: the "
-            f"nearest, node {labels[partner[worst]]} at {_spell(points[partner[worst]])}, lies {beside[worst]:.2g} of a "
-            "node distance beside it. Expected matching meshes, node opposite node"
+            f"nearest, node {labels[partner[worst]]} at {_spell(points[partner[worst]])}, lies {beside[worst]:.2g} of "
+            "a node distance beside it. Expected matching meshes, node opposite node"
         )
     facing = np.sum(own * other, axis=1)
     if (facing > 0).any():
