@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
     from signorini.fem.read import read_mesh
     from signorini.model.body import Body
-    from signorini.model.conditions import Load, Support
+    from signorini.model.conditions import Foundation, Load, Support
     from signorini.model.contact import Contact
     from signorini.model.material import Elastic, Orthotropic
     from signorini.model.mesh import Mesh, join
@@ -37,6 +37,7 @@ __all__ = [
     "Circle",
     "Contact",
     "Elastic",
+    "Foundation",
     "InputError",
     "Load",
     "Mesh",
@@ -72,7 +73,7 @@ _HOMES = {
     "signorini.fem.generators": ("annulus", "half_disk", "quarter_disk", "rectangle"),
     "signorini.fem.read": ("read_mesh",),
     "signorini.model.body": ("Body",),
-    "signorini.model.conditions": ("Load", "Support"),
+    "signorini.model.conditions": ("Foundation", "Load", "Support"),
     "signorini.model.contact": ("Contact",),
     "signorini.model.material": ("Elastic", "Orthotropic"),
     "signorini.model.mesh": ("Mesh", "join"),

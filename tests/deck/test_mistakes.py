@@ -57,7 +57,7 @@ MISTAKES = {
         "[[step]]",
         "[[stepp]]",
         ":31: stepp: unknown key; did you mean 'step'? Known: title, kind, thickness, units, mesh, material, body, "
-        "support, load, contact, obstacle, step",
+        "support, foundation, load, contact, obstacle, step",
     ),
     "unknown boundary": (
         'on = "axis"',
@@ -120,11 +120,7 @@ MISTAKES = {
         "contact_length = 7.0",
         ":7: mesh.contact_length: is 7; expected at most 0.7 radius = 5.6",
     ),
-    "later kind": (
-        '"plane strain"',
-        '"3d"',
-        ":2: kind: is '3d', which this version does not have; expected plane strain or plane stress or axisymmetric",
-    ),
+    "kind of another dimension": ('"plane strain"', '"3d"', ":2: kind: is '3d', but the mesh has 2 coordinates"),
     "single brackets": (
         "[[load]]",
         "[load]",
@@ -134,7 +130,7 @@ MISTAKES = {
         "force = [0.0, -78.0]",
         "force = [0.0, -78.0]\npressure = 3.0",
         ":22: load[0]: has force and pressure; expected exactly one of force, nodal_forces, traction, pressure, "
-        "body_force",
+        "body_force, gravity, centrifugal, temperature",
     ),
     "no node there": (
         'on = "cut"',

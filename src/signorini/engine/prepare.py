@@ -22,9 +22,11 @@ from signorini.fem.space import Space, make_space
 from signorini.fem.stiffness import stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.friction.problem import CoulombProblem
+from signorini.friction.spatial import SpatialProblem
 from signorini.interface.candidates import candidates
 from signorini.interface.interface import Interface, friction_of, make_interface
 from signorini.linalg.protocol import NotPositiveDefinite
+from signorini.model.conditions import Load, Temperature
 from signorini.model.model import Model
 from signorini.solution.scale import Scale, data_scale
 
@@ -60,7 +62,7 @@ class Prepared(Examined):
 
     Attributes
     ----------
-    K : (dofs, dofs) stiffness, supports not applied
+    K : (dofs, dofs) stiffness of bodies and elastic foundations, supports not applied
     condensed : the interface as the bodies feel it
     law : the contact law on it, without load; ``dataclasses.replace(law, b=...)`` shares what it has computed
     clock : seconds spent so far
@@ -70,10 +72,23 @@ class Prepared(Examined):
 
     K: sp.csr_array
     condensed: Condensed
-    law: CoulombProblem
+    law: CoulombProblem | SpatialProblem
     clock: Clock
     backend: str
     absent: BoolArray
+
+    @property
+    def plane_law(self) -> CoulombProblem:
+        """The law of a plane model.
+
+        Raises
+        ------
+        InputError
+            In space, where there is no exact path.
+        """
+        if isinstance(self.law, SpatialProblem):
+            raise InputError("an exact path is for plane models; expected path = 'increments'", where=("step",))
+        return self.law
 
     @property
     def limited(self) -> bool:
@@ -120,7 +135,8 @@ class Prepared(Examined):
                 contacts[i] = replace(contacts[i], interference=interference[contact.label])
                 gap[self.interface.contact == i] += contact.interference - contacts[i].interference
         factor = {name: number(value, ("loads", name)) for name, value in (loads or {}).items()}
-        model = replace(self.model, contacts=contacts)
+        hot = [replace(load, temperature=_times(load, factor)) for load in self.model.loads]
+        model = replace(self.model, contacts=contacts, loads=hot)
         mu = friction_of(self.space, model, self.interface.node, self.interface.contact)
         interface = replace(self.interface, gap=gap, friction=mu)
         constraints = replace(
@@ -170,7 +186,7 @@ def examine(model: Model) -> Examined:
         loads=loads,
         parts=parts,
         motions=motions,
-        floating=free_motions(motions, constraints, interface.B[np.tile(interface.tied, 2)]),
+        floating=free_motions(motions, constraints, interface.B[interface.rows(interface.tied)]),
         scale=data_scale(model, loads, constraints, interface),
     )
 
@@ -187,13 +203,15 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
     with clock.phase("assembly"):
         examined = examine(model)
         K = stiffness(examined.space, model)
+        for springs in examined.constraints.springs.values():
+            K = sp.csr_array(K + springs.T @ springs)
     return _condensed(examined, K, _near(examined), backend, clock)
 
 
 def _near(examined: Examined) -> BoolArray:
     """Pairs that can touch, or all of them where those alone would not hold a body."""
     near = candidates(examined.interface, examined.scale.length)
-    holding = examined.interface.B[np.tile(near, 2)]
+    holding = examined.interface.B[examined.interface.rows(near)]
     if free_motions(examined.motions, examined.constraints, holding).shape[1]:
         return np.ones_like(near)
     return near
@@ -236,11 +254,14 @@ def _with_ties(examined: Examined, ties: Ties) -> Constraints:
     return replace(constraints, prescribed=prescribed)
 
 
-def contact_law(interface: Interface, condensed: Condensed, floating: Array, scale: Scale) -> CoulombProblem:
-    """The contact law of the active pairs, with no load yet; floating (2 n, k) rigid motions as the pairs see them."""
+def contact_law(
+    interface: Interface, condensed: Condensed, floating: Array, scale: Scale
+) -> CoulombProblem | SpatialProblem:
+    """The contact law of the active pairs, with no load yet; floating (d n, k) rigid motions as the pairs see them."""
     rows = condensed.active_rows
     seen = np.where(np.any(condensed.W, axis=1, keepdims=True), floating[rows], 0.0)
-    return CoulombProblem(
+    kind = CoulombProblem if interface.directions == 2 else SpatialProblem
+    return kind(
         W=frozen(condensed.W),
         b=np.zeros(len(rows)),
         friction=interface.friction[condensed.active],
@@ -253,6 +274,16 @@ def _size(interface: Interface, condensed: Condensed, scale: Scale) -> float:
     """Of the right-hand side of the law; gaps far larger than the displacements leave their rounding in it."""
     gap = float(np.abs(interface.gap[condensed.active]).max(initial=0.0))
     return max(scale.length, _ROUNDING * gap) * float(condensed.root.max(initial=1.0))
+
+
+def _times(load: Load, factors: Mapping[str, float]) -> Temperature | None:
+    """The temperature of a load times its factor; stresses refer to it, other loads are in the nodal forces."""
+    given, factor = load.temperature, factors.get(load.label, 1.0)
+    if given is None or factor == 1.0:
+        return given
+    if callable(given):
+        return lambda points: factor * given(points)
+    return factor * given
 
 
 def _refuse_unknown(given: Mapping[str, float] | None, known: Sequence[str], what: str, key: str) -> None:
@@ -270,7 +301,8 @@ def refuse_free_motions(
     free = free_motions(motions, constraints, touching)
     if free.shape[1]:
         raise InputError(f"{_say(parts, free)}: no support or contact holds it; add a support")
-    resisting = interface.B[np.concatenate([np.ones(len(interface), bool), interface.friction > 0])]
+    rubbing = np.tile(interface.friction > 0, interface.directions - 1)
+    resisting = interface.B[np.concatenate([np.ones(len(interface), bool), rubbing])]
     free = free_motions(motions, constraints, resisting)
     if free.shape[1]:
         raise InputError(

@@ -14,15 +14,16 @@ from signorini.arrays import IntArray
 from signorini.checks import choice, number
 from signorini.errors import InputError, one_of
 from signorini.model.body import Body
-from signorini.model.conditions import Load, Support
+from signorini.model.conditions import BODY_LOADS, Foundation, Load, Support
 from signorini.model.contact import Contact
+from signorini.model.material import Orthotropic
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Obstacle
 from signorini.model.rigid import Rigid
 from signorini.model.step import Step
 
-Kind = Literal["plane strain", "plane stress", "axisymmetric"]
-KINDS = ("plane strain", "plane stress", "axisymmetric")
+Kind = Literal["plane strain", "plane stress", "axisymmetric", "3d"]
+KINDS = ("plane strain", "plane stress", "axisymmetric", "3d")
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,10 +34,11 @@ class Model:
     ----------
     mesh : the mesh; its names are what the rest speaks of
     kind : "plane strain", "plane stress" or "axisymmetric": coordinates are then the radius and the height, forces and
-        areas are for the whole circumference
-    thickness : out of plane, length; forces and areas are for this thickness
+        areas are for the whole circumference; a mesh in space is "3d". Empty (default) is "plane strain" or "3d"
+    thickness : of plane models, length; forces and areas are for this thickness
     bodies : every cell of the mesh belongs to exactly one
-    supports, loads, contacts : see :class:`Support`, :class:`Load`, :class:`Contact`
+    supports, foundations, loads, contacts : see :class:`Support`, :class:`Foundation`, :class:`Load`,
+        :class:`Contact`
     obstacles : rigid ones that move, see :class:`Rigid`; fixed ones are said in the contact itself
     steps : the load history; by default one step, all loads from 0 to 1, in one increment
     title, units : said again in the results
@@ -59,10 +61,11 @@ class Model:
 
     mesh: Mesh
     _: KW_ONLY
-    kind: Kind = "plane strain"
+    kind: Kind | Literal[""] = ""
     thickness: float = 1.0
     bodies: Sequence[Body] = ()
     supports: Sequence[Support] = ()
+    foundations: Sequence[Foundation] = ()
     loads: Sequence[Load] = ()
     contacts: Sequence[Contact] = ()
     obstacles: Sequence[Rigid] = ()
@@ -73,16 +76,21 @@ class Model:
     def __post_init__(self) -> None:
         if not isinstance(self.mesh, Mesh):
             raise InputError(f"is {type(self.mesh).__name__}; expected a Mesh", where=("mesh",))
+        if not self.kind:
+            object.__setattr__(self, "kind", "plane strain" if self.dimension == 2 else "3d")
         choice(self.kind, KINDS, ("kind",), "kind")
+        if (self.kind == "3d") != (self.dimension == 3):
+            raise InputError(f"is '{self.kind}', but the mesh has {self.dimension} coordinates", where=("kind",))
         number(self.thickness, ("thickness",), above=0.0)
-        if self.axisymmetric and self.thickness != 1.0:
-            raise InputError(
-                f"is {self.thickness:g}; an axisymmetric model has none: forces and areas are for the circumference",
-                where=("thickness",),
-            )
+        if self.thickness != 1.0 and self.kind in ("axisymmetric", "3d"):
+            what = "an axisymmetric model has none: forces and areas are for the circumference"
+            if self.kind == "3d":
+                what = "a model in space has none"
+            raise InputError(f"is {self.thickness:g}; {what}", where=("thickness",))
         for part, kind in (
             ("bodies", Body),
             ("supports", Support),
+            ("foundations", Foundation),
             ("loads", Load),
             ("contacts", Contact),
             ("obstacles", Rigid),
@@ -93,6 +101,8 @@ class Model:
         for i, support in enumerate(self.supports):
             self._check_place(support.on, ("support", i, "on"), nodes=True)
             self._check_dimension(support.u, ("support", i, "u"))
+        for i, foundation in enumerate(self.foundations):
+            self._check_place(foundation.on, ("foundation", i, "on"), nodes=False)
         for i, load in enumerate(self.loads):
             self._check_load(i, load)
         for i, contact in enumerate(self.contacts):
@@ -104,7 +114,7 @@ class Model:
 
     @property
     def dimension(self) -> int:
-        """Of space: 2."""
+        """Of space: 2 or 3."""
         return int(self.mesh.points.shape[1])
 
     @property
@@ -114,8 +124,8 @@ class Model:
 
     @property
     def axes(self) -> str:
-        """Letters of the directions: "xy", axisymmetric "rz"."""
-        return "rz" if self.axisymmetric else "xy"
+        """Letters of the directions: "xy", axisymmetric "rz", in space "xyz"."""
+        return "rz" if self.axisymmetric else "xyz"[: self.dimension]
 
     def body_of_cells(self) -> IntArray:
         """For every cell the index of its body, (m,)."""
@@ -133,6 +143,8 @@ class Model:
             if body.name not in known:
                 raise InputError(one_of(body.name, known, "body"), where=("body", i, "name"))
             count[known[body.name]] += 1
+            if self.dimension == 3 and isinstance(body.material, Orthotropic) and not body.material.solid:
+                raise InputError("has no G13 and G23; a model in space needs them", where=("body", i, "material"))
         if (count == 1).all():
             return
         cell = int(np.nonzero(count != 1)[0][0])
@@ -144,9 +156,8 @@ class Model:
 
     def _check_load(self, i: int, load: Load) -> None:
         where = ("load", i, "on")
-        if load.kind == "body_force":
-            if load.on not in {body.name for body in self.bodies}:
-                raise InputError(one_of(str(load.on), [body.name for body in self.bodies], "body"), where=where)
+        if load.kind in BODY_LOADS:
+            self._check_body_load(i, load)
         elif load.kind in ("force", "nodal_forces") and load.spread == "traction":
             self._check_place(load.on, where, nodes=True)
         else:
@@ -158,8 +169,33 @@ class Model:
                     f"has shape {load.nodal_forces.shape}; expected {expected}, one force for each of the nodes",
                     where=("load", i, "nodal_forces"),
                 )
-        for kind in ("force", "traction", "body_force"):
+        for kind in ("force", "traction", "body_force", "gravity", "centre"):
             self._check_dimension(getattr(load, kind), ("load", i, kind))
+
+    def _check_body_load(self, i: int, load: Load) -> None:
+        """What the loads inside a body need from its material, and from the kind of model."""
+        names = [body.name for body in self.bodies]
+        if load.on not in names:
+            raise InputError(one_of(str(load.on), names, "body"), where=("load", i, "on"))
+        body = self.bodies[names.index(str(load.on))]
+        if load.kind in ("gravity", "centrifugal") and body.material.density == 0.0:
+            raise InputError(
+                f"'{body.name}' has no density; expected one in its material", where=("load", i, load.kind)
+            )
+        if load.kind == "temperature" and not body.material.expands:
+            raise InputError(f"'{body.name}' has no thermal expansion; expected it in its material", where=("load", i))
+        count = len(self.mesh.points)
+        if isinstance(load.temperature, np.ndarray) and len(load.temperature) != count:
+            raise InputError(
+                f"has {len(load.temperature)} values; expected one per node of the mesh, {count}",
+                where=("load", i, "temperature"),
+            )
+        if self.axisymmetric and load.gravity is not None and load.gravity[0] != 0.0:
+            raise InputError(
+                f"is {load.gravity}, which is not symmetric; expected it along the axis", where=("load", i, "gravity")
+            )
+        if self.axisymmetric and load.centre is not None:
+            raise InputError("an axisymmetric body rotates about its axis", where=("load", i, "centre"))
 
     def _check_contact(self, i: int, contact: Contact) -> None:
         self._check_place(contact.nonmortar, ("contact", i, "nonmortar"), nodes=False)
@@ -211,8 +247,8 @@ class Model:
             raise InputError(f"has {len(parts)} components; expected {self.dimension}", where=where)
 
     def _check_labels(self) -> None:
-        groups: tuple[tuple[str, Iterable[Support | Load | Contact | Rigid]], ...] = (
-            ("support", self.supports),
+        groups: tuple[tuple[str, Iterable[Support | Foundation | Load | Contact | Rigid]], ...] = (
+            ("support", (*self.supports, *self.foundations)),
             ("load", self.loads),
             ("contact", self.contacts),
             ("obstacle", self.obstacles),

@@ -38,7 +38,9 @@ def write_step(model: Model, step: StepResult, path: Path) -> None:
     """
     import meshio
 
-    stresses = body_stresses(make_space(model.mesh, axisymmetric=model.axisymmetric), model, step.displacement)
+    stresses = body_stresses(
+        make_space(model.mesh, axisymmetric=model.axisymmetric), model, step.displacement, step.factors
+    )
     nodes = np.concatenate([part.nodes for part in stresses])
     stress = np.concatenate([part.stress for part in stresses])
     blocks, body = _cells(model, stresses)
@@ -74,5 +76,5 @@ def _cells(model: Model, stresses: list[BodyStress]) -> tuple[list[tuple[str, In
 
 
 def _three(plane: Array) -> Array:
-    """Plane vectors (n, 2) with a third component 0."""
-    return np.column_stack([plane, np.zeros(len(plane))])
+    """Vectors (n, 2) with a third component 0; those of space as they are."""
+    return plane if plane.shape[1] == 3 else np.column_stack([plane, np.zeros(len(plane))])
