@@ -15,6 +15,7 @@ from signorini.errors import SolveFailed
 from signorini.friction.law import states
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.several import FEW, all_solutions, always_unique, search_solutions
+from signorini.friction.spatial import SpatialProblem
 from signorini.friction.uniqueness import mu_low
 from signorini.solution.results import ContactResult
 from signorini.solution.state import State
@@ -30,6 +31,10 @@ def assess(prepared: Prepared, state: State | None = None) -> WellPosedness:
     state : at whose loads, and from whose slips, other equilibria are looked for; None asks about the model alone
     """
     law = prepared.law
+    if isinstance(law, SpatialProblem):
+        friction = float(law.friction[np.isfinite(law.friction)].max(initial=0.0))
+        words = f"friction {friction:g}: uniqueness is examined in two dimensions only"
+        return WellPosedness(friction=friction, bound=None, verdict="not decided", words=words)
     rubs = law.friction[np.isfinite(law.friction) & ~law.locked]
     friction, bound = float(rubs.max(initial=0.0)), mu_low(law)
     if bound is not None and friction < bound:
@@ -43,14 +48,12 @@ def assess(prepared: Prepared, state: State | None = None) -> WellPosedness:
         few = bound is not None and law.pairs <= FEW
         words = f"{above}; some load has several solutions or none" if few else f"{above}: uniqueness is not guaranteed"
         return WellPosedness(friction=friction, bound=bound, verdict="not decided", words=words)
-    others = _others(prepared, state)
+    others = _others(prepared, law, state)
     if others:
         words = f"{above}; {len(others)} other equilibria at these loads, from these slips, were found"
         return WellPosedness(friction=friction, bound=bound, verdict="several", words=words, others=others)
     if law.pairs <= FEW:
-        words = (
-            f"{above}, but no other state of the {law.pairs} pairs is in equilibrium at these loads and slips"
-        )
+        words = f"{above}, but no other state of the {law.pairs} pairs is in equilibrium at these loads and slips"
         return WellPosedness(friction=friction, bound=bound, verdict="one", words=words)
     words = f"{above}; a search from many starts found no other equilibrium, which proves nothing"
     return WellPosedness(friction=friction, bound=bound, verdict="not decided", words=words)
@@ -62,9 +65,9 @@ def _above(friction: float, bound: float | None) -> str:
     return f"friction {friction:g} is above {bound:.4g}, up to which uniqueness is proved"
 
 
-def _others(prepared: Prepared, state: State) -> tuple[tuple[ContactResult, ...], ...]:
+def _others(prepared: Prepared, law: CoulombProblem, state: State) -> tuple[tuple[ContactResult, ...], ...]:
     """The contacts in other equilibria than the state itself, each solved for and certified like any increment."""
-    problem = _posed(prepared, state)
+    problem = _posed(prepared, law, state)
     found = all_solutions(problem) if problem.pairs <= FEW else search_solutions(problem)
     active, size = prepared.condensed.active, prepared.scale.force
     results: list[tuple[ContactResult, ...]] = []
@@ -85,11 +88,11 @@ def _others(prepared: Prepared, state: State) -> tuple[tuple[ContactResult, ...]
     return tuple(results)
 
 
-def _posed(prepared: Prepared, state: State) -> CoulombProblem:
+def _posed(prepared: Prepared, law: CoulombProblem, state: State) -> CoulombProblem:
     """The law at the loads of a state, slips counted from where it stands."""
     condensed, interface = prepared.condensed, prepared.interface
     _, imposed = applied(prepared, state.point)
     offset = np.concatenate([state.point.gap, -state.tangential]) + interface.B @ imposed
     load: Array = condensed.reduce(free_load(prepared, state.point)).load
-    b = condensed.right_hand_side(load, offset[condensed.active_rows], prepared.law.motions)
-    return replace(prepared.law, b=b)
+    b = condensed.right_hand_side(load, offset[condensed.active_rows], law.motions)
+    return replace(law, b=b)
