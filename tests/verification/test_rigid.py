@@ -9,7 +9,8 @@ import pytest
 from signorini.deck import read
 from signorini.engine.solve import solve
 from signorini.errors import InputError
-from signorini.fem.generators import rectangle
+from signorini.fem.generators import annulus, rectangle
+from signorini.fem.profile import mesh_profile
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
@@ -248,6 +249,31 @@ def test_profiles_know_their_distances():
     hole = Profile(square.points[::-1], fillet=0.3, closed=True)
     np.testing.assert_allclose(hole.nearest(x)[0], -exact, atol=1e-12)
     np.testing.assert_allclose(hole.nearest(x)[1], -rounded.nearest(x)[1], atol=1e-12)
+
+
+@pytest.mark.parametrize("cells", ["quad", "quad8"])
+def test_a_meshed_tool_lends_its_profile(cells):
+    tool = annulus(inner=1.0, outer=2.0, n_radial=1, n_angular=40, cells=cells)
+    ring = mesh_profile(tool, "outer")
+    assert ring.closed
+    assert len(ring.points) == (40 if cells == "quad" else 80)
+    distance, normals = ring.nearest(np.array([[2.5, 0.0], [0.0, -2.25], [0.0, 1.5]]))
+    np.testing.assert_allclose(distance, [0.5, 0.25, -0.5], atol=0.01)
+    np.testing.assert_allclose(normals, [[1, 0], [0, -1], [0, 1]], atol=0.1)
+    hole = mesh_profile(tool, "inner")
+    np.testing.assert_allclose(hole.nearest(np.array([[0.5, 0.0]]))[0], 0.5, atol=0.01)
+    quarter = mesh_profile(annulus(inner=1.0, outer=2.0, n_radial=1, n_angular=8, angle=90.0, cells=cells), "outer")
+    assert not quarter.closed
+    np.testing.assert_allclose([quarter.points[0], quarter.points[-1]], [[0, 2], [2, 0]], atol=1e-12)
+
+
+def test_a_profile_needs_one_piece():
+    mesh = annulus(inner=1.0, outer=2.0, n_radial=1, n_angular=8)
+    both = np.vstack([mesh.boundaries["inner"], mesh.boundaries["outer"]])
+    with pytest.raises(InputError, match="'both' is in several pieces"):
+        mesh_profile(replace(mesh, boundaries={"both": both}), "both")
+    with pytest.raises(InputError, match="unknown boundary 'iner'; did you mean 'inner'"):
+        mesh_profile(mesh, "iner")
 
 
 @pytest.mark.parametrize(
