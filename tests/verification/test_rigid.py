@@ -3,6 +3,7 @@
 
 from dataclasses import replace
 
+import meshio
 import numpy as np
 import pytest
 
@@ -189,6 +190,31 @@ def test_a_deck_can_say_it(tmp_path):
     (tmp_path / "deck.toml").write_text(DECK)
     punch = solve(read(tmp_path / "deck.toml")).last.obstacles["punch"]
     np.testing.assert_allclose([*punch.force, punch.moment], [0.0, -3.0, 0.5], atol=1e-9)
+
+
+def test_a_deck_can_take_a_profile_from_a_mesh(tmp_path):
+    tool = rectangle(width=2.0, height=1.0, nx=2, ny=1, origin=(1.0, 2.0))
+    bottom = tool.boundaries["bottom"]
+    meshio.write(
+        tmp_path / "tool.msh",
+        meshio.Mesh(
+            np.column_stack([tool.points, np.zeros(len(tool.points))]),
+            [("quad", tool.cells["quad"]), ("line", bottom)],
+            cell_data={"gmsh:physical": [np.full(2, 1), np.full(2, 2)], "gmsh:geometrical": [np.full(2, 1)] * 2},
+            field_data={"tool": np.array([1, 2]), "edge": np.array([2, 1])},
+        ),
+        file_format="gmsh22",
+    )
+    shape = "profile = { points = [[3.0, 4.0], [3.0, 2.0], [1.0, 2.0], [1.0, 4.0]], fillet = 0.25 }"
+    assert DECK.count(shape) == 1
+    path = tmp_path / "deck.toml"
+    path.write_text(DECK.replace(shape, 'profile = { file = "tool.msh", boundary = "edge" }'))
+    assert read(path).obstacles[0].shape.points == ((3.0, 2.0), (2.0, 2.0), (1.0, 2.0))
+    path.write_text(DECK.replace(shape, 'profile = { file = "tool.msh", boundary = "egde" }'))
+    with pytest.raises(
+        InputError, match="profile.boundary: unknown boundary 'egde'; did you mean 'edge'"
+    ):
+        read(path)
 
 
 @pytest.mark.parametrize(

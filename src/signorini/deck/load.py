@@ -148,8 +148,8 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int]) -> De
     parts: dict[str, Any] = {
         "supports": deck_supports(data),
         "loads": deck_loads(data),
-        "contacts": deck_contacts(data),
-        "obstacles": deck_obstacles(data),
+        "contacts": deck_contacts(data, path.parent),
+        "obstacles": deck_obstacles(data, path.parent),
     }
     if "step" in data:
         parts["steps"] = deck_steps(data)
