@@ -211,9 +211,7 @@ def test_a_deck_can_take_a_profile_from_a_mesh(tmp_path):
     path.write_text(DECK.replace(shape, 'profile = { file = "tool.msh", boundary = "edge" }'))
     assert read(path).obstacles[0].shape.points == ((3.0, 2.0), (2.0, 2.0), (1.0, 2.0))
     path.write_text(DECK.replace(shape, 'profile = { file = "tool.msh", boundary = "egde" }'))
-    with pytest.raises(
-        InputError, match="profile.boundary: unknown boundary 'egde'; did you mean 'edge'"
-    ):
+    with pytest.raises(InputError, match=r"profile\.boundary: unknown boundary 'egde'; did you mean 'edge'"):
         read(path)
 
 
