@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Problems of the FCLIB collection (frictional contact in space) from a folder of .hdf5 files, beside Siconos.
 
-    python -m benchmarks.fclib FOLDER
+    python -m benchmarks.fclib FOLDER [--page]
 
 Needs h5py. Local problems give W, q, mu with ``u = W r + q``; global ones are condensed to that. Siconos' own test data
 hold some: numerics/src/FrictionContact/test/data in github.com/siconos/siconos. Siconos' nonsmooth Gauss-Seidel (5000
 sweeps, 1e-9) runs where the system's Python has it.
+
+With --page the table goes into docs/three_dimensions.md.
 
 Residual: the natural map of the De Saxce form relative to the forces, rho = 3 / trace of a pair's block, of forces r
 with ``u = W r + q`` computed afresh.
@@ -28,8 +30,10 @@ import numpy as np
 import scipy.sparse as sp
 import scipy.sparse.linalg
 
+from benchmarks.page import table, write
 from signorini.friction.spatial import from_compliance, natural_residual, solve_spatial, split
 
+PAGE = Path(__file__).parent.parent / "docs" / "three_dimensions.md"
 SYSTEM_PYTHON = Path("/usr/bin/python3")
 
 
@@ -86,9 +90,19 @@ def by_siconos(W: np.ndarray, q: np.ndarray, mu: np.ndarray) -> tuple[np.ndarray
         return np.load(name + ".r.npy"), sweeps if info == "0" else f"{sweeps}, not converged"
 
 
-def main(folder: str) -> None:
-    print("| problem | pairs | rank of W | outcome | residual | Newton systems | sweeps | Siconos: residual | sweeps |")
-    print("|---|---|---|---|---|---|---|---|---|")
+def main(folder: str, *options: str) -> None:
+    head = (
+        "problem",
+        "pairs",
+        "rank of W",
+        "outcome",
+        "residual",
+        "Newton systems",
+        "sweeps",
+        "Siconos: residual",
+        "sweeps",
+    )
+    rows = []
     for name, W, q, mu in problems(Path(folder)):
         n = len(mu)
         blocked = np.arange(3 * n).reshape(n, 3).T.ravel()
@@ -99,9 +113,14 @@ def main(folder: str) -> None:
         sweeps = sum(a.iterations for a in result.trace if a.method == "gauss-seidel")
         own = residual(A, c, mu, split(problem, result.y)[1] * root)
         siconos = by_siconos(W, q, mu)
-        theirs = "- | -" if siconos is None else f"{residual(A, c, mu, siconos[0][blocked]):.0e} | {siconos[1]}"
+        theirs = ("-", "-") if siconos is None else (f"{residual(A, c, mu, siconos[0][blocked]):.0e}", siconos[1])
         rank = np.linalg.matrix_rank(W, tol=1e-10 * np.abs(W).max(), hermitian=True)
-        print(f"| {name} | {n} | {rank}/{3 * n} | {result.outcome} | {own:.0e} | {systems} | {sweeps} | {theirs} |")
+        rows.append((name, n, f"{rank}/{3 * n}", result.outcome, f"{own:.0e}", systems, sweeps, *theirs))
+        print(rows[-1])
+    text = table(head, rows)
+    print(text)
+    if "--page" in options:
+        write("fclib", text, PAGE)
 
 
 if __name__ == "__main__":

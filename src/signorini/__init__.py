@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from signorini.fem.profile import mesh_profile
     from signorini.fem.read import read_mesh
     from signorini.model.body import Body
-    from signorini.model.conditions import Load, Support
+    from signorini.model.conditions import Foundation, Load, Support
     from signorini.model.contact import Contact
     from signorini.model.material import Elastic, Orthotropic
     from signorini.model.mesh import Mesh, join
@@ -38,6 +38,7 @@ __all__ = [
     "Circle",
     "Contact",
     "Elastic",
+    "Foundation",
     "InputError",
     "Load",
     "Mesh",
@@ -75,7 +76,7 @@ _HOMES = {
     "signorini.fem.profile": ("mesh_profile",),
     "signorini.fem.read": ("read_mesh",),
     "signorini.model.body": ("Body",),
-    "signorini.model.conditions": ("Load", "Support"),
+    "signorini.model.conditions": ("Foundation", "Load", "Support"),
     "signorini.model.contact": ("Contact",),
     "signorini.model.material": ("Elastic", "Orthotropic"),
     "signorini.model.mesh": ("Mesh", "join"),

@@ -5,15 +5,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from signorini.clock import Clock
 from signorini.engine.prepare import Prepared
 from signorini.engine.prepare import prepare as prepare_model
 from signorini.engine.solve import solve as solve_history
 from signorini.engine.solve import solve_prepared
-from signorini.errors import InputError, SolveFailed
+from signorini.errors import InputError, SolveFailed, one_of
+from signorini.fem.path import PathResult, along
+from signorini.fem.space import Space, make_space
+from signorini.fem.stress import BodyStress, body_stresses
 from signorini.model.model import Model
 from signorini.output.archive import read_archive, write_archive
 from signorini.output.checkpoint import read_checkpoint, write_checkpoint
@@ -75,6 +82,45 @@ class Solution(History):
         if self.end is None:
             raise InputError("no step was finished; there is no state to save")
         write_checkpoint(self.end, Path(path))
+
+    def stress(self, body: str) -> BodyStress:
+        """Stress of a body at its nodes at the end of the last step, not averaged with other bodies.
+
+        Raises
+        ------
+        InputError
+            If there is no such body.
+        """
+        found = body_stresses(self._space, self.model, self.last.displacement, self.last.factors)
+        for part in found:
+            if part.body == body:
+                return part
+        raise InputError(one_of(body, [part.body for part in found], "body"))
+
+    def along(self, points: ArrayLike, *, body: str) -> PathResult:
+        """Displacement and stress of a body at points (n, 2), say ``np.linspace(start, end, 50)``, after the last step.
+
+        Raises
+        ------
+        InputError
+            If there is no such body, or a point lies outside it.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> bar = sg.Model(sg.rectangle(width=2.0, nx=2), bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.0))],
+        ...                supports=[sg.Support("left", u=(0, 0))], loads=[sg.Load("right", traction=(5.0, 0))])
+        >>> path = sg.solve(bar).along([(0.0, 0.5), (1.5, 0.5)], body="block")
+        >>> path.displacement[:, 0].round(12), path.stress[:, 0].round(12)
+        (array([0.   , 0.075]), array([5., 5.]))
+        """
+        last = self.last
+        given = np.asarray(points, float)
+        return along(self._space, self.model, last.displacement, given, body=body, factors=last.factors)
+
+    @cached_property
+    def _space(self) -> Space:
+        return make_space(self.model.mesh, axisymmetric=self.model.axisymmetric)
 
     def plot(self) -> Figure:
         """Draw pressure and friction of every contact at the end of the last step."""

@@ -13,7 +13,7 @@ from signorini.deck.load import _KEYS
 from signorini.deck.meshes import GENERATORS
 from signorini.deck.parts import _CONTACT_KEYS, _OBSTACLE_KEYS
 from signorini.model.body import Body
-from signorini.model.conditions import Load, Support
+from signorini.model.conditions import Foundation, Load, Support
 from signorini.model.material import Elastic, Orthotropic
 from signorini.model.step import Step
 
@@ -38,7 +38,9 @@ def test_every_key_is_explained() -> None:
     keys = {*_CONTACT_KEYS, *_OBSTACLE_KEYS, *GENERATORS, "generator", "file"} | {
         key for key in _KEYS if f"[{key}" not in MANUAL
     }
-    keys |= {field.name for kind in (Support, Load, Step, Body, Elastic, Orthotropic) for field in fields(kind)}
+    keys |= {
+        field.name for kind in (Support, Foundation, Load, Step, Body, Elastic, Orthotropic) for field in fields(kind)
+    }
     keys |= {name for generator in GENERATORS.values() for name in inspect.signature(generator).parameters}
     missing = sorted(key for key in keys if not re.search(rf"`{key}[` ]", MANUAL))
     assert not missing

@@ -57,7 +57,7 @@ MISTAKES = {
         "[[step]]",
         "[[stepp]]",
         ":31: stepp: unknown key; did you mean 'step'? Known: title, kind, thickness, units, mesh, material, body, "
-        "support, load, contact, obstacle, step",
+        "support, foundation, load, contact, obstacle, step",
     ),
     "unknown boundary": (
         'on = "axis"',
@@ -134,7 +134,7 @@ MISTAKES = {
         "force = [0.0, -78.0]",
         "force = [0.0, -78.0]\npressure = 3.0",
         ":22: load[0]: has force and pressure; expected exactly one of force, nodal_forces, traction, pressure, "
-        "body_force",
+        "body_force, gravity, centrifugal, temperature",
     ),
     "no node there": (
         'on = "cut"',

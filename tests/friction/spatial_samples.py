@@ -3,6 +3,7 @@
 
 import numpy as np
 
+from signorini.bench.spatial import punch
 from signorini.friction.spatial import SpatialProblem, from_compliance
 
 
@@ -24,33 +25,11 @@ def random_problem(seed, pairs, friction, *, motions=0, facets=0, tresca=None):
     )
 
 
-def punch(pairs, friction, *, facets=0, push=(0.3, 0.2), turn=0.3):
-    """A rough curved punch pressed on an elastic half-space, dragged and turned: A (3n, 3n), c and the problem.
-
-    Compliance of point forces at distance s (Boussinesq, Cerruti; E = 1, nu = 0.3), a disc's own at its centre.
-    """
-    side = round(pairs**0.5)
-    assert side**2 == pairs
-    x = np.stack(np.meshgrid(*2 * [np.linspace(-1, 1, side)], indexing="ij"), axis=-1).reshape(-1, 2)
-    nu, h = 0.3, 2.0 / (side - 1)
-    d = x[:, None] - x
-    s = np.hypot(*np.moveaxis(d, 2, 0)) + np.eye(pairs)
-    off = 1.0 - np.eye(pairs)
-    own = 2.0 * np.eye(pairs) / (h / np.sqrt(np.pi))
-    inverse = off / s + own
-    A = np.empty((3, pairs, 3, pairs))
-    A[0, :, 0] = (1 - nu**2) / np.pi * inverse
-    for i in (0, 1):
-        A[0, :, 1 + i] = (1 - 2 * nu) * (1 + nu) / (2 * np.pi) * off * d[..., i] / s**2
-        A[1 + i, :, 0] = -A[0, :, 1 + i]
-        for j in (0, 1):
-            A[1 + i, :, 1 + j] = (1 + nu) / np.pi * (nu * off * d[..., i] * d[..., j] / s**3)
-        A[1 + i, :, 1 + i] += (1 + nu) / np.pi * ((1 - nu) * inverse + 0.5 * nu * own)
-    gap = 0.5 * (x**2).sum(axis=1) - 0.25
-    slip = np.array(push) * 0.25 + turn * 0.25 * np.column_stack([-x[:, 1], x[:, 0]])
-    c = np.concatenate([gap, slip[:, 0], slip[:, 1]])
-    problem, root = from_compliance(A.reshape(3 * pairs, -1), c, np.full(pairs, friction), facets=facets)
-    return A.reshape(3 * pairs, -1), c, problem, root
+def pressed_punch(pairs, friction, *, facets=0):
+    """A curved punch pressed on a half-space, dragged and turned: A, c, the problem and the roots of its scaling."""
+    A, c = punch(round(pairs**0.5))
+    problem, root = from_compliance(A, c, np.full(pairs, friction), facets=facets)
+    return A, c, problem, root
 
 
 def block_on_floor(load, friction, *, facets=0, side=3):

@@ -32,6 +32,7 @@ def describe(deck: Deck, examined: Examined) -> list[str]:
     for title, rows in (
         ("bodies", _bodies(model)),
         ("supports", _supports(examined)),
+        ("foundations", _foundations(model)),
         ("loads", _loads(examined)),
         ("contacts", _contacts(examined)),
         ("steps", _steps(model)),
@@ -60,6 +61,13 @@ def _supports(examined: Examined) -> Rows:
         held = int((examined.constraints.owner == i).sum())
         rows.append((support.label, f"u = ({parts})", f"holds {held} dofs"))
     return rows
+
+
+def _foundations(model: Model) -> Rows:
+    return [
+        (f.label, f"normal stiffness {f.normal_stiffness:g}", f"tangential stiffness {f.tangential_stiffness:g}")
+        for f in model.foundations
+    ]
 
 
 def _loads(examined: Examined) -> Rows:

@@ -17,6 +17,7 @@ from signorini.deck.meshes import deck_mesh
 from signorini.deck.parts import (
     deck_bodies,
     deck_contacts,
+    deck_foundations,
     deck_loads,
     deck_materials,
     deck_obstacles,
@@ -39,6 +40,7 @@ _KEYS = (
     "material",
     "body",
     "support",
+    "foundation",
     "load",
     "contact",
     "obstacle",
@@ -147,6 +149,7 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int]) -> De
     bodies = deck_bodies(data, materials)
     parts: dict[str, Any] = {
         "supports": deck_supports(data),
+        "foundations": deck_foundations(data),
         "loads": deck_loads(data),
         "contacts": deck_contacts(data, path.parent),
         "obstacles": deck_obstacles(data, path.parent),

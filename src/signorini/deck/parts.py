@@ -12,7 +12,7 @@ from signorini.deck.table import check_keys, make, table, tables
 from signorini.errors import InputError, Where, one_of
 from signorini.fem.profile import mesh_profile
 from signorini.model.body import Body
-from signorini.model.conditions import Load, Support
+from signorini.model.conditions import Foundation, Load, Support
 from signorini.model.contact import Contact
 from signorini.model.material import Elastic, Material, Orthotropic
 from signorini.model.obstacle import Circle, Obstacle, Plane, Profile
@@ -67,6 +67,11 @@ def deck_bodies(data: Mapping[str, Any], materials: Mapping[str, Material]) -> l
 def deck_supports(data: Mapping[str, Any]) -> list[Support]:
     """``[[support]]``."""
     return [_placed(Support, entry, ("support", i)) for i, entry in enumerate(tables(data, "support"))]
+
+
+def deck_foundations(data: Mapping[str, Any]) -> list[Foundation]:
+    """``[[foundation]]``."""
+    return [make(Foundation, entry, ("foundation", i)) for i, entry in enumerate(tables(data, "foundation"))]
 
 
 def deck_loads(data: Mapping[str, Any]) -> list[Load]:

@@ -25,6 +25,7 @@ from signorini.friction.problem import CoulombProblem
 from signorini.interface.candidates import candidates
 from signorini.interface.interface import Interface, friction_of, make_interface
 from signorini.linalg.protocol import NotPositiveDefinite
+from signorini.model.conditions import Load, Temperature
 from signorini.model.model import Model
 from signorini.solution.scale import Scale, data_scale
 
@@ -60,7 +61,7 @@ class Prepared(Examined):
 
     Attributes
     ----------
-    K : (dofs, dofs) stiffness, supports not applied
+    K : (dofs, dofs) stiffness of bodies and elastic foundations, supports not applied
     condensed : the interface as the bodies feel it
     law : the contact law on it, without load; ``dataclasses.replace(law, b=...)`` shares what it has computed
     clock : seconds spent so far
@@ -120,7 +121,8 @@ class Prepared(Examined):
                 contacts[i] = replace(contacts[i], interference=interference[contact.label])
                 gap[self.interface.contact == i] += contact.interference - contacts[i].interference
         factor = {name: number(value, ("loads", name)) for name, value in (loads or {}).items()}
-        model = replace(self.model, contacts=contacts)
+        hot = [replace(load, temperature=_times(load, factor)) for load in self.model.loads]
+        model = replace(self.model, contacts=contacts, loads=hot)
         mu = friction_of(self.space, model, self.interface.node, self.interface.contact)
         interface = replace(self.interface, gap=gap, friction=mu)
         constraints = replace(
@@ -187,6 +189,8 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
     with clock.phase("assembly"):
         examined = examine(model)
         K = stiffness(examined.space, model)
+        for springs in examined.constraints.springs.values():
+            K = sp.csr_array(K + springs.T @ springs)
     return _condensed(examined, K, _near(examined), backend, clock)
 
 
@@ -253,6 +257,16 @@ def _size(interface: Interface, condensed: Condensed, scale: Scale) -> float:
     """Of the right-hand side of the law; gaps far larger than the displacements leave their rounding in it."""
     gap = float(np.abs(interface.gap[condensed.active]).max(initial=0.0))
     return max(scale.length, _ROUNDING * gap) * float(condensed.root.max(initial=1.0))
+
+
+def _times(load: Load, factors: Mapping[str, float]) -> Temperature | None:
+    """The temperature of a load times its factor; stresses refer to it, other loads are in the nodal forces."""
+    given, factor = load.temperature, factors.get(load.label, 1.0)
+    if given is None or factor == 1.0:
+        return given
+    if callable(given):
+        return lambda points: factor * given(points)
+    return factor * given
 
 
 def _refuse_unknown(given: Mapping[str, float] | None, known: Sequence[str], what: str, key: str) -> None:

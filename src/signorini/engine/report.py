@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,6 +12,7 @@ import numpy as np
 from signorini.arrays import Array, IntArray, frozen
 from signorini.engine.cycles import judge, make_cycles
 from signorini.engine.exact import stored_energy
+from signorini.engine.heat import heat_of
 from signorini.engine.increments import applied
 from signorini.engine.leg import Leg
 from signorini.engine.prepare import Prepared
@@ -40,12 +41,14 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
     cycle_ends : load factors at which its cycles end; one where it does not repeat
     """
     before, state, certificates = leg.before, leg.after, leg.certificates
-    instants = tuple(_instants(prepared, leg, cycle_ends))
+    heat = heat_of(prepared)
+    instants = tuple(_instants(prepared, leg, cycle_ends, heat))
     cycles = make_cycles(leg, cycle_ends) if len(cycle_ends) > 1 else ()
     steadiness, words = judge(cycles, prepared.scale) if cycles else ("", "")
     stored, dissipated = stored_energy(prepared, state), (state.dissipation - before.dissipation).sum()
     spent = stored - stored_energy(prepared, before) + float(dissipated) + state.released - before.released
-    strain = 0.5 * float(state.displacement @ (prepared.K @ state.displacement))
+    elastic = 0.5 * float(state.displacement @ (prepared.K @ state.displacement))
+    springs = -0.5 * float(state.displacement @ prepared.constraints.foundation_forces(state.displacement))
     return StepResult(
         name=stage.title,
         path=leg.path,
@@ -53,12 +56,13 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
         increments=0 if leg.path == "exact" else len(leg.trace),
         events=leg.events,
         displacement=frozen(prepared.space.at_nodes(state.displacement)),
+        factors=dict(state.point.factors),
         external=frozen(prepared.space.at_nodes(state.external)),
         obstacles=_obstacles(prepared, state),
         reactions=_reactions(prepared, state),
-        strain_energy=strain,
-        interface_energy=stored - strain,
-        work=state.work - before.work,
+        strain_energy=elastic - springs + heat(state),
+        interface_energy=stored - elastic + springs,
+        work=state.work - before.work + heat(state) - heat(before),
         released=state.released - before.released,
         energy_defect=state.work - before.work - spent,
         certificate=Certificate(
@@ -94,13 +98,16 @@ def _finer_notes(prepared: Prepared) -> tuple[str, ...]:
 
 
 def _reactions(prepared: Prepared, state: State) -> dict[str, Array]:
-    """Forces of the supports on the bodies, by name."""
+    """Forces of supports and elastic foundations on the bodies, by name."""
     owner, d = prepared.constraints.owner, prepared.model.dimension
     total = np.zeros((len(prepared.model.supports) + 1, d))
     # a support's force is what equilibrium takes beyond the loads that act on the held node itself
     loads, _ = applied(prepared, state.point)
     np.add.at(total, (owner, np.arange(len(owner)) % d), np.where(owner >= 0, state.external - loads, 0.0))
-    return {support.label: frozen(total[i]) for i, support in enumerate(prepared.model.supports)}
+    forces = {support.label: frozen(total[i]) for i, support in enumerate(prepared.model.supports)}
+    for name, S in prepared.constraints.springs.items():
+        forces[name] = frozen(-(S.T @ (S @ state.displacement)).reshape(-1, d).sum(axis=0))
+    return forces
 
 
 def _obstacles(prepared: Prepared, state: State) -> dict[str, ObstacleResult]:
@@ -117,11 +124,14 @@ def _obstacles(prepared: Prepared, state: State) -> dict[str, ObstacleResult]:
     return found
 
 
-def _instants(prepared: Prepared, leg: Leg, cycle_ends: Sequence[float]) -> Iterator[Instant]:
+def _instants(
+    prepared: Prepared, leg: Leg, cycle_ends: Sequence[float], heat: Callable[[State], float]
+) -> Iterator[Instant]:
     """The contacts at every snapshot, with what they slid since the beginning of the step and of the cycle."""
     surfaces = [_surface(prepared, i) for i in range(len(prepared.model.contacts))]
     last, sliding = leg.before.slip, np.zeros_like(leg.before.slip)
     low, high, cycle = last, last, 0
+    begun = heat(leg.before)
     for snapshot in leg.snapshots:
         slip = snapshot.state.slip
         sliding = sliding + np.abs(slip - last)
@@ -134,7 +144,7 @@ def _instants(prepared: Prepared, leg: Leg, cycle_ends: Sequence[float]) -> Iter
             load_factor=snapshot.load_factor,
             what=snapshot.what,
             contacts=contacts,
-            work=snapshot.state.work - leg.before.work if snapshot.whole else np.nan,
+            work=snapshot.state.work - leg.before.work + heat(snapshot.state) - begun if snapshot.whole else np.nan,
             displacement=frozen(moved) if snapshot.whole else None,
         )
         if cycle + 1 < len(cycle_ends) and snapshot.load_factor == cycle_ends[cycle]:

@@ -13,9 +13,6 @@ from signorini.fem.measure import measure
 from signorini.fem.space import Block, Space
 from signorini.model.model import Model
 
-INTERNAL = 2
-"""Internal modes of a cell of the incompatible formulation."""
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Group:
@@ -73,8 +70,8 @@ class Kinematics:
             force[..., 0] += np.einsum("mqa,mq->ma", self.gradients[..., 2], stress[..., 2] * self.weights)
         return force
 
-    def relaxed(self, D: Array, stress: Array) -> tuple[Array, Array]:
-        """Amplitudes (m, modes, 2) that bring the modes into balance, and the stresses with them, (m, q, 4).
+    def relaxed(self, D: Array, stress: Array) -> Array:
+        """Stresses (m, q, 4) with the internal modes in balance.
 
         Parameters
         ----------
@@ -83,7 +80,7 @@ class Kinematics:
         """
         modes = self.gradients.shape[2] - self.nodes
         if not modes:
-            return np.zeros((len(D), 0, 2)), stress
+            return stress
         unit = np.zeros((2 * modes, len(D), self.nodes + modes, 2))
         for i in range(2 * modes):
             unit[i, :, self.nodes + i // 2, i % 2] = 1.0
@@ -92,7 +89,8 @@ class Kinematics:
         K = np.einsum("mq,mqci,mqcj->mij", self.weights, strains, stresses)
         out_of_balance = self.forces(stress)[:, self.nodes :].reshape(len(D), -1)
         amplitude = -np.linalg.solve(K, out_of_balance[..., None])[..., 0]
-        return amplitude.reshape(-1, modes, 2), stress + np.einsum("mqci,mi->mqc", stresses, amplitude)
+        relaxed: Array = stress + np.einsum("mqci,mi->mqc", stresses, amplitude)
+        return relaxed
 
 
 def groups(space: Space, model: Model) -> Iterator[Group]:

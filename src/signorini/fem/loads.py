@@ -12,7 +12,8 @@ from signorini.fem.measure import facet_areas, measure
 from signorini.fem.obstacles import obstacle_loads
 from signorini.fem.places import nodes_at
 from signorini.fem.space import Space
-from signorini.model.conditions import Load
+from signorini.fem.thermal import thermal_forces
+from signorini.model.conditions import BODY_LOADS, Load
 from signorini.model.model import Model
 
 
@@ -24,8 +25,10 @@ def nodal_loads(space: Space, model: Model) -> dict[str, Array]:
 
 
 def _forces(space: Space, model: Model, load: Load, where: Where) -> Array:
-    if load.body_force is not None:
-        return _body_forces(space, model, str(load.on), np.array(load.body_force))
+    if load.temperature is not None:
+        return thermal_forces(space, model, load)
+    if load.kind in BODY_LOADS:
+        return _body_forces(space, model, load)
     forces = np.zeros((len(space.mesh.points), space.dimension))
     if load.nodal_forces is not None:
         forces[nodes_at(space, load.on, (*where, "on"))] = load.nodal_forces
@@ -50,12 +53,24 @@ def _given(force: tuple[float | None, ...]) -> Array:
     return np.array([part or 0.0 for part in force])
 
 
-def _body_forces(space: Space, model: Model, name: str, density: Array) -> Array:
-    inside = np.zeros(space.mesh.number_of_cells, bool)
-    inside[space.mesh.bodies[name]] = True
-    share = np.zeros(len(space.mesh.points))
+def _body_forces(space: Space, model: Model, load: Load) -> Array:
+    """``int N_k b dx`` over a body."""
+    index = next(i for i, body in enumerate(model.bodies) if body.name == load.on)
+    owner = model.body_of_cells()
+    forces = np.zeros((len(space.mesh.points), space.dimension))
     for block, volumes in zip(space.blocks, space.volumes, strict=True):
-        here = inside[block.first : block.first + len(block.cells)]
+        here = owner[block.first : block.first + len(block.cells)] == index
         at = np.einsum("qk,mki->mqi", block.values, space.mesh.points[block.cells[here]])
-        np.add.at(share, block.cells[here], (volumes[here] * measure(model, at)) @ block.values)
-    return np.outer(share, density).ravel()
+        weights = (volumes[here] * measure(model, at))[..., None]
+        density = _density(load, model.bodies[index].material.density, at, model.axisymmetric)
+        np.add.at(forces, block.cells[here], np.einsum("qk,mqi->mki", block.values, weights * density))
+    return forces.ravel()
+
+
+def _density(load: Load, mass: float, at: Array, axisymmetric: bool) -> Array:
+    """Force per volume at points (m, q, 2)."""
+    if load.centrifugal is not None:
+        arm = at - np.array(load.centre or (0.0, 0.0))
+        return mass * load.centrifugal**2 * (arm * [1.0, 0.0] if axisymmetric else arm)
+    constant = np.array(load.body_force) if load.body_force is not None else mass * np.array(load.gravity)
+    return np.broadcast_to(constant, at.shape)

@@ -107,7 +107,7 @@ def rigid_motions(space: Space, parts: tuple[Part, ...], *, axisymmetric: bool =
 
 
 def free_motions(motions: sp.csr_array, constraints: Constraints, held: sp.csr_array) -> Array:
-    """Rigid motions that the supports allow and that ``held`` does not see.
+    """Rigid motions that supports and elastic foundations allow and that ``held`` does not see.
 
     Parameters
     ----------
@@ -122,7 +122,9 @@ def free_motions(motions: sp.csr_array, constraints: Constraints, held: sp.csr_a
     together = np.maximum(transform.sum(axis=0), 1.0)
     # what supports and rigid boundaries hold is what the free displacements cannot represent
     lost = motions - transform @ sp.diags_array(1.0 / together) @ (transform.T @ motions)
-    seen = sp.vstack([lost, held @ motions])
+    # springs count as held, whatever their stiffness
+    springs = [(S / abs(S).max()) @ motions for S in constraints.springs.values()]
+    seen = sp.vstack([lost, held @ motions, *springs])
     values, vectors = scipy.linalg.eigh((seen.T @ seen).toarray())
     return _readable(vectors[:, values <= _UNSEEN * max(1.0, values[-1])])
 

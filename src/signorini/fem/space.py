@@ -13,7 +13,7 @@ import skfem
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.fem.edges import Edges, check_conforming, make_edges
-from signorini.model.mesh import CORNERS, Mesh
+from signorini.model.mesh import CORNERS, NODES_PER_CELL, Mesh
 
 ON_AXIS = 1e-10
 """Of the largest radius: nodes of axisymmetric bodies that are nearer are on the axis."""
@@ -201,6 +201,11 @@ def _block(family: str, cells: IntArray, first: int, axisymmetric: bool) -> Bloc
         stress_gradients=stress_gradients,
         to_nodes=_monomials(element.doflocs.T, what) @ np.linalg.pinv(_monomials(best, what)),
     )
+
+
+def shape_functions(family: str, at: Array) -> tuple[Array, Array]:
+    """Shape functions (n, k) of a family and their gradients (n, k, 2) at reference coordinates (2, n)."""
+    return _shape(_ELEMENTS[family].kind(), at, NODES_PER_CELL[family])
 
 
 def _monomials(at: Array, what: _Element) -> Array:

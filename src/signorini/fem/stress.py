@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +12,7 @@ from signorini.arrays import Array, IntArray
 from signorini.fem.elasticity import elasticities
 from signorini.fem.kinematics import Group, groups, kinematics
 from signorini.fem.space import Space
+from signorini.fem.thermal import temperatures, thermal_strain
 from signorini.model.model import Model
 
 
@@ -49,18 +50,24 @@ def von_mises(stress: Array) -> Array:
     return result
 
 
-def body_stresses(space: Space, model: Model, displacement: Array) -> list[BodyStress]:
+def body_stresses(
+    space: Space, model: Model, displacement: Array, factors: Mapping[str, float] | None = None
+) -> list[BodyStress]:
     """Stresses of every body: from the best points of a cell to its nodes, then averaged with the cells' areas.
 
     Parameters
     ----------
     displacement : (n, 2), length
+    factors : load factors by name, for the temperatures; a model without any needs none
     """
+    temperature = temperatures(space, model, factors or {})
     count = len(space.mesh.points)
     total, weight = np.zeros((len(model.bodies), count, 4)), np.zeros((len(model.bodies), count))
     for group in groups(space, model):
         cells = group.cells
-        at_nodes = np.einsum("kq,mqc->mkc", group.block.to_nodes, cell_stresses(space, model, group, displacement))
+        at_nodes = np.einsum(
+            "kq,mqc->mkc", group.block.to_nodes, _cell_stresses(space, model, group, displacement, temperature)
+        )
         area = space.volumes_of(group.block)[group.index].sum(axis=1)
         np.add.at(total, (group.body[:, None], cells), at_nodes * area[:, None, None])
         np.add.at(weight, (group.body[:, None], cells), area[:, None])
@@ -73,23 +80,29 @@ def body_stresses(space: Space, model: Model, displacement: Array) -> list[BodyS
     return result
 
 
-def point_stresses(space: Space, model: Model, displacement: Array) -> Iterator[tuple[IntArray, Array]]:
+def point_stresses(
+    space: Space, model: Model, displacement: Array, factors: Mapping[str, float] | None = None
+) -> Iterator[tuple[IntArray, Array]]:
     """Stresses at the best points of the cells, group by group: cells (m,) and stresses (m, p, 6) as nodes have them.
 
     Parameters
     ----------
-    displacement : (n, 2), length
+    displacement, factors : as :func:`body_stresses`
     """
+    temperature = temperatures(space, model, factors or {})
     for group in groups(space, model):
-        found = cell_stresses(space, model, group, displacement)
+        found = _cell_stresses(space, model, group, displacement, temperature)
         stress = np.zeros((*found.shape[:2], 6))
         stress[..., :4] = found
         yield group.block.first + group.index, stress
 
 
-def cell_stresses(space: Space, model: Model, group: Group, displacement: Array) -> Array:
+def _cell_stresses(space: Space, model: Model, group: Group, displacement: Array, temperature: Array | None) -> Array:
     """Stresses xx, yy, zz, xy at the best points of the cells of a group, (m, p, 4)."""
     D = elasticities(model)[group.body]
     points = kinematics(space, model, group, best=True)
-    stress = np.einsum("mcd,mqd->mqc", D, points.strain(displacement[group.cells]))
-    return points.relaxed(D, stress)[1]
+    strain = points.strain(displacement[group.cells])
+    if temperature is not None:
+        strain = strain - thermal_strain(model, group, points, temperature)
+    stress = np.einsum("mcd,mqd->mqc", D, strain)
+    return points.relaxed(D, stress)

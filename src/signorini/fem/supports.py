@@ -11,6 +11,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
+from signorini.fem.foundation import make_springs
 from signorini.fem.obstacles import driven
 from signorini.fem.places import nodes_at
 from signorini.fem.space import ON_AXIS, Space
@@ -27,6 +28,7 @@ class Constraints:
         share one
     transform : (dofs, z) sparse T, one entry 1 a row
     prescribed : name of moving support or obstacle to (dofs,) displacements at factor 1
+    springs : elastic foundations by name, see :func:`signorini.fem.foundation.make_springs`
     owner : (dofs,) index of the support that holds the dof, otherwise -1
     nodes : (z,) a node of each free displacement; those of obstacles follow the nodes of the mesh
     """
@@ -34,8 +36,13 @@ class Constraints:
     free: IntArray
     transform: sp.csr_array
     prescribed: Mapping[str, Array]
+    springs: Mapping[str, sp.csr_array]
     owner: IntArray
     nodes: IntArray
+
+    def foundation_forces(self, displacement: Array) -> Array:
+        """Forces of all elastic foundations on the bodies, (dofs,)."""
+        return sum((-(S.T @ (S @ displacement)) for S in self.springs.values()), np.zeros(len(self.free)))
 
 
 def make_constraints(space: Space, model: Model) -> Constraints:
@@ -88,7 +95,14 @@ def make_constraints(space: Space, model: Model) -> Constraints:
     free = np.where(held, -1, free[leader])
     rows = np.nonzero(free >= 0)[0]
     transform = sp.csr_array((np.ones(len(rows)), (rows, free[rows])), shape=(total, len(leaders)))
-    return Constraints(free=free, transform=transform, prescribed=prescribed, owner=owner, nodes=leaders // d)
+    return Constraints(
+        free=free,
+        transform=transform,
+        prescribed=prescribed,
+        springs=make_springs(space, model),
+        owner=owner,
+        nodes=leaders // d,
+    )
 
 
 def _on_axis(space: Space, model: Model) -> IntArray:

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What holds and what loads the bodies: supports and loads."""
+"""What holds and what loads the bodies: supports, elastic foundations and loads."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -14,7 +15,8 @@ from signorini.errors import InputError
 
 Place = str | tuple[float, ...]
 
-_LOAD_KINDS = ("force", "nodal_forces", "traction", "pressure", "body_force")
+BODY_LOADS = ("body_force", "gravity", "centrifugal", "temperature")
+_LOAD_KINDS = ("force", "nodal_forces", "traction", "pressure", *BODY_LOADS)
 
 
 @dataclass(frozen=True)
@@ -54,6 +56,43 @@ class Support:
         return any(part for part in self.u)
 
 
+@dataclass(frozen=True)
+class Foundation:
+    """Springs on a boundary, fixed at their other end: traction ``-k_n (u.n) n - k_t (u.t) t`` on the body.
+
+    Parameters
+    ----------
+    on : name of a boundary
+    normal_stiffness, tangential_stiffness : k_n, k_t, pressure per length, >= 0, not both 0; they pull too
+    name : what results call it; the place by default
+
+    Examples
+    --------
+    >>> Foundation("base", normal_stiffness=50.0).label
+    'base'
+    """
+
+    on: str
+    normal_stiffness: float = 0.0
+    tangential_stiffness: float = 0.0
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        text(self.on, ("on",))
+        for key in ("normal_stiffness", "tangential_stiffness"):
+            object.__setattr__(self, key, number(getattr(self, key), (key,), least=0.0))
+        if self.normal_stiffness == 0.0 == self.tangential_stiffness:
+            raise InputError("has no stiffness; expected normal_stiffness or tangential_stiffness > 0")
+
+    @property
+    def label(self) -> str:
+        """The name in results."""
+        return self.name or self.on
+
+
+Temperature = float | Array | Callable[[Array], Array]
+
+
 @dataclass(frozen=True, eq=False)
 class Load:
     """A load on a boundary, a node set, a point or a body; exactly one of the kinds.
@@ -61,12 +100,19 @@ class Load:
     Parameters
     ----------
     on : name of a boundary (force, traction, pressure), node set or coordinates (force, nodal_forces), or body
-        (body_force)
+        (all others)
     force : total force; a component None (in a deck "free") is left alone
     nodal_forces : (k, d) force of each of the k nodes of a node set, in ascending order
     traction : force per area
     pressure : force per area, positive when it pushes on the body
     body_force : force per volume
+    gravity : acceleration; times the density of the material
+    centrifugal : angular velocity, angle per time, >= 0: ``density omega^2 r`` away from the axis. A step's factor
+        scales the force, not the velocity
+    centre : point that the axis of rotation goes through, length; the origin by default. Not of axisymmetric bodies,
+        which rotate about their axis
+    temperature : above the one without thermal strain: a number, one value per node of the mesh, or a function of
+        coordinates (n, 2) that gives (n,)
     spread : how a total force acts on a boundary. "traction": uniform traction. "displacement": the boundary moves
         rigidly in every direction whose component is given, and the force is the resultant
     name : what steps call it; the place by default
@@ -83,6 +129,10 @@ class Load:
     traction: tuple[float, ...] | None = None
     pressure: float | None = None
     body_force: tuple[float, ...] | None = None
+    gravity: tuple[float, ...] | None = None
+    centrifugal: float | None = None
+    centre: tuple[float, ...] | None = None
+    temperature: Temperature | None = None
     spread: Literal["traction", "displacement"] = "traction"
     name: str = ""
 
@@ -99,16 +149,21 @@ class Load:
             object.__setattr__(self, "force", components(self.force, ("force",)))
         if self.nodal_forces is not None:
             object.__setattr__(self, "nodal_forces", _rows(self.nodal_forces))
-        if self.traction is not None:
-            object.__setattr__(self, "traction", vector(self.traction, ("traction",)))
-        if self.body_force is not None:
-            object.__setattr__(self, "body_force", vector(self.body_force, ("body_force",)))
+        for key in ("traction", "body_force", "gravity", "centre"):
+            if getattr(self, key) is not None:
+                object.__setattr__(self, key, vector(getattr(self, key), (key,)))
         if self.pressure is not None:
             object.__setattr__(self, "pressure", number(self.pressure, ("pressure",)))
+        if self.centrifugal is not None:
+            object.__setattr__(self, "centrifugal", number(self.centrifugal, ("centrifugal",), least=0.0))
+        elif self.centre is not None:
+            raise InputError("goes with a centrifugal load only", where=("centre",))
+        if self.temperature is not None and not callable(self.temperature):
+            object.__setattr__(self, "temperature", _field(self.temperature))
 
     @property
     def kind(self) -> str:
-        """Which of force, nodal_forces, traction, pressure, body_force it is."""
+        """Which of the kinds it is, by the name of its parameter."""
         return next(kind for kind in _LOAD_KINDS if getattr(self, kind) is not None)
 
     @property
@@ -120,6 +175,13 @@ class Load:
 def spell_place(on: Place) -> str:
     """A place as a name: itself, or ``point(0, 8)``."""
     return on if isinstance(on, str) else f"point({', '.join(f'{x:g}' for x in on)})"
+
+
+def _field(values: Any) -> float | Array:
+    """One temperature, or one a node."""
+    if not hasattr(values, "__len__"):
+        return number(values, ("temperature",))
+    return frozen(vector(values, ("temperature",)))
 
 
 def _rows(values: Any) -> Array:

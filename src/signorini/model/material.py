@@ -52,6 +52,11 @@ class Elastic:
         """The smallest Young's modulus of any direction, force per area."""
         return self.E
 
+    @property
+    def expands(self) -> bool:
+        """Whether temperature strains it."""
+        return self.expansion != 0.0
+
     def __str__(self) -> str:
         return f"E {self.E:g}, nu {self.nu:g}"
 
@@ -139,6 +144,11 @@ class Orthotropic:
     def smallest_modulus(self) -> float:
         """The smallest Young's modulus along an axis, force per area."""
         return min(self.E1, self.E2, self.E3)
+
+    @property
+    def expands(self) -> bool:
+        """Whether temperature strains it."""
+        return any((self.expansion1, self.expansion2, self.expansion3))
 
     def __str__(self) -> str:
         return f"E {self.E1:g}, {self.E2:g}, {self.E3:g} at {self.angle:g} degrees"

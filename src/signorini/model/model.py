@@ -14,7 +14,7 @@ from signorini.arrays import IntArray
 from signorini.checks import choice, number
 from signorini.errors import InputError, one_of
 from signorini.model.body import Body
-from signorini.model.conditions import Load, Support
+from signorini.model.conditions import BODY_LOADS, Foundation, Load, Support
 from signorini.model.contact import Contact
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Obstacle
@@ -36,7 +36,8 @@ class Model:
         areas are for the whole circumference
     thickness : out of plane, length; forces and areas are for this thickness
     bodies : every cell of the mesh belongs to exactly one
-    supports, loads, contacts : see :class:`Support`, :class:`Load`, :class:`Contact`
+    supports, foundations, loads, contacts : see :class:`Support`, :class:`Foundation`, :class:`Load`,
+        :class:`Contact`
     obstacles : rigid ones that move, see :class:`Rigid`; fixed ones are said in the contact itself
     steps : the load history; by default one step, all loads from 0 to 1, in one increment
     title, units : said again in the results
@@ -63,6 +64,7 @@ class Model:
     thickness: float = 1.0
     bodies: Sequence[Body] = ()
     supports: Sequence[Support] = ()
+    foundations: Sequence[Foundation] = ()
     loads: Sequence[Load] = ()
     contacts: Sequence[Contact] = ()
     obstacles: Sequence[Rigid] = ()
@@ -83,6 +85,7 @@ class Model:
         for part, kind in (
             ("bodies", Body),
             ("supports", Support),
+            ("foundations", Foundation),
             ("loads", Load),
             ("contacts", Contact),
             ("obstacles", Rigid),
@@ -93,6 +96,8 @@ class Model:
         for i, support in enumerate(self.supports):
             self._check_place(support.on, ("support", i, "on"), nodes=True)
             self._check_dimension(support.u, ("support", i, "u"))
+        for i, foundation in enumerate(self.foundations):
+            self._check_place(foundation.on, ("foundation", i, "on"), nodes=False)
         for i, load in enumerate(self.loads):
             self._check_load(i, load)
         for i, contact in enumerate(self.contacts):
@@ -144,9 +149,8 @@ class Model:
 
     def _check_load(self, i: int, load: Load) -> None:
         where = ("load", i, "on")
-        if load.kind == "body_force":
-            if load.on not in {body.name for body in self.bodies}:
-                raise InputError(one_of(str(load.on), [body.name for body in self.bodies], "body"), where=where)
+        if load.kind in BODY_LOADS:
+            self._check_body_load(i, load)
         elif load.kind in ("force", "nodal_forces") and load.spread == "traction":
             self._check_place(load.on, where, nodes=True)
         else:
@@ -158,8 +162,33 @@ class Model:
                     f"has shape {load.nodal_forces.shape}; expected {expected}, one force for each of the nodes",
                     where=("load", i, "nodal_forces"),
                 )
-        for kind in ("force", "traction", "body_force"):
+        for kind in ("force", "traction", "body_force", "gravity", "centre"):
             self._check_dimension(getattr(load, kind), ("load", i, kind))
+
+    def _check_body_load(self, i: int, load: Load) -> None:
+        """What the loads inside a body need from its material, and from the kind of model."""
+        names = [body.name for body in self.bodies]
+        if load.on not in names:
+            raise InputError(one_of(str(load.on), names, "body"), where=("load", i, "on"))
+        body = self.bodies[names.index(str(load.on))]
+        if load.kind in ("gravity", "centrifugal") and body.material.density == 0.0:
+            raise InputError(
+                f"'{body.name}' has no density; expected one in its material", where=("load", i, load.kind)
+            )
+        if load.kind == "temperature" and not body.material.expands:
+            raise InputError(f"'{body.name}' has no thermal expansion; expected it in its material", where=("load", i))
+        count = len(self.mesh.points)
+        if isinstance(load.temperature, np.ndarray) and len(load.temperature) != count:
+            raise InputError(
+                f"has {len(load.temperature)} values; expected one per node of the mesh, {count}",
+                where=("load", i, "temperature"),
+            )
+        if self.axisymmetric and load.gravity is not None and load.gravity[0] != 0.0:
+            raise InputError(
+                f"is {load.gravity}, which is not symmetric; expected it along the axis", where=("load", i, "gravity")
+            )
+        if self.axisymmetric and load.centre is not None:
+            raise InputError("an axisymmetric body rotates about its axis", where=("load", i, "centre"))
 
     def _check_contact(self, i: int, contact: Contact) -> None:
         self._check_place(contact.nonmortar, ("contact", i, "nonmortar"), nodes=False)
@@ -211,8 +240,8 @@ class Model:
             raise InputError(f"has {len(parts)} components; expected {self.dimension}", where=where)
 
     def _check_labels(self) -> None:
-        groups: tuple[tuple[str, Iterable[Support | Load | Contact | Rigid]], ...] = (
-            ("support", self.supports),
+        groups: tuple[tuple[str, Iterable[Support | Foundation | Load | Contact | Rigid]], ...] = (
+            ("support", (*self.supports, *self.foundations)),
             ("load", self.loads),
             ("contact", self.contacts),
             ("obstacle", self.obstacles),

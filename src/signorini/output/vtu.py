@@ -38,7 +38,9 @@ def write_step(model: Model, step: StepResult, path: Path) -> None:
     """
     import meshio
 
-    stresses = body_stresses(make_space(model.mesh, axisymmetric=model.axisymmetric), model, step.displacement)
+    stresses = body_stresses(
+        make_space(model.mesh, axisymmetric=model.axisymmetric), model, step.displacement, step.factors
+    )
     nodes = np.concatenate([part.nodes for part in stresses])
     stress = np.concatenate([part.stress for part in stresses])
     blocks, body = _cells(model, stresses)

@@ -85,7 +85,7 @@ def certify(
         return Certificate(**{field.name: np.inf for field in fields(Certificate)})
     applied = loads + interface.B.T @ r
     residual = constraints.transform.T @ (K @ u - applied)
-    balance = motions.T @ (state.external + interface.B.T @ r)
+    balance = motions.T @ (state.external + constraints.foundation_forces(u) + interface.B.T @ r)
     moved = interface.B @ u
     normal, tangential = r[:n] / scale.force, r[n:] / scale.force
     gap = (state.point.gap + moved[:n] + interface.normal_compliance * r[:n] / interface.area) / scale.length

@@ -199,10 +199,11 @@ class StepResult:
     displacement : (nodes, d) length
     external : (nodes, d) loads and reactions of supports, force
     obstacles : moving obstacles by name
-    reactions : support to its force on the bodies, (d,)
+    factors : load factors at its end, by name
+    reactions : support or elastic foundation to its force on the bodies, (d,)
     strain_energy : of the bodies
-    interface_energy : of compliant interfaces
-    work : of loads, moving supports and interferences in this step
+    interface_energy : of compliant interfaces and elastic foundations
+    work : of loads, moving supports, interferences and changes of temperature in this step
     released : energy set free at once in this step: in jumps, by changes of the law, by contacts switched off
     energy_defect : work less what is stored, dissipated and released; rounding on an exact path
     certificate : the worst of every increment, or the end of an exact path
@@ -222,6 +223,7 @@ class StepResult:
     displacement: Array
     external: Array
     obstacles: Mapping[str, ObstacleResult]
+    factors: Mapping[str, float]
     reactions: Mapping[str, Array]
     strain_energy: float
     interface_energy: float

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 from coulomb_samples import random_problem as plane_problem
-from spatial_samples import punch, random_problem
+from spatial_samples import pressed_punch, random_problem
 
 from signorini import lcp
 from signorini.errors import InputError
@@ -98,8 +98,19 @@ def test_a_pair_in_trescas_law_resists_also_where_it_is_open():
     np.testing.assert_allclose(result.tangential_force, [[-0.3, 0.0]], atol=1e-14)
 
 
+def test_a_tresca_bound_is_a_force_of_any_size():
+    force = 1e9
+    problem = SpatialProblem(
+        W=0.5 * np.eye(3), b=force * np.array([-1.0, 5.0, 0.0]), friction=[2 * force], motions=np.zeros((3, 0)),
+        scale=force, tresca=[True],
+    )  # fmt: skip
+    np.testing.assert_allclose(solve_spatial(problem).tangential_force, [[-2 * force, 0.0]], rtol=1e-14)
+    with pytest.raises(InputError, match="is infinite at a pair in Tresca's law"):
+        one_pair((0, 0, 0), [np.inf], tresca=[True])
+
+
 def test_unlimited_friction_sticks_wherever_it_is_closed():
-    result = solve_spatial(punch(25, np.inf)[2])
+    result = solve_spatial(pressed_punch(25, np.inf)[2])
     assert result.solved
     assert set(result.state.tolist()) == {OPEN, STICK}
     assert not result.slip[result.state == STICK].any()

@@ -21,6 +21,9 @@ from signorini.trace import Attempt
 MEMORY = 5
 """Last violations of which a step must undercut the largest."""
 
+SHARP = 1e-13
+"""What an iterate may lack, relative, without one more step."""
+
 SHORTEST = 2.0**-6
 DECREASE = 1e-4
 
@@ -97,12 +100,15 @@ def newton(
         following = tangent(problem, r - h)
         changes.append(int(np.count_nonzero(~following.same_states(law))))
         law = following
-        if violation < best[0]:
-            best = violation, r, a, r - h
-        converged = _obeyed(equilibrium, r, h, violation, tolerance)
-        if converged:
-            end = "certified" if equilibrium.alpha == 0.0 else "converged"
+        done = converged  # the step after the first certified one squares its error
+        lacking = _lacking(equilibrium, r, h, violation)
+        if lacking < best[0]:
+            best = lacking, r, a, r - h
+        converged = converged or lacking <= tolerance
+        if done or lacking <= SHARP:
             break
+    if converged:
+        end = "certified" if equilibrium.alpha == 0.0 else "converged"
     _, r, a, y = best
     if equilibrium.alpha != 0.0:
         y = r - Equilibrium.of(problem).moved(r, a)
@@ -134,7 +140,8 @@ def _violation(equilibrium: Equilibrium, r: Array, h: Array) -> float:
     return float(np.linalg.norm(r - split(equilibrium.problem, r - h)[1]))
 
 
-def _obeyed(equilibrium: Equilibrium, r: Array, h: Array, violation: float, tolerance: float) -> bool:
+def _lacking(equilibrium: Equilibrium, r: Array, h: Array, violation: float) -> float:
+    """What the iterate lacks, relative: `certify`, or with a layer the violation of the law."""
     if equilibrium.alpha == 0.0:
-        return certify(equilibrium.problem, r - h) <= tolerance
-    return violation <= tolerance * max(float(np.linalg.norm(r)), equilibrium.problem.scale)
+        return certify(equilibrium.problem, r - h)
+    return violation / max(float(np.linalg.norm(r)), equilibrium.problem.scale, 1e-300)

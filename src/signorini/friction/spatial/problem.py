@@ -111,7 +111,8 @@ class SpatialProblem:
     def mu(self) -> Array:
         """(n, 2) Friction that can act: none along a locked tangent that is not dragged, 1e6 for ``inf``."""
         n = self.pairs
-        given = np.minimum(self.friction.reshape(n, -1) * np.ones((1, 2)), STICKY)
+        given = self.friction.reshape(n, -1) * np.ones((1, 2))
+        given = np.where(self.bounded[:, None], given, np.minimum(given, STICKY))
         still = self.locked & (self.b[n:].reshape(2, n).T == 0)
         return np.asarray(np.where(still, 0.0, given), dtype=np.float64)
 
@@ -208,6 +209,8 @@ def _check(problem: SpatialProblem) -> None:
         raise InputError(f"has shape {problem.bounded.shape}; expected {(n,)}", where=("tresca",))
     if not (problem.friction >= 0).all():
         raise InputError("has negative entries or NaN; expected mu >= 0, inf for pairs that stick", where=("friction",))
+    if not np.isfinite(problem.friction[problem.bounded]).all():
+        raise InputError("is infinite at a pair in Tresca's law; expected a force", where=("friction",))
     if not (np.isfinite(problem.scale) and problem.scale >= 0):
         raise InputError(f"is {problem.scale}; expected a finite number >= 0", where=("scale",))
     if problem.facets < 0 or problem.facets % 4:

@@ -3,7 +3,7 @@
 
 1. Newton from the previous solution where there is one, then from every pair sticking. Nearly always enough.
 2. Floating bodies: proof that the loads pull them away (see `rigid`).
-3. Sweeps and proximal Newton in rounds (see `proximal`).
+3. Sweeps and proximal Newton in rounds, then proximal Newton alone (see `proximal`).
 
 Whatever a method finds is certified (see `certify`) before it is believed. `limit_load` says how far the load can be
 raised where all of them end without an answer.
@@ -24,7 +24,7 @@ from signorini.friction.spatial.equilibrium import Equilibrium
 from signorini.friction.spatial.law import OPEN, SLIP, STICK, split, states, sticking, tangent
 from signorini.friction.spatial.newton import NewtonEnd, newton
 from signorini.friction.spatial.problem import SpatialProblem
-from signorini.friction.spatial.proximal import proximal
+from signorini.friction.spatial.proximal import proximal_rounds, swept_rounds
 from signorini.friction.spatial.result import LimitLoad, SpatialResult
 from signorini.friction.spatial.rigid import pulled_away
 from signorini.pairstate import UNDECIDED
@@ -39,14 +39,16 @@ class SpatialSettings:
     ----------
     tolerance : of `certify`, relative to the data
     newton_steps : most linear systems of one Newton run
-    rounds, sweeps : most rounds of sweeps and proximal Newton, and sweeps of each
+    swept_rounds, sweeps : most rounds of sweeps and proximal Newton, and sweeps of each
+    proximal_rounds : most rounds of proximal Newton alone
     bisections : of the load factor, in `limit_load`
     """
 
     tolerance: float = 1e-10
     newton_steps: int = 25
-    rounds: int = 40
+    swept_rounds: int = 15
     sweeps: int = 20
+    proximal_rounds: int = 50
     bisections: int = 10
 
 
@@ -81,20 +83,20 @@ def solve_spatial(
     if problem.pairs == 0:
         return _solved(problem, np.zeros(0), 0.0, ())
     trace: list[Attempt] = []
-    least = np.inf
-    for found in _ends(problem, start, settings):
-        trace.append(found.attempt)
-        least = min(least, found.residual)
-        if found.residual <= settings.tolerance:
-            return _solved(problem, found.y, found.residual, tuple(trace))
-        if problem.floating and found.attempt.method == "newton" and len(trace) == 1 + (start is not None):
-            escape = pulled_away(problem)
-            end = "nothing proved" if escape is None else "pulled away"
-            trace.append(Attempt(method="rigid motions", iterations=1, end=end))
-            if escape is not None:
-                return _unsolved(problem, "no_equilibrium", tuple(trace), least, PULLED_AWAY, escape)
+    best = _tried(None, _newton_runs(problem, start, settings), settings.tolerance, trace)
+    if best.residual > settings.tolerance and problem.floating:
+        escape = pulled_away(problem)
+        end = "nothing proved" if escape is None else "pulled away"
+        trace.append(Attempt(method="rigid motions", iterations=1, end=end))
+        if escape is not None:
+            return _unsolved(problem, "no_equilibrium", tuple(trace), best.residual, PULLED_AWAY, escape)
+    if best.residual > settings.tolerance:
+        best = _tried(best, _rounds(problem, settings), settings.tolerance, trace)
+    if best.residual <= settings.tolerance:
+        return _solved(problem, best.y, best.residual, tuple(trace))
     ends = "; ".join(f"{attempt.method}: {attempt.end}" for attempt in trace[:3])
-    return _unsolved(problem, "not_found", tuple(trace), least, f"{NOTHING} ({ends}; least residual {least:.1e})")
+    message = f"{NOTHING} ({ends}; least residual {best.residual:.1e})"
+    return _unsolved(problem, "not_found", tuple(trace), best.residual, message)
 
 
 def limit_load(
@@ -132,19 +134,32 @@ def limit_load(
     return LimitLoad(factor=factor, beyond=beyond, result=result, closed=int(closed), sticking=int(stick))
 
 
-def _ends(problem: SpatialProblem, start: Array | None, settings: SpatialSettings) -> Iterator[NewtonEnd]:
-    """Where the methods end, one after the other, each tried only when it is asked for."""
-    equilibrium = Equilibrium.of(problem)
+def _tried(best: NewtonEnd | None, ends: Iterator[NewtonEnd], tolerance: float, trace: list[Attempt]) -> NewtonEnd:
+    """The first end that is certified, or the best of all; what was tried goes into the trace."""
+    for end in ends:
+        trace.append(end.attempt)
+        if best is None or end.residual < best.residual:
+            best = end
+        if end.residual <= tolerance:
+            break
+    assert best is not None  # the run from sticking is always there
+    return best
+
+
+def _newton_runs(problem: SpatialProblem, start: Array | None, settings: SpatialSettings) -> Iterator[NewtonEnd]:
+    """Newton from the start given, then from sticking."""
     laws = ([] if start is None else [tangent(problem, np.asarray(start))]) + [sticking(problem)]
     for law in laws:
-        yield newton(equilibrium, law, limit=settings.newton_steps, tolerance=settings.tolerance)
-    yield from proximal(
-        problem,
-        rounds=settings.rounds,
-        sweeps=settings.sweeps,
-        steps=settings.newton_steps,
-        tolerance=settings.tolerance,
+        yield newton(Equilibrium.of(problem), law, limit=settings.newton_steps, tolerance=settings.tolerance)
+
+
+def _rounds(problem: SpatialProblem, settings: SpatialSettings) -> Iterator[NewtonEnd]:
+    """Sweeps and proximal Newton, then that alone."""
+    steps, tolerance = settings.newton_steps, settings.tolerance
+    yield from swept_rounds(
+        problem, rounds=settings.swept_rounds, sweeps=settings.sweeps, steps=steps, tolerance=tolerance
     )
+    yield from proximal_rounds(problem, rounds=settings.proximal_rounds, steps=steps, tolerance=tolerance)
 
 
 def _solved(problem: SpatialProblem, y: Array, residual: float, trace: tuple[Attempt, ...]) -> SpatialResult:

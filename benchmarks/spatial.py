@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contact in space: how the cone solver and the mortar coupling do; writes the tables of docs/three_dimensions.md.
+
+python -m benchmarks.spatial
+"""
+
+from __future__ import annotations
+
+import itertools
+import time
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.page import seconds, table, write
+from signorini.bench.spatial import hard_random, punch
+from signorini.friction.spatial import from_compliance, natural_residual, solve_spatial, split
+from signorini.interface.spatial import make_surface, mortar_coupling
+from signorini.interface.spatial.candidates import near_pairs
+from signorini.interface.spatial.faces import node_places
+
+PAGE = Path(__file__).parent.parent / "docs" / "three_dimensions.md"
+FRICTIONS = (0.1, 0.3, 0.6, 1.0)
+
+
+def punches() -> str:
+    rows = []
+    for side in (7, 10, 15, 20, 30):
+        A, c = punch(side)
+        steps, worst, spent = [], 0.0, []
+        for mu in FRICTIONS:
+            problem, root = from_compliance(A, c, np.full(side**2, mu))
+            _ = problem.interface.A
+            start = time.process_time()
+            result = solve_spatial(problem)
+            spent.append(time.process_time() - start)
+            r = split(problem, result.y)[1] * root
+            steps.append("/".join(str(a.iterations) for a in result.trace))
+            worst = max(worst, natural_residual(A @ r + c, r, mu, root[: side**2] ** 2))
+        closed = int((result.state > 0).sum())
+        rows.append((side**2, closed, ", ".join(steps), f"{worst:.0e}", seconds(max(spent))))
+    head = ("pairs", "closed (mu 1)", f"Newton systems at mu = {', '.join(map(str, FRICTIONS))}", "residual", "seconds")
+    return table(head, rows)
+
+
+def facets() -> str:
+    A, c = punch(10)
+    exact = {mu: solve_spatial(from_compliance(A, c, np.full(100, mu))[0]) for mu in FRICTIONS}
+    rows = []
+    for count in (4, 8, 16, 32):
+        nodal, resultant, bound = 0.0, 0.0, 2 * np.sin(np.pi / (2 * count))
+        for mu, circle in exact.items():
+            polygon = solve_spatial(from_compliance(A, c, np.full(100, mu), facets=count)[0])
+            error = polygon.tangential_force - circle.tangential_force
+            nodal = max(nodal, np.linalg.norm(error, axis=1).max() / (mu * circle.normal_force.max()))
+            total = np.linalg.norm(circle.tangential_force.sum(axis=0))
+            resultant = max(resultant, np.linalg.norm(error.sum(axis=0)) / total)
+        rows.append((count, f"{100 * nodal:.1f} %", f"{100 * resultant:.2f} %", f"{100 * bound:.0f} %"))
+    return table(("facets", "largest nodal error / (mu p_max)", "resultant", "half a facet, 2 sin(pi / 2m)"), rows)
+
+
+def hard() -> str:
+    rows = []
+    for gap in (1.0, 0.0):
+        outcomes = {"newton": 0, "rounds": 0, "not found": 0}
+        worst, most = 0.0, 0
+        for _, mu, A, c in hard_random(gap):
+            n = len(c) // 3
+            problem, root = from_compliance(A, c, np.full(n, mu))
+            result = solve_spatial(problem)
+            if not result.solved:
+                outcomes["not found"] += 1
+                continue
+            outcomes["newton" if len(result.trace) == 1 else "rounds"] += 1
+            most = max(most, sum(a.method == "proximal newton" for a in result.trace))
+            r = split(problem, result.y)[1] * root
+            worst = max(worst, natural_residual(A @ r + c, r, mu, root[:n] ** 2))
+        rows.append((f"gaps {gap:g}", *outcomes.values(), most, f"{worst:.0e}"))
+    return table(
+        ("72 problems", "Newton alone", "with rounds", "not found", "most rounds", "residual of the solved"), rows
+    )
+
+
+def plane_side(n: int, kind: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """A unit square of n^2 cells, inner nodes moved at random, straight edges: nodes (k, 2) and faces."""
+    line = np.linspace(0, 1, n + 1)
+    x = np.stack(np.meshgrid(line, line, indexing="ij"), axis=-1)
+    x[1:-1, 1:-1] += np.random.default_rng(seed).uniform(-0.3, 0.3, x[1:-1, 1:-1].shape) / n
+    number = np.arange((n + 1) ** 2).reshape(n + 1, n + 1)
+    quads = np.stack([number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]], axis=-1).reshape(-1, 4)
+    corners = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]) if kind in (3, 6) else quads
+    a, b = node_places(kind).T
+    weights = np.column_stack([1 - a - b, a, b])
+    if corners.shape[1] == 4:
+        weights = np.column_stack([(1 - a) * (1 - b), (1 + a) * (1 - b), (1 + a) * (1 + b), (1 - a) * (1 + b)]) / 4
+    every = np.einsum("ka,mad->mkd", weights, x.reshape(-1, 2)[corners])
+    flat, index = np.unique(np.round(every.reshape(-1, 2), 12), axis=0, return_inverse=True)
+    return flat, index.reshape(len(corners), kind)
+
+
+def two_sides(n: int, kind: int, m: int, other: int):
+    """An upper side looking down and a lower one looking up."""
+    (above, upper), (below, lower) = plane_side(n, kind, 1), plane_side(m, other, 2)
+    flat = np.concatenate([above, below])
+    points = np.column_stack([flat, np.zeros(len(flat))])
+    reverse = {3: [0, 2, 1], 4: [0, 3, 2, 1], 6: [0, 2, 1, 5, 4, 3], 8: [0, 3, 2, 1, 7, 6, 5, 4]}
+    reverse[9] = [*reverse[8], 8]
+    return points, make_surface(points, upper[:, reverse[kind]]), make_surface(points, lower + len(above))
+
+
+def mortar() -> str:
+    worst = 0.0
+    for kind, other in itertools.product((3, 4, 6, 8, 9), repeat=2):
+        points, one, two = two_sides(3, kind, 5, other)
+        coupling = mortar_coupling(one, two)
+        worst = max(worst, float(np.abs(coupling.relative @ points).max()))
+    rows = []
+    for n in (10, 20, 40, 80):
+        _, one, two = two_sides(n, 4, 3 * n // 2, 4)
+        start = time.process_time()
+        mortar_coupling(one, two)
+        spent = time.process_time() - start
+        pieces = [side.blocks[0].plane_pieces[:, 0] for side in (one, two)]
+        tested = len(near_pairs(*pieces, search=0.5)[0])
+        rows.append((n**2, (3 * n // 2) ** 2, f"{tested / n**2:.1f}", seconds(spent), f"{1e3 * spent / n**2:.2f}"))
+    head = ("nonmortar faces", "mortar faces", "pairs tested a face", "seconds", "ms a face")
+    words = f"Linear fields on all 25 pairs of kinds of faces, no parallelograms: largest error {worst:.0e}."
+    return f"{table(head, rows)}\n\n{words}"
+
+
+def main() -> None:
+    mortar_coupling(*two_sides(2, 4, 3, 4)[1:])  # compiles
+    for name, measured in (("punches", punches), ("facets", facets), ("hard", hard), ("mortar", mortar)):
+        text = measured()
+        print(text, "\n")
+        write(name, text, PAGE)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fields along paths: exact where the cells are, per body, and points outside are told."""
+
+import numpy as np
+import pytest
+from families import FAMILIES, MIXED, block
+
+import signorini as sg
+from signorini.fem.path import along
+from signorini.fem.space import make_space
+from signorini.model.mesh import join
+
+
+def model_of(mesh, kind="plane strain"):
+    return sg.Model(mesh, kind=kind, bodies=[sg.Body(name, sg.Elastic(E=3.0, nu=0.3)) for name in mesh.bodies])
+
+
+@pytest.mark.parametrize("family", [*FAMILIES, *MIXED])
+def test_linear_fields_on_crooked_meshes(family):
+    model = model_of(block(family))
+    points = np.random.default_rng(3).uniform([1.05, 0.05], [1.95, 0.95], (200, 2))
+    slope = np.array([[0.2, 0.1], [-0.4, -0.3]])
+    result = along(make_space(model.mesh), model, model.mesh.points @ slope.T, points, body="block")
+    np.testing.assert_allclose(result.displacement, points @ slope.T, atol=1e-13)
+    np.testing.assert_allclose(result.stress, np.tile(result.stress[0], (len(points), 1)), atol=1e-12)
+    np.testing.assert_allclose(np.diff(result.distance), np.linalg.norm(np.diff(points, axis=0), axis=1))
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_a_disk_of_cells_of_many_sizes(family):
+    """Cells from a hundredth of the radius to half of it, bent edges: a linear field is exact in all of them."""
+    mesh = sg.quarter_disk(radius=8.0, contact_length=0.5, contact_spacing=0.0625, cells=family)
+    radius, turn = np.linspace(0.01, 7.2, 60), np.linspace(0.05, 1.5, 60)
+    points = np.column_stack([radius * np.sin(turn), 8.0 - radius * np.cos(turn)])
+    slope = np.array([[0.2, 0.1], [-0.4, -0.3]])
+    result = along(make_space(mesh), model_of(mesh), mesh.points @ slope.T, points, body="disk")
+    np.testing.assert_allclose(result.displacement, points @ slope.T, atol=1e-12)
+
+
+def test_bodies_that_touch_keep_their_own_stress():
+    mesh = join({"upper": sg.rectangle(nx=2, ny=2, origin=(0.0, 1.0)), "lower": sg.rectangle(nx=3, ny=3)})
+    model = model_of(mesh)
+    u = np.zeros_like(mesh.points)
+    u[mesh.nodes_of("upper.bottom")] = (0.0, 0.1)
+    ends = [(0.0, 1.0), (1.0, 1.0)]
+    space = make_space(mesh)
+    upper, lower = (along(space, model, u, ends, body=name) for name in ("upper", "lower"))
+    assert np.abs(upper.stress).max() > 0.1
+    np.testing.assert_allclose(lower.stress, 0.0)
+    with pytest.raises(sg.InputError, match=r"point 2 at \(1.0, 1.5\) is not in the body 'lower'"):
+        along(space, model, u, [(0.5, 0.5), (1.0, 1.5)], body="lower")
+    with pytest.raises(sg.InputError, match="unknown body 'loer'; did you mean 'lower'"):
+        along(space, model, u, ends, body="loer")
