@@ -10,7 +10,6 @@ from typing import Any
 from signorini.checks import text
 from signorini.deck.table import check_keys, make, table, tables
 from signorini.errors import InputError, Where, one_of
-from signorini.fem.profile import mesh_profile
 from signorini.model.body import Body
 from signorini.model.conditions import Foundation, Load, Support
 from signorini.model.contact import Contact
@@ -109,7 +108,8 @@ def _shape(key: str, value: Any, where: Where, folder: Path) -> Obstacle:
     entry = table(value, where)
     if key != "profile" or "file" not in entry:
         return make(_OBSTACLES[key], entry, where)
-    from signorini.fem.read import read_mesh  # brings every format of meshio with it
+    from signorini.fem.profile import mesh_profile  # brings scikit-fem with it
+    from signorini.fem.read import read_mesh  # and this every format of meshio
 
     check_keys(entry, where, known=["file", "boundary", "fillet"], needed=["file", "boundary"])
     try:
