@@ -130,6 +130,15 @@ def _number(values: Array) -> float | Array:
     return float(values[0]) if len(values) == 1 else frozen(values)
 
 
+def contacts_of(prepared: Prepared, before: State, state: State) -> tuple[ContactResult, ...]:
+    """The contacts in one state, with slips and dissipation since another."""
+    moved = prepared.interface.across(state.slip - before.slip)
+    return tuple(
+        _contact_result(prepared, _surface(prepared, i), before, state, moved, moved)
+        for i in range(len(prepared.model.contacts))
+    )
+
+
 def _instants(
     prepared: Prepared, leg: Leg, cycle_ends: Sequence[float], heat: Callable[[State], float]
 ) -> Iterator[Instant]:
