@@ -46,8 +46,8 @@ def test_stacked_blocks(cells, friction, across):
 
 @every_cell
 @pytest.mark.parametrize(("across", "swap"), [((3, 3), False), ((2, 3), False), ((4, 3), True)])
-def test_block_on_foundation(cells, across, swap, friction=0.3):
-    model = block_on_foundation(friction=friction, cells=cells, across=across)
+def test_block_on_foundation(cells, across, swap):
+    model = block_on_foundation(friction=0.3, cells=cells, across=across)
     if swap:
         seat = replace(model.contacts[0], nonmortar="foundation.seat", mortar="block.bottom")
         model = replace(model, contacts=[seat])
