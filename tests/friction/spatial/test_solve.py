@@ -153,7 +153,7 @@ def test_a_limit_load_below_what_statics_allow_names_the_motion():
     few = SpatialSettings(swept_rounds=2, proximal_rounds=2, bisections=7)
     limit = limit_load(problem, base.b, settings=few)
     assert 0.9 < limit.factor < limit.beyond < 0.95
-    assert limit.sticking == 0
+    assert limit.sticking <= 0.1 * limit.closed
     result = solve_spatial(problem, settings=few)
     assert result.outcome == "not_found"
     assert "run away" in result.message
