@@ -21,11 +21,14 @@ Rows = list[tuple[str, ...]]
 def describe(deck: Deck, examined: Examined) -> list[str]:
     """Lines on everything that the deck holds."""
     model, mesh = deck.model, deck.model.mesh
-    families = ", ".join(f"{len(cells)} {family}s" for family, cells in mesh.cells.items())
+    families = ", ".join(
+        f"{len(cells)} {family}{'s' if family.isalpha() else ''}" for family, cells in mesh.cells.items()
+    )
+    across = "forces on the whole circumference" if model.axisymmetric else f"thickness {model.thickness:g}"
     free = examined.constraints.transform.shape[1]
     lines = [
         f"{deck.path}: {model.title or 'untitled'}",
-        f"{model.kind}, thickness {model.thickness:g}, units: {model.units}",
+        f"{model.kind}, {across}, units: {model.units}",
         f"{len(mesh.points)} nodes, {mesh.number_of_cells} elements ({families}), "
         f"{mesh.points.size} dofs, {free} of them free",
     ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from signorini.verify import blocks, cylinder, rings
+from signorini.verify import blocks, cylinder, elements, rings
 from signorini.verify.check import Check
 
 Case = Callable[[], Iterator[Check]]
@@ -21,6 +21,10 @@ QUICK: tuple[Case, ...] = (
     cylinder.refined,
     cylinder.literal_equals_compliance,
     cylinder.exact_path,
+    elements.sphere_on_a_plane,
+    elements.hollow_spheres,
+    elements.cantilever,
+    elements.inside_bodies,
 )
 SLOW: tuple[Case, ...] = (cylinder.small_load,)
 
