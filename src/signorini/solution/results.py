@@ -173,7 +173,7 @@ class Cycle:
     work, dissipation, released : in it
     sliding : longest distance that a pair slid in it, length
     change : largest change of a contact force from the beginning to the end of it, of the largest force
-    drift : largest change of a slip from the beginning to the end of it, length
+    drift : how far a pair that touches at both ends of it has moved along, length
     """
 
     number: int
