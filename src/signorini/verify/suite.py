@@ -24,16 +24,16 @@ QUICK: tuple[Case, ...] = (
     cylinder.exact_path,
     cylinder.increments_at_events,
     half_planes.cattaneo_mindlin,
+    elements.sphere_on_a_plane,
+    elements.hollow_spheres,
+    elements.cantilever,
+    elements.inside_bodies,
 )
 SLOW: tuple[Case, ...] = (
     cylinder.small_load,
     half_planes.cattaneo_mindlin_refined,
     half_planes.spence,
     half_planes.complete_contact,
-    elements.sphere_on_a_plane,
-    elements.hollow_spheres,
-    elements.cantilever,
-    elements.inside_bodies,
 )
 
 
