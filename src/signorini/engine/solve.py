@@ -68,9 +68,7 @@ def _begin(prepared: Prepared, start: Checkpoint | None) -> Checkpoint:
     model, interface = prepared.model, prepared.interface
     zero = dict.fromkeys(model.scaled_names, 0.0)
     if start is None:
-        return checkpoint(
-            prepared, initial_state(zero, prepared.space.number_of_dofs, interface.gap), inactive=frozenset()
-        )
+        return checkpoint(prepared, initial_state(zero, prepared.space.number_of_dofs, interface), inactive=frozenset())
     start.check(model, interface)
     point = start.state.point
     factors = zero | {name: factor for name, factor in point.factors.items() if name in zero}
