@@ -210,8 +210,9 @@ def refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
     if len(held):
         pair = held[np.argmin(gap[held])]
         contact = prepared.model.contacts[prepared.interface.contact[pair]]
+        number = prepared.model.mesh.labels[prepared.interface.node[pair]]
         raise SolveFailed(
-            f"{where}: contact '{contact.label}': supports press node {prepared.interface.node[pair] + 1} "
+            f"{where}: contact '{contact.label}': supports press node {number} "
             f"{-gap[pair]:.4g} into the other side and leave it no way out",
             status="no_equilibrium",
         )
