@@ -155,13 +155,12 @@ def _instants(
             _contact_result(prepared, surface, leg.before, snapshot.state, sliding, across(high - low))
             for surface in surfaces
         )
-        moved = prepared.space.at_nodes(snapshot.state.displacement)
         yield Instant(
             load_factor=snapshot.load_factor,
             what=snapshot.what,
             contacts=contacts,
-            work=snapshot.state.work - leg.before.work + heat(snapshot.state) - begun if snapshot.whole else np.nan,
-            displacement=frozen(moved) if snapshot.whole else None,
+            work=snapshot.state.work - leg.before.work + heat(snapshot.state) - begun if snapshot.worked else np.nan,
+            displacement=frozen(prepared.space.at_nodes(snapshot.state.displacement)) if snapshot.whole else None,
         )
         if cycle + 1 < len(cycle_ends) and snapshot.load_factor == cycle_ends[cycle]:
             low, high, cycle = slip, slip, cycle + 1

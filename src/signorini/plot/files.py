@@ -81,6 +81,12 @@ class ResultFolder:
             return list(csv.DictReader(file))
 
     @cached_property
+    def instants(self) -> list[dict[str, str]]:
+        """``history.csv``."""
+        with self._file("history.csv").open(newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    @cached_property
     def grid(self) -> Grid:
         """``solution.vtu``."""
         import meshio

@@ -169,7 +169,7 @@ class Instant:
     contacts : in the order of the model; gaps are NaN where the bodies were not looked at and a pair is far from
         touching, dissipation counts from the beginning of the step
     work : since the beginning of the step, NaN where the bodies were not looked at
-    displacement : (nodes, d) length, or None
+    displacement : (nodes, d) length, at times asked for, and everywhere where ``at = "events"``; otherwise None
     """
 
     load_factor: float
