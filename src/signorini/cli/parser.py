@@ -34,10 +34,14 @@ def make_parser() -> argparse.ArgumentParser:
         "--from", dest="start", metavar="DIR", help="go on from the end of a run: its result folder, or its state.npz"
     )
     run.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    run.add_argument("--json", action="store_true", help="print the summary as JSON instead of tables")
     run.add_argument("--backend", default="auto", metavar="NAME", help="of the factorisation (default: auto)")
 
     check = commands.add_parser("check", parents=[shared, keywords], help="say what would be solved, what looks wrong")
     check.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
+
+    check.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    check.add_argument("--json", action="store_true", help="print plain data for other programs")
 
     convert = commands.add_parser("convert", parents=[shared, keywords], help="write a deck as TOML, its mesh as .vtu")
     convert.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, distinct
 from signorini.deck.error import DeckError
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.course import Course, Pattern, unique_label
@@ -147,7 +147,7 @@ def _supports(course: Course, places: Places, conditions: Conditions) -> None:
                     on = places.at_nodes(nodes, pattern.label)
                     conditions.add_support(pattern, on=on, u=u, name=f"{pattern.label} u{axis + 1}")
     for label, patterns in resting.items():
-        slots = np.unique(np.concatenate([pattern.slots for pattern in patterns]))
+        slots = distinct(np.concatenate([pattern.slots for pattern in patterns]))
         first, second = (slots[slots % DIMENSION == axis] // DIMENSION for axis in range(DIMENSION))
         both = np.intersect1d(first, second)
         for nodes, u in (

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, distinct
 from signorini.deck.inp.amplitudes import Amplitude, find_amplitude
 from signorini.deck.inp.block import Block, Row
 from signorini.deck.inp.course import Course
@@ -226,7 +226,7 @@ def _dsload(item: Placed, known: Known, courses: Courses) -> None:
 
 def _whole_sections(elements: IntArray, label: str, known: Known, row: Row) -> list[int]:
     """Indices of the sections that elements make up."""
-    chosen = np.unique(elements)
+    chosen = distinct(elements)
     found = [i for i, section in enumerate(known.sections) if np.isin(section.elements, chosen).all()]
     covered = sum(len(known.sections[i].elements) for i in found)
     if covered < len(chosen):

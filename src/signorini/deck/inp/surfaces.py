@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from signorini.arrays import IntArray
+from signorini.arrays import IntArray, distinct
 from signorini.deck.inp.block import Block, Row
 from signorini.deck.inp.flatten import Placed, Scope
 from signorini.deck.inp.grid import Grid
@@ -114,7 +114,7 @@ def make_surfaces(placed: list[Placed], edges: Edges, nodes: Sets, elements: Set
         name = item.scope.prefixed(block.value("NAME"))
         if block.choice("TYPE", ("ELEMENT", "NODE"), "ELEMENT") == "NODE":
             members = [nodes.find(row.text(0, "a node or a node set"), item.scope, row)[1] for row in block.rows()]
-            found = np.unique(np.concatenate([np.empty(0, np.int64), *members]))
+            found = distinct(np.concatenate([np.empty(0, np.int64), *members]))
             surfaces.add(name, edges.between(found), block)
             surfaces.nodes[name.upper()] = found
         else:
@@ -133,5 +133,5 @@ def _of_elements(item: Placed, edges: Edges, elements: Sets) -> IntArray:
             raise row.error(f"*SURFACE: face '{face}' is not supported; expected S1 to S4")
         else:
             pieces.append(edges.keys(members, face, row, "*SURFACE"))
-    keys: IntArray = np.unique(np.concatenate(pieces))
+    keys: IntArray = distinct(np.concatenate(pieces))
     return keys
