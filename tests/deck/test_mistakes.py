@@ -120,11 +120,7 @@ MISTAKES = {
         "contact_length = 7.0",
         ":7: mesh.contact_length: is 7; expected at most 0.7 radius = 5.6",
     ),
-    "later kind": (
-        '"plane strain"',
-        '"3d"',
-        ":2: kind: is '3d', which this version does not have; expected plane strain or plane stress or axisymmetric",
-    ),
+    "kind of another dimension": ('"plane strain"', '"3d"', ":2: kind: is '3d', but the mesh has 2 coordinates"),
     "single brackets": (
         "[[load]]",
         "[load]",

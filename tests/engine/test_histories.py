@@ -8,6 +8,7 @@ import pytest
 
 import signorini as sg
 from signorini.gallery.blocks import dragged_block
+from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit
 
 FLOOR = sg.Plane(point=(0, 0), normal=(0, 1))
@@ -172,6 +173,25 @@ def test_what_floats_keeps_its_energy_balance_through_cycles():
     held = dragged_block(friction=0.3)
     steps = [PRESS, sg.Step(scale={"push": [1.0, -1.0]}, repeat=2)]
     assert balance(sg.solve(replace(held, steps=steps))) < 1e-10
+
+
+def test_increments_until_the_answer_stays(monkeypatch):
+    exact = sg.solve(zhu_cylinder(refine=2, steps=[sg.Step()])).contact("foundation")
+    numbers, errors = [], []
+    for tolerance in (0.1, 0.01):
+        steps = [sg.Step(increments="auto", tolerance=tolerance)]
+        solution = sg.solve(zhu_cylinder(refine=2, steps=steps))
+        numbers.append(solution.last.increments)
+        error = np.abs(solution.contact("foundation").traction - exact.traction).max()
+        errors.append(error / exact.pressure.max())
+        assert any("half as many change contact forces by" in note for note in solution.last.notes)
+    assert numbers[0] < numbers[1]
+    assert errors[1] < 0.5 * errors[0]
+    assert errors[1] < 0.02
+    assert sg.solve(zhu_cylinder(refine=2, friction=0.0, steps=steps)).last.increments == 2
+    monkeypatch.setattr("signorini.engine.automatic.MOST", 8)
+    with pytest.raises(sg.SolveFailed, match="8 increments still change contact forces by"):
+        sg.solve(zhu_cylinder(refine=1, steps=steps))
 
 
 @pytest.mark.parametrize(

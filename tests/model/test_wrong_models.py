@@ -93,7 +93,7 @@ IN_THE_MODEL = [
     (lambda: Step(increments=0), "increments: is 0; expected a whole number >= 1"),
     (lambda: Step(increments=2.0), "increments: is 2.0; expected a whole number >= 1"),
     (lambda: Step(scale=2.0), "scale: is 2.0; expected a table of names and factors"),
-    (lambda: Mesh(points=[[0, 0, 0]], cells={}, bodies={}), "mesh.points: has shape (1, 3); expected (n, 2), plane"),
+    (lambda: Mesh(points=[[0]], cells={}, bodies={}), "mesh.points: has shape (1, 1); expected (n, 2) or (n, 3)"),
     (
         lambda: Mesh(points=[[0, 0], [1, np.nan]], cells={}, bodies={}),
         "mesh.points: node 2 is at [ 1. nan]; expected finite numbers",

@@ -71,7 +71,7 @@ def test_a_locked_answer_is_refused(cells):
         solve(sg.Model(mesh, bodies=[rubber], **block))
     solve(sg.Model(mesh, kind="plane stress", bodies=[rubber], **block))
     if cells != "quad":
-        with pytest.raises(sg.InputError, match=f"has no 'quad' cells; it has {cells}"):
+        with pytest.raises(sg.InputError, match=f"has no 'quad' or 'hexahedron' cells; it has {cells}"):
             solve(sg.Model(mesh, bodies=[replace(rubber, formulation="incompatible")], **block))
 
 

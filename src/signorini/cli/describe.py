@@ -135,6 +135,8 @@ def _stepping(step: Step) -> str:
 
 
 def _way(step: Step) -> str:
+    if step.increments == "auto":
+        return f"increments until forces change less than {step.tolerance:g}"
     if step.increments is not None:
         return "1 increment" if step.increments == 1 else f"{step.increments} increments"
     if step.path is None:

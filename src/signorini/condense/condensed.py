@@ -36,14 +36,14 @@ class Condensed:
     Attributes
     ----------
     factorisation : of the bodies, with the contact dofs last
-    W : (2 a, 2 a) for the a active pairs, symmetric, spectrum in [0, 1]
+    W : (d a, 2 a) for the a active pairs, symmetric, spectrum in [0, 1]
     active : (n,) pairs that the law is asked of: candidates that can move along their normal
     held : (n,) pairs that cannot, because supports hold them
-    root : (2 a,) square roots of D, force per length to the 1/2
+    root : (d a,) square roots of D, force per length to the 1/2
     dofs : (m,) the contact dofs among the free displacements
-    compliance : (2 a,) of the interface, C, length per force
+    compliance : (d a,) of the interface, C, length per force
     ties : tied pairs, which are no unknowns of the law: all displacements here leave them at rest
-    B : (2 a, m) relative displacements of the active pairs in terms of them, B_c
+    B : (d a, m) relative displacements of the active pairs in terms of them, B_c
     """
 
     factorisation: Factorisation
@@ -60,8 +60,12 @@ class Condensed:
     @property
     def active_rows(self) -> IntArray:
         """Rows of B that belong to active pairs: normals, then tangents."""
-        pairs = np.nonzero(self.active)[0]
-        return np.concatenate([pairs, len(self.active) + pairs])
+        return np.nonzero(np.tile(self.active, self.directions))[0]
+
+    @property
+    def directions(self) -> int:
+        """Rows a pair, d."""
+        return len(self.root) // max(1, int(self.active.sum()))
 
     def reduce(self, f: Array) -> Reduced:
         """Loads (z,) on the free displacements, condensed onto the contact dofs."""
@@ -73,9 +77,9 @@ class Condensed:
         Parameters
         ----------
         f_c : (m,) condensed load
-        offset : (2 a,) h_0, length: initial gaps and minus the tangential displacements of the step before, each plus
+        offset : (d a,) h_0, length: initial gaps and minus the tangential displacements of the step before, each plus
             the relative displacement that supports prescribe
-        motions : (2 a, k) what the pairs see of the rigid motions that supports leave free, scaled: ``W R = R``
+        motions : (d a, k) what the pairs see of the rigid motions that supports leave free, scaled: ``W R = R``
         """
         response = self._softening * (self.B @ self._solve(f_c))
         scaled = self.root * offset
@@ -86,7 +90,7 @@ class Condensed:
         return result
 
     def displacement(self, reduced: Reduced, h: Array, r: Array, offset: Array) -> Array:
-        """Free displacements (z,) under a load and the solution h, r (2 a,), in the units of the problem."""
+        """Free displacements (z,) under a load and the solution h, r (d a,), in the units of the problem."""
         if not len(self.dofs):
             return reduced.expand(reduced.load)
         moved = h - self.compliance * r - offset
@@ -105,7 +109,7 @@ class Condensed:
         LinAlgError
             If they do not.
         """
-        rows = np.tile(kept[self.active], 2)
+        rows = np.tile(kept[self.active], self.directions)
         return _image(
             self.factorisation,
             self.B[rows],
@@ -147,7 +151,7 @@ def condense(
     Parameters
     ----------
     K : (z, z) stiffness of the free displacements
-    B : (2 n, z) relative displacements of the pairs in terms of them
+    B : (d n, z) relative displacements of the pairs in terms of them
     interface : the pairs
     nodes : (z,) node of each free displacement
     candidates : (n,) pairs that may touch; the nodes of the others are eliminated like any other
@@ -165,9 +169,8 @@ def condense(
     B.eliminate_zeros()
     held = size[:n] <= _HELD
     active = candidates & ~held & ~interface.tied
-    pairs = np.nonzero(active)[0]
-    ties = make_ties(B, np.nonzero(np.tile(interface.tied, 2) & (size > _HELD))[0])
-    B = B[np.concatenate([pairs, n + pairs])]
+    ties = make_ties(B, np.nonzero(interface.rows(interface.tied) & (size > _HELD))[0])
+    B = B[np.nonzero(interface.rows(active))[0]]
     dofs = np.unique(np.concatenate([B.indices, ties.B.indices]))
     with clock.phase("factorisation"):
         factorisation = factorise(K, dofs, nodes=nodes, backend=backend)
@@ -189,8 +192,7 @@ def _condense(
     """From the contact dofs to the pairs."""
     pairs = np.nonzero(active)[0]
     stiffness = _interface_stiffness(K_c, B_c, interface, pairs)
-    area = np.tile(interface.area[pairs], 2)
-    compliance = np.concatenate([interface.normal_compliance[pairs], interface.tangential_compliance[pairs]]) / area
+    compliance = (interface.compliance / interface.areas)[interface.rows(active)]
     return _image(factorisation, B_c, stiffness, compliance, active=active, held=held, dofs=dofs, ties=ties)
 
 
@@ -205,7 +207,7 @@ def _image(
     dofs: IntArray,
     ties: Ties,
 ) -> Condensed:
-    """The image form for a stiffness D and a compliance C of the interface, each (2 a,)."""
+    """The image form for a stiffness D and a compliance C of the interface, each (d a,)."""
     softening = 1.0 / (1.0 + stiffness * compliance)
     stiff = factorisation.schur() + (B_c.T @ sp.diags_array(stiffness * softening) @ B_c).toarray()
     springs = make_springs(stiff, ties.B[:, dofs].toarray())
@@ -228,7 +230,7 @@ def _image(
 
 
 def _interface_stiffness(K_c: sp.csr_array, B_c: sp.csr_array, interface: Interface, pairs: IntArray) -> Array:
-    """D, (2 a,) force per length: of the size that makes Newton's method most robust, equal in both directions.
+    """D, (d a,) force per length: of the size that makes Newton's method most robust, equal in all directions.
 
     Half the mean stiffness that a pair of the contact feels where only its own nodes move, spread like the areas and
     divided by the root of their number (between the stiffness of a node and that of the whole surface).
@@ -239,4 +241,4 @@ def _interface_stiffness(K_c: sp.csr_array, B_c: sp.csr_array, interface: Interf
         own = interface.contact[pairs] == contact
         area = interface.area[pairs][own]
         result[own] = 0.5 * felt[own].mean() / np.sqrt(own.sum()) * area / area.mean()
-    return np.tile(result, 2)
+    return np.tile(result, interface.directions)

@@ -28,7 +28,7 @@ from signorini.deck.scan import line_of
 from signorini.deck.syntax import parse
 from signorini.deck.table import check_keys
 from signorini.errors import InputError, Where
-from signorini.model.model import KINDS, Model
+from signorini.model.model import Model
 from signorini.model.prints import Table
 
 _KEYS = (
@@ -46,7 +46,6 @@ _KEYS = (
     "obstacle",
     "step",
 )
-_LATER = ("3d",)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -139,10 +138,6 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int]) -> De
     for key in ("title", "units"):
         if not isinstance(data.get(key, ""), str):
             raise InputError(f"is {data[key]!r}; expected text", where=(key,))
-    if data.get("kind") in _LATER:
-        raise InputError(
-            f"is '{data['kind']}', which this version does not have; expected {' or '.join(KINDS)}", where=("kind",)
-        )
     if "mesh" not in data:
         raise InputError("there is no mesh; expected [mesh] with a generator or a file")
     materials = deck_materials(data)

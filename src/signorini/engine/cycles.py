@@ -8,8 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from signorini.engine.leg import Leg
+from signorini.friction.law import OPEN
 from signorini.solution.results import Cycle
 from signorini.solution.scale import Scale
+from signorini.solution.state import State
 
 SAME = 1e-8
 """Forces of the largest, and slips of the size of the data, that count as equal."""
@@ -41,11 +43,17 @@ def make_cycles(leg: Leg, ends: Sequence[float]) -> tuple[Cycle, ...]:
                 released=state.released - begin.released,
                 sliding=float(sliding.max(initial=0.0)),
                 change=float(np.abs(state.forces - begin.forces).max(initial=0.0)) / size,
-                drift=float(np.abs(state.slip - begin.slip).max(initial=0.0)),
+                drift=_drift(begin, state),
             )
         )
         begin, sliding = state, np.zeros_like(last)
     return tuple(found)
+
+
+def _drift(begin: State, end: State) -> float:
+    """Largest change of the tangential displacement of pairs that touch at both ends; what opens may slide unseen."""
+    touching = (begin.status != OPEN) & (end.status != OPEN)
+    return float(np.abs(end.tangential - begin.tangential)[touching].max(initial=0.0))
 
 
 def judge(cycles: Sequence[Cycle], scale: Scale) -> tuple[str, str]:
@@ -63,7 +71,10 @@ def judge(cycles: Sequence[Cycle], scale: Scale) -> tuple[str, str]:
         return "steady", words
     drifts = _since(cycles, repeats)
     if drifts is not None:
-        return "ratchets", f"ratchets from cycle {drifts} on: forces repeat, slip grows by {last.drift:.6g} a cycle"
+        return (
+            "ratchets",
+            f"ratchets from cycle {drifts} on: forces repeat, the contact moves on by {last.drift:.6g} a cycle",
+        )
     words = f"not steady after {len(cycles)} cycles: the last changes forces by {last.change:.2g} of the largest"
     return "not yet", words
 

@@ -34,7 +34,7 @@ def switched(prepared: Prepared, state: State, absent: BoolArray) -> State:
     off, on = prepared.absent & ~absent, absent & ~prepared.absent
     if not off.any() and not on.any():
         return state
-    given = np.where(np.tile(off, 2), state.forces, 0.0)
+    given = np.where(prepared.interface.rows(off), state.forces, 0.0)
     overlap = np.where(on, np.maximum(-state.gap, 0.0), 0.0)
     # compliant interfaces let their energy go with the law
     soft = stored_energy(replace(prepared, absent=absent), state) - stored_energy(prepared, state)
@@ -42,7 +42,7 @@ def switched(prepared: Prepared, state: State, absent: BoolArray) -> State:
         state,
         point=replace(state.point, gap=state.point.gap + overlap, given=given),
         gap=state.gap + overlap,
-        slip=np.where(on, 0.0, state.slip),
+        slip=np.where(np.tile(on, prepared.interface.directions - 1), 0.0, state.slip),
         status=np.where(off | on, OPEN, state.status),
         released=state.released + soft,
     )
@@ -55,13 +55,13 @@ def relaxed(prepared: Prepared, state: State, where: str) -> tuple[State, Certif
     after, is counted as released. None where nothing slips.
     """
     n, mu = len(prepared.interface), prepared.interface.friction
-    normal, tangential = state.forces[:n], np.abs(state.forces[n:])
+    normal, tangential = state.forces[:n], prepared.interface.across(state.forces[n:])
     bound = np.full(n, np.inf)
     np.multiply(mu, normal, out=bound, where=np.isfinite(mu))
     size = float(np.abs(state.forces).max(initial=0.0))
     if not (~prepared.absent & (tangential > (1.0 + _MORE) * bound + 1e-12 * size)).any():
         return None
     after, certificate, result = advance(prepared, state, state.point, f"{where}, friction lowered")
-    increment = np.where(prepared.absent, 0.0, after.slip - state.slip)
-    taken = np.maximum(-0.5 * (state.forces + after.forces)[n:] * increment, 0.0)
+    spent = 0.5 * (state.forces + after.forces)[n:] * (after.slip - state.slip)
+    taken = np.where(prepared.absent, 0.0, np.maximum(-spent.reshape(-1, n).sum(axis=0), 0.0))
     return set_free(prepared, state, after, taken=taken), certificate, result.trace

@@ -55,12 +55,12 @@ def follow_exactly(
     while True:
         with prepared.clock.phase("complementarity"):
             start = _start(prepared, state)
-            segment = follow(prepared.law, start, _right_hand_side(prepared, end))
+            segment = follow(prepared.plane_law, start, _right_hand_side(prepared, end))
         if segment.followed:
             legs.append(_leg(prepared, where, span, state, start, segment, end, whole=whole))
             return joined(legs)
         lost = _lost(prepared, where, span, segment)
-        landing = land(prepared.law, start, segment) if jumps and len(legs) < _JUMPS else None
+        landing = land(prepared.plane_law, start, segment) if jumps and len(legs) < _JUMPS else None
         if segment.jump is None or landing is None:
             raise lost if not jumps or segment.jump is None else SolveFailed(f"{lost}; {_NO_LANDING}", status="jump")
         limit = state.point.towards(end, segment.jump.factor)
@@ -147,10 +147,9 @@ def set_free(prepared: Prepared, before: State, after: State, *, taken: Array) -
 def stored_energy(prepared: Prepared, state: State) -> float:
     """In the bodies and in compliant interfaces."""
     interface = prepared.interface
-    compliance = np.concatenate([interface.normal_compliance, interface.tangential_compliance])
-    forces = np.where(np.tile(prepared.absent, 2), 0.0, state.forces)
+    forces = np.where(interface.rows(prepared.absent), 0.0, state.forces)
     strain = float(state.displacement @ (prepared.K @ state.displacement))
-    return 0.5 * (strain + float(forces**2 @ (compliance / np.tile(interface.area, 2))))
+    return 0.5 * (strain + float(forces**2 @ (interface.compliance / interface.areas)))
 
 
 def _offset(prepared: Prepared, point: LoadPoint) -> Array:
@@ -165,7 +164,7 @@ def _right_hand_side(prepared: Prepared, point: LoadPoint) -> Array:
     condensed = prepared.condensed
     reduced = condensed.reduce(free_load(prepared, point))
     return condensed.right_hand_side(
-        reduced.load, _offset(prepared, point)[condensed.active_rows], prepared.law.motions
+        reduced.load, _offset(prepared, point)[condensed.active_rows], prepared.plane_law.motions
     )
 
 
@@ -177,10 +176,10 @@ def _start(prepared: Prepared, state: State) -> PathState:
     h = condensed.root * np.concatenate([state.gap, state.tangential])[rows]
     if not state.forces.any() and not state.displacement.any():
         touching = bool((h[:half] >= 0.0).all())
-        return initial_state(prepared.law, b, motion=h if touching else None)
+        return initial_state(prepared.plane_law, b, motion=h if touching else None)
     r, status = state.forces[rows] / condensed.root, state.status[active]
     # friction that has risen since leaves some to spare
-    spare = (status > STICK) & (np.abs(r[half:]) < (1.0 - _SPENT) * prepared.law.mu * r[:half])
+    spare = (status > STICK) & (np.abs(r[half:]) < (1.0 - _SPENT) * prepared.plane_law.mu * r[:half])
     return PathState(
         b=b,
         h=h,

@@ -7,15 +7,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.arrays import Array
+from signorini.arrays import Array, IntArray
 from signorini.engine.leg import Leg, Snapshot
 from signorini.engine.prepare import Prepared
 from signorini.engine.span import Span
 from signorini.errors import SolveFailed
 from signorini.fem.rigid import describe_motion
 from signorini.friction.law import OPEN, STICK
+from signorini.friction.problem import CoulombProblem
 from signorini.friction.result import CoulombResult
 from signorini.friction.solve import solve_coulomb
+from signorini.friction.spatial import SpatialProblem, SpatialResult, solve_spatial
 from signorini.solution.certificate import Certificate, certify
 from signorini.solution.state import LoadPoint, State, next_state
 
@@ -57,10 +59,12 @@ def follow_increments(prepared: Prepared, number: int, where: str, span: Span, s
     )
 
 
-def advance(prepared: Prepared, state: State, point: LoadPoint, where: str) -> tuple[State, Certificate, CoulombResult]:
+def advance(
+    prepared: Prepared, state: State, point: LoadPoint, where: str
+) -> tuple[State, Certificate, CoulombResult | SpatialResult]:
     """One increment: from a state to the next point of the load history."""
     condensed, constraints, interface = prepared.condensed, prepared.constraints, prepared.interface
-    n, rows, active = len(interface), condensed.active_rows, condensed.active
+    n, active = len(interface), condensed.active
     loads, imposed = applied(prepared, point)
     offset = np.concatenate([point.gap, -state.tangential]) + interface.B @ imposed
     refuse_overlap(prepared, offset[:n], where)
@@ -70,7 +74,7 @@ def advance(prepared: Prepared, state: State, point: LoadPoint, where: str) -> t
         raise SolveFailed(f"{where}: {_explain(prepared, result)}", status=result.outcome)
     with prepared.clock.phase("recovery"):
         displacement = constraints.transform @ free + imposed
-        outside = np.setdiff1d(np.arange(2 * n), rows)
+        outside = np.nonzero(~interface.rows(active))[0]
         moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
         status = np.full(n, OPEN)
         status[active] = result.state
@@ -139,7 +143,9 @@ def certified(prepared: Prepared, state: State, before: Array, where: str) -> Ce
     )
 
 
-def _balanced(prepared: Prepared, f: Array, offset: Array, state: State) -> tuple[CoulombResult, Array, Array, Array]:
+def _balanced(
+    prepared: Prepared, f: Array, offset: Array, state: State
+) -> tuple[CoulombResult | SpatialResult, Array, Array, Array]:
     """The contact problem under the load f on the free displacements: result, forces, motions, free displacements.
 
     What equilibrium and the motions of the pairs lack in the end, on the problem as posed, is given to the condensed
@@ -147,21 +153,21 @@ def _balanced(prepared: Prepared, f: Array, offset: Array, state: State) -> tupl
     move (an arc that leaves its foundation) magnify.
     """
     condensed, interface, scale, law = prepared.condensed, prepared.interface, prepared.scale, prepared.law
-    n, rows, T, ties = len(interface), condensed.active_rows, prepared.constraints.transform, condensed.ties
-    forces, moved, free = np.zeros(2 * n), np.zeros(2 * n), np.zeros_like(f)
-    load, start = f, state.status[condensed.active] if state.forces.any() else None
+    rows, T, ties = condensed.active_rows, prepared.constraints.transform, condensed.ties
+    forces, moved, free = np.zeros(len(offset)), np.zeros(len(offset)), np.zeros_like(f)
+    load, start = f, _start(prepared, state)
     lacking = np.zeros(len(rows))
-    guided = np.tile(law.locked, 2)
+    guided = np.concatenate([law.locked.reshape(law.pairs, interface.directions - 1).all(axis=1), law.locked.T.ravel()])
     for _ in range(_REFINEMENTS + 1):
         with prepared.clock.phase("complementarity"):
             reduced = condensed.reduce(load)
             b = condensed.right_hand_side(reduced.load, offset[rows], law.motions) + condensed.root * lacking
-            result = solve_coulomb(replace(law, b=b), start)
+            result = _solve(law, b, start)
         if not result.solved:
             break
         with prepared.clock.phase("recovery"):
-            forces[rows] = condensed.root * np.concatenate([result.normal_force, result.tangential_force])
-            moved[rows] = np.concatenate([result.gap, result.slip]) / condensed.root
+            forces[rows] = condensed.root * np.concatenate([result.normal_force, result.tangential_force.T.ravel()])
+            moved[rows] = np.concatenate([result.gap, result.slip.T.ravel()]) / condensed.root
             free = condensed.displacement(reduced, moved[rows], forces[rows], offset[rows])
             u = T @ free
             forces[ties.rows] = 0.0
@@ -173,8 +179,29 @@ def _balanced(prepared: Prepared, f: Array, offset: Array, state: State) -> tupl
         size = max(np.abs(residual).max(initial=0.0) / scale.force, np.abs(misfit).max(initial=0.0) / scale.length)
         if size <= _BALANCED:
             break
-        load, lacking, start = load + residual, lacking + misfit, result.state
+        load, lacking = load + residual, lacking + misfit
+        start = result.y if isinstance(result, SpatialResult) else result.state
     return result, forces, moved, free
+
+
+def _start(prepared: Prepared, state: State) -> Array | IntArray | None:
+    """What the law's solver starts from: the states of the pairs, in space their ``y = r - h``; None at rest."""
+    condensed, rows = prepared.condensed, prepared.condensed.active_rows
+    if not state.forces.any():
+        return None
+    if prepared.interface.directions == 2:
+        return state.status[condensed.active]
+    still = np.concatenate([state.gap, np.zeros_like(state.tangential)])[rows]
+    start: Array = state.forces[rows] / condensed.root - condensed.root * still
+    return start
+
+
+def _solve(
+    law: CoulombProblem | SpatialProblem, b: Array, start: Array | IntArray | None
+) -> CoulombResult | SpatialResult:
+    if isinstance(law, SpatialProblem):
+        return solve_spatial(replace(law, b=b), None if start is None else np.asarray(start, dtype=np.float64))
+    return solve_coulomb(replace(law, b=b), None if start is None else np.asarray(start, dtype=np.int64))
 
 
 def refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
@@ -191,7 +218,7 @@ def refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
         )
 
 
-def _explain(prepared: Prepared, result: CoulombResult) -> str:
+def _explain(prepared: Prepared, result: CoulombResult | SpatialResult) -> str:
     """The reason, and the bodies that leave by name."""
     if result.escape is None or not prepared.law.floating:
         return result.message

@@ -22,6 +22,7 @@ from signorini.fem.space import Space, make_space
 from signorini.fem.stiffness import stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.friction.problem import CoulombProblem
+from signorini.friction.spatial import SpatialProblem
 from signorini.interface.candidates import candidates
 from signorini.interface.interface import Interface, friction_of, make_interface
 from signorini.linalg.protocol import NotPositiveDefinite
@@ -71,10 +72,23 @@ class Prepared(Examined):
 
     K: sp.csr_array
     condensed: Condensed
-    law: CoulombProblem
+    law: CoulombProblem | SpatialProblem
     clock: Clock
     backend: str
     absent: BoolArray
+
+    @property
+    def plane_law(self) -> CoulombProblem:
+        """The law of a plane model.
+
+        Raises
+        ------
+        InputError
+            In space, where there is no exact path.
+        """
+        if isinstance(self.law, SpatialProblem):
+            raise InputError("an exact path is for plane models; expected path = 'increments'", where=("step",))
+        return self.law
 
     @property
     def limited(self) -> bool:
@@ -172,7 +186,7 @@ def examine(model: Model) -> Examined:
         loads=loads,
         parts=parts,
         motions=motions,
-        floating=free_motions(motions, constraints, interface.B[np.tile(interface.tied, 2)]),
+        floating=free_motions(motions, constraints, interface.B[interface.rows(interface.tied)]),
         scale=data_scale(model, loads, constraints, interface),
     )
 
@@ -197,7 +211,7 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
 def _near(examined: Examined) -> BoolArray:
     """Pairs that can touch, or all of them where those alone would not hold a body."""
     near = candidates(examined.interface, examined.scale.length)
-    holding = examined.interface.B[np.tile(near, 2)]
+    holding = examined.interface.B[examined.interface.rows(near)]
     if free_motions(examined.motions, examined.constraints, holding).shape[1]:
         return np.ones_like(near)
     return near
@@ -240,11 +254,14 @@ def _with_ties(examined: Examined, ties: Ties) -> Constraints:
     return replace(constraints, prescribed=prescribed)
 
 
-def contact_law(interface: Interface, condensed: Condensed, floating: Array, scale: Scale) -> CoulombProblem:
-    """The contact law of the active pairs, with no load yet; floating (2 n, k) rigid motions as the pairs see them."""
+def contact_law(
+    interface: Interface, condensed: Condensed, floating: Array, scale: Scale
+) -> CoulombProblem | SpatialProblem:
+    """The contact law of the active pairs, with no load yet; floating (d n, k) rigid motions as the pairs see them."""
     rows = condensed.active_rows
     seen = np.where(np.any(condensed.W, axis=1, keepdims=True), floating[rows], 0.0)
-    return CoulombProblem(
+    kind = CoulombProblem if interface.directions == 2 else SpatialProblem
+    return kind(
         W=frozen(condensed.W),
         b=np.zeros(len(rows)),
         friction=interface.friction[condensed.active],
@@ -284,7 +301,8 @@ def refuse_free_motions(
     free = free_motions(motions, constraints, touching)
     if free.shape[1]:
         raise InputError(f"{_say(parts, free)}: no support or contact holds it; add a support")
-    resisting = interface.B[np.concatenate([np.ones(len(interface), bool), interface.friction > 0])]
+    rubbing = np.tile(interface.friction > 0, interface.directions - 1)
+    resisting = interface.B[np.concatenate([np.ones(len(interface), bool), rubbing])]
     free = free_motions(motions, constraints, resisting)
     if free.shape[1]:
         raise InputError(

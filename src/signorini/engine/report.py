@@ -129,15 +129,16 @@ def _instants(
 ) -> Iterator[Instant]:
     """The contacts at every snapshot, with what they slid since the beginning of the step and of the cycle."""
     surfaces = [_surface(prepared, i) for i in range(len(prepared.model.contacts))]
-    last, sliding = leg.before.slip, np.zeros_like(leg.before.slip)
+    last, sliding = leg.before.slip, np.zeros(len(prepared.interface))
     low, high, cycle = last, last, 0
     begun = heat(leg.before)
     for snapshot in leg.snapshots:
-        slip = snapshot.state.slip
-        sliding = sliding + np.abs(slip - last)
+        slip, across = snapshot.state.slip, prepared.interface.across
+        sliding = sliding + across(slip - last)
         low, high, last = np.minimum(low, slip), np.maximum(high, slip), slip
         contacts = tuple(
-            _contact_result(prepared, surface, leg.before, snapshot.state, sliding, high - low) for surface in surfaces
+            _contact_result(prepared, surface, leg.before, snapshot.state, sliding, across(high - low))
+            for surface in surfaces
         )
         moved = prepared.space.at_nodes(snapshot.state.displacement)
         yield Instant(
@@ -170,7 +171,7 @@ def _surface(prepared: Prepared, i: int) -> _Surface:
         "node": frozen(interface.node[own], np.int64),
         "points": frozen(prepared.model.mesh.points[interface.node[own]]),
         "normals": frozen(interface.normals[own]),
-        "tangents": frozen(interface.tangents[own]),
+        "tangents": frozen(interface.tangents[own, 0] if interface.directions == 2 else interface.tangents[own]),
         "area": frozen(interface.area[own]),
     }
     return _Surface(name=prepared.model.contacts[i].label, own=own, fixed=fixed)
@@ -180,20 +181,21 @@ def _contact_result(
     prepared: Prepared, surface: _Surface, before: State, state: State, sliding: Array, slip_range: Array
 ) -> ContactResult:
     interface, n, own = prepared.interface, len(prepared.interface), surface.own
-    normal, tangential, friction = state.forces[:n][own], state.forces[n:][own], interface.friction[own]
+    normal, friction = state.forces[:n][own], interface.friction[own]
+    tangential = interface.across(state.forces[n:])[own]
     code, area = state.status[own], surface.fixed["area"]
     bound = np.zeros(len(normal))
     np.multiply(friction, normal, out=bound, where=normal > 0)
     # a pair that a support guides carries no friction: it touches without slipping
-    sticks = (code == STICK) | ((friction > 0) & (np.abs(tangential) < (1.0 - 1e-9) * bound))
+    sticks = (code == STICK) | ((friction > 0) & (tangential < (1.0 - 1e-9) * bound))
     status = np.where(code == OPEN, results.OPEN, np.where(sticks, results.STICK, results.SLIP))
     dissipation = (state.dissipation - before.dissipation)[own]
     return ContactResult(
         name=surface.name,
         gap=frozen(state.gap[own] - interface.normal_compliance[own] * normal / area),
         pressure=frozen(normal / area),
-        traction=frozen(tangential / area),
-        slip=frozen(state.slip[own]),
+        traction=frozen(_rows(state.forces[n:] / np.tile(interface.area, interface.directions - 1), n)[own]),
+        slip=frozen(_rows(state.slip, n)[own]),
         sliding=frozen(sliding[own]),
         slip_range=frozen(slip_range[own]),
         status=status,
@@ -201,3 +203,8 @@ def _contact_result(
         dissipation=float(dissipation.sum()),
         **surface.fixed,
     )
+
+
+def _rows(tangential: Array, n: int) -> Array:
+    """Tangential values row by row, ((d - 1) n,), pair by pair: (n,) in the plane, (n, 2) in space."""
+    return tangential if len(tangential) == n else tangential.reshape(-1, n).T

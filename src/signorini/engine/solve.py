@@ -9,6 +9,7 @@ from math import ceil
 import numpy as np
 
 from signorini.clock import Clock
+from signorini.engine.automatic import follow_automatically
 from signorini.engine.enter import relaxed, switched
 from signorini.engine.exact import follow_exactly
 from signorini.engine.increments import follow_increments, measured
@@ -21,6 +22,7 @@ from signorini.errors import InputError, SolveFailed
 from signorini.friction.law import OPEN
 from signorini.model.model import Model
 from signorini.model.stage import Stage, stages
+from signorini.model.step import Step
 from signorini.solution.certificate import TOLERANCE
 from signorini.solution.checkpoint import Checkpoint, digest
 from signorini.solution.history import History
@@ -71,9 +73,7 @@ def _begin(prepared: Prepared, start: Checkpoint | None) -> Checkpoint:
     model, interface = prepared.model, prepared.interface
     zero = dict.fromkeys(model.scaled_names, 0.0)
     if start is None:
-        return checkpoint(
-            prepared, initial_state(zero, prepared.space.number_of_dofs, interface.gap), inactive=frozenset()
-        )
+        return checkpoint(prepared, initial_state(zero, prepared.space.number_of_dofs, interface), inactive=frozenset())
     start.check(model, interface)
     point = start.state.point
     factors = zero | {name: factor for name, factor in point.factors.items() if name in zero}
@@ -97,7 +97,7 @@ def _follow(prepared: Prepared, begin: Checkpoint) -> History:
     schedule = list(stages(prepared.model, factors=state.point.factors, inactive=begin.inactive))
     steps: list[StepResult] = []
     now, inactive = replace(prepared, absent=absent_pairs(prepared, begin.inactive)), begin.inactive
-    prepared.clock.expect(sum((stage.step.increments or 1) * len(stage.ends) for stage in schedule))
+    prepared.clock.expect(sum(_expected(stage) for stage in schedule))
     try:
         for stage in schedule:
             absent, now = now.absent, staged(prepared, stage)
@@ -110,6 +110,11 @@ def _follow(prepared: Prepared, begin: Checkpoint) -> History:
     except SolveFailed as failure:
         return _history(prepared, failure.status, str(failure), steps, checkpoint(prepared, state, inactive=inactive))
     return _history(prepared, "solved", "", steps, checkpoint(prepared, state, inactive=inactive))
+
+
+def _expected(stage: Stage) -> int:
+    number = stage.step.increments
+    return (number if isinstance(number, int) else 1) * len(stage.ends)
 
 
 def checkpoint(prepared: Prepared, state: State, *, inactive: frozenset[str]) -> Checkpoint:
@@ -161,7 +166,9 @@ def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPo
     step, friction = stage.step, prepared.interface.friction
     rubbing = bool(((friction > 0) & np.isfinite(friction) & ~prepared.absent).any())
     if step.path != "exact" and (step.path is not None or step.increments is not None or not rubbing):
-        return follow_increments(prepared, _increments(stage, span), stage.name, span, state, end)
+        if step.increments == "auto":
+            return follow_automatically(prepared, step.tolerance, stage.name, span, state, end)
+        return follow_increments(prepared, _increments(step, span, stage), stage.name, span, state, end)
     try:
         return follow_exactly(
             prepared, stage.name, span, state, end, whole=step.at == "events", jumps=step.follows_jumps
@@ -173,10 +180,10 @@ def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPo
         return replace(leg, notes=(f"{failure}; followed in {_BEHIND_A_JUMP} increments to what is a candidate",))
 
 
-def _increments(stage: Stage, span: Span) -> int:
+def _increments(step: Step, span: Span, stage: Stage) -> int:
     """Of a straight part: those of its whole segment, as far as they go."""
-    share = (span.high - span.low) * len(stage.ends)
-    return max(1, ceil((stage.step.increments or 1) * share - 1e-9))
+    number = step.increments if isinstance(step.increments, int) else 1
+    return max(1, ceil(number * (span.high - span.low) * len(stage.ends) - 1e-9))
 
 
 def _history(prepared: Prepared, status: str, message: str, steps: list[StepResult], end: Checkpoint) -> History:

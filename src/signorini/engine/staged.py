@@ -72,4 +72,4 @@ def _select(interface: Interface, kept: BoolArray) -> Interface:
         for field in fields(interface)
         if isinstance(value := getattr(interface, field.name), np.ndarray) and len(value) == len(kept)
     }
-    return replace(interface, B=interface.B[np.tile(kept, 2)], **parts)
+    return replace(interface, B=interface.B[interface.rows(kept)], **parts)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Facets of named boundaries, straight or curved: which way is out, how long they are, and integrals over them."""
+"""Facets of named boundaries, flat or curved: which way is out, how large they are, and integrals over them."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
-from signorini.fem.line import line_shapes
+from signorini.fem.faces import outer_faces
+from signorini.fem.facets import CORNERS, facet_nodes, facet_rule, facet_shapes
 from signorini.fem.space import Space
-
-_POINTS = {2: 2, 3: 4}  # of Gauss, by nodes of a facet: exact for pressure on both, with a radius too
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Boundary:
-    """Facets of a boundary, the body on their left.
+    """Facets of a boundary: edges in the plane, faces in space.
 
     Attributes
     ----------
-    facets : (m, 2) or (m, 3) nodes: first and second end, the body on the left of the way between them, and the middle
-    points : (m, 2 or 3, 2) their coordinates, length
-    nodes : (k,) sorted nodes
+    facets : (m, k) nodes. In the plane first and second end, the body on the left of the way between them, and the
+        middle; in space corners, anticlockwise seen from outside, then middles
+    points : (m, k, d) their coordinates, length
+    nodes : (n,) sorted nodes
     """
 
     facets: IntArray
@@ -32,44 +32,54 @@ class Boundary:
     nodes: IntArray
 
     @property
+    def dimension(self) -> int:
+        """Of space."""
+        return int(self.points.shape[2])
+
+    @property
+    def corners(self) -> int:
+        """Corners of a facet; its other nodes are in the middle of an edge, or of the facet."""
+        return 2 if self.dimension == 2 else CORNERS[self.facets.shape[1]]
+
+    @property
     def quadratic(self) -> bool:
-        """Whether the facets have a node in the middle."""
-        return self.facets.shape[1] == 3
+        """Whether the facets have nodes in the middle."""
+        return self.facets.shape[1] > self.corners
 
     @property
     def ends(self) -> IntArray:
-        """Sorted nodes at ends of facets; the others are in the middle of one."""
-        return np.unique(self.facets[:, :2])
+        """Sorted nodes at corners of facets; the others are in the middle of one."""
+        return np.unique(self.facets[:, : self.corners])
 
     @cached_property
     def shapes(self) -> tuple[Array, Array]:
-        """Shape functions of a facet at its quadrature points, and their derivatives, (q, 2 or 3)."""
-        return line_shapes(self.facets.shape[1], self._rule[0])
+        """Shape functions of a facet at its quadrature points (q, k), and their derivatives (q, k, d - 1)."""
+        return facet_shapes(self.dimension, self.facets.shape[1], self._rule[0])
 
     @cached_property
     def at(self) -> Array:
-        """Quadrature points of every facet, (m, q, 2)."""
+        """Quadrature points of every facet, (m, q, d)."""
         return np.einsum("qa,mai->mqi", self.shapes[0], self.points)
 
     @cached_property
     def outward(self) -> Array:
-        """Outward normal at every quadrature point times its share of the length, (m, q, 2)."""
+        """Outward normal at every quadrature point times its share of the length or area, (m, q, d)."""
         return _outward(self.points, self.shapes[1]) * self._rule[1][:, None]
 
     @cached_property
     def weights(self) -> Array:
-        """Length that belongs to every quadrature point, (m, q)."""
+        """Length or area that belongs to every quadrature point, (m, q)."""
         return np.linalg.norm(self.outward, axis=-1)
 
     @property
     def lengths(self) -> Array:
-        """Of every facet, (m,)."""
-        lengths: Array = self.weights.sum(axis=1)
-        return lengths
+        """Of every facet, (m,); in space the side of a square of its area."""
+        total: Array = self.weights.sum(axis=1)
+        return total if self.dimension == 2 else np.sqrt(total)
 
     @cached_property
     def normals(self) -> Array:
-        """Outward unit normal of every facet, of a curved one that of its chord, (m, 2)."""
+        """Outward unit normal of every facet, of a curved one the mean, (m, d)."""
         total = self.outward.sum(axis=1)
         normals: Array = total / np.linalg.norm(total, axis=1, keepdims=True) + 0.0
         return normals
@@ -88,29 +98,37 @@ class Boundary:
 
     @property
     def nodal_lengths(self) -> Array:
-        """Tributary length of every node, (k,)."""
-        return self.nodal(self.weights)
+        """Tributary length of every node, (n,); in space the side of a square of its area."""
+        total = self.nodal(self.weights)
+        return total if self.dimension == 2 else np.sqrt(np.maximum(total, 0.0))
 
     @cached_property
     def nodal_normals(self) -> Array:
-        """Outward unit normals at the nodes, averaged with the lengths of their facets, (k, 2)."""
-        where = np.array([-1.0, 1.0, 0.0][: self.facets.shape[1]])
-        own = _outward(self.points, line_shapes(self.facets.shape[1], where)[1])
-        own *= (self.lengths[:, None] / np.linalg.norm(own, axis=-1))[..., None]
-        total = np.zeros((len(self.nodes), 2))
+        """Outward unit normals at the nodes, averaged with the sizes of their facets, (n, d)."""
+        count = self.facets.shape[1]
+        own = _outward(self.points, facet_shapes(self.dimension, count, facet_nodes(self.dimension, count))[1])
+        own *= (self.weights.sum(axis=1)[:, None] / np.linalg.norm(own, axis=-1))[..., None]
+        total = np.zeros((len(self.nodes), self.dimension))
         np.add.at(total, np.searchsorted(self.nodes, self.facets), own)
         normals: Array = total / np.linalg.norm(total, axis=1, keepdims=True)
         return normals
 
     @property
+    def places(self) -> Array:
+        """Reference coordinates of the quadrature points, (q, d - 1)."""
+        return self._rule[0]
+
+    @property
     def _rule(self) -> tuple[Array, Array]:
-        return np.polynomial.legendre.leggauss(_POINTS[self.facets.shape[1]])
+        return facet_rule(self.dimension, self.facets.shape[1])
 
 
 def _outward(points: Array, slopes: Array) -> Array:
-    """Tangents ``dx/ds`` of facets (m, k, 2) turned outwards, (m, q, 2)."""
-    along = np.einsum("qa,mai->mqi", slopes, points)
-    return np.stack([along[..., 1], -along[..., 0]], axis=-1)
+    """Outward normals of facets (m, k, d) from the derivatives (q, k, d - 1) of their shape functions, (m, q, d)."""
+    along = np.einsum("qas,mai->mqsi", slopes, points)
+    if points.shape[-1] == 2:
+        return np.stack([along[..., 0, 1], -along[..., 0, 0]], axis=-1)
+    return np.cross(along[..., 0, :], along[..., 1, :])
 
 
 def boundary(space: Space, name: str, where: Where) -> Boundary:
@@ -119,8 +137,8 @@ def boundary(space: Space, name: str, where: Where) -> Boundary:
     Raises
     ------
     InputError
-        If a facet is no edge of a cell, or lies between two cells (shared by two bodies, or inside one); if it belongs
-        to both linear and quadratic cells, or names another middle node than the cell.
+        If a facet is no edge or face of a cell, or lies between two cells (shared by two bodies, or inside one); if it
+        belongs to both linear and quadratic cells, or names another middle node than the cell.
 
     Examples
     --------
@@ -133,7 +151,10 @@ def boundary(space: Space, name: str, where: Where) -> Boundary:
     given = space.mesh.boundaries[name]
     points = space.mesh.points
     if not len(given):
-        raise InputError(f"'{name}' has no edges; expected a boundary with edges", where=where)
+        raise InputError(f"'{name}' is empty; expected a boundary with edges or faces", where=where)
+    if space.dimension == 3:
+        facets = outer_faces(space.faces, given, len(points), name, where)
+        return Boundary(facets=facets, points=points[facets], nodes=np.unique(facets))
     empty = (points[given[:, 0]] == points[given[:, 1]]).all(axis=1)
     if empty.any():
         raise InputError(

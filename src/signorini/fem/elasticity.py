@@ -30,16 +30,19 @@ def isotropic(lame: float, shear: float) -> Array:
 
 
 def elasticity(material: Material, kind: str) -> Array:
-    """Stress xx, yy, zz, xy from strain, (4, 4), force per area.
+    """Stress xx, yy, zz, xy from strain, (4, 4), force per area; in space yz and xz too, (6, 6).
 
     Plane stress: zz has a zero row and column, what it adds to the others is condensed.
     """
     if isinstance(material, Elastic):
         shear = material.shear_modulus
-        D = isotropic(2.0 * shear * material.nu / (1.0 - 2.0 * material.nu), shear)[:4, :4]
+        D = isotropic(2.0 * shear * material.nu / (1.0 - 2.0 * material.nu), shear)
     else:
         stiff = np.asarray(np.linalg.inv(_compliance(material)), np.float64)
         D = _turned(stiff, material.angle)
+    if kind == "3d":
+        return D
+    D = D[:4, :4]
     if kind == "plane stress":
         D = D - np.outer(D[:, 2], D[2]) / D[2, 2]
         D[2], D[:, 2] = 0.0, 0.0
@@ -47,22 +50,23 @@ def elasticity(material: Material, kind: str) -> Array:
 
 
 def expansion(material: Material) -> Array:
-    """Free thermal strain xx, yy, zz, xy per temperature, (4,)."""
+    """Free thermal strain xx, yy, zz, xy, yz, xz per temperature, (6,)."""
     if isinstance(material, Elastic):
-        return material.expansion * np.array([1.0, 1.0, 1.0, 0.0])
-    alpha = np.array([material.expansion1, material.expansion2, material.expansion3, 0.0])
+        return material.expansion * np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
+    alpha = np.array([material.expansion1, material.expansion2, material.expansion3, 0.0, 0.0, 0.0])
     strain: Array = _strain_turn(-material.angle) @ alpha
     return strain
 
 
 def elasticities(model: Model) -> Array:
-    """Of every body, (bodies, 4, 4)."""
+    """Of every body, (bodies, 4, 4), in space (bodies, 6, 6)."""
     return np.array([elasticity(body.material, model.kind) for body in model.bodies])
 
 
 def expansions(model: Model) -> Array:
-    """Of every body, (bodies, 4)."""
-    return np.array([expansion(body.material) for body in model.bodies])
+    """Of every body, (bodies, 4), in space (bodies, 6)."""
+    components = 4 if model.dimension == 2 else 6
+    return np.array([expansion(body.material)[:components] for body in model.bodies])
 
 
 def law_tensor(D: Array, *, hoop: bool = False) -> Array:
@@ -85,9 +89,10 @@ def law_tensor(D: Array, *, hoop: bool = False) -> Array:
 
 
 def _compliance(material: Orthotropic) -> Array:
-    """Strain 1, 2, 3, 12 from stress, (4, 4)."""
+    """Strain 1, 2, 3, 12, 23, 13 from stress, (6, 6); G12 stands for moduli that plane models do not need."""
     E1, E2 = material.E1, material.E2
-    S = np.diag([1.0 / E1, 1.0 / E2, 1.0 / material.E3, 1.0 / material.G12])
+    shear = [1.0 / (modulus or material.G12) for modulus in (material.G12, material.G23, material.G13)]
+    S = np.diag([1.0 / E1, 1.0 / E2, 1.0 / material.E3, *shear])
     S[0, 1] = S[1, 0] = -material.nu12 / E1
     S[0, 2] = S[2, 0] = -material.nu13 / E1
     S[1, 2] = S[2, 1] = -material.nu23 / E2
@@ -95,14 +100,16 @@ def _compliance(material: Orthotropic) -> Array:
 
 
 def _strain_turn(angle: float) -> Array:
-    """Strains along axes turned by an angle, degrees, from those along x and y, (4, 4)."""
+    """Strains along axes turned about z by an angle, degrees, from those along x and y, (6, 6)."""
     c, s = cos(radians(angle)), sin(radians(angle))
     return np.array(
         [
-            [c * c, s * s, 0.0, c * s],
-            [s * s, c * c, 0.0, -c * s],
-            [0.0, 0.0, 1.0, 0.0],
-            [-2.0 * c * s, 2.0 * c * s, 0.0, c * c - s * s],
+            [c * c, s * s, 0.0, c * s, 0.0, 0.0],
+            [s * s, c * c, 0.0, -c * s, 0.0, 0.0],
+            [0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+            [-2.0 * c * s, 2.0 * c * s, 0.0, c * c - s * s, 0.0, 0.0],
+            [0.0, 0.0, 0.0, 0.0, c, -s],
+            [0.0, 0.0, 0.0, 0.0, s, c],
         ]
     )
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sp
 
+from signorini.arrays import Array
 from signorini.fem.boundary import boundary
 from signorini.fem.measure import facet_areas
 from signorini.fem.space import Space
@@ -28,11 +29,10 @@ def make_springs(space: Space, model: Model) -> dict[str, sp.csr_array]:
 def _springs(space: Space, model: Model, foundation: Foundation, where: tuple[str | int, ...]) -> sp.csr_array:
     side = boundary(space, foundation.on, (*where, "on"))
     normals = side.outward / side.weights[..., None]
-    tangents = np.stack([normals[..., 1], -normals[..., 0]], axis=-1)
     areas, parts = facet_areas(model, side), []
     for stiffness, directions in (
         (foundation.normal_stiffness, normals),
-        (foundation.tangential_stiffness, tangents),
+        *((foundation.tangential_stiffness, tangents) for tangents in _across(normals)),
     ):
         if stiffness > 0.0:
             size = np.sqrt(stiffness * np.maximum(areas, 0.0))[..., None] * directions
@@ -43,3 +43,13 @@ def _springs(space: Space, model: Model, foundation: Foundation, where: tuple[st
             entries = (values.ravel(), (rows.ravel(), columns.ravel()))
             parts.append(sp.csr_array(entries, shape=(areas.size, space.number_of_dofs)))
     return sp.csr_array(sp.vstack(parts))
+
+
+def _across(normals: Array) -> tuple[Array, ...]:
+    """Unit vectors across normals (..., d): one in the plane, two in space."""
+    if normals.shape[-1] == 2:
+        return (np.stack([normals[..., 1], -normals[..., 0]], axis=-1),)
+    least = np.eye(3)[np.argmin(np.abs(normals), axis=-1)]
+    first = np.cross(normals, least)
+    first = first / np.linalg.norm(first, axis=-1, keepdims=True)
+    return first, np.cross(normals, first)

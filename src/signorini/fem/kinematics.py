@@ -13,6 +13,13 @@ from signorini.fem.measure import measure
 from signorini.fem.space import Block, Space
 from signorini.model.model import Model
 
+_SQUARE = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
+BRICKS = {
+    "quad": np.array(_SQUARE),
+    "hexahedron": np.array([(*corner, z) for z in (-1.0, 1.0) for corner in _SQUARE]),
+}
+"""Families that have the incompatible formulation, with one internal mode along every reference axis; their corners."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Group:
@@ -55,35 +62,46 @@ class Kinematics:
     nodes: int
 
     def strain(self, u: Array) -> Array:
-        """Strains xx, yy, zz, xy (twice the tensor's) of displacements (m, k or k + modes, 2), (m, q, 4)."""
+        """Strains xx, yy, zz, xy (twice the tensor's) of displacements (m, k or k + modes, 2), (m, q, 4).
+
+        In space of displacements (m, k or k + modes, 3), with yz and xz, (m, q, 6).
+        """
         g = self.gradients[:, :, : u.shape[1]]
         slope = np.einsum("mqai,maj->mqij", g, u)
+        if u.shape[2] == 3:
+            both = slope + slope.swapaxes(2, 3)
+            return np.stack(
+                [*(slope[..., i, i] for i in range(3)), both[..., 0, 1], both[..., 1, 2], both[..., 0, 2]], -1
+            )
         hoop = slope[..., 2, 0] if g.shape[-1] == 3 else np.zeros(slope.shape[:2])
         shear = slope[..., 0, 1] + slope[..., 1, 0]
         return np.stack([slope[..., 0, 0], slope[..., 1, 1], hoop, shear], axis=-1)
 
     def forces(self, stress: Array) -> Array:
-        """``int B^T sigma`` on nodes and modes, (m, k + modes, 2), of stresses (m, q, 4)."""
-        tensor = stress[..., [[0, 3], [3, 1]]] * self.weights[..., None, None]
-        force: Array = np.einsum("mqai,mqij->maj", self.gradients[..., :2], tensor)
-        if self.gradients.shape[-1] == 3:
+        """``int B^T sigma`` on nodes and modes, (m, k + modes, d), of stresses (m, q, 4 or 6)."""
+        solid = stress.shape[2] == 6
+        components = [[0, 3, 5], [3, 1, 4], [5, 4, 2]] if solid else [[0, 3], [3, 1]]
+        tensor = stress[..., components] * self.weights[..., None, None]
+        force: Array = np.einsum("mqai,mqij->maj", self.gradients[..., : len(components)], tensor)
+        if self.gradients.shape[-1] == 3 and not solid:
             force[..., 0] += np.einsum("mqa,mq->ma", self.gradients[..., 2], stress[..., 2] * self.weights)
         return force
 
     def relaxed(self, D: Array, stress: Array) -> Array:
-        """Stresses (m, q, 4) with the internal modes in balance.
+        """Stresses (m, q, 4 or 6) with the internal modes in balance.
 
         Parameters
         ----------
-        D : (m, 4, 4) law of each cell
-        stress : (m, q, 4) before the modes give way
+        D : (m, 4, 4) or (m, 6, 6) law of each cell
+        stress : (m, q, 4 or 6) before the modes give way
         """
         modes = self.gradients.shape[2] - self.nodes
         if not modes:
             return stress
-        unit = np.zeros((2 * modes, len(D), self.nodes + modes, 2))
-        for i in range(2 * modes):
-            unit[i, :, self.nodes + i // 2, i % 2] = 1.0
+        d = 2 if D.shape[1] == 4 else 3
+        unit = np.zeros((d * modes, len(D), self.nodes + modes, d))
+        for i in range(d * modes):
+            unit[i, :, self.nodes + i // d, i % d] = 1.0
         strains = np.stack([self.strain(u) for u in unit], axis=-1)
         stresses = np.einsum("mcd,mqdi->mqci", D, strains)
         K = np.einsum("mq,mqci,mqcj->mij", self.weights, strains, stresses)
@@ -99,7 +117,7 @@ def groups(space: Space, model: Model) -> Iterator[Group]:
     incompatible = np.array([body.formulation == "incompatible" for body in model.bodies])
     for block in space.blocks:
         body = owner[block.first : block.first + len(block.cells)]
-        special = incompatible[body] if block.family == "quad" else np.zeros(len(body), bool)
+        special = incompatible[body] if block.family in BRICKS else np.zeros(len(body), bool)
         for kind in (False, True):
             index = np.nonzero(special == kind)[0]
             if len(index):
@@ -126,10 +144,10 @@ def kinematics(space: Space, model: Model, group: Group, *, best: bool = False) 
 
 
 def mode_gradients(space: Space, model: Model, group: Group) -> Array:
-    """Gradients of the modes ``1 - xi^2``, ``1 - eta^2`` of quadrilaterals at their quadrature points, (m, q, 2, e).
+    """Gradients of the modes ``1 - xi^2``, ``1 - eta^2`` of quadrilaterals at their quadrature points, (m, q, d, e).
 
     ``J_0^-T grad P det J_0 / det J`` with the Jacobian of the centre, less the mean over the cell: a constant stress
-    does no work on the modes, so the patch test is passed. They have no hoop strain.
+    does no work on the modes, so the patch test is passed. They have no hoop strain. Hexahedra have three.
 
     References
     ----------
@@ -139,8 +157,8 @@ def mode_gradients(space: Space, model: Model, group: Group) -> Array:
     block, points = group.block, space.mesh.points[group.cells]
     jacobians = np.einsum("mki,qkj->mqij", points, block.gradients)
     centre = jacobians.mean(axis=1)
-    xi = block.values @ [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-    slopes = -2.0 * xi[:, :, None] * np.eye(2)
+    xi = block.values @ BRICKS[block.family]
+    slopes = -2.0 * xi[:, :, None] * np.eye(xi.shape[1])
     determinants = np.linalg.det(jacobians)
     ratio = np.linalg.det(centre)[:, None] / determinants
     modes = np.einsum("mq,qpj,mji->mqpi", ratio, slopes, np.linalg.inv(centre))

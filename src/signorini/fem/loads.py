@@ -68,9 +68,10 @@ def _body_forces(space: Space, model: Model, load: Load) -> Array:
 
 
 def _density(load: Load, mass: float, at: Array, axisymmetric: bool) -> Array:
-    """Force per volume at points (m, q, 2)."""
+    """Force per volume at points (m, q, d)."""
     if load.centrifugal is not None:
-        arm = at - np.array(load.centre or (0.0, 0.0))
-        return mass * load.centrifugal**2 * (arm * [1.0, 0.0] if axisymmetric else arm)
+        arm = at - np.array(load.centre or (0.0,) * at.shape[-1])
+        outward = {2: (1.0, 0.0 if axisymmetric else 1.0), 3: (1.0, 1.0, 0.0)}[arm.shape[-1]]  # in space about z
+        return mass * load.centrifugal**2 * arm * outward
     constant = np.array(load.body_force) if load.body_force is not None else mass * np.array(load.gravity)
     return np.broadcast_to(constant, at.shape)

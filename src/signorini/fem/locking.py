@@ -31,16 +31,18 @@ def refuse_locking(model: Model) -> None:
                 families.add(family)
             first += len(cells)
         where = ("body", i, "formulation")
-        if body.formulation == "incompatible" and "quad" not in families:
+        if body.formulation == "incompatible" and not families & {"quad", "hexahedron"}:
             found = " and ".join(sorted(families))
-            raise InputError(f"is 'incompatible', but '{body.name}' has no 'quad' cells; it has {found}", where=where)
+            raise InputError(
+                f"is 'incompatible', but '{body.name}' has no 'quad' or 'hexahedron' cells; it has {found}", where=where
+            )
         ratio = body.material.bulk_modulus / body.material.shear_modulus
         if model.kind == "plane stress" or ratio <= _STIFF:
             continue
-        if body.formulation != "incompatible" or families != {"quad"}:
+        if body.formulation != "incompatible" or families not in ({"quad"}, {"hexahedron"}):
             raise InputError(
                 f"'{body.name}' is nearly incompressible (bulk over shear modulus {ratio:.3g}): its cells would lock. "
-                "Expected linear quadrilaterals ('quad') alone, with formulation = 'incompatible'",
+                "Expected linear quadrilaterals ('quad') or hexahedra alone, with formulation = 'incompatible'",
                 where=where,
             )
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from signorini.arrays import IntArray
 from signorini.errors import InputError
-from signorini.model.mesh import NODES_PER_CELL, Mesh
+from signorini.model.mesh import NODES_PER_CELL, NODES_PER_PLANE_CELL, NODES_PER_SOLID_CELL, Mesh
 
 _LINES, _POINTS = ("line", "line3"), "vertex"
 NAMED = "set:"
@@ -27,33 +27,36 @@ _PLANE = 1e-9  # of the size: how far a plane mesh may leave its plane
 
 
 def read_mesh(path: str | Path) -> Mesh:
-    """Read a plane mesh; physical groups (or named cell sets) become bodies, boundaries and node sets.
+    """Read a mesh; physical groups (or named cell sets) become bodies, boundaries and node sets.
 
-    Surfaces become bodies, curves boundaries, points node sets. Cells without a name form the body "body" if no cell
-    has one. Nodes keep their order: number k of the file is index k - 1, unless an array
-    ``number`` says otherwise. Arrays ``set:NAME`` of 0 and 1 name sets too (:mod:`signorini.fem.write`).
+    A mesh that holds solid cells is one in space: volumes become bodies, surfaces boundaries. Otherwise surfaces become
+    bodies and curves boundaries. Points become node sets. Cells without a name form the body "body" if no cell has one.
+    Nodes keep their order: number k of the file is index k - 1, unless an array ``number`` says otherwise. Arrays
+    ``set:NAME`` of 0 and 1 name sets too (:mod:`signorini.fem.write`).
 
     Parameters
     ----------
-    path : any format that meshio reads; the mesh lies in a plane z = const
+    path : any format that meshio reads; a plane mesh lies in a plane z = const
 
     Raises
     ------
     InputError
-        If the file is missing or unreadable, holds cells of a kind that this version does not have, is not plane, or a
-        group has no name.
+        If the file is missing or unreadable, holds cells of a kind that this version does not have, has no solid cells
+        and is not plane, or a group has no name.
     """
     path = Path(path)
     if not path.is_file():
         raise InputError(f"there is no file '{path}'", where=("mesh", "file"))
     found = _read(path)
     points = np.asarray(found.points, float)
-    if points.shape[1] == 3:
+    solid = any(block.type in NODES_PER_SOLID_CELL for block in found.cells)
+    if points.shape[1] == 3 and not solid:
         if np.ptp(points[:, 2]) > _PLANE * max(np.ptp(points, axis=0).max(), 1e-300):
             raise InputError(f"'{path}' is not plane: z goes from {points[:, 2].min():g} to {points[:, 2].max():g}")
         points = points[:, :2]
     named, cells = _named_parts(found, path)
-    families = {family: np.vstack(blocks) for family, blocks in cells.items() if family in NODES_PER_CELL}
+    bulk = NODES_PER_SOLID_CELL if solid else NODES_PER_PLANE_CELL
+    families = {family: np.vstack(blocks) for family, blocks in cells.items() if family in bulk}
     if not families:
         raise InputError(f"'{path}' holds no triangles or quadrilaterals; it has {', '.join(cells) or 'no cells'}")
     bodies, start = defaultdict(list), 0
@@ -65,7 +68,7 @@ def read_mesh(path: str | Path) -> Mesh:
         points=points,
         cells=families,
         bodies={name: np.concatenate(parts) for name, parts in bodies.items()} or {"body": np.arange(start)},
-        boundaries=_boundaries(named, cells),
+        boundaries=_surfaces(named, cells) if solid else _boundaries(named, cells),
         nodes=_nodes(found, named, cells),
         node_numbers=found.point_data.get(NODE_NUMBER),
         cell_numbers=_cell_numbers(found, families),
@@ -100,6 +103,25 @@ def _boundaries(named: dict[str, dict[str, IntArray]], cells: dict[str, list[Int
             found[name].append(np.vstack(cells[family])[index])
     shared = {name: np.vstack([part[:, :2] for part in parts]) for name, parts in found.items() if len(parts) > 1}
     return {name: parts[0] for name, parts in found.items()} | shared
+
+
+def _surfaces(named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntArray]]) -> dict[str, IntArray]:
+    """Faces by name.
+
+    Raises
+    ------
+    InputError
+        If triangles and quadrilaterals, or linear and quadratic faces, bear one name.
+    """
+    found: dict[str, IntArray] = {}
+    for family in NODES_PER_PLANE_CELL:
+        for name, index in named[family].items():
+            if name in found:
+                raise InputError(
+                    f"'{name}' holds faces of several kinds; expected one kind a boundary", where=("mesh", "boundaries")
+                )
+            found[name] = np.vstack(cells[family])[index]
+    return found
 
 
 def _read(path: Path) -> meshio.Mesh:

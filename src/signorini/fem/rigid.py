@@ -86,24 +86,33 @@ def make_parts(space: Space, model: Model) -> tuple[Part, ...]:
 def rigid_motions(space: Space, parts: tuple[Part, ...], *, axisymmetric: bool = False) -> sp.csr_array:
     """Translations along x and y and the rotation ``(-(y - y_c), x - x_c) / size`` of each part, (dofs, 3 parts).
 
-    Axisymmetric parts move along the axis alone, (dofs, parts): widening a ring or tilting a plate strains it.
+    In space three translations and the rotations ``e_k x (x - c) / size``, (dofs, 6 parts). Axisymmetric parts move
+    along the axis alone, (dofs, parts): widening a ring or tilting a plate strains it.
     """
+    d = space.dimension
+    full = d * (d + 1) // 2
+    each = 1 if axisymmetric else full
     rows, columns, values = [], [], []
     for i, part in enumerate(parts):
         lever = (space.mesh.points[part.nodes] - part.centre) / part.size
-        one, (x, y) = np.ones(len(part.nodes)), space.dofs(part.nodes).T
-        motions = [(0, x, one), (1, y, one), (2, x, -lever[:, 1]), (2, y, lever[:, 0])]
+        one, along = np.ones(len(part.nodes)), space.dofs(part.nodes).T
+        motions = [(k, dofs, one) for k, dofs in enumerate(along)]
+        for k, (first, second) in enumerate(_turns(d), start=d):
+            motions += [(k, along[first], -lever[:, second]), (k, along[second], lever[:, first])]
         if part.obstacle >= 0:
-            x, y, turn = space.obstacle_dofs(part.obstacle)[:3, None]
-            one = np.ones(1)
-            motions = [(0, x, one), (1, y, one), (2, turn, one)]
+            motions = [(k, dof, np.ones(1)) for k, dof in enumerate(space.obstacle_dofs(part.obstacle)[:full, None])]
         if axisymmetric:
-            motions = [(0, y, one)]
+            motions = [(0, motions[1][1], motions[1][2])]
         rows += [dofs for _, dofs, _ in motions]
-        columns += [np.full(len(dofs), (1 if axisymmetric else 3) * i + k) for k, dofs, _ in motions]
+        columns += [np.full(len(dofs), each * i + k) for k, dofs, _ in motions]
         values += [value for _, _, value in motions]
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-    return sp.csr_array(entries, shape=(space.number_of_dofs, (1 if axisymmetric else 3) * len(parts)))
+    return sp.csr_array(entries, shape=(space.number_of_dofs, each * len(parts)))
+
+
+def _turns(dimension: int) -> tuple[tuple[int, int], ...]:
+    """Of every rotation the axis that it turns into the other."""
+    return ((0, 1),) if dimension == 2 else ((1, 2), (2, 0), (0, 1))
 
 
 def free_motions(motions: sp.csr_array, constraints: Constraints, held: sp.csr_array) -> Array:
@@ -134,7 +143,7 @@ def describe_motion(parts: tuple[Part, ...], motion: Array) -> str:
 
     Parameters
     ----------
-    motion : coefficients of :func:`rigid_motions`, (3 parts,) or axisymmetric (parts,)
+    motion : coefficients of :func:`rigid_motions`: 3 of every part, 6 in space, 1 of axisymmetric ones
 
     Examples
     --------
@@ -148,26 +157,37 @@ def describe_motion(parts: tuple[Part, ...], motion: Array) -> str:
     if len(motion) == len(parts):
         moving = [part for part, along in zip(parts, motion, strict=True) if abs(along) > 1e-6 * largest]
         return " while ".join(f"{part.label} can move along the axis" for part in moving)
-    for part, (a, b, turn) in zip(parts, motion.reshape(-1, 3), strict=True):
-        if max(abs(a), abs(b), abs(turn)) < 1e-6 * largest:
-            continue
-        if abs(turn) < 1e-6 * largest:
-            if abs(b) < 1e-6 * largest:
-                way = "along x"
-            elif abs(a) < 1e-6 * largest:
-                way = "along y"
-            else:
-                way = f"along ({a / np.hypot(a, b):.4g}, {b / np.hypot(a, b):.4g})"
-            words.append(f"{part.label} can move {way}")
-        else:
-            centre = part.centre + part.size * np.array([-b, a]) / turn
-            centre[np.abs(centre) < 1e-9 * part.size] = 0.0
-            words.append(f"{part.label} can rotate about ({centre[0]:.4g}, {centre[1]:.4g})")
+    each = len(motion) // len(parts)
+    for part, coefficients in zip(parts, motion.reshape(-1, each), strict=True):
+        clean = np.where(np.abs(coefficients) < 1e-6 * largest, 0.0, coefficients)
+        if clean.any():
+            words.append(f"{part.label} can {_way(part, clean[: len(part.centre)], clean[len(part.centre) :])}")
     return " while ".join(words)
 
 
+def _way(part: Part, along: Array, turn: Array) -> str:
+    """How a part moves: along a direction, or about a point (in space an axis)."""
+    if not turn.any():
+        direction = along / np.linalg.norm(along)
+        named = "xyz"[int(np.argmax(np.abs(direction)))]
+        return f"move along {named if np.count_nonzero(along) == 1 else _spell(direction)}"
+    if len(turn) == 1:
+        centre = part.centre + part.size * np.array([-along[1], along[0]]) / turn
+        return f"rotate about {_spell(centre, part.size)}"
+    rate = float(np.linalg.norm(turn))
+    axis: Array = turn / rate
+    centre = part.centre + part.size * np.cross(axis, along) / rate
+    upward = axis * np.sign(axis[np.argmax(np.abs(axis))])
+    words = f"rotate about the axis through {_spell(centre, part.size)} along {_spell(upward)}"
+    return words if abs(along @ axis) < 1e-6 * rate else f"{words} while it moves along it"
+
+
+def _spell(values: Array, size: float = 1.0) -> str:
+    return f"({', '.join(f'{0.0 if abs(x) < 1e-9 * size else x:.4g}' for x in values)})"
+
+
 def _readable(motions: Array) -> Array:
-    """A basis of the same motions (3 parts, k) with as few parts and directions in each as can be (row echelon)."""
+    """A basis of the same motions (motions, k) with as few parts and directions in each as can be (row echelon)."""
     basis = motions.T.copy()
     row = 0
     for column in range(basis.shape[1]):

@@ -13,7 +13,8 @@ import skfem
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.fem.edges import Edges, check_conforming, make_edges
-from signorini.model.mesh import CORNERS, NODES_PER_CELL, Mesh
+from signorini.fem.faces import Faces, make_faces
+from signorini.model.mesh import CORNERS, Mesh
 
 ON_AXIS = 1e-10
 """Of the largest radius: nodes of axisymmetric bodies that are nearer are on the axis."""
@@ -31,18 +32,32 @@ class _Element:
     plane: int
     ring: int
     stress: int
-    monomials: tuple[tuple[int, int], ...]
+    monomials: tuple[tuple[int, ...], ...]
 
 
 _LINEAR = ((0, 0), (1, 0), (0, 1))
 _BILINEAR = (*_LINEAR, (1, 1))
+_SOLID = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))
+_TRILINEAR = (*_SOLID, (1, 1, 0), (0, 1, 1), (1, 0, 1), (1, 1, 1))
 _ELEMENTS: Mapping[str, _Element] = {
     "triangle": _Element(skfem.ElementTriP1, 1, 2, 1, ((0, 0),)),
     "quad": _Element(skfem.ElementQuad1, 2, 2, 2, _BILINEAR),
     "triangle6": _Element(skfem.ElementTriP2, 2, 4, 2, _LINEAR),
     "quad8": _Element(skfem.ElementQuadS2, 5, 7, 2, _BILINEAR),
     "quad9": _Element(skfem.ElementQuad2, 5, 7, 2, _BILINEAR),
+    "tetra": _Element(skfem.ElementTetP1, 1, 1, 1, _SOLID[:1]),
+    "tetra10": _Element(skfem.ElementTetP2, 2, 2, 2, _SOLID),
+    "hexahedron": _Element(skfem.ElementHex1, 2, 2, 2, _TRILINEAR),
+    "hexahedron20": _Element(skfem.ElementHexS2, 5, 5, 2, _TRILINEAR),
+    "hexahedron27": _Element(skfem.ElementHex2, 5, 5, 2, _TRILINEAR),
+    "wedge": _Element(skfem.ElementWedge1, 3, 3, 2, _SOLID),
 }
+HEXAHEDRON = ((0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)) + (
+    ((1, 0, 0), (2, 1, 0), (1, 2, 0), (0, 1, 0), (1, 0, 2), (2, 1, 2), (1, 2, 2), (0, 1, 2))
+    + ((0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1))
+    + ((0, 1, 1), (2, 1, 1), (1, 0, 1), (1, 2, 1), (1, 1, 0), (1, 1, 2), (1, 1, 1))
+)
+"""Nodes of the hexahedra in the order of meshio, which scikit-fem numbers otherwise; edges are 2 long here."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -121,6 +136,11 @@ class Space:
         return make_edges(self.mesh)
 
     @cached_property
+    def faces(self) -> dict[int, Faces]:
+        """Of all cells in space, by the number of their nodes."""
+        return make_faces(self.mesh)
+
+    @cached_property
     def jacobians(self) -> tuple[Array, ...]:
         """``dx/dX`` at the quadrature points, (m, q, d, d) a block."""
         return tuple(self._jacobians(block, block.gradients) for block in self.blocks)
@@ -176,7 +196,7 @@ def make_space(mesh: Mesh, *, axisymmetric: bool = False, obstacles: int = 0) ->
         blocks.append(_block(family, cells, first, axisymmetric))
         first += len(cells)
     space = Space(mesh=mesh, blocks=tuple(blocks), obstacles=obstacles)
-    if any(nodes.shape[1] > CORNERS[family] for family, nodes in mesh.cells.items()):
+    if space.dimension == 2 and any(nodes.shape[1] > CORNERS[family] for family, nodes in mesh.cells.items()):
         check_conforming(mesh, space.edges)
     _check_shapes(space)
     return space
@@ -185,10 +205,12 @@ def make_space(mesh: Mesh, *, axisymmetric: bool = False, obstacles: int = 0) ->
 def _block(family: str, cells: IntArray, first: int, axisymmetric: bool) -> Block:
     what = _ELEMENTS[family]
     element = what.kind()
-    where, weights = skfem.quadrature.get_quadrature(element.refdom, what.ring if axisymmetric else what.plane)
-    best, _ = skfem.quadrature.get_quadrature(element.refdom, what.stress)
-    values, gradients = _shape(element, where, cells.shape[1])
-    stress_values, stress_gradients = _shape(element, best, cells.shape[1])
+    where, weights = _rule(element, what.ring if axisymmetric else what.plane)
+    best, _ = _rule(element, what.stress)
+    order = _meshio_order(family, element)
+    nodes = element.doflocs[order].T
+    values, gradients = _shape(element, where, order)
+    stress_values, stress_gradients = _shape(element, best, order)
     return Block(
         family=family,
         cells=cells,
@@ -196,24 +218,46 @@ def _block(family: str, cells: IntArray, first: int, axisymmetric: bool) -> Bloc
         values=values,
         gradients=gradients,
         weights=weights,
-        corners=_shape(element, element.doflocs.T, cells.shape[1])[1],
+        corners=_shape(element, nodes, order)[1],
         stress_values=stress_values,
         stress_gradients=stress_gradients,
-        to_nodes=_monomials(element.doflocs.T, what) @ np.linalg.pinv(_monomials(best, what)),
+        to_nodes=_monomials(nodes, what) @ np.linalg.pinv(_monomials(best, what)),
     )
 
 
+def _rule(element: skfem.Element, degree: int) -> tuple[Array, Array]:
+    """Quadrature points (d, q) and weights (q,); scikit-fem's weights of a wedge add up to half its volume."""
+    if element.refdom is not skfem.refdom.RefWedge:
+        points, weights = skfem.quadrature.get_quadrature(element.refdom, degree)
+        return points, weights
+    (face, share), (height, part) = (
+        skfem.quadrature.get_quadrature(shape, degree) for shape in (skfem.refdom.RefTri, skfem.refdom.RefLine)
+    )
+    points = np.vstack([np.repeat(face, len(part), axis=1), np.tile(height, len(share))])
+    return points, np.outer(share, part).ravel()
+
+
 def shape_functions(family: str, at: Array) -> tuple[Array, Array]:
-    """Shape functions (n, k) of a family and their gradients (n, k, 2) at reference coordinates (2, n)."""
-    return _shape(_ELEMENTS[family].kind(), at, NODES_PER_CELL[family])
+    """Shape functions (n, k) of a family and their gradients (n, k, d) at reference coordinates (d, n)."""
+    element = _ELEMENTS[family].kind()
+    return _shape(element, at, _meshio_order(family, element))
 
 
 def _monomials(at: Array, what: _Element) -> Array:
-    return np.stack([at[0] ** i * at[1] ** j for i, j in what.monomials], axis=1)
+    return np.stack([np.prod([x**i for x, i in zip(at, powers, strict=True)], axis=0) for powers in what.monomials], 1)
 
 
-def _shape(element: skfem.Element, where: Array, count: int) -> tuple[Array, Array]:
-    found = [element.lbasis(where, i) for i in range(count)]
+def _meshio_order(family: str, element: skfem.Element) -> IntArray:
+    """For every node in the order of meshio its number in scikit-fem, (k,)."""
+    count = len(element.doflocs)
+    if not family.startswith("hexahedron"):
+        return np.arange(count)
+    wanted = np.array(HEXAHEDRON[:count]) / 2.0
+    return np.argmin(np.abs(wanted[:, None] - element.doflocs).sum(axis=2), axis=1)
+
+
+def _shape(element: skfem.Element, where: Array, order: IntArray) -> tuple[Array, Array]:
+    found = [element.lbasis(where, i) for i in order]
     values = np.stack([np.broadcast_to(value, where.shape[1:]) for value, _ in found], axis=1)
     gradients = np.stack([np.broadcast_to(gradient, where.shape).T for _, gradient in found], axis=1)
     return values, gradients

@@ -57,12 +57,13 @@ def body_stresses(
 
     Parameters
     ----------
-    displacement : (n, 2), length
+    displacement : (n, d), length
     factors : load factors by name, for the temperatures; a model without any needs none
     """
     temperature = temperatures(space, model, factors or {})
     count = len(space.mesh.points)
-    total, weight = np.zeros((len(model.bodies), count, 4)), np.zeros((len(model.bodies), count))
+    components = elasticities(model).shape[1]
+    total, weight = np.zeros((len(model.bodies), count, components)), np.zeros((len(model.bodies), count))
     for group in groups(space, model):
         cells = group.cells
         at_nodes = np.einsum(
@@ -75,7 +76,7 @@ def body_stresses(
     for i, body in enumerate(model.bodies):
         nodes = np.nonzero(weight[i])[0]
         stress = np.zeros((len(nodes), 6))
-        stress[:, :4] = total[i, nodes] / weight[i, nodes, None]
+        stress[:, :components] = total[i, nodes] / weight[i, nodes, None]
         result.append(BodyStress(body=body.name, nodes=nodes, stress=stress))
     return result
 
@@ -93,12 +94,12 @@ def point_stresses(
     for group in groups(space, model):
         found = _cell_stresses(space, model, group, displacement, temperature)
         stress = np.zeros((*found.shape[:2], 6))
-        stress[..., :4] = found
+        stress[..., : found.shape[2]] = found
         yield group.block.first + group.index, stress
 
 
 def _cell_stresses(space: Space, model: Model, group: Group, displacement: Array, temperature: Array | None) -> Array:
-    """Stresses xx, yy, zz, xy at the best points of the cells of a group, (m, p, 4)."""
+    """Stresses xx, yy, zz, xy (yz, xz) at the best points of the cells of a group, (m, p, 4 or 6)."""
     D = elasticities(model)[group.body]
     points = kinematics(space, model, group, best=True)
     strain = points.strain(displacement[group.cells])

@@ -9,6 +9,7 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.fem.boundary import Boundary
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
+from signorini.interface.spatial.frames import frames
 
 _SAME = 1e-9  # of the size of the mesh: two nodes on one plane across an axis
 
@@ -30,16 +31,16 @@ def side_normals(space: Space, constraints: Constraints, side: Boundary, nodes: 
 def symmetric_partners(
     space: Space, constraints: Constraints, nodes: IntArray, normals: Array, mortar: IntArray
 ) -> IntArray:
-    """For nodes on a plane of symmetry the mortar node on the same plane, (k,); -1 for all others.
+    """For nodes on a plane of symmetry across an axis a mortar node on the same plane, (k, d); -1 for all others.
 
     A half model's pair on the plane sees mortar nodes on one side of it only, of which the mirror image would take the
-    sliding away: the two nodes on the plane stand for both halves.
+    sliding away: in 2D the two nodes on the plane stand for both halves, in space nothing slides across the plane.
 
     Parameters
     ----------
     mortar : nodes of the mortar side
     """
-    partner = np.full(len(nodes), -1)
+    partner = np.full((len(nodes), space.dimension), -1)
     points = space.mesh.points
     close = _SAME * float(np.ptp(points, axis=0).max())
     own, other = _held(space, constraints, nodes), _held(space, constraints, mortar)
@@ -52,10 +53,31 @@ def symmetric_partners(
         x, y = points[nodes[mine], axis], points[order, axis]
         low = np.searchsorted(y, x - close)
         found = (low < len(y)) & (y[np.minimum(low, len(y) - 1)] <= x + close)
-        partner[mine[found]] = order[low[found]]
+        partner[mine[found], axis] = order[low[found]]
     return partner
 
 
 def _held(space: Space, constraints: Constraints, nodes: IntArray) -> BoolArray:
     """(k, d) whether a support, or the axis of revolution, holds a node in a direction."""
     return np.asarray(constraints.free[space.dofs(nodes)] < 0)
+
+
+def tangents(normals: Array, mirrored: BoolArray) -> tuple[Array, BoolArray]:
+    """Unit vectors across the normals, (k, d - 1, d), and which of them (k, d - 1) nothing slides along.
+
+    In the plane ``t = (n_y, -n_x)``. In space ``t1 x t2 = n``; t1 goes across the plane of symmetry of a pair on one.
+
+    Parameters
+    ----------
+    normals : (k, d)
+    mirrored : (k, d) whether a pair lies on a plane of symmetry across a coordinate axis, in space
+    """
+    if normals.shape[1] == 2:
+        return np.stack([normals[:, 1], -normals[:, 0]], axis=1)[:, None], np.zeros((len(normals), 1), bool)
+    axes = frames(normals)[:, 1:]
+    on = mirrored.any(axis=1)
+    across = np.eye(3)[np.argmax(mirrored[on], axis=1)]
+    axes[on] = np.stack([across, np.cross(normals[on], across)], axis=1)
+    still = np.zeros((len(normals), 2), bool)
+    still[on] = np.einsum("kji,ki->kj", np.abs(axes[on]), mirrored[on]) > 1.0 - 1e-9
+    return axes + 0.0, still

@@ -13,6 +13,7 @@ from signorini.errors import InputError
 from signorini.fem.obstacles import carried
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
+from signorini.interface.frames import tangents
 from signorini.interface.pairing import Sides, make_pairs
 from signorini.model.model import Model
 
@@ -23,15 +24,17 @@ class Interface:
 
     A pair is a nonmortar node and what lies opposite: a node, a weighted mean of nodes, or a rigid obstacle.
 
-    The normal n points from the mortar side into the nonmortar body, the tangent is ``t = (n_y, -n_x)``. Forces of the
-    interface on the bodies are ``B^T r``, r the normal (pressing > 0) and tangential forces on the nonmortar body.
+    The normal n points from the mortar side into the nonmortar body, the tangent is ``t = (n_y, -n_x)``; in space there
+    are two, ``t1 x t2 = n``. Forces of the interface on the bodies are ``B^T r``, r the normal (pressing > 0) and
+    tangential forces on the nonmortar body.
 
     Attributes
     ----------
-    B : (2 n, dofs) sparse; n normal rows, then n tangential rows
+    B : (d n, dofs) sparse; n normal rows, then n rows of every tangent
     gap : (n,) initial gaps g, length, negative where the bodies overlap
     area : (n,) tributary area, see :func:`signorini.fem.measure.nodal_areas`
-    normals, tangents : (n, 2) unit vectors
+    normals : (n, d) unit vectors
+    tangents : (n, d - 1, d) unit vectors
     node : (n,) nodes on the nonmortar side
     contact : (n,) index of the contact that a pair belongs to
     friction : (n,) Coulomb's coefficient, infinite where it sticks
@@ -56,6 +59,30 @@ class Interface:
     def __len__(self) -> int:
         return len(self.gap)
 
+    @property
+    def directions(self) -> int:
+        """Rows of B a pair, d."""
+        return int(self.normals.shape[1])
+
+    def rows(self, pairs: BoolArray) -> BoolArray:
+        """(d n,) the rows of B that belong to some pairs (n,)."""
+        return np.tile(pairs, self.directions)
+
+    @property
+    def compliance(self) -> Array:
+        """(d n,) of every row of B, length per pressure."""
+        return np.concatenate([self.normal_compliance, np.tile(self.tangential_compliance, self.directions - 1)])
+
+    @property
+    def areas(self) -> Array:
+        """(d n,) of every row of B."""
+        return np.tile(self.area, self.directions)
+
+    def across(self, tangential: Array) -> Array:
+        """(n,) length of tangential vectors that are given row by row, ((d - 1) n,)."""
+        length: Array = np.linalg.norm(tangential.reshape(self.directions - 1, len(self)), axis=0)
+        return length
+
 
 def make_interface(space: Space, model: Model, constraints: Constraints) -> Interface:
     """Pair the surfaces of all contacts.
@@ -68,7 +95,8 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
     parts = [make_pairs(space, model, constraints, i) for i in range(len(model.contacts))]
     index = np.repeat(np.arange(len(parts)), [len(part.nodes) for part in parts]).astype(int)
     normals = np.concatenate([part.normals for part in parts]) if parts else np.empty((0, space.dimension))
-    tangents = np.column_stack([normals[:, 1], -normals[:, 0]])
+    mirrored = np.concatenate([part.mirrored for part in parts]) if parts else np.empty((0, space.dimension), bool)
+    axes, still = tangents(normals, mirrored)
     none = sp.csr_array((0, len(space.mesh.points)))
 
     def joined(key: str) -> Array:
@@ -80,15 +108,17 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
     position = sp.vstack([none, *(part.relative for part in parts)]) @ space.mesh.points
     carrier = np.repeat([part.obstacle for part in parts], np.bincount(index, minlength=len(parts))).astype(int)
     rows = []
-    for key, axes in (("relative", normals), ("sliding", tangents)):
+    sliding = [(axes[:, k], "sliding", np.where(still[:, k], 0.0, 1.0)) for k in range(space.dimension - 1)]
+    for directions, key, moves in [(normals, "relative", np.ones(len(normals))), *sliding]:
         relative = sp.vstack([none, *(getattr(part, key) for part in parts)])
-        rows.append(sp.hstack([_along(space, relative, axes), _carried(model, carrier, position, axes)]))
+        own = sp.hstack([_along(space, relative, directions), _carried(model, carrier, position, directions)])
+        rows.append(sp.diags_array(moves) @ own)
     return Interface(
         B=sp.csr_array(sp.vstack(rows)),
         gap=joined("gap"),
         area=joined("area"),
         normals=normals,
-        tangents=tangents,
+        tangents=axes,
         node=joined("nodes").astype(int),
         contact=index,
         friction=friction_of(space, model, joined("nodes").astype(int), index),

@@ -67,17 +67,6 @@ def mortar_coupling(
     return Coupling(nodes=nodes, area=weight[nodes], relative=relative)
 
 
-def corner_coupling(points: Array, side: Boundary, measure: Callable[[Array], Array]) -> Coupling:
-    """The same weights of one side alone, opposite a rigid obstacle: of quadratic facets means at their corners."""
-    whole = _whole(points, side)
-    at, weights = _quadrature(points, side, whole, measure, 2)
-    weight, multiplier = _duals(side, whole, at, weights, len(points))
-    nodes = np.unique(side.facets[:, :2])
-    keeps = _own_weights(side, whole, at, weight, multiplier)
-    relative = sp.csr_array(sp.diags_array(1.0 / weight[nodes]) @ keeps[nodes])
-    return Coupling(nodes=nodes, area=weight[nodes], relative=relative)
-
-
 def _whole(points: Array, side: Boundary) -> Overlaps:
     """Every facet of a side, from end to end."""
     ends = points[side.facets]

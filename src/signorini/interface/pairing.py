@@ -9,17 +9,19 @@ from functools import partial
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary, boundary
-from signorini.fem.measure import measure, nodal_areas
+from signorini.fem.measure import facet_areas, measure, nodal_areas
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
+from signorini.interface import spatial
+from signorini.interface.corners import corner_coupling
 from signorini.interface.coupling import Coupling
 from signorini.interface.frames import side_normals, symmetric_partners
 from signorini.interface.gaps import initial_gaps, refuse_deep_overlap, without_chords
 from signorini.interface.matching import match_nodes
-from signorini.interface.mortar import corner_coupling, mortar_coupling
+from signorini.interface.mortar import mortar_coupling
 from signorini.interface.overlap import find_overlaps
 from signorini.interface.segments import node_to_segment
 from signorini.model.contact import Contact
@@ -56,7 +58,8 @@ class Pairs:
     area, gap : (k,)
     normals : (k, d) into the nonmortar body
     relative : (k, nodes of the mesh) weights of the relative displacement
-    sliding : the same for the tangential part; it differs on planes of symmetry
+    sliding : the same for the tangential part; it differs on planes of symmetry in 2D
+    mirrored : (k, d) in space whether a pair lies on a plane of symmetry across a coordinate axis
     sides : how they were found
     obstacle : number of the moving obstacle that is the other side, otherwise -1
     """
@@ -67,6 +70,7 @@ class Pairs:
     normals: Array
     relative: sp.csr_array
     sliding: sp.csr_array
+    mirrored: BoolArray
     sides: Sides
     obstacle: int = -1
 
@@ -116,7 +120,7 @@ def _on_obstacle(
         area = nodal_areas(model, side)
         coupling = Coupling(nodes=side.nodes, area=area, relative=_pick(side.nodes, len(points)))
     else:
-        coupling = corner_coupling(points, side, partial(measure, model))
+        coupling = corner_coupling(side, facet_areas(model, side), len(points))
         distance = coupling.relative[:, side.nodes] @ distance
         normals = normals[np.searchsorted(side.nodes, coupling.nodes)]
     return Pairs(
@@ -126,6 +130,7 @@ def _on_obstacle(
         normals=normals,
         relative=coupling.relative,
         sliding=coupling.relative,
+        mirrored=np.zeros(normals.shape, bool),
         sides=Sides(nonmortar=contact.nonmortar, mortar=str(obstacle), coupling="obstacle"),
     )
 
@@ -151,7 +156,8 @@ def _on_side(
     coupling, how = _couple(space, model, side, mortar, contact, where)
     normals = side_normals(space, constraints, side, coupling.nodes)
     gap = np.sum((coupling.relative @ points) * normals, axis=1)
-    if how != "nodes":
+    plane = side.dimension == 2
+    if how != "nodes" and plane:
         gap = without_chords(gap, coupling.nodes, coupling.relative, side, mortar)
     partner = symmetric_partners(space, constraints, coupling.nodes, normals, mortar.nodes)
     return Pairs(
@@ -160,7 +166,8 @@ def _on_side(
         gap=initial_gaps(gap, contact),
         normals=normals,
         relative=coupling.relative,
-        sliding=_mirrored(coupling, partner),
+        sliding=_mirrored(coupling, partner.max(axis=1)) if plane else coupling.relative,
+        mirrored=(partner >= 0) & (not plane),
         sides=Sides(
             nonmortar=names[0],
             mortar=names[1],
@@ -174,6 +181,8 @@ def _couple(
     space: Space, model: Model, side: Boundary, mortar: Boundary, contact: Contact, where: Where
 ) -> tuple[Coupling, str]:
     """The coupling of two meshed sides, and its name."""
+    if side.dimension == 3:
+        return _couple_in_space(space, side, mortar, contact, where)
     points, count = space.mesh.points, len(space.mesh.points)
     linear = not (side.quadratic or mortar.quadratic)
     if contact.coupling == "nodes" or (contact.coupling == "auto" and linear):
@@ -188,6 +197,22 @@ def _couple(
         return node_to_segment(points, side, mortar, area, contact.search, where), "node-to-segment"
     overlaps = find_overlaps(points, side, mortar, contact.search, where)
     return mortar_coupling(points, side, mortar, overlaps, partial(measure, model), where), "mortar"
+
+
+def _couple_in_space(
+    space: Space, side: Boundary, mortar: Boundary, contact: Contact, where: Where
+) -> tuple[Coupling, str]:
+    """The same for faces."""
+    own, other = (spatial.make_surface(space.mesh.points, boundary.facets) for boundary in (side, mortar))
+    if contact.coupling == "nodes" or (contact.coupling == "auto" and not (side.quadratic or mortar.quadratic)):
+        coupling, reason = spatial.node_pairs(own, other)
+        if coupling is not None:
+            return coupling, "nodes"
+        if contact.coupling == "nodes":
+            raise InputError(reason, where=where)
+    if contact.coupling == "node-to-segment":
+        return spatial.node_to_face(own, other, search=contact.search, where=where), "node-to-segment"
+    return spatial.mortar_coupling(own, other, search=contact.search, where=where), "mortar"
 
 
 def _pick(nodes: IntArray, count: int) -> sp.csr_array:

@@ -73,7 +73,8 @@ class Orthotropic:
     E1, E2, E3 : Young's moduli, force per area, > 0
     nu12, nu13, nu23 : Poisson's ratios: nu12 is the contraction along 2 under tension along 1
     G12 : shear modulus, force per area, > 0
-    angle : from the x axis to the axis 1, counterclockwise, degrees
+    G13, G23 : the same across the plane, which solid models need
+    angle : from the x axis to the axis 1, about z, counterclockwise, degrees
     density : mass per volume, >= 0
     expansion1, expansion2, expansion3 : thermal strain per temperature along the axes
 
@@ -100,10 +101,13 @@ class Orthotropic:
     expansion1: float = 0.0
     expansion2: float = 0.0
     expansion3: float = 0.0
+    G13: float | None = None
+    G23: float | None = None
 
     def __post_init__(self) -> None:
-        for key in ("E1", "E2", "E3", "G12"):
-            object.__setattr__(self, key, number(getattr(self, key), (key,), above=0.0))
+        for key in ("E1", "E2", "E3", "G12", "G13", "G23"):
+            if getattr(self, key) is not None:
+                object.__setattr__(self, key, number(getattr(self, key), (key,), above=0.0))
         for key in ("nu12", "nu13", "nu23", "angle", "expansion1", "expansion2", "expansion3"):
             object.__setattr__(self, key, number(getattr(self, key), (key,)))
         object.__setattr__(self, "density", number(self.density, ("density",), least=0.0))
@@ -121,6 +125,11 @@ class Orthotropic:
                 "positive energy (1 - nu12^2 E2/E1 - nu13^2 E3/E1 - nu23^2 E3/E2 - 2 nu12 nu13 nu23 E3/E1 = "
                 f"{self._determinant:.3g}); expected smaller ratios"
             )
+
+    @property
+    def solid(self) -> bool:
+        """Whether the shear moduli of all planes are given."""
+        return self.G13 is not None and self.G23 is not None
 
     @property
     def _determinant(self) -> float:

@@ -12,11 +12,30 @@ import numpy as np
 from signorini.arrays import Array, IntArray, distinct, frozen
 from signorini.errors import InputError
 
-NODES_PER_CELL = {"triangle": 3, "quad": 4, "triangle6": 6, "quad8": 8, "quad9": 9}
-"""Families of cells by their names in meshio: corners, then the middle of every edge, then the centre."""
+NODES_PER_PLANE_CELL = {"triangle": 3, "quad": 4, "triangle6": 6, "quad8": 8, "quad9": 9}
+NODES_PER_SOLID_CELL = {
+    "tetra": 4,
+    "hexahedron": 8,
+    "wedge": 6,
+    "tetra10": 10,
+    "hexahedron20": 20,
+    "hexahedron27": 27,
+}
+NODES_PER_CELL = NODES_PER_PLANE_CELL | NODES_PER_SOLID_CELL
+"""Families of cells by their names in meshio: corners, then the middles of edges, of faces, then the centre."""
 
-CORNERS = {"triangle": 3, "quad": 4, "triangle6": 3, "quad8": 4, "quad9": 4}
-"""Of every family: the edge k goes from corner k to corner k + 1; in quadratic cells node ``corners + k`` is on it."""
+CORNERS = {"triangle": 3, "quad": 4, "triangle6": 3, "quad8": 4, "quad9": 4} | {
+    "tetra": 4,
+    "hexahedron": 8,
+    "wedge": 6,
+    "tetra10": 4,
+    "hexahedron20": 8,
+    "hexahedron27": 8,
+}
+"""Of every family. In the plane edge k goes from corner k to corner k + 1; in quadratic cells node ``corners + k`` is
+on it."""
+
+_NODES_PER_FACET = {2: (2, 3), 3: (3, 4, 6, 8, 9)}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -28,12 +47,13 @@ class Mesh:
 
     Parameters
     ----------
-    points : (n, 2) array of coordinates, length
-    cells : family ("triangle", "quad", "triangle6", "quad8", "quad9") to (m, k) array of node indices in the order of
-        meshio, counterclockwise or clockwise: corners, then the middles of the edges, then the centre
+    points : (n, 2) or (n, 3) array of coordinates, length
+    cells : family ("triangle", "quad", "triangle6", "quad8", "quad9"; in space "tetra", "hexahedron", "wedge",
+        "tetra10", "hexahedron20", "hexahedron27") to (m, k) array of node indices in the order of meshio, in either
+        orientation: corners, then the middles of the edges, then the centre
     bodies : name to indices of cells
     boundaries : name to (m, 2) or (m, 3) array, the two end nodes of each facet, and the middle one of a quadratic cell
-        (it may be left out)
+        (it may be left out); in space (m, 3), (m, 4), (m, 6), (m, 8) or (m, 9): corners, then middle nodes
     nodes : name to node indices, for supports and forces on points
     node_numbers : (n,) what results call the nodes, each once; 1, 2, ... if not given
     cell_numbers : (m,) what they call the cells
@@ -61,22 +81,23 @@ class Mesh:
 
     def __post_init__(self) -> None:
         points = frozen(self.points)
-        if points.ndim != 2 or points.shape[1] != 2:
-            raise InputError(f"has shape {points.shape}; expected (n, 2), plane coordinates", where=("mesh", "points"))
+        if points.ndim != 2 or points.shape[1] not in (2, 3):
+            raise InputError(f"has shape {points.shape}; expected (n, 2) or (n, 3)", where=("mesh", "points"))
+        families = NODES_PER_PLANE_CELL if points.shape[1] == 2 else NODES_PER_SOLID_CELL
         if not np.isfinite(points).all():
             row = int(np.nonzero(~np.isfinite(points).all(axis=1))[0][0])
             raise InputError(f"node {row + 1} is at {points[row]}; expected finite numbers", where=("mesh", "points"))
         object.__setattr__(self, "points", points)
         cells = {}
         for family, nodes in self.cells.items():
-            if family not in NODES_PER_CELL:
-                known = ", ".join(NODES_PER_CELL)
+            if family not in families:
+                known = f"{', '.join(families)} with {points.shape[1]} coordinates"
                 raise InputError(f"unknown family '{family}'; expected one of {known}", where=("mesh", "cells"))
             cells[family] = self._indices(nodes, len(points), "cells", family, (NODES_PER_CELL[family],))
         object.__setattr__(self, "cells", MappingProxyType(cells))
         for part, limit, widths in (
             ("bodies", self.number_of_cells, ()),
-            ("boundaries", len(points), (2, 3)),
+            ("boundaries", len(points), _NODES_PER_FACET[points.shape[1]]),
             ("nodes", len(points), ()),
         ):
             named = {name: self._indices(i, limit, part, name, widths) for name, i in getattr(self, part).items()}

@@ -16,13 +16,14 @@ from signorini.errors import InputError, one_of
 from signorini.model.body import Body
 from signorini.model.conditions import BODY_LOADS, Foundation, Load, Support
 from signorini.model.contact import Contact
+from signorini.model.material import Orthotropic
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Obstacle
 from signorini.model.rigid import Rigid
 from signorini.model.step import Step
 
-Kind = Literal["plane strain", "plane stress", "axisymmetric"]
-KINDS = ("plane strain", "plane stress", "axisymmetric")
+Kind = Literal["plane strain", "plane stress", "axisymmetric", "3d"]
+KINDS = ("plane strain", "plane stress", "axisymmetric", "3d")
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,8 +34,8 @@ class Model:
     ----------
     mesh : the mesh; its names are what the rest speaks of
     kind : "plane strain", "plane stress" or "axisymmetric": coordinates are then the radius and the height, forces and
-        areas are for the whole circumference
-    thickness : out of plane, length; forces and areas are for this thickness
+        areas are for the whole circumference; a mesh in space is "3d". Empty (default) is "plane strain" or "3d"
+    thickness : of plane models, length; forces and areas are for this thickness
     bodies : every cell of the mesh belongs to exactly one
     supports, foundations, loads, contacts : see :class:`Support`, :class:`Foundation`, :class:`Load`,
         :class:`Contact`
@@ -60,7 +61,7 @@ class Model:
 
     mesh: Mesh
     _: KW_ONLY
-    kind: Kind = "plane strain"
+    kind: Kind | Literal[""] = ""
     thickness: float = 1.0
     bodies: Sequence[Body] = ()
     supports: Sequence[Support] = ()
@@ -75,13 +76,17 @@ class Model:
     def __post_init__(self) -> None:
         if not isinstance(self.mesh, Mesh):
             raise InputError(f"is {type(self.mesh).__name__}; expected a Mesh", where=("mesh",))
+        if not self.kind:
+            object.__setattr__(self, "kind", "plane strain" if self.dimension == 2 else "3d")
         choice(self.kind, KINDS, ("kind",), "kind")
+        if (self.kind == "3d") != (self.dimension == 3):
+            raise InputError(f"is '{self.kind}', but the mesh has {self.dimension} coordinates", where=("kind",))
         number(self.thickness, ("thickness",), above=0.0)
-        if self.axisymmetric and self.thickness != 1.0:
-            raise InputError(
-                f"is {self.thickness:g}; an axisymmetric model has none: forces and areas are for the circumference",
-                where=("thickness",),
-            )
+        if self.thickness != 1.0 and self.kind in ("axisymmetric", "3d"):
+            what = "an axisymmetric model has none: forces and areas are for the circumference"
+            if self.kind == "3d":
+                what = "a model in space has none"
+            raise InputError(f"is {self.thickness:g}; {what}", where=("thickness",))
         for part, kind in (
             ("bodies", Body),
             ("supports", Support),
@@ -109,7 +114,7 @@ class Model:
 
     @property
     def dimension(self) -> int:
-        """Of space: 2."""
+        """Of space: 2 or 3."""
         return int(self.mesh.points.shape[1])
 
     @property
@@ -119,8 +124,8 @@ class Model:
 
     @property
     def axes(self) -> str:
-        """Letters of the directions: "xy", axisymmetric "rz"."""
-        return "rz" if self.axisymmetric else "xy"
+        """Letters of the directions: "xy", axisymmetric "rz", in space "xyz"."""
+        return "rz" if self.axisymmetric else "xyz"[: self.dimension]
 
     def body_of_cells(self) -> IntArray:
         """For every cell the index of its body, (m,)."""
@@ -138,6 +143,8 @@ class Model:
             if body.name not in known:
                 raise InputError(one_of(body.name, known, "body"), where=("body", i, "name"))
             count[known[body.name]] += 1
+            if self.dimension == 3 and isinstance(body.material, Orthotropic) and not body.material.solid:
+                raise InputError("has no G13 and G23; a model in space needs them", where=("body", i, "material"))
         if (count == 1).all():
             return
         cell = int(np.nonzero(count != 1)[0][0])

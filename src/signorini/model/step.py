@@ -33,7 +33,9 @@ class Step:
     inactive : contacts switched off from here on: their forces go linearly to zero over the step
     active : contacts switched on again: they touch where they meet from here on, with no slip behind them; what
         overlaps at that moment is pressed out linearly over the step
-    increments : equal parts in which every segment is solved; None leaves it to ``path``
+    increments : equal parts in which every segment is solved, or "auto": 1, 2, 4, ... until the contact forces change
+        less than ``tolerance``; None leaves it to ``path``
+    tolerance : of "auto", relative to the largest contact force
     path : "increments", or "exact": from event to event (a pair closes, opens, slips, sticks), without any step size.
         None chooses: "increments" where their number is given or nothing rubs (one is exact then), otherwise "exact"
     jump : where an exact path has no gradual continuation, "stop" there, or "follow" the equilibria to the next one at
@@ -53,7 +55,8 @@ class Step:
     interference: Mapping[str, float] = field(default_factory=dict)
     inactive: Sequence[str] = ()
     active: Sequence[str] = ()
-    increments: int | None = None
+    increments: int | Literal["auto"] | None = None
+    tolerance: float = 1e-3
     path: Literal["increments", "exact"] | None = None
     jump: Literal["stop", "follow"] | None = None
 
@@ -61,7 +64,10 @@ class Step:
         if self.name:
             text(self.name, ("name",))
         whole(self.repeat, ("repeat",))
-        if self.increments is not None:
+        number(self.tolerance, ("tolerance",), above=0.0)
+        if isinstance(self.increments, str):
+            choice(self.increments, ("auto",), ("increments",), "number of increments")
+        elif self.increments is not None:
             whole(self.increments, ("increments",))
         if self.path is not None:
             choice(self.path, ("increments", "exact"), ("path",), "path")

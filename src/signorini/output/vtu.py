@@ -76,5 +76,5 @@ def _cells(model: Model, stresses: list[BodyStress]) -> tuple[list[tuple[str, In
 
 
 def _three(plane: Array) -> Array:
-    """Plane vectors (n, 2) with a third component 0."""
-    return np.column_stack([plane, np.zeros(len(plane))])
+    """Vectors (n, 2) with a third component 0; those of space as they are."""
+    return plane if plane.shape[1] == 3 else np.column_stack([plane, np.zeros(len(plane))])

@@ -72,7 +72,7 @@ def certify(
     loads : (dofs,) nodal forces
     motions : (dofs, k) rigid motions of all parts, see :func:`signorini.fem.rigid.rigid_motions`
     state : its displacement and pair forces are the answer to be measured
-    before : (n,) tangential displacement at which the slip increment began
+    before : ((d - 1) n,) tangential displacement at which the slip increment began
     scale : sizes of forces and lengths
     absent : (n,) pairs whose contact is switched off: the law of contact is not asked of them
 
@@ -87,16 +87,20 @@ def certify(
     residual = constraints.transform.T @ (K @ u - applied)
     balance = motions.T @ (state.external + constraints.foundation_forces(u) + interface.B.T @ r)
     moved = interface.B @ u
-    normal, tangential = r[:n] / scale.force, r[n:] / scale.force
-    gap = (state.point.gap + moved[:n] + interface.normal_compliance * r[:n] / interface.area) / scale.length
-    slip = (moved[n:] + interface.tangential_compliance * r[n:] / interface.area - before) / scale.length
+    moved = (moved + interface.compliance * r / interface.areas) / scale.length
+    gap = state.point.gap / scale.length + moved[:n]
+    normal, tangential = r[:n] / scale.force, interface.across(r[n:]) / scale.force
+    sliding = moved[n:] - before / scale.length
+    slip = interface.across(sliding)
     gap, tension = np.where(interface.tied, -np.abs(gap), gap), np.where(interface.tied, 0.0, normal)
     bound = np.where(interface.tied, np.inf, 0.0)
     np.multiply(interface.friction, normal, out=bound, where=normal > 0)
-    room = bound - np.abs(tangential)
-    along = np.where(tangential * slip > 0, np.minimum(np.abs(tangential), np.abs(slip)), 0.0)
+    room = bound - tangential
+    # 0 where friction opposes the slip, 2 where it goes with it
+    turned = interface.across(_directions(r[n:], n) + _directions(sliding, n))
+    along = 0.5 * turned * np.minimum(tangential, slip)
     # where a pair is open, slip is free: the cone is a point and its room 0
-    friction = np.maximum(np.minimum(np.abs(slip), np.maximum(room, 0.0)), along)
+    friction = np.maximum(np.minimum(slip, np.maximum(room, 0.0)), along)
     if absent is not None:
         gap, normal, room, friction = (np.where(absent, 0.0, part) for part in (gap, normal, room, friction))
         tension = np.where(absent, 0.0, tension)
@@ -107,6 +111,14 @@ def certify(
         cone=_largest(-room),
         complementarity=_largest(np.concatenate([np.minimum(gap, normal), friction])),
     )
+
+
+def _directions(vectors: Array, n: int) -> Array:
+    """Of tangential vectors row by row, ((d - 1) n,); 0 where there is none."""
+    rows = vectors.reshape(-1, n) if n else np.zeros((1, 0))
+    length = np.linalg.norm(rows, axis=0)
+    unit: Array = np.divide(rows, length, out=np.zeros_like(rows), where=length > 0).ravel()
+    return unit
 
 
 def _largest(violation: Array) -> float:

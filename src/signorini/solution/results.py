@@ -27,12 +27,13 @@ class ContactResult:
     coupling : "nodes", "mortar", "node-to-segment" or "obstacle"
     node : (n,) node indices, from 0
     points : (n, d) undeformed coordinates
-    normals, tangents : (n, d) unit vectors; the normal points from the mortar side into the nonmortar body
+    normals, tangents : (n, d) unit vectors, in space (n, 2, 3) tangents with ``t1 x t2 = n``; the normal points from
+        the mortar side into the nonmortar body
     area : (n,) tributary area
     gap : (n,) length, 0 where closed; negative only as overlap of an interface with finite stiffness
     pressure : (n,) force per area, positive compressive
-    traction : (n,) friction on the nonmortar body along the tangent, force per area
-    slip : (n,) accumulated along the tangent, nonmortar minus mortar, length
+    traction : (n,) friction on the nonmortar body along the tangent, force per area; (n, 2) in space
+    slip : (n,) accumulated along the tangent, nonmortar minus mortar, length; (n, 2) in space
     sliding : (n,) distance slid either way in this step, length
     slip_range : (n,) largest less smallest slip of this step's last cycle, twice the slip amplitude
     status : (n,) "open", "stick" or "slip"
@@ -73,20 +74,31 @@ class ContactResult:
     @property
     def tangential_force(self) -> Array:
         """Resultant of the friction on the nonmortar body, (d,) force."""
-        force: Array = (self.traction * self.area) @ self.tangents
+        force: Array = self.area @ self.shear
         return force
+
+    @property
+    def shear(self) -> Array:
+        """Friction on the nonmortar body as vectors, (n, d) force per area."""
+        if self.traction.ndim == 1:
+            return self.traction[:, None] * self.tangents
+        return np.einsum("nk,nki->ni", self.traction, self.tangents)
 
     @property
     def forces(self) -> Array:
         """On the nonmortar body at every node, (n, d) force."""
-        along = self.pressure[:, None] * self.normals + self.traction[:, None] * self.tangents
-        forces: Array = self.area[:, None] * along
+        forces: Array = self.area[:, None] * (self.pressure[:, None] * self.normals + self.shear)
         return forces
 
-    def moment(self, about: Sequence[float] | Array) -> float:
-        """Resultant moment on the nonmortar body about a point (2,), counterclockwise positive, force times length."""
+    def moment(self, about: Sequence[float] | Array) -> Array:
+        """Resultant moment on the nonmortar body about a point (d,), force times length.
+
+        A number in the plane, counterclockwise positive; (3,) in space.
+        """
         arm, forces = self.points - np.asarray(about, float), self.forces
-        return float(arm[:, 0] @ forces[:, 1] - arm[:, 1] @ forces[:, 0])
+        if arm.shape[1] == 3:
+            return np.cross(arm, forces).sum(axis=0)
+        return np.asarray(arm[:, 0] @ forces[:, 1] - arm[:, 1] @ forces[:, 0])
 
     @property
     def extent(self) -> tuple[Array, Array] | None:
@@ -173,7 +185,7 @@ class Cycle:
     work, dissipation, released : in it
     sliding : longest distance that a pair slid in it, length
     change : largest change of a contact force from the beginning to the end of it, of the largest force
-    drift : largest change of a slip from the beginning to the end of it, length
+    drift : how far a pair that touches at both ends of it has moved along, length
     """
 
     number: int

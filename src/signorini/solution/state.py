@@ -24,7 +24,7 @@ class LoadPoint:
     ----------
     factors : load factors by name
     gap : (n,) initial gaps, with the interferences of the moment
-    given : (2 n,) forces of pairs whose contact is switched off, on their way to zero; 0 elsewhere
+    given : (d n,) forces of pairs whose contact is switched off, on their way to zero; 0 elsewhere
     """
 
     factors: Mapping[str, float]
@@ -52,11 +52,11 @@ class State:
     point : of the load history
     displacement : (dofs,) length
     external : (dofs,) loads, reactions of supports and forces inside rigid boundaries
-    forces : (2 n,) of the pairs on the nonmortar body: normal (pressing > 0), then tangential
+    forces : (d n,) of the pairs on the nonmortar body: normal (pressing > 0), then tangential
     gap : (n,) of the contact law, 0 where closed
-    tangential : (n,) tangential displacement of the contact law, length: where the next slip increment starts
-    increment : (n,) slip increment of the last increment
-    slip : (n,) accumulated while closed
+    tangential : ((d - 1) n,) tangential displacement of the contact law, length: where the next slip increment starts
+    increment : ((d - 1) n,) slip increment of the last increment
+    slip : ((d - 1) n,) accumulated while closed
     status : (n,) codes of :mod:`signorini.pairstate`
     work : of loads, moving supports and interferences since the beginning
     dissipation : (n,) frictional dissipation since the beginning
@@ -77,18 +77,18 @@ class State:
     released: float
 
 
-def initial_state(factors: Mapping[str, float], dofs: int, gap: Array) -> State:
+def initial_state(factors: Mapping[str, float], dofs: int, interface: Interface) -> State:
     """Nothing has moved; overlaps have not pressed yet."""
-    n = len(gap)
+    n, d, gap = len(interface), interface.directions, interface.gap
     return State(
-        point=LoadPoint(factors=MappingProxyType(dict(factors)), gap=gap, given=np.zeros(2 * n)),
+        point=LoadPoint(factors=MappingProxyType(dict(factors)), gap=gap, given=np.zeros(d * n)),
         displacement=np.zeros(dofs),
         external=np.zeros(dofs),
-        forces=np.zeros(2 * n),
+        forces=np.zeros(d * n),
         gap=gap,
-        tangential=np.zeros(n),
-        increment=np.zeros(n),
-        slip=np.zeros(n),
+        tangential=np.zeros((d - 1) * n),
+        increment=np.zeros((d - 1) * n),
+        slip=np.zeros((d - 1) * n),
         status=np.zeros(n, np.int64),
         work=0.0,
         dissipation=np.zeros(n),
@@ -117,7 +117,7 @@ def next_state(
     point : of the load history, at the end of the increment
     K : (dofs, dofs) stiffness, supports not applied
     loads, displacement : (dofs,)
-    forces, moved : (2 n,) forces of the pairs; gaps and slip increments
+    forces, moved : (d n,) forces of the pairs; gaps and slip increments
     status : (n,)
 
     Notes
@@ -133,6 +133,7 @@ def next_state(
     increment = moved[n:]
     work = 0.5 * (state.external + external) @ (displacement - state.displacement)
     work -= 0.5 * (state.forces + forces)[:n] @ (point.gap - state.point.gap)
+    spent = (forces[n:] * increment).reshape(-1, n).sum(axis=0) if n else np.zeros(0)
     taken = 0.5 * (state.point.given + point.given) @ (interface.B @ (displacement - state.displacement))
     return State(
         point=point,
@@ -142,9 +143,9 @@ def next_state(
         gap=moved[:n],
         tangential=state.tangential + increment,
         increment=increment,
-        slip=state.slip + np.where(status == OPEN, 0.0, increment),
+        slip=state.slip + np.where(np.tile(status == OPEN, interface.directions - 1), 0.0, increment),
         status=status,
         work=state.work + float(work),
-        dissipation=state.dissipation + np.where(status == OPEN, 0.0, np.maximum(-forces[n:] * increment, 0.0)),
+        dissipation=state.dissipation + np.where(status == OPEN, 0.0, np.maximum(-spent, 0.0)),
         released=state.released - float(taken),
     )

@@ -11,6 +11,7 @@ from signorini.arrays import Array
 from signorini.engine.solve import solve
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
+from signorini.friction.exact import follow, initial_state, land
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.solve import solve_coulomb
 from signorini.gallery.blocks import block_on_foundation, four_blocks, stacked_blocks
@@ -72,6 +73,37 @@ def one_node() -> Iterator[Check]:
         tolerance=1e-10,
         source=source,
     )
+
+
+def one_node_path() -> Iterator[Check]:
+    """The same node as a history, pressed by 1 and pulled up to 4: events, and at mu = 3 the jump and its landing."""
+    case, source = "one-node Coulomb problem, exact path", "by hand, Klarbring (1990)"
+    for friction, words in ((1.0, "mu 1"), (3.0, "mu 3")):
+        W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]])).astype(np.float64)
+        problem = CoulombProblem(W=W, b=np.zeros(2), friction=np.array([friction]), motions=np.zeros((2, 0)), scale=4.0)
+        pressed = follow(problem, initial_state(problem, np.zeros(2)), W @ np.array([-1.0, 0.0])).end
+        path = follow(problem, pressed, W @ np.array([-1.0, 4.0]))
+        if path.jump is None:
+            end, found = (
+                path.end,
+                [("slips at f_t", 4 * path.events[0].factor, 1.0), ("opens at f_t", 4 * path.events[1].factor, 2.0)],
+            )
+            found += [("gap at f_t = 4", end.h[0], 2 / 3), ("u_t at f_t = 4", end.h[1], 7 / 3)]
+        else:
+            landing = land(problem, pressed, path)
+            end = path.end if landing is None else landing.state
+            found = [("jumps at f_t", 4 * path.jump.factor, 3.0), ("gap where it lands", end.h[0], 1 / 3)]
+            found += [("u_t where it lands", end.h[1], 5 / 3)]
+        found.append(("dissipation", end.dissipation[0], 0.5 if path.jump is None else 1.5))
+        for quantity, computed, reference in found:
+            yield Check(
+                case=case,
+                quantity=f"{quantity}, {words}",
+                computed=float(computed),
+                reference=reference,
+                tolerance=1e-12,
+                source=source,
+            )
 
 
 def _one_node(*, friction: float, push: float) -> tuple[float, float]:

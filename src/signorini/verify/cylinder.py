@@ -85,6 +85,28 @@ def exact_path() -> Iterator[Check]:
     )
 
 
+def increments_at_events() -> Iterator[Check]:
+    """Increments that end where the events are reproduce the path; ever more equal ones approach it."""
+    exact = solve(zhu_cylinder(friction=0.4, refine=2, steps=[Step(name="press", path="exact")])).last
+    loads = sorted({event.load_factor for event in exact.events} | {1.0})
+    aligned = solve(zhu_cylinder(friction=0.4, refine=2, steps=[Step(scale={"cut": s}, increments=1) for s in loads]))
+    contact, case = exact.contacts[0], "paper's cylinder, refined twice, mu 0.4"
+    size = float(contact.pressure.max())
+    for quantity, found, tolerance in (
+        ("increments that end at the events", aligned.contact("foundation"), 1e-11),
+        ("1000 equal increments", solve(zhu_cylinder(friction=0.4, refine=2, increments=1000)).last.contacts[0], 1e-3),
+    ):
+        error = max(np.abs(found.pressure - contact.pressure).max(), np.abs(found.traction - contact.traction).max())
+        yield Check(
+            case=case,
+            quantity=f"largest difference to the exact path / p(0), {quantity}",
+            computed=float(error) / size,
+            reference=0.0,
+            tolerance=tolerance,
+            source="each other",
+        )
+
+
 def literal_equals_compliance() -> Iterator[Check]:
     """The paper's LCP and the compliance formulation give one answer."""
     for friction in (0.0, 0.4):

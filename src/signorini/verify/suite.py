@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from signorini.verify import blocks, cylinder, rings
+from signorini.verify import blocks, cylinder, half_planes, rings
 from signorini.verify.check import Check
 
 Case = Callable[[], Iterator[Check]]
@@ -15,14 +15,22 @@ QUICK: tuple[Case, ...] = (
     blocks.patch_p2,
     blocks.patch_p4,
     blocks.one_node,
+    blocks.one_node_path,
     rings.press_fit_plane_stress,
     rings.press_fit_plane_strain,
     cylinder.paper_mesh,
     cylinder.refined,
     cylinder.literal_equals_compliance,
     cylinder.exact_path,
+    cylinder.increments_at_events,
+    half_planes.cattaneo_mindlin,
 )
-SLOW: tuple[Case, ...] = (cylinder.small_load,)
+SLOW: tuple[Case, ...] = (
+    cylinder.small_load,
+    half_planes.cattaneo_mindlin_refined,
+    half_planes.spence,
+    half_planes.complete_contact,
+)
 
 
 def run(slow: bool = False) -> list[dict[str, str | float | bool]]:

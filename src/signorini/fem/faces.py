@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The faces of solid cells."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.errors import InputError, Where
+from signorini.fem.facets import CORNERS
+from signorini.model.mesh import Mesh
+
+_TETRA = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
+_TETRA10 = ((0, 2, 1, 6, 5, 4), (0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6))
+_HEXAHEDRON = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+_HEXAHEDRON20 = (
+    (0, 3, 2, 1, 11, 10, 9, 8),
+    (4, 5, 6, 7, 12, 13, 14, 15),
+    (0, 1, 5, 4, 8, 17, 12, 16),
+    (1, 2, 6, 5, 9, 18, 13, 17),
+    (2, 3, 7, 6, 10, 19, 14, 18),
+    (3, 0, 4, 7, 11, 16, 15, 19),
+)
+_CENTRES = (24, 25, 22, 21, 23, 20)  # of the faces of a hexahedron with 27 nodes, in the order above
+FACES: Mapping[str, tuple[tuple[int, ...], ...]] = {
+    "tetra": _TETRA,
+    "tetra10": _TETRA10,
+    "hexahedron": _HEXAHEDRON,
+    "hexahedron20": _HEXAHEDRON20,
+    "hexahedron27": tuple((*face, centre) for face, centre in zip(_HEXAHEDRON20, _CENTRES, strict=True)),
+    "wedge": ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)),
+}
+"""Nodes of every face, anticlockwise seen from outside: corners, then middles of edges, then the middle."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Faces:
+    """Faces with one number of nodes, sorted by their keys; a face between two cells is there twice.
+
+    Attributes
+    ----------
+    nodes : (f, k) anticlockwise seen from outside the cell
+    cell : (f,) number of the cell
+    key : (f,) one number for every set of corners, ascending
+    """
+
+    nodes: IntArray
+    cell: IntArray
+    key: IntArray
+
+
+def make_faces(mesh: Mesh) -> dict[int, Faces]:
+    """The faces of all cells, by the number of their nodes."""
+    nodes: dict[int, list[IntArray]] = {}
+    owner: dict[int, list[IntArray]] = {}
+    first = 0
+    for family, cells in mesh.cells.items():
+        inside_out = _mirrored(mesh.points, cells)
+        for face in FACES[family]:
+            members = cells[:, list(face)]
+            members[inside_out] = members[inside_out][:, _reversed(len(face))]
+            nodes.setdefault(len(face), []).append(members)
+            owner.setdefault(len(face), []).append(first + np.arange(len(cells)))
+        first += len(cells)
+    result = {}
+    for count, parts in nodes.items():
+        every, cell = np.concatenate(parts), np.concatenate(owner[count])
+        key = face_key(every, len(mesh.points))
+        order = np.argsort(key, kind="stable")
+        result[count] = Faces(nodes=every[order], cell=cell[order], key=key[order])
+    return result
+
+
+def face_key(faces: IntArray, points: int) -> IntArray:
+    """One number for the corners of faces (m, k), in any order: of their three smallest, which no other face has.
+
+    Raises
+    ------
+    InputError
+        For more than two million nodes, whose triples do not fit into 64 bits.
+    """
+    if points > 2_000_000:
+        raise InputError(f"has {points} nodes; expected at most 2000000 in space", where=("mesh",))
+    corners = np.sort(faces[:, : CORNERS[faces.shape[1]]], axis=1)
+    key: IntArray = (corners[:, 0] * points + corners[:, 1]) * points + corners[:, 2]
+    return key
+
+
+def outer_faces(faces: Mapping[int, Faces], given: IntArray, points: int, name: str, where: Where) -> IntArray:
+    """The faces of a named boundary, (m, k), anticlockwise seen from outside, as their cells have them.
+
+    Raises
+    ------
+    InputError
+        If a face belongs to no cell or to two, is given twice, or the faces differ in their number of nodes.
+    """
+    corners = CORNERS[given.shape[1]]
+    wanted = face_key(given, points)
+    found = {}
+    for count, every in faces.items():
+        if CORNERS[count] != corners:
+            continue
+        left = np.searchsorted(every.key, wanted, side="left")
+        times = np.searchsorted(every.key, wanted, side="right") - left
+        if times.any():
+            found[count] = (every, left, times)
+    total = sum((times for _, _, times in found.values()), np.zeros(len(wanted), np.int64))
+    for bad, why in ((total == 0, "that no cell has"), (total > 1, "between two cells")):
+        if bad.any():
+            first = ", ".join(str(node + 1) for node in given[np.argmax(bad), :corners])
+            also = "" if why.startswith("that") else ": it lies inside. Bodies that touch need nodes of their own there"
+            raise InputError(f"'{name}' has a face with corners {first} {why}{also}", where=where)
+    if len(np.unique(wanted)) != len(wanted):
+        raise InputError(f"'{name}' has a face twice", where=where)
+    if len(found) > 1:
+        raise InputError(f"'{name}' belongs to linear and to quadratic cells; expected one order", where=where)
+    every, left, _ = next(iter(found.values()))
+    own = every.nodes[left]
+    if given.shape[1] > corners:
+        foreign = (np.sort(given, axis=1) != np.sort(own, axis=1)).any(axis=1) if given.shape == own.shape else [True]
+        if np.any(foreign):
+            said, there = (", ".join(map(str, nodes[np.argmax(foreign)] + 1)) for nodes in (given, own))
+            raise InputError(f"'{name}' has a face of nodes {said}, but the cell has {there}", where=where)
+    return own
+
+
+def _mirrored(points: Array, cells: IntArray) -> Array:
+    """(m,) whether the first corners of a cell are left-handed."""
+    family = {4: (1, 2, 3), 10: (1, 2, 3), 6: (1, 2, 3)}.get(cells.shape[1], (1, 3, 4))
+    origin = points[cells[:, 0]]
+    along = np.stack([points[cells[:, k]] - origin for k in family], axis=1)
+    left: Array = np.linalg.det(along) < 0.0
+    return left
+
+
+def _reversed(count: int) -> list[int]:
+    """The nodes of a face seen from the other side."""
+    corners = CORNERS[count]
+    order = [0, *range(corners - 1, 0, -1)]
+    if count > corners:
+        order += [corners + (corners - 1 - k) for k in range(corners)]
+    return order + list(range(2 * corners, count))

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Solid meshes with named boundaries: a box, to be bent by whoever moves its points."""
+
+from __future__ import annotations
+
+from itertools import permutations
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from signorini.arrays import Array, IntArray
+from signorini.checks import choice, vector
+from signorini.errors import InputError
+from signorini.fem.faces import make_faces
+from signorini.fem.space import HEXAHEDRON
+from signorini.model.mesh import NODES_PER_SOLID_CELL, Mesh
+
+SolidCells = Literal["hexahedron", "hexahedron20", "hexahedron27", "tetra", "tetra10"]
+SIDES = (("left", "right"), ("front", "back"), ("bottom", "top"))
+"""Of a box: its lower and upper boundary along x, y and z."""
+
+_FAMILIES = tuple(family for family in NODES_PER_SOLID_CELL if family != "wedge")
+_EDGES = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))  # of a tetrahedron, in the order of its middle nodes
+
+
+def box(*, x: ArrayLike, y: ArrayLike, z: ArrayLike, cells: SolidCells = "hexahedron") -> Mesh:
+    """A box "block" with the boundaries left, right (along x), front, back (y), bottom and top (z).
+
+    Parameters
+    ----------
+    x, y, z : increasing coordinates of the grid planes, length
+    cells : "hexahedron", "hexahedron20", "hexahedron27", or every box of the grid cut in six: "tetra", "tetra10"
+
+    Raises
+    ------
+    InputError
+        If coordinates do not increase or the family is unknown.
+
+    Examples
+    --------
+    >>> box(x=[0, 1, 2], y=[0, 1], z=[0, 1])
+    Mesh(12 nodes, 2 hexahedrons; bodies: block; boundaries: left, right, front, back, bottom, top)
+    """
+    choice(cells, _FAMILIES, ("mesh", "cells"), "family")
+    step = 1 if cells in ("hexahedron", "tetra") else 2
+    lines = []
+    for key, given in (("x", x), ("y", y), ("z", z)):
+        line = np.array(vector(tuple(np.asarray(given, float)), ("mesh", key)))
+        if len(line) < 2 or (np.diff(line) <= 0).any():
+            raise InputError("does not increase; expected two or more increasing coordinates", where=("mesh", key))
+        lines.append(np.interp(np.arange(step * (len(line) - 1) + 1) / step, np.arange(len(line)), line))
+    shape = tuple(len(line) for line in lines)
+    points = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 3)
+    number = np.arange(len(points)).reshape(shape)
+    nodes = _hexahedra(number, step, cells) if cells.startswith("hexahedron") else _tetrahedra(number, step)
+    used, nodes = np.unique(nodes, return_inverse=True)
+    nodes = nodes.reshape(-1, NODES_PER_SOLID_CELL[cells])
+    plain = Mesh(points=points[used], cells={cells: nodes}, bodies={"block": np.arange(len(nodes))})
+    return Mesh(points=plain.points, cells=plain.cells, bodies=plain.bodies, boundaries=_sides(plain))
+
+
+def _origins(number: IntArray, step: int) -> tuple[IntArray, ...]:
+    """Grid indices of the lowest corner of every box of the grid."""
+    grids = np.meshgrid(*(np.arange(0, size - 1, step) for size in number.shape), indexing="ij")
+    return tuple(grid.ravel() for grid in grids)
+
+
+def _hexahedra(number: IntArray, step: int, family: str) -> IntArray:
+    i, j, k = _origins(number, step)
+    offsets = np.array(HEXAHEDRON[: NODES_PER_SOLID_CELL[family]])
+    if step == 1:
+        offsets = offsets // 2
+    return np.stack([number[i + a, j + b, k + c] for a, b, c in offsets], axis=1)
+
+
+def _tetrahedra(number: IntArray, step: int) -> IntArray:
+    """Kuhn's six tetrahedra of a box: one for every way from its lowest to its highest corner along edges."""
+    i, j, k = _origins(number, step)
+    found = []
+    for order in permutations(range(3)):
+        corners = np.cumsum(np.vstack([np.zeros(3, int), step * np.eye(3, dtype=int)[list(order)]]), axis=0)
+        nodes = corners if step == 1 else np.vstack([corners, [(corners[a] + corners[b]) // 2 for a, b in _EDGES]])
+        found.append(np.stack([number[i + a, j + b, k + c] for a, b, c in nodes], axis=1))
+    return np.vstack(found)
+
+
+def _sides(mesh: Mesh) -> dict[str, IntArray]:
+    (faces,) = make_faces(mesh).values()
+    lowest, highest = mesh.points.min(axis=0), mesh.points.max(axis=0)
+    sides = {}
+    for axis, names in enumerate(SIDES):
+        for name, value in zip(names, (lowest[axis], highest[axis]), strict=True):
+            there: Array = (mesh.points[faces.nodes, axis] == value).all(axis=1)
+            sides[name] = faces.nodes[there]
+    return sides
