@@ -18,7 +18,12 @@ from signorini.solution.history import History
 from signorini.solution.results import StepResult
 
 # family: number of the element type, nodes of it that are written
-_TYPES = {"triangle": (7, 3), "triangle6": (8, 6), "quad": (9, 4), "quad8": (10, 8), "quad9": (10, 8)}
+_TYPES = {
+    **{"triangle": (7, 3), "triangle6": (8, 6), "quad": (9, 4), "quad8": (10, 8), "quad9": (10, 8)},
+    **{"hexahedron": (1, 8), "wedge": (2, 6), "tetra": (3, 4), "tetra10": (6, 10)},
+    **{"hexahedron20": (4, 20), "hexahedron27": (4, 20)},
+}
+_UPRIGHT = [*range(12), *range(16, 20), *range(12, 16)]  # in .frd the upright edges come before those of the top
 _TENSOR = (("SXX", 1, 1), ("SYY", 2, 2), ("SZZ", 3, 3), ("SXY", 1, 2), ("SYZ", 2, 3), ("SZX", 3, 1))
 _CONTACT = ("COPEN", "CSLIP1", "CSLIP2", "CPRESS", "CSHEAR1", "CSHEAR2")
 
@@ -69,11 +74,12 @@ def _elements(model: Model) -> Iterator[str]:
     labels, owner, first = model.mesh.cell_labels, model.body_of_cells() + 1, 0
     for family, cells in model.mesh.cells.items():
         kind, width = _TYPES[family]
-        nodes = model.mesh.labels[cells[:, :width]]
+        nodes = model.mesh.labels[cells[:, _UPRIGHT if width == 20 else slice(width)]]
         lines = []
         for row, cell in enumerate(nodes.tolist(), start=first):
-            lines.append(f" -1{labels[row]:10d}{kind:5d}    0{owner[row]:5d}\n -2")
-            lines.append("".join(f"{node:10d}" for node in cell) + "\n")
+            lines.append(f" -1{labels[row]:10d}{kind:5d}    0{owner[row]:5d}\n")
+            words = [f"{node:10d}" for node in cell]
+            lines += [f" -2{''.join(words[start : start + 10])}\n" for start in range(0, len(words), 10)]
         first += len(cells)
         yield "".join(lines)
 
@@ -93,8 +99,8 @@ def _fields(model: Model, step: StepResult, used: IntArray) -> Iterator[tuple[st
     if step.contacts:
         values = np.zeros((len(model.mesh.points), 6))
         for contact in step.contacts:
-            columns = (contact.gap, contact.slip, contact.pressure, contact.traction)
-            values[contact.node[:, None], [0, 1, 3, 4]] = np.column_stack(columns)
+            for column, found in ((0, contact.gap), (1, contact.slip), (3, contact.pressure), (4, contact.traction)):
+                values[contact.node, column : column + _width(found)] = found.reshape(len(contact.node), -1)
         parts = [f" -5  {name:8s}    1    4{i:5d}{j:5d}\n" for name, (_, i, j) in zip(_CONTACT, _TENSOR, strict=True)]
         yield "CONTACT", parts, values[used]
 
@@ -113,3 +119,8 @@ def _records(labels: IntArray, values: Array) -> str:
 
 def _three(plane: Array) -> Array:
     return np.column_stack([plane, np.zeros((len(plane), 3 - plane.shape[1]))])
+
+
+def _width(values: Array) -> int:
+    """Components of values of pairs: one, or two in space."""
+    return 1 if values.ndim == 1 else values.shape[1]

@@ -121,6 +121,8 @@ def _refuse_twice(numbers: IntArray, block: Block, what: str) -> None:
 def _refuse_space(points: Array, groups: list[Group]) -> None:
     """Plane elements lie in a plane of constant z."""
     for group in groups:
+        if group.type.kind == "3d":
+            continue
         used = points[group.nodes.ravel()]
         size = float(np.ptp(used[:, :2], axis=0).max()) if len(used) else 0.0
         if len(used) and np.abs(used[:, 2] - used[0, 2]).max() > _FLAT * max(size, 1e-300):
