@@ -26,8 +26,10 @@ from signorini.output.archive import read_archive, write_archive
 from signorini.output.checkpoint import read_checkpoint, write_checkpoint
 from signorini.output.folder import ARCHIVE
 from signorini.output.frd import write_frd
+from signorini.output.replacing import replacing
 from signorini.output.table import history_table
 from signorini.output.vtu import write_vtu
+from signorini.plot.animation import animate_path
 from signorini.plot.contact import plot_contact
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.history import History
@@ -125,6 +127,11 @@ class Solution(History):
     def plot(self) -> Figure:
         """Draw pressure and friction of every contact at the end of the last step."""
         return plot_contact(self)
+
+    def animate(self, path: str | Path, *, contact: str | None = None, frames: int = 100) -> None:
+        """Write a GIF of pressure, friction and slip of a contact (the first by default) along the whole history."""
+        with replacing(Path(path)) as aside:
+            animate_path(self, aside, contact=contact, frames=frames)
 
 
 Start = Checkpoint | History | str | Path

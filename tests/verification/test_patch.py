@@ -75,3 +75,14 @@ def test_four_blocks(cells, across):
     E, nu = 1000.0, 0.3
     xx, yy = ((1 - nu**2) * s - nu * (1 + nu) * t for s, t in ((-10.0, -20.0), (-20.0, -10.0)))
     np.testing.assert_allclose(history.last.displacement, np.column_stack([xx * x, yy * y]) / E, atol=EXACT)
+
+
+@pytest.mark.parametrize("cells", ["quad8", "triangle6"])
+@pytest.mark.parametrize("across", [(4, 7), (5, 3)])
+def test_quadratic_sides_need_mortar(cells, across):
+    """Patch test P5: on quadratic sides that do not match nodes on facets fail where mortar is exact."""
+    model = stacked_blocks(friction=0.3, cells=cells, across=across)
+    simple = replace(model, contacts=[replace(model.contacts[0], coupling="node-to-segment")])
+    wrong, right = (solve(each).contact("interface").pressure / 1e5 - 1.0 for each in (simple, model))
+    assert np.abs(wrong).max() > 1e-2
+    assert np.abs(right).max() < EXACT
