@@ -32,3 +32,14 @@ def distinct(values: IntArray) -> IntArray:
     """
     found = np.sort(values, axis=None)
     return found[np.concatenate([np.ones(min(1, len(found)), bool), found[1:] != found[:-1]])]
+
+
+def padded(values: Array, width: int) -> Array:
+    """Values (n,) or (n, k) with columns of zeros up to ``width``: what a plane model has in space.
+
+    >>> padded(np.array([1.0, 2.0]), 2)
+    array([[1., 0.],
+           [2., 0.]])
+    """
+    table = values.reshape(len(values), -1) if values.size else np.zeros((len(values), width))
+    return np.column_stack([table, np.zeros((len(table), width - table.shape[1]))])

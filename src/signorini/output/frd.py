@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from signorini._version import __version__
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, padded
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
 from signorini.model.model import Model
@@ -54,7 +54,7 @@ def _document(history: History) -> Iterator[str]:
         yield f"    1UMAT{number:5d}{body.name[:60]}\n"
     labels = mesh.labels[used]
     yield f"    2C                  {len(used):12d}                                     1\n"
-    yield _records(labels, _three(mesh.points[used]))
+    yield _records(labels, padded(mesh.points[used], 3))
     yield " -3\n"
     yield f"    3C                  {mesh.number_of_cells:12d}                                     1\n"
     yield from _elements(model)
@@ -86,8 +86,8 @@ def _elements(model: Model) -> Iterator[str]:
 
 def _fields(model: Model, step: StepResult, used: IntArray) -> Iterator[tuple[str, list[str], Array]]:
     """Name, component lines and values (nodes, k) of every field."""
-    yield "DISP", _vector("D"), _three(step.displacement[used])
-    yield "FORC", _vector("F"), _three(step.external[used])
+    yield "DISP", _vector("D"), padded(step.displacement[used], 3)
+    yield "FORC", _vector("F"), padded(step.external[used], 3)
     space = make_space(model.mesh, axisymmetric=model.axisymmetric)
     total, count = np.zeros((len(model.mesh.points), 6)), np.zeros(len(model.mesh.points))
     for part in body_stresses(space, model, step.displacement, step.factors):
@@ -115,10 +115,6 @@ def _records(labels: IntArray, values: Array) -> str:
     line = " -1%10d" + "%12.5E" * values.shape[1]
     rows: Sequence[Sequence[float]] = values.tolist()
     return "".join(line % (label, *row) + "\n" for label, row in zip(labels.tolist(), rows, strict=True))
-
-
-def _three(plane: Array) -> Array:
-    return np.column_stack([plane, np.zeros((len(plane), 3 - plane.shape[1]))])
 
 
 def _width(values: Array) -> int:

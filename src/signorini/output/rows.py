@@ -7,7 +7,9 @@ import csv
 from collections.abc import Iterator
 from pathlib import Path
 
-from signorini.arrays import IntArray
+import numpy as np
+
+from signorini.arrays import IntArray, padded
 from signorini.output.replacing import replacing
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult
@@ -49,17 +51,18 @@ def contact_rows(step: int, contact: ContactResult, numbers: IntArray) -> Iterat
     contact : at the end of that step
     numbers : of the nodes, in the mesh or deck
     """
-    for i in range(len(contact.node)):
-        if contact.area[i] > 0:
-            x, y = contact.points[i]
-            yield (
-                str(step),
-                contact.name,
-                str(numbers[contact.node[i]]),
-                *(_number(value) for value in (x, y, 0.0, contact.area[i], contact.gap[i], contact.pressure[i])),
-                *(_number(value) for value in (contact.traction[i], 0.0, contact.slip[i], 0.0)),
-                str(contact.status[i]),
-            )
+    points, traction, slip = (
+        padded(values, width) for values, width in ((contact.points, 3), (contact.traction, 2), (contact.slip, 2))
+    )
+    for i in np.flatnonzero(contact.area > 0):
+        numbers_of_row = (*points[i], contact.area[i], contact.gap[i], contact.pressure[i], *traction[i], *slip[i])
+        yield (
+            str(step),
+            contact.name,
+            str(numbers[contact.node[i]]),
+            *(_number(value) for value in numbers_of_row),
+            str(contact.status[i]),
+        )
 
 
 def _number(value: float) -> str:

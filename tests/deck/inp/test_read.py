@@ -196,3 +196,37 @@ def test_tied_surfaces_are_one_body(tmp_path: Path) -> None:
     )
     force = sg.solve(one).last.reactions["top"][1]
     assert pulled.steps[0].reactions["Top u2"][1] == pytest.approx(force, rel=1e-9)
+
+
+def test_every_deck_is_solved_and_balanced() -> None:
+    """What pushes on the bodies is what the supports take: a deck for every kind of element and interface."""
+    for path in sorted(DECKS.glob("*.inp")):
+        model = sg.read(path)
+        solution = sg.solve(model)
+        for step, factors in zip(solution.steps, model.factors()[1:], strict=True):
+            assert step.certificate.passed
+            total = sum(step.reactions.values(), np.zeros(model.dimension))
+            if path.name == "quadratic.inp":
+                total = total + [2.0 * factors["forces on single nodes"], -6.0 * 2.0 * 0.5]
+            if path.name == "shrink_fit.inp":
+                total = total[1:] - 9810.0 * 7.8e-9 * np.pi * (1.0 - 0.25) * 0.2  # the weight of the shaft
+            assert total == pytest.approx(np.zeros(len(total)), abs=1e-9)
+
+
+def test_a_shrink_fit_has_the_pressure_of_lame() -> None:
+    """The mean pressure of a cooled ring on a hollow shaft; one element across each is 4 % off."""
+    step = sg.solve(sg.read(DECKS / "shrink_fit.inp")).steps[0]
+    a, b, c, modulus = 0.5, 1.0, 1.5, 210e3
+    flexibility = ((b**2 + a**2) / (b**2 - a**2) + (c**2 + b**2) / (c**2 - b**2)) / modulus
+    pressure = 12e-6 * 100.0 * b / (b * flexibility)
+    mean = step.contacts[0].normal_force[0] / (2 * np.pi * b * 0.2)
+    assert mean == pytest.approx(pressure, rel=0.08)
+
+
+def test_sections_and_axes_are_read() -> None:
+    model = sg.read(DECKS / "quadratic.inp")
+    wood = model.bodies[0].material
+    assert isinstance(wood, sg.Orthotropic)
+    assert (wood.angle, wood.E2, wood.G12, model.thickness) == (pytest.approx(45.0), 600.0, 300.0, 0.5)
+    contact = model.contacts[0]
+    assert (contact.normal_compliance, contact.tangential_compliance, contact.adjust) == (1e-6, 1e-5, 0.01)
