@@ -21,8 +21,17 @@ def check(options: argparse.Namespace) -> int:
         examined = examine(deck.model)
     except InputError as error:
         raise deck.locate(error) from error
+    words = ""
+    if options.wellposed:
+        from signorini.engine.prepare import prepare
+        from signorini.engine.wellposed import assess
+
+        words = assess(prepare(deck.model)).words
     if options.json:
-        print(json.dumps(described(deck, examined, all_notes(deck, examined)), indent=1))
+        found = described(deck, examined, all_notes(deck, examined))
+        print(json.dumps(found | ({"uniqueness": words} if words else {}), indent=1))
     elif not options.quiet:
         print("\n".join(describe(deck, examined)))
+        if words:
+            print(f"\nuniqueness\n  {words}")
     return 0
