@@ -91,6 +91,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
     _refuse_large(steps, small_strain)
 
     grid = make_grid(outside)
+    kind = _kind(grid)
     nodes, elements = make_sets(placed, grid)
     edges = Edges(grid)
     surfaces = make_surfaces(outside, edges, nodes, elements)
@@ -99,7 +100,6 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
     interactions = make_interactions(outside)
     contacts = make_contacts(outside, interactions, surfaces, nodes)
     contacts += make_ties(outside, surfaces, contacts)
-    kind = _kind(grid)
     known = Known(
         nodes=nodes,
         elements=elements,
