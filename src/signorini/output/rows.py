@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from signorini.arrays import IntArray, padded
+from signorini.arrays import Array, IntArray
 from signorini.output.replacing import replacing
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult
@@ -51,18 +51,23 @@ def contact_rows(step: int, contact: ContactResult, numbers: IntArray) -> Iterat
     contact : at the end of that step
     numbers : of the nodes, in the mesh or deck
     """
-    points, traction, slip = (
-        padded(values, width) for values, width in ((contact.points, 3), (contact.traction, 2), (contact.slip, 2))
-    )
-    for i in np.flatnonzero(contact.area > 0):
-        numbers_of_row = (*points[i], contact.area[i], contact.gap[i], contact.pressure[i], *traction[i], *slip[i])
-        yield (
-            str(step),
-            contact.name,
-            str(numbers[contact.node[i]]),
-            *(_number(value) for value in numbers_of_row),
-            str(contact.status[i]),
-        )
+    for i in range(len(contact.node)):
+        if contact.area[i] > 0:
+            yield (
+                str(step),
+                contact.name,
+                str(numbers[contact.node[i]]),
+                *(_number(value) for value in (*_padded(contact.points[i], 3), contact.area[i], contact.gap[i])),
+                *(_number(value) for value in (contact.pressure[i], *_padded(contact.traction[i], 2))),
+                *(_number(value) for value in _padded(contact.slip[i], 2)),
+                str(contact.status[i]),
+            )
+
+
+def _padded(values: Array, count: int) -> Array:
+    """A row with zeros behind it: plane models have fewer components."""
+    row = np.atleast_1d(values)
+    return np.concatenate([row, np.zeros(count - len(row))])
 
 
 def _number(value: float) -> str:
