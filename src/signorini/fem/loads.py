@@ -31,7 +31,9 @@ def _forces(space: Space, model: Model, load: Load, where: Where) -> Array:
         return _body_forces(space, model, load)
     forces = np.zeros((len(space.mesh.points), space.dimension))
     if load.nodal_forces is not None:
-        forces[nodes_at(space, load.on, (*where, "on"))] = load.nodal_forces
+        named = isinstance(load.on, str)
+        nodes = space.mesh.nodes_of(str(load.on)) if named else nodes_at(space, load.on, (*where, "on"))
+        forces[nodes] = load.nodal_forces
         return forces.ravel()
     if load.force is not None and load.on not in space.mesh.boundaries:
         nodes = nodes_at(space, load.on, (*where, "on"))

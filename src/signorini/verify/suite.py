@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from signorini.verify import blocks, cylinder, half_planes, rings
+from signorini.verify import blocks, cylinder, half_planes, rings, space
 from signorini.verify.check import Check
 
 Case = Callable[[], Iterator[Check]]
@@ -24,12 +24,19 @@ QUICK: tuple[Case, ...] = (
     cylinder.exact_path,
     cylinder.increments_at_events,
     half_planes.cattaneo_mindlin,
+    space.ball_on_plane,
+    space.ball_on_block,
+    space.mindlin,
+    space.press_fit,
 )
 SLOW: tuple[Case, ...] = (
     cylinder.small_load,
     half_planes.cattaneo_mindlin_refined,
     half_planes.spence,
     half_planes.complete_contact,
+    space.balls_refined,
+    space.punch,
+    space.mindlin_refined,
 )
 
 
