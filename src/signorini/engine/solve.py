@@ -8,16 +8,18 @@ from math import ceil
 
 import numpy as np
 
+from signorini.arrays import Array
 from signorini.clock import Clock
 from signorini.engine.automatic import follow_automatically
 from signorini.engine.enter import relaxed, switched
 from signorini.engine.exact import follow_exactly
 from signorini.engine.increments import follow_increments, measured
-from signorini.engine.leg import Leg, Snapshot, joined
+from signorini.engine.leg import Leg, Snapshot, joined, lightened
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
 from signorini.engine.span import Span, spans
 from signorini.engine.staged import absent_pairs, nominal_gap, staged
+from signorini.engine.wellposed import assess
 from signorini.errors import InputError, SolveFailed
 from signorini.friction.law import OPEN
 from signorini.model.model import Model
@@ -42,23 +44,26 @@ def solve(
     start: Checkpoint | None = None,
     backend: str = "auto",
     raise_on_failure: bool = True,
+    wellposed: bool = False,
     clock: Clock | None = None,
 ) -> History:
     """Solve every step of a model and certify every increment; see :func:`signorini.api.solve`, which dresses it."""
     prepared = prepare(model, backend=backend, clock=clock)
-    return solve_prepared(prepared, start=start, raise_on_failure=raise_on_failure)
+    return solve_prepared(prepared, start=start, raise_on_failure=raise_on_failure, wellposed=wellposed)
 
 
-def solve_prepared(prepared: Prepared, *, start: Checkpoint | None = None, raise_on_failure: bool = True) -> History:
+def solve_prepared(
+    prepared: Prepared, *, start: Checkpoint | None = None, raise_on_failure: bool = True, wellposed: bool = False
+) -> History:
     """Solve the load history of a prepared model; see :func:`solve`.
 
     Pairs that were left out as too far apart are looked at after every increment; where one has met the other side, or
     nothing was found without them, everything is solved again with all pairs.
     """
     begin = _begin(prepared, start)
-    history = _follow(prepared, begin)
+    history = _follow(prepared, begin, wellposed)
     if prepared.limited and not history.solved:
-        history = _follow(prepared.widened(), begin)
+        history = _follow(prepared.widened(), begin, wellposed)
     if raise_on_failure and not history.solved:
         raise SolveFailed(history.message, status=history.status, solution=history)
     return history
@@ -85,10 +90,11 @@ def _begin(prepared: Prepared, start: Checkpoint | None) -> Checkpoint:
     return replace(start, state=state)
 
 
-def _follow(prepared: Prepared, begin: Checkpoint) -> History:
+def _follow(prepared: Prepared, begin: Checkpoint, wellposed: bool) -> History:
     """Step after step, up to the end or to what stops it."""
     state = begin.state
-    if (state.status[~(prepared.condensed.active | prepared.condensed.held)] != OPEN).any():
+    seen = prepared.condensed.active | prepared.condensed.held | prepared.interface.tied
+    if (state.status[~seen] != OPEN).any():
         prepared = prepared.widened()
     schedule = list(stages(prepared.model, factors=state.point.factors, inactive=begin.inactive))
     steps: list[StepResult] = []
@@ -101,8 +107,14 @@ def _follow(prepared: Prepared, begin: Checkpoint) -> History:
             steps.append(step_result(now, stage, leg, cycle_ends))
             state, inactive = leg.after, stage.inactive
     except SolveFailed as failure:
-        return _history(prepared, failure.status, str(failure), steps, checkpoint(prepared, state, inactive=inactive))
-    return _history(prepared, "solved", "", steps, checkpoint(prepared, state, inactive=inactive))
+        end = checkpoint(prepared, state, inactive=inactive)
+        return replace(_history(prepared, failure.status, str(failure), steps, end), escape=_motion(failure))
+    history = _history(prepared, "solved", "", steps, checkpoint(prepared, state, inactive=inactive))
+    return replace(history, wellposedness=assess(now, state)) if wellposed else history
+
+
+def _motion(failure: SolveFailed) -> Array | None:
+    return None if failure.motion is None else np.asarray(failure.motion, dtype=np.float64)
 
 
 def _expected(stage: Stage) -> int:
@@ -124,7 +136,8 @@ def checkpoint(prepared: Prepared, state: State, *, inactive: frozenset[str]) ->
 
 def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[float]]:
     """A step from what it changes at once through all its straight parts; and the load factors at its cycles' ends."""
-    legs, cycle_ends = [], []
+    legs: list[Leg] = []
+    cycle_ends: list[float] = []
     begin = float(stage.number - 1)
     change = relaxed(prepared, state, stage.name)
     if change is not None:
@@ -142,12 +155,15 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
         )
         state = after
     end = LoadPoint(factors=stage.ends[-1], gap=nominal_gap(prepared, stage), given=np.zeros_like(state.point.given))
+    # the work of temperatures needs the displacements, see signorini.engine.heat
+    heated = any(load.temperature is not None for load in prepared.model.loads)
     for span, point in spans(stage, state.point, end):
-        legs.append(_leg(prepared, stage, span, state, point))
-        state = legs[-1].after
+        leg = _leg(prepared, stage, span, state, point)
+        legs = [joined([*legs, leg if heated or stage.step.at == "events" else lightened(leg)])]
+        state = leg.after
         if span.cycle:
             cycle_ends.append(span.factor(1.0))
-    return joined(legs), cycle_ends
+    return legs[0], cycle_ends
 
 
 def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPoint) -> Leg:

@@ -300,6 +300,8 @@ class Model:
                 if name not in known:
                     raise InputError(one_of(name, known, "contact"), where=("step", i, key))
                 if self.contacts[known.index(name)].tied:
+                    raise InputError(f"'{name}' is tied for good; only contacts can change", where=("step", i, key))
+                if self.contacts[known.index(name)].tied:
                     raise InputError(f"'{name}' is tied for good; a step cannot change it", where=("step", i, key))
 
     @property

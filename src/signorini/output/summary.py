@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
@@ -44,7 +45,23 @@ def summary(history: History, seconds: Mapping[str, float]) -> dict[str, Any]:
         "timings": {phase: float(seconds.get(phase, 0.0)) for phase in PHASES},
         "backend": history.backend,
         "peak_memory_bytes": peak_memory(),
+        "well_posedness": _well_posedness(history),
         "steps": [_step(model, step) for step in history.steps],
+    }
+
+
+def _well_posedness(history: History) -> dict[str, Any] | None:
+    """What is known of other solutions, None where nobody asked."""
+    found = history.wellposedness
+    if found is None:
+        return None
+    contacts = history.model.contacts
+    return {
+        "friction": found.friction,
+        "bound": found.bound if found.bound is None or math.isfinite(found.bound) else None,
+        "verdict": found.verdict,
+        "words": found.words,
+        "others": [[_contact(*pair) for pair in zip(contacts, other, strict=True)] for other in found.others],
     }
 
 
@@ -71,9 +88,9 @@ def _step(model: Model, step: StepResult) -> dict[str, Any]:
         "obstacles": {
             name: {
                 "displacement": _list(obstacle.displacement),
-                "rotation": obstacle.rotation,
+                "rotation": _turn(obstacle.rotation),
                 "force": _list(obstacle.force),
-                "moment": obstacle.moment,
+                "moment": _turn(obstacle.moment),
             }
             for name, obstacle in step.obstacles.items()
         },
@@ -111,11 +128,15 @@ def _contact(contact: Contact, result: ContactResult) -> dict[str, Any]:
         "open": result.count(OPEN),
         "stick": result.count(STICK),
         "slip": result.count(SLIP),
-        "max_slip": float(abs(result.slip).max()),
+        "max_slip": float(result.slipped.max()),
         "max_sliding": float(result.sliding.max()),
         "max_slip_amplitude": float(0.5 * result.slip_range.max()),
         "dissipation": result.dissipation,
     }
+
+
+def _turn(value: float | Array) -> float | list[float]:
+    return value if isinstance(value, float) else _list(value)
 
 
 def _list(vector: Array) -> list[float]:
