@@ -21,7 +21,9 @@ Rows = list[tuple[str, ...]]
 def describe(deck: Deck, examined: Examined) -> list[str]:
     """Lines on everything that the deck holds."""
     model, mesh = deck.model, deck.model.mesh
-    families = ", ".join(f"{len(cells)} {family}s" for family, cells in mesh.cells.items())
+    families = ", ".join(
+        f"{len(cells)} {family}{'s' if family.isalpha() else ''}" for family, cells in mesh.cells.items()
+    )
     free = examined.constraints.transform.shape[1]
     lines = [
         f"{deck.path}: {model.title or 'untitled'}",
@@ -72,7 +74,9 @@ def _foundations(model: Model) -> Rows:
 
 
 def _thickness(model: Model) -> str:
-    return f", thickness {model.thickness:g}" if model.kind.startswith("plane") else ""
+    if model.axisymmetric:
+        return ", forces on the whole circumference"
+    return f", thickness {model.thickness:g}" if model.dimension == 2 else ""
 
 
 def _obstacles(model: Model) -> Rows:

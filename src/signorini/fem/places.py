@@ -16,10 +16,12 @@ from signorini.model.mesh import CORNERS, NODES_PER_CELL
 _NEAR = 1e-6
 
 
-def nodes_at(space: Space, on: Place, where: Where) -> IntArray:
+def nodes_at(space: Space, on: Place, where: Where, *, completed: bool = True) -> IntArray:
     """Nodes of a boundary, a node set, or the one node at a point, sorted.
 
-    Of a boundary that names the corners of its facets only, those in the middle too where cells have them.
+    Parameters
+    ----------
+    completed : of a boundary that names the corners of its facets only, also the nodes in the middle of them
 
     Raises
     ------
@@ -28,7 +30,7 @@ def nodes_at(space: Space, on: Place, where: Where) -> IntArray:
     """
     if isinstance(on, str):
         nodes = space.mesh.nodes_of(on)
-        if on in space.mesh.boundaries and _corners_only(space, on):
+        if completed and on in space.mesh.boundaries and _corners_only(space, on):
             nodes = boundary(space, on, where).nodes
         loose = np.setdiff1d(nodes, space.used_nodes)
         if len(loose):
