@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.cli.suspicion import far_notes, held_notes, mesh_notes, unit_notes
 from signorini.deck import Deck
 from signorini.engine.prepare import Examined
 from signorini.fem.locking import thin_bodies
@@ -21,7 +22,9 @@ Rows = list[tuple[str, ...]]
 def describe(deck: Deck, examined: Examined) -> list[str]:
     """Lines on everything that the deck holds."""
     model, mesh = deck.model, deck.model.mesh
-    families = ", ".join(f"{len(cells)} {family}s" for family, cells in mesh.cells.items())
+    families = ", ".join(
+        f"{len(cells)} {family}{'s' if family.isalpha() else ''}" for family, cells in mesh.cells.items()
+    )
     free = examined.constraints.transform.shape[1]
     lines = [
         f"{deck.path}: {model.title or 'untitled'}",
@@ -39,8 +42,22 @@ def describe(deck: Deck, examined: Examined) -> list[str]:
         ("steps", _steps(model)),
     ):
         lines += ["", title, *(align(rows) if rows else ["  none"])]
-    notes = [*_notes(deck), *_bending_notes(examined), *_contact_notes(examined), *_motion_notes(examined)]
+    notes = all_notes(deck, examined)
     return [*lines, "", "notes", *(f"  {note}" for note in notes or ["nothing looks wrong"])]
+
+
+def all_notes(deck: Deck, examined: Examined) -> list[str]:
+    """What looks wrong, or differs from the deck, in words."""
+    return [
+        *_notes(deck),
+        *mesh_notes(deck.model),
+        *unit_notes(deck.model),
+        *_bending_notes(examined),
+        *_contact_notes(examined),
+        *far_notes(examined),
+        *held_notes(examined),
+        *_motion_notes(examined),
+    ]
 
 
 def _bodies(model: Model) -> Rows:
@@ -72,7 +89,9 @@ def _foundations(model: Model) -> Rows:
 
 
 def _thickness(model: Model) -> str:
-    return f", thickness {model.thickness:g}" if model.kind.startswith("plane") else ""
+    if model.axisymmetric:
+        return ", forces on the whole circumference"
+    return f", thickness {model.thickness:g}" if model.dimension == 2 else ""
 
 
 def _obstacles(model: Model) -> Rows:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Hertz: two cylinders, or a cylinder and a plane, pressed together without friction."""
+"""Hertz: cylinders or spheres, or one of them and a plane, pressed together without friction."""
 
 from __future__ import annotations
 
@@ -51,6 +51,50 @@ class HertzLine:
     def pressure(self, x: ArrayLike) -> Array:
         """p at the distance x from the centre, force per area."""
         inside = 1.0 - (np.asarray(x, float) / self.half_width) ** 2
+        pressure: Array = self.peak_pressure * np.sqrt(np.maximum(inside, 0.0))
+        return pressure
+
+
+@dataclass(frozen=True, kw_only=True)
+class HertzPoint:
+    """Point contact: ``a = (3 P R / (4 E*))^(1/3)``, ``p_0 = 3 P / (2 pi a^2)``, ``p = p_0 sqrt(1 - r^2 / a^2)``.
+
+    Valid for half-spaces, a << R.
+
+    Parameters
+    ----------
+    force : P
+    radius : R, ``1/R = 1/R_1 + 1/R_2``
+    modulus : E*, see :func:`contact_modulus`
+
+    References
+    ----------
+    Johnson (1985), Contact Mechanics, section 4.2(a).
+
+    Examples
+    --------
+    >>> ball = HertzPoint(force=20.0, radius=8.0, modulus=200.0 / (1 - 0.3**2))
+    >>> round(ball.contact_radius, 5), round(ball.peak_pressure, 5)
+    (0.81733, 14.29474)
+    """
+
+    force: float
+    radius: float
+    modulus: float
+
+    @property
+    def contact_radius(self) -> float:
+        """``a``, length."""
+        return float(np.cbrt(0.75 * self.force * self.radius / self.modulus))
+
+    @property
+    def peak_pressure(self) -> float:
+        """``p_0``, force per area."""
+        return float(1.5 * self.force / (np.pi * self.contact_radius**2))
+
+    def pressure(self, r: ArrayLike) -> Array:
+        """p at the distance r from the centre, force per area."""
+        inside = 1.0 - (np.asarray(r, float) / self.contact_radius) ** 2
         pressure: Array = self.peak_pressure * np.sqrt(np.maximum(inside, 0.0))
         return pressure
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from signorini.verify import blocks, cylinder, half_planes, rings
+from signorini.verify import blocks, cylinder, elements, half_planes, rings
 from signorini.verify.check import Check
 
 Case = Callable[[], Iterator[Check]]
@@ -24,6 +24,10 @@ QUICK: tuple[Case, ...] = (
     cylinder.exact_path,
     cylinder.increments_at_events,
     half_planes.cattaneo_mindlin,
+    elements.sphere_on_a_plane,
+    elements.hollow_spheres,
+    elements.cantilever,
+    elements.inside_bodies,
 )
 SLOW: tuple[Case, ...] = (
     cylinder.small_load,
