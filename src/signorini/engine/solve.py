@@ -34,6 +34,9 @@ from signorini.solution.state import LoadPoint, State, initial_state
 RELAXED = "friction is lower than what pairs carried: they slip at once, before the loads of the step"
 """What a step says whose change of friction lets pairs slip."""
 
+INTERRUPTED = "interrupted"
+"""Status of a history that was stopped from outside."""
+
 _BEHIND_A_JUMP = 10  # increments
 _ENOUGH = 16  # increments of a straight part in space where none were asked for
 
@@ -62,8 +65,10 @@ def solve_prepared(
     """
     begin = _begin(prepared, start)
     history = _follow(prepared, begin, wellposed)
-    if prepared.limited and not history.solved:
+    if prepared.limited and not history.solved and history.status != INTERRUPTED:
         history = _follow(prepared.widened(), begin, wellposed)
+    if raise_on_failure and history.status == INTERRUPTED:
+        raise KeyboardInterrupt
     if raise_on_failure and not history.solved:
         raise SolveFailed(history.message, status=history.status, solution=history)
     return history
@@ -106,6 +111,9 @@ def _follow(prepared: Prepared, begin: Checkpoint, wellposed: bool) -> History:
             leg, cycle_ends = _step(now, stage, switched(now, state, absent))
             steps.append(step_result(now, stage, leg, cycle_ends))
             state, inactive = leg.after, stage.inactive
+    except KeyboardInterrupt:
+        words = f"interrupted in step {len(steps) + 1} of {len(schedule)}; {len(steps)} steps were finished"
+        return _history(prepared, INTERRUPTED, words, steps, checkpoint(prepared, state, inactive=inactive))
     except SolveFailed as failure:
         end = checkpoint(prepared, state, inactive=inactive)
         return replace(_history(prepared, failure.status, str(failure), steps, end), escape=_motion(failure))
