@@ -38,6 +38,7 @@ INTERRUPTED = "interrupted"
 """Status of a history that was stopped from outside."""
 
 _BEHIND_A_JUMP = 10  # increments
+_ENOUGH = 16  # increments of a straight part in space where none were asked for
 
 
 def solve(
@@ -176,6 +177,7 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
 def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPoint) -> Leg:
     """Follow a straight part of a step as asked; where nothing was asked, exactly if there is Coulomb friction.
 
+    In space, where there is no exact path, in increments that are doubled until the answer stays, up to 16.
     Where the exact path that nobody asked for ends in a jump or is lost, it is followed in increments, and the notes
     say so: what they reach behind a jump is a candidate.
     """
@@ -185,6 +187,8 @@ def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPo
         if step.increments == "auto":
             return follow_automatically(prepared, step.tolerance, stage.name, span, state, end)
         return follow_increments(prepared, _increments(step, span, stage), stage.name, span, state, end)
+    if step.path is None and prepared.interface.directions == 3:
+        return follow_automatically(prepared, step.tolerance, stage.name, span, state, end, enough=_ENOUGH)
     try:
         return follow_exactly(
             prepared, stage.name, span, state, end, whole=step.at == "events", jumps=step.follows_jumps
