@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from signorini.verify import blocks, cylinder, elements, half_planes, rings
+from signorini.verify import blocks, cylinder, elements, half_planes, rings, space
 from signorini.verify.check import Check
 
 Case = Callable[[], Iterator[Check]]
@@ -28,12 +28,19 @@ QUICK: tuple[Case, ...] = (
     elements.hollow_spheres,
     elements.cantilever,
     elements.inside_bodies,
+    space.ball_on_plane,
+    space.ball_on_block,
+    space.mindlin,
+    space.press_fit,
 )
 SLOW: tuple[Case, ...] = (
     cylinder.small_load,
     half_planes.cattaneo_mindlin_refined,
     half_planes.spence,
     half_planes.complete_contact,
+    space.balls_refined,
+    space.punch,
+    space.mindlin_refined,
 )
 
 
