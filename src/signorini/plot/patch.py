@@ -153,7 +153,7 @@ def _window(patch: Patch) -> tuple[Array, Array]:
 
 def _frame(axes: Axes, patch: Patch) -> None:
     low, high = _window(patch)
-    edge = 0.02 * (high - low).max()
+    edge = 0.06 * (high - low).max()
     axes.set_xlim(low[0] - edge, high[0] + edge)
     axes.set_ylim(low[1] - edge, high[1] + edge)
     axes.set_aspect("equal")
