@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from signorini.engine import paper
     from signorini.errors import InputError, SignoriniError, SolveFailed
     from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
+    from signorini.fem.profile import mesh_profile
     from signorini.fem.read import read_mesh
     from signorini.model.body import Body
     from signorini.model.conditions import Foundation, Load, Support
@@ -57,6 +58,7 @@ __all__ = [
     "join",
     "lcp",
     "load",
+    "mesh_profile",
     "paper",
     "prepare",
     "quarter_disk",
@@ -71,6 +73,7 @@ _HOMES = {
     "signorini.deck": ("read",),
     "signorini.errors": ("InputError", "SignoriniError", "SolveFailed"),
     "signorini.fem.generators": ("annulus", "half_disk", "quarter_disk", "rectangle"),
+    "signorini.fem.profile": ("mesh_profile",),
     "signorini.fem.read": ("read_mesh",),
     "signorini.model.body": ("Body",),
     "signorini.model.conditions": ("Foundation", "Load", "Support"),

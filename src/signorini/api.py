@@ -26,9 +26,12 @@ from signorini.output.archive import read_archive, write_archive
 from signorini.output.checkpoint import read_checkpoint, write_checkpoint
 from signorini.output.folder import ARCHIVE
 from signorini.output.frd import write_frd
+from signorini.output.replacing import replacing
 from signorini.output.table import history_table
 from signorini.output.vtu import write_vtu
+from signorini.plot.animation import animate_path
 from signorini.plot.contact import plot_contact
+from signorini.plot.escape import plot_escape
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.history import History
 
@@ -126,6 +129,21 @@ class Solution(History):
         """Draw pressure and friction of every contact at the end of the last step."""
         return plot_contact(self)
 
+    def plot_escape(self) -> Figure:
+        """Draw the motion along which bodies run away, where no equilibrium was found because of it.
+
+        Raises
+        ------
+        InputError
+            If there is none.
+        """
+        return plot_escape(self)
+
+    def animate(self, path: str | Path, *, contact: str | None = None, frames: int = 100) -> None:
+        """Write a GIF of pressure, friction and slip of a contact (the first by default) along the whole history."""
+        with replacing(Path(path)) as aside:
+            animate_path(self, aside, contact=contact, frames=frames)
+
 
 Start = Checkpoint | History | str | Path
 
@@ -136,6 +154,7 @@ def solve(
     start: Start | None = None,
     backend: str = "auto",
     raise_on_failure: bool = True,
+    wellposed: bool = False,
     clock: Clock | None = None,
 ) -> Solution:
     """Solve every step of a model and certify every increment.
@@ -147,6 +166,7 @@ def solve(
         factors, slips and interferences are those reached there. Mesh, contacts and names of loads must be the same
     backend : of the sparse factorisation, "auto" or a name
     raise_on_failure : otherwise a solution whose ``status`` says why is returned, with the steps finished before
+    wellposed : whether to ask if the solution is the only one: ``solution.wellposedness``
     clock : counts the seconds and tells progress
 
     Raises
@@ -168,7 +188,9 @@ def solve(
     """
     begin = _checkpoint(start)
     return _answered(
-        lambda: solve_history(model, start=begin, backend=backend, raise_on_failure=raise_on_failure, clock=clock)
+        lambda: solve_history(
+            model, start=begin, backend=backend, raise_on_failure=raise_on_failure, wellposed=wellposed, clock=clock
+        )
     )
 
 

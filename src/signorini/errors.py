@@ -44,10 +44,14 @@ class SolveFailed(SignoriniError):
     ----------
     status : ``"no_equilibrium"`` (proved), ``"not_found"`` or ``"jump"``, as in ``summary.json``
     solution : the steps that were finished before, or None
+    motion : array (nodes, d) of displacements along which bodies run away, or None
     """
 
-    def __init__(self, message: str, *, status: str, solution: object | None = None) -> None:
+    def __init__(
+        self, message: str, *, status: str, solution: object | None = None, motion: object | None = None
+    ) -> None:
         self.status = status
+        self.motion = motion
         self.solution = solution
         super().__init__(message)
 

@@ -8,6 +8,7 @@ import pytest
 
 import signorini as sg
 from signorini.cli import main
+from signorini.gallery.cylinder import zhu_cylinder
 from signorini.plot.curve import curves_of, surface_coordinate
 from signorini.plot.files import ResultFolder
 
@@ -68,3 +69,15 @@ def test_folders_without_results_are_told(tmp_path: Path, capsys: pytest.Capture
     assert "there is no folder" in capsys.readouterr().err
     assert main(["plot", str(tmp_path)]) == 2
     assert f"the folder '{tmp_path}' has no 'summary.json'" in capsys.readouterr().err
+
+
+def test_the_film_of_a_path(tmp_path: Path) -> None:
+    from PIL import Image
+
+    model = zhu_cylinder(steps=[sg.Step(name="press"), sg.Step(name="off", scale={"cut": 0.2})])
+    solution = sg.solve(model)
+    solution.animate(tmp_path / "path.gif", frames=4)
+    with Image.open(tmp_path / "path.gif") as film:
+        assert film.n_frames == 4
+    with pytest.raises(sg.InputError, match="unknown contact 'floor'"):
+        solution.animate(tmp_path / "path.gif", contact="floor")

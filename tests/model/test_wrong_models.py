@@ -204,7 +204,7 @@ IN_THE_MESH = [
     ),
     (
         lambda: pair(contacts=[Contact("upper.bottom", "lower.bottom")]),
-        "contact[0]: the surfaces do not face each other at node",
+        "contact[0]: the surfaces do not face each other at",
     ),
     (
         lambda: block(contacts=[Contact("bottom", "left")]),

@@ -61,6 +61,17 @@ def driven_blocks(*, friction=0.3, cells="quad", compliance=0.0):
     )
 
 
+def blocks_that_do_not_match(*, cells="quad", friction=0.3):
+    """The same with another mesh of the upper block, and the whole top of the lower one opposite it."""
+    model = driven_blocks(cells=cells, friction=friction)
+    meshes = {
+        "upper": rectangle(width=1.0, height=0.8, nx=5, ny=3, origin=(1.05, 1.0), cells=cells),
+        "lower": rectangle(x=[0, 0.5, 1, 1.2, 1.5, 1.75, 2, 3], y=[0, 0.5, 1.0], cells=cells),
+    }
+    contact = Contact("upper.bottom", "lower.top", friction=friction, gap=0.004)
+    return replace(model, mesh=join(meshes), contacts=[contact])
+
+
 def fields(history):
     """Everything with a unit, at the end of the last step: lengths, then stresses."""
     step = history.last
@@ -139,7 +150,7 @@ def on_a_plane():
     )
 
 
-@pytest.mark.parametrize("make", [driven_blocks, on_a_plane])
+@pytest.mark.parametrize("make", [driven_blocks, on_a_plane, blocks_that_do_not_match])
 @few
 @given(angle=st.floats(-np.pi, np.pi), shift=st.tuples(st.floats(-5, 5), st.floats(-5, 5)))
 def test_rotation_and_translation(make, angle, shift):
@@ -158,7 +169,7 @@ def test_rotation_and_translation(make, angle, shift):
         np.testing.assert_allclose(other.normal_force, contact.normal_force @ Q.T, atol=1e-8)
 
 
-@pytest.mark.parametrize("make", [driven_blocks, on_a_plane, zhu_cylinder, press_fit])
+@pytest.mark.parametrize("make", [driven_blocks, on_a_plane, zhu_cylinder, press_fit, blocks_that_do_not_match])
 def test_mirror(make):
     model = make()
     here, there = solve(model), solve(mapped(model, np.diag([-1.0, 1.0])))
@@ -173,10 +184,11 @@ def test_mirror(make):
 
 
 @pytest.mark.parametrize("cells", ["quad", "triangle"])
+@pytest.mark.parametrize("make", [driven_blocks, blocks_that_do_not_match])
 @few
 @given(seed=st.integers(0, 10**6))
-def test_numbering(cells, seed):
-    model = driven_blocks(cells=cells)
+def test_numbering(make, cells, seed):
+    model = make(cells=cells)
     here = solve(model)
     other, new = renumbered(model, np.random.default_rng(seed))
     there = solve(other)

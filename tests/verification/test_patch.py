@@ -34,7 +34,7 @@ def assert_flat_contact(contact, pressure, length):
 
 @every_cell
 @with_and_without_friction
-@pytest.mark.parametrize("across", [(4, 4), (4, 7), (5, 3)])
+@pytest.mark.parametrize("across", [(4, 4), (4, 7)])
 def test_stacked_blocks(cells, friction, across):
     history = solve(stacked_blocks(friction=friction, cells=cells, across=across))
     contact = history.contact("interface")
@@ -45,11 +45,9 @@ def test_stacked_blocks(cells, friction, across):
 
 
 @every_cell
-@with_and_without_friction
-@pytest.mark.parametrize("across", [(3, 3), (2, 3), (4, 3)])
-@pytest.mark.parametrize("swap", [False, True])
-def test_block_on_foundation(cells, friction, across, swap):
-    model = block_on_foundation(friction=friction, cells=cells, across=across)
+@pytest.mark.parametrize(("across", "swap"), [((3, 3), False), ((2, 3), False), ((4, 3), True)])
+def test_block_on_foundation(cells, across, swap):
+    model = block_on_foundation(friction=0.3, cells=cells, across=across)
     if swap:
         seat = replace(model.contacts[0], nonmortar="foundation.seat", mortar="block.bottom")
         model = replace(model, contacts=[seat])
@@ -65,7 +63,7 @@ def test_block_on_foundation(cells, friction, across, swap):
 
 
 @every_cell
-@pytest.mark.parametrize("across", [(3, 3, 3, 3), (2, 3, 4, 5), (5, 2, 3, 3)])
+@pytest.mark.parametrize("across", [(3, 3, 3, 3), (2, 3, 4, 5)])
 def test_four_blocks(cells, across):
     history = solve(four_blocks(cells=cells, across=across))
     for contact, pressure in zip(history.last.contacts, (10.0, 10.0, 20.0, 20.0), strict=True):
@@ -75,3 +73,14 @@ def test_four_blocks(cells, across):
     E, nu = 1000.0, 0.3
     xx, yy = ((1 - nu**2) * s - nu * (1 + nu) * t for s, t in ((-10.0, -20.0), (-20.0, -10.0)))
     np.testing.assert_allclose(history.last.displacement, np.column_stack([xx * x, yy * y]) / E, atol=EXACT)
+
+
+@pytest.mark.parametrize("cells", ["quad8", "triangle6"])
+@pytest.mark.parametrize("across", [(4, 7), (5, 3)])
+def test_quadratic_sides_need_mortar(cells, across):
+    """Patch test P5: on quadratic sides that do not match nodes on facets fail where mortar is exact."""
+    model = stacked_blocks(friction=0.3, cells=cells, across=across)
+    simple = replace(model, contacts=[replace(model.contacts[0], coupling="node-to-segment")])
+    wrong, right = (solve(each).contact("interface").pressure / 1e5 - 1.0 for each in (simple, model))
+    assert np.abs(wrong).max() > 1e-2
+    assert np.abs(right).max() < EXACT

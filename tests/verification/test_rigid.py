@@ -3,13 +3,15 @@
 
 from dataclasses import replace
 
+import meshio
 import numpy as np
 import pytest
 
 from signorini.deck import read
 from signorini.engine.solve import solve
 from signorini.errors import InputError
-from signorini.fem.generators import rectangle
+from signorini.fem.generators import annulus, rectangle
+from signorini.fem.profile import mesh_profile
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
@@ -190,6 +192,29 @@ def test_a_deck_can_say_it(tmp_path):
     np.testing.assert_allclose([*punch.force, punch.moment], [0.0, -3.0, 0.5], atol=1e-9)
 
 
+def test_a_deck_can_take_a_profile_from_a_mesh(tmp_path):
+    tool = rectangle(width=2.0, height=1.0, nx=2, ny=1, origin=(1.0, 2.0))
+    bottom = tool.boundaries["bottom"]
+    meshio.write(
+        tmp_path / "tool.msh",
+        meshio.Mesh(
+            np.column_stack([tool.points, np.zeros(len(tool.points))]),
+            [("quad", tool.cells["quad"]), ("line", bottom)],
+            cell_data={"gmsh:physical": [np.full(2, 1), np.full(2, 2)], "gmsh:geometrical": [np.full(2, 1)] * 2},
+            field_data={"tool": np.array([1, 2]), "edge": np.array([2, 1])},
+        ),
+        file_format="gmsh22",
+    )
+    shape = "profile = { points = [[3.0, 4.0], [3.0, 2.0], [1.0, 2.0], [1.0, 4.0]], fillet = 0.25 }"
+    assert DECK.count(shape) == 1
+    path = tmp_path / "deck.toml"
+    path.write_text(DECK.replace(shape, 'profile = { file = "tool.msh", boundary = "edge" }'))
+    assert read(path).obstacles[0].shape.points == ((3.0, 2.0), (2.0, 2.0), (1.0, 2.0))
+    path.write_text(DECK.replace(shape, 'profile = { file = "tool.msh", boundary = "egde" }'))
+    with pytest.raises(InputError, match=r"profile\.boundary: unknown boundary 'egde'; did you mean 'edge'"):
+        read(path)
+
+
 @pytest.mark.parametrize(
     ("change", "said"),
     [
@@ -248,6 +273,31 @@ def test_profiles_know_their_distances():
     hole = Profile(square.points[::-1], fillet=0.3, closed=True)
     np.testing.assert_allclose(hole.nearest(x)[0], -exact, atol=1e-12)
     np.testing.assert_allclose(hole.nearest(x)[1], -rounded.nearest(x)[1], atol=1e-12)
+
+
+@pytest.mark.parametrize("cells", ["quad", "quad8"])
+def test_a_meshed_tool_lends_its_profile(cells):
+    tool = annulus(inner=1.0, outer=2.0, n_radial=1, n_angular=40, cells=cells)
+    ring = mesh_profile(tool, "outer")
+    assert ring.closed
+    assert len(ring.points) == (40 if cells == "quad" else 80)
+    distance, normals = ring.nearest(np.array([[2.5, 0.0], [0.0, -2.25], [0.0, 1.5]]))
+    np.testing.assert_allclose(distance, [0.5, 0.25, -0.5], atol=0.01)
+    np.testing.assert_allclose(normals, [[1, 0], [0, -1], [0, 1]], atol=0.1)
+    hole = mesh_profile(tool, "inner")
+    np.testing.assert_allclose(hole.nearest(np.array([[0.5, 0.0]]))[0], 0.5, atol=0.01)
+    quarter = mesh_profile(annulus(inner=1.0, outer=2.0, n_radial=1, n_angular=8, angle=90.0, cells=cells), "outer")
+    assert not quarter.closed
+    np.testing.assert_allclose([quarter.points[0], quarter.points[-1]], [[0, 2], [2, 0]], atol=1e-12)
+
+
+def test_a_profile_needs_one_piece():
+    mesh = annulus(inner=1.0, outer=2.0, n_radial=1, n_angular=8)
+    both = np.vstack([mesh.boundaries["inner"], mesh.boundaries["outer"]])
+    with pytest.raises(InputError, match="'both' is in several pieces"):
+        mesh_profile(replace(mesh, boundaries={"both": both}), "both")
+    with pytest.raises(InputError, match="unknown boundary 'iner'; did you mean 'inner'"):
+        mesh_profile(mesh, "iner")
 
 
 @pytest.mark.parametrize(

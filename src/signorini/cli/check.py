@@ -20,4 +20,9 @@ def check(options: argparse.Namespace) -> int:
     except InputError as error:
         raise deck.locate(error) from error
     print("\n".join(describe(deck, examined)))
+    if options.wellposed:
+        from signorini.engine.prepare import prepare
+        from signorini.engine.wellposed import assess
+
+        print(f"\nuniqueness\n  {assess(prepare(deck.model)).words}")
     return 0

@@ -34,9 +34,17 @@ def make_parser() -> argparse.ArgumentParser:
         "--from", dest="start", metavar="DIR", help="go on from the end of a run: its result folder, or its state.npz"
     )
     run.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    run.add_argument(
+        "--wellposed", action="store_true", help="ask whether the solution is the only one, and look for others"
+    )
     run.add_argument("--backend", default="auto", metavar="NAME", help="of the factorisation (default: auto)")
 
     check = commands.add_parser("check", parents=[shared, keywords], help="say what would be solved, what looks wrong")
+    check.add_argument(
+        "--wellposed",
+        action="store_true",
+        help="factorise, and say up to which friction uniqueness is proved",
+    )
     check.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
 
     convert = commands.add_parser("convert", parents=[shared, keywords], help="write a deck as TOML, its mesh as .vtu")

@@ -28,7 +28,7 @@ def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: f
 
     Parameters
     ----------
-    options : ``folder``, ``start``, ``backend`` and ``quiet`` of the command line
+    options : ``folder``, ``start``, ``backend``, ``wellposed`` and ``quiet`` of the command line
     clock : with the seconds of reading
     started : ``time.perf_counter()`` at the beginning of the command
 
@@ -41,7 +41,7 @@ def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: f
     start = _start(options.start)
     folder = open_folder(Path(options.folder) if options.folder else Path("out", deck.path.stem))
     with progress(quiet=options.quiet, seconds=clock.seconds) as clock:
-        history = _solve(deck, options.backend, clock, start)
+        history = _solve(deck, options, clock, start)
         files = publish(history, folder, clock, started=started, tables=deck.tables)
     if not options.quiet:
         if history.solved or history.steps:
@@ -69,10 +69,17 @@ def _start(name: str | None) -> Checkpoint | None:
     return read_checkpoint(path / "state.npz" if path.is_dir() else path)
 
 
-def _solve(deck: Deck, backend: str, clock: Clock, start: Checkpoint | None) -> History:
+def _solve(deck: Deck, options: argparse.Namespace, clock: Clock, start: Checkpoint | None) -> History:
     """The history, finished or not; what is wrong with the deck is told with its line."""
     try:
-        return solve(deck.model, start=start, backend=backend, raise_on_failure=False, clock=clock)
+        return solve(
+            deck.model,
+            start=start,
+            backend=options.backend,
+            raise_on_failure=False,
+            wellposed=options.wellposed,
+            clock=clock,
+        )
     except InputError as error:
         raise deck.locate(error) from error
     except SolveFailed as failure:  # before there was any history
@@ -81,7 +88,7 @@ def _solve(deck: Deck, backend: str, clock: Clock, start: Checkpoint | None) -> 
             status=failure.status,
             message=str(failure),
             steps=(),
-            backend=backend,
+            backend=options.backend,
             timings=dict(clock.seconds),
             pairs=0,
         )

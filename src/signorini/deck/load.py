@@ -146,8 +146,8 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int]) -> De
         "supports": deck_supports(data),
         "foundations": deck_foundations(data),
         "loads": deck_loads(data),
-        "contacts": deck_contacts(data),
-        "obstacles": deck_obstacles(data),
+        "contacts": deck_contacts(data, path.parent),
+        "obstacles": deck_obstacles(data, path.parent),
     }
     if "step" in data:
         parts["steps"] = deck_steps(data)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from signorini.checks import text
@@ -13,7 +14,7 @@ from signorini.model.body import Body
 from signorini.model.conditions import Foundation, Load, Support
 from signorini.model.contact import Contact
 from signorini.model.material import Elastic, Material, Orthotropic
-from signorini.model.obstacle import Circle, Plane, Profile
+from signorini.model.obstacle import Circle, Obstacle, Plane, Profile
 from signorini.model.rigid import Rigid
 from signorini.model.step import Step
 from signorini.model.varying import Along
@@ -82,9 +83,9 @@ def deck_steps(data: Mapping[str, Any]) -> list[Step]:
     return [make(Step, entry, ("step", i)) for i, entry in enumerate(tables(data, "step"))]
 
 
-def deck_contacts(data: Mapping[str, Any]) -> list[Contact]:
-    """``[[contact]]``, each with a ``mortar`` boundary or a rigid obstacle."""
-    return [_contact(entry, ("contact", i)) for i, entry in enumerate(tables(data, "contact"))]
+def deck_contacts(data: Mapping[str, Any], folder: Path) -> list[Contact]:
+    """``[[contact]]``, each with a ``mortar`` boundary or a rigid obstacle; its file is relative to the folder."""
+    return [_contact(entry, ("contact", i), folder) for i, entry in enumerate(tables(data, "contact"))]
 
 
 def _along(entry: dict[str, Any], where: Where) -> Along:
@@ -97,19 +98,35 @@ def _along(entry: dict[str, Any], where: Where) -> Along:
     return make(Along, {"axis": axes[0], "at": entry[axes[0]], "values": entry["mu"]}, where)
 
 
-def deck_obstacles(data: Mapping[str, Any]) -> list[Rigid]:
-    """``[[obstacle]]``, each with a shape."""
-    return [_obstacle(entry, ("obstacle", i)) for i, entry in enumerate(tables(data, "obstacle"))]
+def deck_obstacles(data: Mapping[str, Any], folder: Path) -> list[Rigid]:
+    """``[[obstacle]]``, each with a shape; its file is relative to the folder."""
+    return [_obstacle(entry, ("obstacle", i), folder) for i, entry in enumerate(tables(data, "obstacle"))]
 
 
-def _obstacle(entry: dict[str, Any], where: Where) -> Rigid:
+def _shape(key: str, value: Any, where: Where, folder: Path) -> Obstacle:
+    """A plane, a circle or a profile; a profile may be the boundary of a mesh in a file."""
+    entry = table(value, where)
+    if key != "profile" or "file" not in entry:
+        return make(_OBSTACLES[key], entry, where)
+    from signorini.fem.profile import mesh_profile  # brings scikit-fem with it
+    from signorini.fem.read import read_mesh  # and this every format of meshio
+
+    check_keys(entry, where, known=["file", "boundary", "fillet"], needed=["file", "boundary"])
+    try:
+        mesh = read_mesh(folder / text(entry["file"], ("file",)))
+        return mesh_profile(mesh, text(entry["boundary"], ("boundary",)), fillet=entry.get("fillet", 0.0))
+    except InputError as error:
+        raise InputError(error.message, where=(*where, "boundary" if "boundary" in error.where else "file")) from error
+
+
+def _obstacle(entry: dict[str, Any], where: Where, folder: Path) -> Rigid:
     check_keys(entry, where, known=_OBSTACLE_KEYS, needed=["name"])
     given = dict(entry)
     shapes = [key for key in _OBSTACLES if key in given]
     if len(shapes) != 1:
         raise InputError(f"has {len(shapes)} shapes; expected one of {', '.join(_OBSTACLES)}", where=where)
     key = shapes[0]
-    given["shape"] = make(_OBSTACLES[key], table(given.pop(key), (*where, key)), (*where, key))
+    given["shape"] = _shape(key, given.pop(key), (*where, key), folder)
     return make(Rigid, given, where)
 
 
@@ -120,7 +137,7 @@ def _placed(kind: Any, entry: dict[str, Any], where: Where) -> Any:
     return make(kind, entry, where)
 
 
-def _contact(entry: dict[str, Any], where: Where) -> Contact:
+def _contact(entry: dict[str, Any], where: Where, folder: Path) -> Contact:
     check_keys(entry, where, known=_CONTACT_KEYS, needed=["nonmortar"])
     given = dict(entry)
     if isinstance(given.get("friction"), dict):
@@ -133,5 +150,5 @@ def _contact(entry: dict[str, Any], where: Where) -> Contact:
     if key == "mortar":
         text(given["mortar"], (*where, "mortar"))
     else:
-        given["mortar"] = make(_OBSTACLES[key], table(given.pop(key), (*where, key)), (*where, key))
+        given["mortar"] = _shape(key, given.pop(key), (*where, key), folder)
     return make(Contact, given, where)

@@ -12,8 +12,10 @@ from typing import Any
 
 import numpy as np
 
+from signorini.errors import InputError
 from signorini.model.model import Model
 from signorini.model.obstacle import Circle, Plane, Profile
+from signorini.model.varying import Along
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 _OBSTACLES = {Plane: "plane", Circle: "circle", Profile: "profile"}
@@ -30,6 +32,11 @@ def write_deck(model: Model, path: Path) -> list[Path]:
     Returns
     -------
     The two files
+
+    Raises
+    ------
+    InputError
+        If the model holds a function, which a deck cannot say.
     """
     from signorini.fem.write import write_mesh  # brings meshio with it
 
@@ -75,7 +82,12 @@ def _lines(model: Model, mesh: str) -> Iterator[str]:
             yield from ("", f"[material.{_key(materials[body.material])}]", *_entries(_given(body.material)))
     for body in model.bodies:
         yield from ("", "[[body]]", *_entries(_given(body) | {"material": materials[body.material]}))
-    for key, members in (("support", model.supports), ("load", model.loads), ("obstacle", model.obstacles)):
+    for key, members in (
+        ("support", model.supports),
+        ("foundation", model.foundations),
+        ("load", model.loads),
+        ("obstacle", model.obstacles),
+    ):
         for member in members:
             yield from ("", f"[[{key}]]", *_entries(_given(member)))
     for contact in model.contacts:
@@ -116,6 +128,10 @@ def _value(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, Along):
+        value = {value.axis: value.at, "mu": value.values}
+    if callable(value):
+        raise InputError(f"{value!r} is a function, which a deck cannot say; expected numbers or a table")
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{_key(key)} = {_value(part)}" for key, part in value.items()) + " }"
     if isinstance(value, list | tuple):

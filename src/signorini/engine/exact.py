@@ -316,7 +316,7 @@ def _lost(prepared: Prepared, where: str, span: Span, segment: Segment) -> Solve
             f"{where}: the exact path was lost: {segment.message}; follow the step in increments", status="not_found"
         )
     pairs = np.nonzero(prepared.condensed.active)[0][list(segment.jump.pairs)]
-    nodes = ", ".join(str(node + 1) for node in prepared.interface.node[pairs])
+    nodes = ", ".join(str(node) for node in prepared.model.mesh.labels[prepared.interface.node[pairs]])
     what = "gross sliding" if segment.jump.gross_sliding else "a jump"
     return SolveFailed(
         f"{where} at {span.part(segment.jump.factor):.6%}: {what}: no equilibrium continues the history gradually "

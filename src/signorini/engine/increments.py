@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, frozen
 from signorini.engine.leg import Leg, Snapshot
 from signorini.engine.prepare import Prepared
 from signorini.engine.span import Span
@@ -71,7 +71,7 @@ def advance(
     f = free_load(prepared, point)
     result, forces, moved, free = _balanced(prepared, f, offset, state)
     if not result.solved:
-        raise SolveFailed(f"{where}: {_explain(prepared, result)}", status=result.outcome)
+        raise _failure(prepared, result, where)
     with prepared.clock.phase("recovery"):
         displacement = constraints.transform @ free + imposed
         outside = np.nonzero(~interface.rows(active))[0]
@@ -210,16 +210,20 @@ def refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
     if len(held):
         pair = held[np.argmin(gap[held])]
         contact = prepared.model.contacts[prepared.interface.contact[pair]]
+        number = prepared.model.mesh.labels[prepared.interface.node[pair]]
         raise SolveFailed(
-            f"{where}: contact '{contact.label}': supports press node {prepared.interface.node[pair] + 1} "
+            f"{where}: contact '{contact.label}': supports press node {number} "
             f"{-gap[pair]:.4g} into the other side and leave it no way out",
             status="no_equilibrium",
         )
 
 
-def _explain(prepared: Prepared, result: CoulombResult | SpatialResult) -> str:
-    """The reason, and the bodies that leave by name."""
+def _failure(prepared: Prepared, result: CoulombResult | SpatialResult, where: str) -> SolveFailed:
+    """The reason, and the bodies that leave by name, with their motion."""
     if result.escape is None or not prepared.law.floating:
-        return result.message
+        return SolveFailed(f"{where}: {result.message}", status=result.outcome)
     coefficients, *_ = np.linalg.lstsq(prepared.law.motions, result.escape, rcond=None)
-    return f"{describe_motion(prepared.parts, prepared.floating @ coefficients)}: {result.message}"
+    rigid = prepared.floating @ coefficients
+    motion = (prepared.motions @ rigid).reshape(-1, prepared.model.dimension)
+    words = f"{where}: {describe_motion(prepared.parts, rigid)}: {result.message}"
+    return SolveFailed(words, status=result.outcome, motion=frozen(motion / (np.abs(motion).max() or 1.0)))

@@ -318,7 +318,8 @@ def _singular(examined: Examined, error: NotPositiveDefinite) -> InputError:
     node = examined.constraints.nodes[error.dof]
     label = next(part.label for part in examined.parts if node in part.nodes)
     at = tuple(float(x) for x in examined.model.mesh.points[node].round(6))
+    number = examined.model.mesh.labels[node]
     return InputError(
-        f"{label} has no stiffness against some motion of node {node + 1} at {at}, though no rigid motion is free; "
+        f"{label} has no stiffness against some motion of node {number} at {at}, though no rigid motion is free; "
         "expected cells that are joined by edges (a hinge at a single node?) and moduli that are not extremely apart"
     )

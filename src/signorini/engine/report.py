@@ -124,6 +124,15 @@ def _obstacles(prepared: Prepared, state: State) -> dict[str, ObstacleResult]:
     return found
 
 
+def contacts_of(prepared: Prepared, before: State, state: State) -> tuple[ContactResult, ...]:
+    """The contacts in one state, with slips and dissipation since another."""
+    moved = np.abs(state.slip - before.slip)
+    return tuple(
+        _contact_result(prepared, _surface(prepared, i), before, state, moved, moved)
+        for i in range(len(prepared.model.contacts))
+    )
+
+
 def _instants(
     prepared: Prepared, leg: Leg, cycle_ends: Sequence[float], heat: Callable[[State], float]
 ) -> Iterator[Instant]:

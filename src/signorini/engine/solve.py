@@ -8,6 +8,7 @@ from math import ceil
 
 import numpy as np
 
+from signorini.arrays import Array
 from signorini.clock import Clock
 from signorini.engine.automatic import follow_automatically
 from signorini.engine.enter import relaxed, switched
@@ -18,6 +19,7 @@ from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
 from signorini.engine.span import Span, spans
 from signorini.engine.staged import absent_pairs, nominal_gap, staged
+from signorini.engine.wellposed import assess
 from signorini.errors import InputError, SolveFailed
 from signorini.friction.law import OPEN
 from signorini.model.model import Model
@@ -41,23 +43,26 @@ def solve(
     start: Checkpoint | None = None,
     backend: str = "auto",
     raise_on_failure: bool = True,
+    wellposed: bool = False,
     clock: Clock | None = None,
 ) -> History:
     """Solve every step of a model and certify every increment; see :func:`signorini.api.solve`, which dresses it."""
     prepared = prepare(model, backend=backend, clock=clock)
-    return solve_prepared(prepared, start=start, raise_on_failure=raise_on_failure)
+    return solve_prepared(prepared, start=start, raise_on_failure=raise_on_failure, wellposed=wellposed)
 
 
-def solve_prepared(prepared: Prepared, *, start: Checkpoint | None = None, raise_on_failure: bool = True) -> History:
+def solve_prepared(
+    prepared: Prepared, *, start: Checkpoint | None = None, raise_on_failure: bool = True, wellposed: bool = False
+) -> History:
     """Solve the load history of a prepared model; see :func:`solve`.
 
     Pairs that were left out as too far apart are looked at after every increment; where one has met the other side, or
     nothing was found without them, everything is solved again with all pairs.
     """
     begin = _begin(prepared, start)
-    history = _follow(prepared, begin)
+    history = _follow(prepared, begin, wellposed)
     if prepared.limited and not history.solved:
-        history = _follow(prepared.widened(), begin)
+        history = _follow(prepared.widened(), begin, wellposed)
     if raise_on_failure and not history.solved:
         raise SolveFailed(history.message, status=history.status, solution=history)
     return history
@@ -84,10 +89,11 @@ def _begin(prepared: Prepared, start: Checkpoint | None) -> Checkpoint:
     return replace(start, state=state)
 
 
-def _follow(prepared: Prepared, begin: Checkpoint) -> History:
+def _follow(prepared: Prepared, begin: Checkpoint, wellposed: bool) -> History:
     """Step after step, up to the end or to what stops it."""
     state = begin.state
-    if (state.status[~(prepared.condensed.active | prepared.condensed.held)] != OPEN).any():
+    seen = prepared.condensed.active | prepared.condensed.held | prepared.interface.tied
+    if (state.status[~seen] != OPEN).any():
         prepared = prepared.widened()
     schedule = list(stages(prepared.model, factors=state.point.factors, inactive=begin.inactive))
     steps: list[StepResult] = []
@@ -100,8 +106,14 @@ def _follow(prepared: Prepared, begin: Checkpoint) -> History:
             steps.append(step_result(now, stage, leg, cycle_ends))
             state, inactive = leg.after, stage.inactive
     except SolveFailed as failure:
-        return _history(prepared, failure.status, str(failure), steps, checkpoint(prepared, state, inactive=inactive))
-    return _history(prepared, "solved", "", steps, checkpoint(prepared, state, inactive=inactive))
+        end = checkpoint(prepared, state, inactive=inactive)
+        return replace(_history(prepared, failure.status, str(failure), steps, end), escape=_motion(failure))
+    history = _history(prepared, "solved", "", steps, checkpoint(prepared, state, inactive=inactive))
+    return replace(history, wellposedness=assess(now, state)) if wellposed else history
+
+
+def _motion(failure: SolveFailed) -> Array | None:
+    return None if failure.motion is None else np.asarray(failure.motion, dtype=np.float64)
 
 
 def _expected(stage: Stage) -> int:

@@ -157,15 +157,17 @@ def boundary(space: Space, name: str, where: Where) -> Boundary:
         return Boundary(facets=facets, points=points[facets], nodes=np.unique(facets))
     empty = (points[given[:, 0]] == points[given[:, 1]]).all(axis=1)
     if empty.any():
-        raise InputError(f"'{name}' has an edge without length at node {given[empty][0, 0] + 1}", where=where)
+        raise InputError(
+            f"'{name}' has an edge without length at node {space.mesh.labels[given[empty][0, 0]]}", where=where
+        )
     edge = _edges(space, given[:, :2], name, where)
     ends, middle = space.edges.ends[edge], space.edges.middle[edge]
     if given.shape[1] == 3 and (given[:, 2] != middle).any():
         wrong = int(np.nonzero(given[:, 2] != middle)[0][0])
-        found = f"node {middle[wrong] + 1}" if middle[wrong] >= 0 else "no node"
+        a, b, c = space.mesh.labels[given[wrong]]
+        found = f"node {space.mesh.labels[middle[wrong]]}" if middle[wrong] >= 0 else "no node"
         raise InputError(
-            f"'{name}' has node {given[wrong, 2] + 1} between nodes {given[wrong, 0] + 1} and {given[wrong, 1] + 1}, "
-            f"where the cell has {found}",
+            f"'{name}' has node {c} between nodes {a} and {b}, where the cell has {found}",
             where=where,
         )
     quadratic = middle >= 0
@@ -181,10 +183,10 @@ def _edges(space: Space, facets: IntArray, name: str, where: Where) -> IntArray:
     left = np.searchsorted(space.edges.key, wanted, side="left")
     found = np.searchsorted(space.edges.key, wanted, side="right") - left
     if (found == 0).any():
-        a, b = facets[np.nonzero(found == 0)[0][0]] + 1
+        a, b = space.mesh.labels[facets[np.nonzero(found == 0)[0][0]]]
         raise InputError(f"'{name}' has an edge between nodes {a} and {b} that no cell has", where=where)
     if (found > 1).any():
-        a, b = facets[np.nonzero(found > 1)[0][0]] + 1
+        a, b = space.mesh.labels[facets[np.nonzero(found > 1)[0][0]]]
         raise InputError(
             f"'{name}' lies inside: the edge between nodes {a} and {b} belongs to two cells. Expected an outer "
             "boundary; bodies that touch need nodes of their own on the interface",

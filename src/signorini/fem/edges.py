@@ -80,18 +80,21 @@ def check_conforming(mesh: Mesh, edges: Edges) -> None:
     wrong = same[edges.middle[same] != edges.middle[same + 1]]
     if len(wrong):
         one, two = edges.cell[wrong[0]], edges.cell[wrong[0] + 1]
-        a, b = edges.ends[wrong[0]] + 1
+        a, b = mesh.labels[edges.ends[wrong[0]]]
+        first, second = mesh.cell_labels[[one, two]]
         raise InputError(
-            f"cells {one + 1} ({_family(mesh, one)}) and {two + 1} ({_family(mesh, two)}) meet along the edge between "
-            f"nodes {a} and {b} without sharing a middle node; expected cells of one order along an edge",
+            f"cells {first} ({_family(mesh, one)}) and {second} ({_family(mesh, two)}) meet "
+            f"along the edge between nodes {a} and {b} without sharing a middle node; expected cells of one order "
+            "along an edge",
             where=("mesh", "cells"),
         )
     corners = np.concatenate([nodes[:, : CORNERS[family]].ravel() for family, nodes in mesh.cells.items()])
     hanging = np.nonzero(np.isin(edges.middle, corners))[0]
     if len(hanging):
         edge = hanging[0]
+        number = mesh.cell_labels[edges.cell[edge]]
         raise InputError(
-            f"node {edges.middle[edge] + 1}, the middle of an edge of cell {edges.cell[edge] + 1} "
+            f"node {mesh.labels[edges.middle[edge]]}, the middle of an edge of cell {number} "
             f"({_family(mesh, edges.cell[edge])}), is the corner of a cell; expected cells that share whole edges",
             where=("mesh", "cells"),
         )

@@ -26,13 +26,13 @@ def nodes_at(space: Space, on: Place, where: Where) -> IntArray:
         nodes = space.mesh.nodes_of(on)
         loose = np.setdiff1d(nodes, space.used_nodes)
         if len(loose):
-            raise InputError(f"'{on}' holds node {loose[0] + 1}, which belongs to no cell", where=where)
+            raise InputError(f"'{on}' holds node {space.mesh.labels[loose[0]]}, which belongs to no cell", where=where)
         return nodes
     points = space.mesh.points[space.used_nodes]
     distance = np.linalg.norm(points - np.asarray(on), axis=1)
     nearest = int(np.argmin(distance))
     if distance[nearest] > _NEAR * np.ptp(points, axis=0).max():
         at = tuple(float(x) for x in points[nearest])
-        node = space.used_nodes[nearest] + 1
+        node = space.mesh.labels[space.used_nodes[nearest]]
         raise InputError(f"no node at {on}; the nearest is node {node} at {at}", where=where)
     return space.used_nodes[[nearest]]

@@ -269,7 +269,7 @@ def _check_radii(mesh: Mesh) -> None:
     node = used[np.argmin(radii[used])]
     if radii[node] < -ON_AXIS * np.abs(radii[used]).max():
         raise InputError(
-            f"node {node + 1} has the radius {radii[node]:g}; expected x = r >= 0 in an axisymmetric model",
+            f"node {mesh.labels[node]} has the radius {radii[node]:g}; expected x = r >= 0 in an axisymmetric model",
             where=("mesh", "points"),
         )
 
@@ -288,7 +288,7 @@ def _check_shapes(space: Space) -> None:
             linear = CORNERS[block.family] == block.cells.shape[1]
             expected = "a convex cell" if linear else "the middle nodes near the middles of edges that bend little"
             raise InputError(
-                f"cell {block.first + cell + 1} ({block.family}) near {centre} has no "
+                f"cell {space.mesh.cell_labels[block.first + cell]} ({block.family}) near {centre} has no "
                 f"area or is turned inside out (its Jacobian changes sign); expected {expected}",
                 where=("mesh",),
             )

@@ -66,7 +66,7 @@ def make_constraints(space: Space, model: Model) -> Constraints:
                 continue
             dofs = nodes * d + axis
             if value != 0.0:
-                _check_axis(np.intersect1d(dofs, axis_dofs), i, value)
+                _check_axis(space, np.intersect1d(dofs, axis_dofs), i, value)
             _check_agreement(space, model, owner, values, dofs, i, value)
             new = dofs[owner[dofs] < 0]
             owner[new], values[new] = i, value
@@ -113,10 +113,11 @@ def _on_axis(space: Space, model: Model) -> IntArray:
     return space.used_nodes[radii <= ON_AXIS * radii.max()] * space.dimension
 
 
-def _check_axis(dofs: IntArray, i: int, value: float) -> None:
+def _check_axis(space: Space, dofs: IntArray, i: int, value: float) -> None:
     if len(dofs):
+        number = space.mesh.labels[dofs[0] // 2]
         raise InputError(
-            f"u_r = {value:g} at node {dofs[0] // 2 + 1}, which is on the axis and stays there; expected 0 or None "
+            f"u_r = {value:g} at node {number}, which is on the axis and stays there; expected 0 or None "
             '(in a deck "free")',
             where=("support", i, "u"),
         )
@@ -131,8 +132,9 @@ def _check_agreement(
         if value == 0.0 and values[dof] == 0.0:
             continue
         node, axis = divmod(int(dof), space.dimension)
+        number = space.mesh.labels[node]
         raise InputError(
-            f"'{model.supports[i].label}' prescribes u_{model.axes[axis]} = {value:g} at node {node + 1}, where "
+            f"'{model.supports[i].label}' prescribes u_{model.axes[axis]} = {value:g} at node {number}, where "
             f"support '{other.label}' prescribes {values[dof]:g}; expected one support to move a node in a direction",
             where=("support", i, "u"),
         )
@@ -145,10 +147,11 @@ def _tie(
     blocked = dofs[held[dofs] | (leader[dofs] != dofs)]
     if len(blocked):
         node, axis = divmod(int(blocked[0]), space.dimension)
+        number = space.mesh.labels[node]
         by = "the axis" if held[blocked[0]] else "another load"
         by = f"support '{model.supports[owner[blocked[0]]].label}'" if owner[blocked[0]] >= 0 else by
         raise InputError(
-            f"the boundary should move rigidly in {model.axes[axis]}, but {by} holds node {node + 1} in that "
+            f"the boundary should move rigidly in {model.axes[axis]}, but {by} holds node {number} in that "
             'direction; expected the component to be free (None, in a deck "free")',
             where=("load", i, "force"),
         )

@@ -85,7 +85,7 @@ def _parabola_sags(side: Boundary) -> Array:
     return np.where(result > 0.0, result, hollow)
 
 
-def refuse_deep_overlap(gap: Array, nodes: IntArray, contact: Contact, element: float, where: Where) -> None:
+def refuse_deep_overlap(gap: Array, numbers: IntArray, contact: Contact, element: float, where: Where) -> None:
     """An overlap of more than an element is no small displacement.
 
     Raises
@@ -97,7 +97,7 @@ def refuse_deep_overlap(gap: Array, nodes: IntArray, contact: Contact, element: 
         worst = int(np.argmin(gap))
         by = f" with the interference of {contact.interference:g}" if contact.interference else ""
         raise InputError(
-            f"the two sides overlap{by} by {-gap[worst]:.4g} at node {nodes[worst] + 1}, more than the longest facet "
+            f"the two sides overlap{by} by {-gap[worst]:.4g} at node {numbers[worst]}, more than the longest facet "
             f"there, {element:.4g}; displacements are small here. Expected bodies that hardly overlap: move one, or "
             "say gap = 'zero' or adjust",
             where=where,

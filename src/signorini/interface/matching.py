@@ -30,7 +30,7 @@ class Side(Protocol):
         """(k, d) Outward unit normals."""
 
 
-def match_nodes(points: Array, nonmortar: Side, mortar: Side) -> tuple[IntArray, str]:
+def match_nodes(points: Array, nonmortar: Side, mortar: Side, labels: IntArray) -> tuple[IntArray, str]:
     """For every nonmortar node its partner on the mortar side, one to one, or why there is none.
 
     The nearest node is the partner, looked for from either side: where a curved surface leaves a flat one only the
@@ -39,6 +39,7 @@ def match_nodes(points: Array, nonmortar: Side, mortar: Side) -> tuple[IntArray,
     Parameters
     ----------
     points : (n, d) coordinates of all nodes, length
+    labels : (n,) their numbers, for messages
 
     Returns
     -------
@@ -66,15 +67,15 @@ def match_nodes(points: Array, nonmortar: Side, mortar: Side) -> tuple[IntArray,
     if wrong.any():
         worst = int(np.argmax(np.where(wrong, beside, -1.0)))
         return partner, (
-            f"node {first[worst] + 1} at {_spell(points[first[worst]])} has no partner across the gap: the nearest, "
-            f"node {partner[worst] + 1} at {_spell(points[partner[worst]])}, lies {beside[worst]:.2g} of a node "
-            "distance beside it. Expected matching meshes, node opposite node"
+            f"node {labels[first[worst]]} at {_spell(points[first[worst]])} has no partner across the gap: the "
+            f"nearest, node {labels[partner[worst]]} at {_spell(points[partner[worst]])}, lies {beside[worst]:.2g} of "
+            "a node distance beside it. Expected matching meshes, node opposite node"
         )
     facing = np.sum(own * other, axis=1)
     if (facing > 0).any():
         worst = int(np.argmax(facing))
         return partner, (
-            f"the surfaces do not face each other at node {first[worst] + 1}, {_spell(points[first[worst]])}: both "
+            f"the surfaces do not face each other at node {labels[first[worst]]}, {_spell(points[first[worst]])}: both "
             "outward normals point the same way"
         )
     return partner, ""

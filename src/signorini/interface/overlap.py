@@ -158,7 +158,7 @@ def _apart(
         node = nonmortar.facets[turned[0], 0]
         at = ", ".join(f"{x:.6g}" for x in points[node])
         return InputError(
-            f"the surfaces do not face each other at node {node + 1}, ({at}): both outward normals point the same way",
+            f"the surfaces do not face each other at ({at}): both outward normals point the same way",
             where=where,
         )
     distance, _ = KDTree(points[mortar.nodes]).query(points[nonmortar.nodes])

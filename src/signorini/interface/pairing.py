@@ -99,7 +99,7 @@ def make_pairs(space: Space, model: Model, constraints: Constraints, i: int) -> 
         if contact.side == "coarser" and side.lengths.mean() < (1.0 - 1e-9) * mortar.lengths.mean():
             side, mortar, names = mortar, side, names[::-1]
         pairs = _on_side(space, model, constraints, side, mortar, contact, names, where)
-    refuse_deep_overlap(pairs.gap, pairs.nodes, contact, float(side.lengths.max()), where)
+    refuse_deep_overlap(pairs.gap, space.mesh.labels[pairs.nodes], contact, float(side.lengths.max()), where)
     return pairs
 
 
@@ -150,7 +150,8 @@ def _on_side(
     shared = np.intersect1d(side.nodes, mortar.nodes)
     if len(shared):
         raise InputError(
-            f"both sides hold node {shared[0] + 1}; bodies that touch need nodes of their own", where=where
+            f"both sides hold node {space.mesh.labels[shared[0]]}; bodies that touch need nodes of their own",
+            where=where,
         )
     coupling, how = _couple(space, model, side, mortar, contact, where)
     normals = side_normals(space, constraints, side, coupling.nodes)
@@ -185,7 +186,7 @@ def _couple(
     points, count = space.mesh.points, len(space.mesh.points)
     linear = not (side.quadratic or mortar.quadratic)
     if contact.coupling == "nodes" or (contact.coupling == "auto" and linear):
-        partner, reason = match_nodes(points, side, mortar)
+        partner, reason = match_nodes(points, side, mortar, space.mesh.labels)
         if reason and contact.coupling == "nodes":
             raise InputError(reason, where=where)
         if not reason:

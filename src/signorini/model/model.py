@@ -150,9 +150,14 @@ class Model:
         cell = int(np.nonzero(count != 1)[0][0])
         names = [name for name, cells in known.items() if cell in cells]
         if count[cell]:
-            raise InputError(f"cell {cell + 1} belongs to several bodies: {', '.join(names)}", where=("body",))
+            raise InputError(
+                f"cell {self.mesh.cell_labels[cell]} belongs to several bodies: {', '.join(names)}", where=("body",)
+            )
         of = f"it is in {' and '.join(names)}" if names else "it is in no named part of the mesh"
-        raise InputError(f"cell {cell + 1} belongs to no body ({of}); give it a body and a material", where=("body",))
+        raise InputError(
+            f"cell {self.mesh.cell_labels[cell]} belongs to no body ({of}); give it a body and a material",
+            where=("body",),
+        )
 
     def _check_load(self, i: int, load: Load) -> None:
         where = ("load", i, "on")
@@ -294,6 +299,8 @@ class Model:
             for name in getattr(step, key):
                 if name not in known:
                     raise InputError(one_of(name, known, "contact"), where=("step", i, key))
+                if self.contacts[known.index(name)].tied:
+                    raise InputError(f"'{name}' is tied for good; only contacts can change", where=("step", i, key))
                 if self.contacts[known.index(name)].tied:
                     raise InputError(f"'{name}' is tied for good; a step cannot change it", where=("step", i, key))
 

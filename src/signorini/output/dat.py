@@ -58,7 +58,8 @@ def _nodes(model: Model, step: StepResult, table: Table, quantity: str, end: str
 def _stresses(model: Model, step: StepResult, cells: Set[int]) -> Iterator[str]:
     order = [0, 1, 2, 3, 5, 4]
     labels = model.mesh.cell_labels
-    for index, stress in point_stresses(make_space(model.mesh), model, step.displacement, step.factors):
+    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
+    for index, stress in point_stresses(space, model, step.displacement, step.factors):
         for cell, points in zip(index.tolist(), stress[..., order], strict=True):
             if cell in cells:
                 yield from (f"{labels[cell]:10d}{q:4d} {_spelled(values)}" for q, values in enumerate(points, start=1))

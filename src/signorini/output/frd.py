@@ -82,8 +82,9 @@ def _fields(model: Model, step: StepResult, used: IntArray) -> Iterator[tuple[st
     """Name, component lines and values (nodes, k) of every field."""
     yield "DISP", _vector("D"), _three(step.displacement[used])
     yield "FORC", _vector("F"), _three(step.external[used])
+    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
     total, count = np.zeros((len(model.mesh.points), 6)), np.zeros(len(model.mesh.points))
-    for part in body_stresses(make_space(model.mesh), model, step.displacement, step.factors):
+    for part in body_stresses(space, model, step.displacement, step.factors):
         total[part.nodes] += part.stress
         count[part.nodes] += 1
     stress = total[used] / np.maximum(count[used], 1)[:, None]

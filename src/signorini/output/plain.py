@@ -27,6 +27,7 @@ _HOMES = (
     "signorini.model.mesh",
     "signorini.model.model",
     "signorini.model.step",
+    "signorini.model.varying",
     "signorini.solution.certificate",
     "signorini.solution.checkpoint",
     "signorini.solution.history",
@@ -80,7 +81,7 @@ def to_plain(value: Any, path: str, keep: Callable[[str, AnyArray], str]) -> Any
         return {_MARK: kind, "of": pairs}
     name = type(value).__name__
     if _kinds().get(name) is not type(value):
-        raise TypeError(f"{type(value)} at '{path}' is not stored")
+        raise InputError(f"'{path}' is {value!r}, which a file cannot hold; expected numbers or a table")
     own = {
         field.name: to_plain(getattr(value, field.name), f"{path}/{field.name}", keep)
         for field in fields(cast(Any, value))

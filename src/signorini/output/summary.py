@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
@@ -44,7 +45,23 @@ def summary(history: History, seconds: Mapping[str, float]) -> dict[str, Any]:
         "timings": {phase: float(seconds.get(phase, 0.0)) for phase in PHASES},
         "backend": history.backend,
         "peak_memory_bytes": peak_memory(),
+        "well_posedness": _well_posedness(history),
         "steps": [_step(model, step) for step in history.steps],
+    }
+
+
+def _well_posedness(history: History) -> dict[str, Any] | None:
+    """What is known of other solutions, None where nobody asked."""
+    found = history.wellposedness
+    if found is None:
+        return None
+    contacts = history.model.contacts
+    return {
+        "friction": found.friction,
+        "bound": found.bound if found.bound is None or math.isfinite(found.bound) else None,
+        "verdict": found.verdict,
+        "words": found.words,
+        "others": [[_contact(*pair) for pair in zip(contacts, other, strict=True)] for other in found.others],
     }
 
 

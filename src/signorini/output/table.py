@@ -49,6 +49,8 @@ def history_table(history: History) -> str:
         lines += ["", *_step_lines(step, number)]
     for note in dict.fromkeys(note for step in history.steps for note in step.notes):
         lines += ["", *textwrap.wrap(f"note: {note}", 112)]
+    if history.wellposedness is not None:
+        lines += ["", *textwrap.wrap(f"uniqueness: {history.wellposedness.words}", 112)]
     if not history.solved:
         lines += ["", *textwrap.wrap(f"{history.status}: {history.message}", 112)]
     return "\n".join(lines)

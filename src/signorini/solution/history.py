@@ -6,10 +6,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from signorini.arrays import Array
 from signorini.errors import InputError, one_of
 from signorini.model.model import Model
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.results import ContactResult, StepResult
+from signorini.solution.wellposedness import WellPosedness
 
 PHASES = ("read", "assembly", "factorisation", "condensation", "complementarity", "recovery", "output", "total")
 
@@ -28,6 +30,8 @@ class History:
     timings : seconds by phase
     pairs : contact pairs
     end : the state at the end of the last finished step, from which another history may go on; None before the first
+    wellposedness : whether other solutions exist, where that was asked
+    escape : (nodes, d) rigid motion along which bodies run away where that was found, largest entry 1; otherwise None
     """
 
     model: Model
@@ -38,6 +42,8 @@ class History:
     timings: Mapping[str, float]
     pairs: int
     end: Checkpoint | None = None
+    wellposedness: WellPosedness | None = None
+    escape: Array | None = None
 
     @property
     def solved(self) -> bool:

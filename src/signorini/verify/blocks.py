@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Patch tests on matching meshes and the one-node Coulomb problem."""
+"""Patch tests on meshes that match or not, and the one-node Coulomb problem."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.engine.solve import solve
+from signorini.fem.generators import Cells
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
 from signorini.friction.exact import follow, initial_state, land
@@ -19,22 +20,30 @@ from signorini.model.model import Model
 from signorini.solution.history import History
 from signorini.verify.check import Check
 
+PATCHES: tuple[tuple[Cells, tuple[int, int]], ...] = (
+    ("quad", (4, 4)),
+    ("triangle", (4, 4)),
+    ("quad", (4, 7)),
+    ("quad8", (5, 3)),
+)
+"""Cells, and how many of either side are along the interface."""
+
 
 def patch_p1() -> Iterator[Check]:
     """P1: two blocks pressed together."""
-    for cells in ("quad", "triangle"):
-        history = solve(stacked_blocks(friction=0.3, cells=cells))
+    for cells, across in PATCHES:
+        history = solve(stacked_blocks(friction=0.3, cells=cells, across=across))
         contact = history.contact("interface")
-        case = f"P1 two blocks, {cells}"
+        case = f"P1 two blocks, {_say(cells, across)}"
         yield _farthest(case, "contact pressure", contact.pressure, 1e5, "exact")
         yield _farthest(case, "u_y on the interface", history.last.displacement[contact.node, 1], -0.05, "exact")
 
 
 def patch_p2() -> Iterator[Check]:
     """P2: block on a foundation under one pressure."""
-    for cells in ("quad", "triangle"):
-        history = solve(block_on_foundation(friction=0.3, cells=cells))
-        case, source = f"P2 block on foundation, {cells}", "Taylor, Papadopoulos (1991)"
+    for cells, across in PATCHES:
+        history = solve(block_on_foundation(friction=0.3, cells=cells, across=across))
+        case, source = f"P2 block on foundation, {_say(cells, across)}", "Taylor, Papadopoulos (1991)"
         yield _farthest(case, "contact pressure", history.contact("interface").pressure, 25.0, source)
         yield _farthest(case, "sigma_yy", _stress(history)[:, 1], -25.0, source)
         yield Check(
@@ -49,10 +58,10 @@ def patch_p2() -> Iterator[Check]:
 
 def patch_p4() -> Iterator[Check]:
     """P4: four blocks under biaxial compression."""
-    history = solve(four_blocks())
-    stress = _stress(history)
-    for quantity, values, exact in (("sigma_xx", stress[:, 0], -10.0), ("sigma_yy", stress[:, 1], -20.0)):
-        yield _farthest("P4 four blocks", quantity, values, exact, "exact")
+    for case, across in (("P4 four blocks", (3, 3, 3, 3)), ("P4 four blocks, 2 : 3 : 4 : 5", (2, 3, 4, 5))):
+        stress = _stress(solve(four_blocks(across=across)))
+        for quantity, values, exact in (("sigma_xx", stress[:, 0], -10.0), ("sigma_yy", stress[:, 1], -20.0)):
+            yield _farthest(case, quantity, values, exact, "exact")
 
 
 def one_node() -> Iterator[Check]:
@@ -73,6 +82,10 @@ def one_node() -> Iterator[Check]:
         tolerance=1e-10,
         source=source,
     )
+
+
+def _say(cells: Cells, across: tuple[int, int]) -> str:
+    return cells if across[0] == across[1] else f"{cells} {across[0]} : {across[1]}"
 
 
 def one_node_path() -> Iterator[Check]:

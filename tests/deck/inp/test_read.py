@@ -178,3 +178,21 @@ def test_a_deck_of_many_nodes_is_read_in_bulk(tmp_path: Path) -> None:
     model = sg.read(deck)
     assert model.mesh.number_of_cells == (n - 1) ** 2
     assert (model.kind, model.thickness) == ("plane stress", 0.5)
+
+
+def test_tied_surfaces_are_one_body(tmp_path: Path) -> None:
+    """Tied blocks pulled apart deform as one: the same forces as a single mesh would carry."""
+    tie = "*TIE, NAME=Glue, POSITION TOLERANCE=0.1\nSslave, Smaster\n*BOUNDARY\nBase, 1, 2"
+    deck = edited(tmp_path, "*BOUNDARY\nBase, 1, 2", tie)
+    lines = deck.read_text().replace("-0.001", "0.001")
+    a, b = lines.index("*SURFACE INTERACTION"), lines.index("*TIE")
+    deck.write_text(lines[:a] + lines[b:])
+    pulled = sg.solve(sg.read(deck))
+    whole = sg.rectangle(width=2.0, height=2.0, nx=2, ny=2)
+    one = sg.Model(
+        whole,
+        bodies=[sg.Body("block", sg.Elastic(E=210e3, nu=0.3))],
+        supports=[sg.Support("bottom", u=(0, 0)), sg.Support("top", u=(0, 0.001))],
+    )
+    force = sg.solve(one).last.reactions["top"][1]
+    assert pulled.steps[0].reactions["Top u2"][1] == pytest.approx(force, rel=1e-9)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One pair, and laws that are known otherwise: no friction, Tresca, unlimited friction, the plane."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from coulomb_samples import random_problem as plane_problem
@@ -116,12 +118,13 @@ def test_unlimited_friction_sticks_wherever_it_is_closed():
     assert not result.slip[result.state == STICK].any()
 
 
+@pytest.mark.parametrize("guided", [False, True])
 @pytest.mark.parametrize("seed", range(12))
-def test_motion_in_a_plane_is_the_plane_problem(seed):
+def test_motion_in_a_plane_is_the_plane_problem(seed, guided):
     n, axis = 6, seed % 2
     plane = plane_problem(seed, n, friction=0.5)
     inside = np.concatenate([np.arange(n), (1 + axis) * n + np.arange(n)])
-    W, b = 0.5 * np.eye(3 * n), np.zeros(3 * n)
+    W, b = (0.0 if guided else 0.5) * np.eye(3 * n), np.zeros(3 * n)
     W[np.ix_(inside, inside)], b[inside] = plane.W, plane.b
     problem = SpatialProblem(W=W, b=b, friction=plane.friction, motions=np.zeros((3 * n, 0)), scale=1.0)
     flat, spatial = solve_coulomb(plane), solve_spatial(problem)
@@ -146,6 +149,23 @@ def test_a_pair_that_supports_drag_slips_as_it_is_dragged(friction):
     found = violations(
         result.gap, result.slip, result.normal_force, result.tangential_force, problem.friction, length=1.0, force=1.0
     )
+    assert found.worst < 1e-10
+
+
+@pytest.mark.parametrize("push", [1e-3, 0.3, 3.0])
+@pytest.mark.parametrize("facets", [0, 8])
+def test_a_pair_that_supports_drag_along_one_tangent_turns_its_friction(push, facets):
+    problem = random_problem(1, 4, 0.5, facets=facets)
+    W, b = problem.W.copy(), problem.b.copy()
+    W[4], W[:, 4] = 0.0, 0.0
+    b[[0, 4, 8]] = -2.0, push, 0.4
+    result = solve_spatial(replace(problem, W=W, b=b))
+    assert result.solved
+    np.testing.assert_allclose(result.slip[0, 0], push, atol=1e-10)
+    found = violations(
+        result.gap, result.slip, result.normal_force, result.tangential_force, problem.friction, length=1.0, force=1.0,
+        facets=facets,
+    )  # fmt: skip
     assert found.worst < 1e-10
 
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from signorini.errors import InputError
 from signorini.interface.spatial.candidates import near_pairs
+from signorini.interface.spatial.chords import without_chords
 from signorini.interface.spatial.faces import shapes_at
 from signorini.interface.spatial.mortar import mortar_coupling
 from signorini.interface.spatial.node_to_face import node_pairs, node_to_face
@@ -126,6 +127,52 @@ def test_areas_of_curved_faces_are_those_of_the_faces():
         (coupling.relative @ points) * -side.nodal_normals[np.searchsorted(side.nodes, coupling.nodes)], axis=1
     )
     assert np.abs(gap).max() < 0.2 * 0.25**2
+
+
+def on_a_surface(height, upper, lower):
+    """Both sides lifted onto z = height(x, y)."""
+    points, side, other = two_sides(upper, lower)
+    points[:, 2] = height(points[:, 0], points[:, 1])
+    return tuple(make_surface(points, *(block.faces for block in part.blocks)) for part in (side, other))
+
+
+def geometric_gap(side, coupling):
+    normals = -side.nodal_normals[np.searchsorted(side.nodes, coupling.nodes)]
+    return np.sum((coupling.relative @ side.points) * normals, axis=1)
+
+
+def test_warped_faces_on_one_surface_reproduce_linear_fields():
+    # z = xy holds every quadrilateral along the axes: two nets of warped faces, one surface
+    side, other = on_a_surface(lambda x, y: x * y, grid([0, 0.4, 1], [0, 0.7, 1], 4), grid([0, 0.3, 1], [0, 0.2, 1], 4))
+    coupling = mortar_coupling(side, other)
+    np.testing.assert_allclose(coupling.relative @ fields(side.points), 0.0, atol=1e-12)
+    np.testing.assert_allclose(passed(coupling), nodal_integrals(side) - nodal_integrals(other), atol=1e-9)
+
+
+@pytest.mark.parametrize("kinds", [(4, 4), (3, 4), (3, 3)])
+@pytest.mark.parametrize(
+    "height",
+    [lambda x, y: 0.2 * (x**2 + y**2), lambda x, y: 0.2 * x**2 - 0.3 * y**2, lambda x, _: -0.3 * x**2],
+    ids=["paraboloid", "saddle", "cylinder"],
+)
+def test_chords_of_surfaces_that_match_leave_no_gap(height, kinds):
+    upper = grid(np.linspace(-1, 1, 9), np.linspace(-1, 1, 9), kinds[0], 0.3)
+    side, other = on_a_surface(height, upper, grid(np.linspace(-1, 1, 13), np.linspace(-1, 1, 12), kinds[1], 0.3))
+    coupling = mortar_coupling(side, other)
+    gap = geometric_gap(side, coupling)
+    assert np.abs(gap).max() > 1e-4
+    assert not without_chords(gap, coupling, side, other).any()
+    np.testing.assert_array_equal(without_chords(gap + 0.05, coupling, side, other), gap + 0.05)
+
+
+def test_a_curved_side_on_a_flat_one_keeps_its_gaps():
+    upper, lower = grid(np.linspace(-1, 1, 9), np.linspace(-1, 1, 9), 4), grid([-1, 0, 1], [-1, 0, 1], 4)
+    points, side, other = two_sides(upper, lower)
+    points[: len(upper[0]), 2] = 1e-4 * (points[: len(upper[0]), :2] ** 2).sum(axis=1)
+    side, other = (make_surface(points, *(block.faces for block in part.blocks)) for part in (side, other))
+    coupling = mortar_coupling(side, other)
+    gap = geometric_gap(side, coupling)
+    np.testing.assert_array_equal(without_chords(gap, coupling, side, other), gap)
 
 
 def test_of_faces_behind_each_other_only_the_nearest_are_opposite():

@@ -13,7 +13,11 @@ from signorini.deck.error import DeckError
 from signorini.errors import one_of
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([EeDd][+-]?\d+)?")
-_LARGEST = 1e300  # of a number in a deck; what is larger leaves no room to compute
+MOST = 10**10
+"""Numbers of nodes and elements are smaller: they have at most ten digits."""
+
+LARGEST = 1e100
+"""Of a number in a deck: what is larger leaves no room to compute."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -59,8 +63,10 @@ class Row:
     def whole(self, i: int, what: str, default: int | None = None) -> int:
         """Field i as a whole number."""
         value = self.number(i, what, default)
-        if value != int(value):
-            raise self.error(f"has '{self.fields[i]}' in field {i + 1}; expected {what}, a whole number")
+        if value != int(value) or abs(value) >= MOST:
+            raise self.error(
+                f"has '{self.fields[i]}' in field {i + 1}; expected {what}, a whole number of at most ten digits"
+            )
         return int(value)
 
 
@@ -140,7 +146,7 @@ def to_number(word: str) -> float | None:
     if not _NUMBER.fullmatch(word):
         return None
     value = float(word.upper().replace("D", "E"))
-    return value if abs(value) <= _LARGEST else None
+    return value if abs(value) <= LARGEST else None
 
 
 def decode(data: bytes) -> str:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -13,6 +14,7 @@ from signorini.arrays import IntArray
 from signorini.deck.error import DeckError
 from signorini.deck.inp.amplitudes import make_amplitudes
 from signorini.deck.inp.block import Block
+from signorini.deck.inp.changes import make_changes
 from signorini.deck.inp.conditions import Conditions, make_conditions
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.grid import Grid, make_grid
@@ -20,7 +22,7 @@ from signorini.deck.inp.interactions import make_interactions
 from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS
 from signorini.deck.inp.loading import Known, follow_steps
 from signorini.deck.inp.materials import Section, make_materials, make_sections
-from signorini.deck.inp.pairs import make_contacts
+from signorini.deck.inp.pairs import Pair, make_contacts, make_ties
 from signorini.deck.inp.places import Places
 from signorini.deck.inp.prints import make_tables
 from signorini.deck.inp.sets import make_sets
@@ -29,7 +31,6 @@ from signorini.deck.inp.supported import refuse_unsupported
 from signorini.deck.inp.surfaces import Edges, make_surfaces
 from signorini.errors import InputError, Where
 from signorini.model.body import Body
-from signorini.model.contact import Contact
 from signorini.model.material import Orthotropic
 from signorini.model.mesh import NODES_PER_CELL, Mesh
 from signorini.model.model import Kind, Model
@@ -94,8 +95,10 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
     edges = Edges(grid)
     surfaces = make_surfaces(outside, edges, nodes, elements)
     materials = make_materials(outside)
-    sections = make_sections(outside, elements, materials, len(grid.elements.labels))
-    contacts = make_contacts(outside, make_interactions(outside), surfaces, nodes)
+    sections = make_sections(outside, elements, materials, grid)
+    interactions = make_interactions(outside)
+    contacts = make_contacts(outside, interactions, surfaces, nodes)
+    contacts += make_ties(outside, surfaces, contacts)
     known = Known(
         nodes=nodes,
         elements=elements,
@@ -103,10 +106,12 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
         edges=edges,
         sections=tuple(sections),
         amplitudes=make_amplitudes(outside),
+        axisymmetric=_kind(grid) == "axisymmetric",
     )
     places = Places(edges, surfaces, nodes)
-    conditions = make_conditions(follow_steps(outside, steps, known), places, steps, sections)
-    model_steps = [_step(step, k, conditions, deck_increments) for k, step in enumerate(steps)]
+    conditions = make_conditions(follow_steps(outside, steps, known), places, steps, sections, len(grid.points))
+    changes = [make_changes(step, contacts, interactions, surfaces) for step in steps]
+    model_steps = [_step(k, steps, conditions, changes[k], deck_increments) for k in range(len(steps))]
     where = _where(sections, contacts, conditions, steps)
     kind = _kind(grid)
     try:
@@ -117,7 +122,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
             bodies=[_body(section, grid) for section in sections],
             supports=conditions.supports,
             loads=conditions.loads,
-            contacts=[contact for contact, _ in contacts],
+            contacts=[pair.contact for pair in contacts],
             steps=model_steps,
             title=_title(outside),
         )
@@ -219,30 +224,23 @@ def _body(section: Section, grid: Grid) -> Body:
         raise substance.block.error(str(error)) from error
 
 
-def _step(step: DeckStep, k: int, conditions: Conditions, deck_increments: bool) -> Step:
-    for label, pattern in conditions.factors.items():
-        amplitude = pattern.amplitudes[k]
-        start = step.start if amplitude is not None and amplitude.total else 0.0
-        if amplitude is not None and len(amplitude.breaks(start, start + step.period)):
-            raise pattern.block.error(
-                f"amplitude '{amplitude.name}' of '{label}' turns inside {step.name}, which is not supported; expected "
-                "straight lines from step to step"
-            )
-    return Step(
-        name=step.name,
-        scale=conditions.scale(k),
-        increments=step.increments if deck_increments else None,
-    )
+def _step(
+    k: int, steps: Sequence[DeckStep], conditions: Conditions, changes: Mapping[str, Any], deck_increments: bool
+) -> Step:
+    scale = conditions.scale(k, steps)
+    segments = max((len(value) for value in scale.values() if isinstance(value, tuple)), default=1)
+    increments = max(1, math.ceil(steps[k].increments / segments)) if deck_increments else None
+    return Step(name=steps[k].name, scale=scale, increments=increments, **changes)
 
 
 def _where(
     sections: Sequence[Section],
-    contacts: Sequence[tuple[Contact, Block]],
+    contacts: Sequence[Pair],
     conditions: Conditions,
     steps: Sequence[DeckStep],
 ) -> dict[Where, Block]:
     places: dict[Where, Block] = {("body", i): section.block for i, section in enumerate(sections)}
-    places |= {("contact", i): block for i, (_, block) in enumerate(contacts)}
+    places |= {("contact", i): pair.block for i, pair in enumerate(contacts)}
     places |= {("support", i): conditions.blocks[s.label] for i, s in enumerate(conditions.supports)}
     places |= {("load", i): conditions.blocks[load.label] for i, load in enumerate(conditions.loads)}
     return places | {("step", i): step.block for i, step in enumerate(steps)}
@@ -258,13 +256,13 @@ def _title(outside: Sequence[Placed]) -> str:
 def _notes(
     grid: Grid,
     steps: Sequence[DeckStep],
-    contacts: Sequence[tuple[Contact, Block]],
+    contacts: Sequence[Pair],
     ignored: dict[str, int],
     small_strain: bool,
     deck_increments: bool,
 ) -> list[str]:
     notes = list(dict.fromkeys(group.type.note for group in grid.groups if group.type.note))
-    if contacts:
+    if any(not pair.contact.tied for pair in contacts):
         notes.append(_SMALL_SLIDING)
     if small_strain and any(step.nlgeom for step in steps):
         notes.append("NLGEOM is ignored: displacements and strains are taken as small")

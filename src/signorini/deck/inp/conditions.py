@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -30,7 +31,7 @@ class Conditions:
     ----------
     supports, loads : of the model
     blocks : the keyword of each support and load, by label
-    factors : label to its pattern, for what moves or loads
+    factors : label to its pattern, of what moves or loads
     """
 
     supports: list[Support] = field(default_factory=list)
@@ -59,13 +60,20 @@ class Conditions:
         self.blocks[load.label] = pattern.block
         self.factors[load.label] = pattern
 
-    def scale(self, k: int) -> dict[str, float]:
-        """Factors at the end of step k, by label."""
-        return {label: pattern.factors[k] for label, pattern in self.factors.items()}
+    def scale(self, k: int, steps: Sequence[DeckStep]) -> dict[str, float | tuple[float, ...]]:
+        """Factors by label at the end of step k, or at all times in it at which any of them turns."""
+        step = steps[k]
+        turns = {time for pattern in self.factors.values() for time in pattern.turns(k, steps)}
+        times = [*sorted(turns), step.end]
+        if len(times) == 1:
+            return {label: pattern.at_end(k, steps) for label, pattern in self.factors.items()}
+        return {
+            label: tuple(pattern.factor(k, steps, time) for time in times) for label, pattern in self.factors.items()
+        }
 
 
 def make_conditions(
-    courses: Courses, places: Places, steps: Sequence[DeckStep], sections: Sequence[Section]
+    courses: Courses, places: Places, steps: Sequence[DeckStep], sections: Sequence[Section], number_of_nodes: int
 ) -> Conditions:
     """Turn courses into supports and loads.
 
@@ -90,7 +98,24 @@ def make_conditions(
             force[pattern.slots[own] % DIMENSION] = pattern.values[own]
             if force.any():
                 conditions.add_load(pattern, on=sections[section].name, body_force=tuple(force), name=pattern.label)
+    for pattern in courses.rotation.patterns():
+        for i, square in zip(pattern.slots.tolist(), pattern.values.tolist(), strict=True):
+            if square:
+                on, centre = sections[i].name, courses.centres[pattern.label]
+                velocity = math.sqrt(square)
+                conditions.add_load(pattern, on=on, centrifugal=velocity, centre=centre, name=f"rotation {on}")
+    for pattern in courses.temperature.patterns():
+        _heat(pattern, sections, number_of_nodes, conditions)
     return conditions
+
+
+def _heat(pattern: Pattern, sections: Sequence[Section], count: int, conditions: Conditions) -> None:
+    """Temperatures act on every body that expands."""
+    field = np.zeros(count)
+    field[pattern.slots] = pattern.values
+    for section in sections:
+        if section.substance.expansion and field[section.nodes].any():
+            conditions.add_load(pattern, on=section.name, temperature=field, name=f"temperature {section.name}")
 
 
 def _refuse_changes(course: Course, steps: Sequence[DeckStep]) -> None:
@@ -111,7 +136,7 @@ def _supports(course: Course, places: Places, conditions: Conditions) -> None:
     """Supports at rest hold all directions of a place at once; those that move are one a direction."""
     resting: dict[str, list[Pattern]] = {}
     for pattern in course.patterns():
-        if not any(pattern.factors):
+        if not any(pattern.shares):
             resting.setdefault(pattern.label, []).append(pattern)
             continue
         for value, slots in _by_value(pattern):

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,10 +13,12 @@ from signorini.deck.inp.amplitudes import Amplitude
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.steps import DeckStep
 
+_SAME = 1e-9  # of a factor: a smaller jump is none
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Pattern:
-    """Slots that change alike: slot i has ``values[i] * factors[k]`` at the end of step k.
+    """Slots that change alike: slot i has ``values[i] * factor(k, time)`` in step k.
 
     Attributes
     ----------
@@ -24,7 +26,7 @@ class Pattern:
     block : the keyword that first set a value there
     slots : (m,)
     values : (m,) the largest of each slot, with its sign
-    factors : (steps,)
+    shares : (steps,) magnitudes in the steps, as parts of the largest
     amplitudes : (steps,) the amplitude in each step, or None
     """
 
@@ -32,8 +34,32 @@ class Pattern:
     block: Block
     slots: IntArray
     values: Array
-    factors: tuple[float, ...]
+    shares: tuple[float, ...]
     amplitudes: tuple[Amplitude | None, ...]
+
+    def at_end(self, k: int, steps: Sequence[DeckStep]) -> float:
+        """The factor at the end of step k; before the first, 0."""
+        return self.factor(k, steps, steps[k].end) if k >= 0 else 0.0
+
+    def factor(self, k: int, steps: Sequence[DeckStep], time: float) -> float:
+        """The factor at a time in step k: of the amplitude, or on the straight line to the end of the step."""
+        step, amplitude = steps[k], self.amplitudes[k]
+        if amplitude is not None:
+            return self.shares[k] * amplitude.at(time if amplitude.total else time - step.start)
+        if step.held:
+            return self.shares[k]
+        before = self.at_end(k - 1, steps)
+        return before + (time - step.start) / step.period * (self.shares[k] - before)
+
+    def turns(self, k: int, steps: Sequence[DeckStep]) -> list[float]:
+        """Times in step k at which the factor leaves a straight line: its start, if it jumps there, and breaks."""
+        step, amplitude = steps[k], self.amplitudes[k]
+        jumps = abs(self.factor(k, steps, step.start) - self.at_end(k - 1, steps)) > _SAME
+        found = [step.start] if jumps else []
+        if amplitude is not None:
+            shift = 0.0 if amplitude.total else step.start
+            found += [shift + float(t) for t in amplitude.breaks(step.start - shift, step.end - shift)]
+        return found
 
 
 class Course:
@@ -45,7 +71,7 @@ class Course:
         self._amplitudes: list[Amplitude | None] = [None]
         self._sources: list[tuple[str, Block]] = []
         self._first: dict[int, int] = {}  # slot to the source that set it first
-        self._ends: list[dict[int, tuple[float, int]]] = []  # by step: slot to value at the end, amplitude
+        self._ends: list[dict[int, tuple[float, int]]] = []  # by step: slot to magnitude and amplitude
 
     def put(
         self, slots: IntArray, value: float, label: str, block: Block, amplitude: Amplitude | None, *, adds: bool
@@ -65,14 +91,9 @@ class Course:
         """Remove every value (``OP=NEW``)."""
         self._now = {}
 
-    def end_step(self, step: DeckStep) -> None:
+    def end_step(self) -> None:
         """Note what there is at the end of a step."""
-        ends = {}
-        for slot, (magnitude, index, _) in self._now.items():
-            amplitude = self._amplitudes[index]
-            time = step.end if amplitude is not None and amplitude.total else step.period
-            ends[slot] = (magnitude * (amplitude.at(time) if amplitude else 1.0), index)
-        self._ends.append(ends)
+        self._ends.append({slot: (magnitude, index) for slot, (magnitude, index, _) in self._now.items()})
         self._before = set(self._now)
 
     def slots_by_step(self) -> list[set[int]]:
@@ -90,11 +111,11 @@ class Course:
         for slot, source in self._first.items():
             history = [ends.get(slot, (0.0, 0)) for ends in self._ends]
             size = max((value for value, _ in history), key=abs, default=0.0)
-            factors = tuple(round(value / size, 12) if size else 0.0 for value, _ in history)
+            shares = tuple(round(value / size, 12) if size else 0.0 for value, _ in history)
             named = labels.setdefault(self._sources[source][0], source)
-            key = (named, factors, tuple(index for _, index in history))
+            key = (named, shares, tuple(index for _, index in history))
             groups.setdefault(key, []).append((slot, size))
-        for (source, factors, indices), members in groups.items():
+        for (source, shares, indices), members in groups.items():
             label, block = self._sources[source]
             members.sort()
             yield Pattern(
@@ -102,7 +123,7 @@ class Course:
                 block=block,
                 slots=np.array([slot for slot, _ in members], np.int64),
                 values=np.array([value for _, value in members]),
-                factors=factors,
+                shares=shares,
                 amplitudes=tuple(self._amplitudes[index] for index in indices),
             )
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.deck.inp.block import Block
+from signorini.deck.inp.block import MOST, Block
 from signorini.deck.inp.elements import ElementType, element_type
 from signorini.deck.inp.flatten import Placed, Scope
 from signorini.deck.inp.numbering import Numbering
@@ -73,6 +73,12 @@ def make_grid(placed: list[Placed]) -> Grid:
     return Grid(points=points, nodes=nodes, elements=elements, groups=tuple(groups))
 
 
+def nodes_of(grid: Grid, elements: IntArray) -> IntArray:
+    """The sorted nodes of elements."""
+    pieces = [group.nodes[np.isin(group.index, elements)].ravel() for group in grid.groups]
+    return np.unique(np.concatenate([np.empty(0, np.int64), *pieces]))
+
+
 def _nodes(placed: list[Placed]) -> tuple[Numbering, Array]:
     nodes, points = Numbering("node"), [np.empty((0, 3))]
     for scope, blocks in _by_scope(placed):
@@ -81,9 +87,11 @@ def _nodes(placed: list[Placed]) -> tuple[Numbering, Array]:
             block.refuse_unknown(("NSET", "INPUT"))
             tables.append(number_table(block, "a number and up to 3 coordinates", least=1, most=7)[:, :4])
         table = np.vstack(tables)
-        if (table[:, 0] != np.rint(table[:, 0])).any() or table[:, 0].min(initial=1) < 1:
-            wrong = table[(table[:, 0] != np.rint(table[:, 0])) | (table[:, 0] < 1), 0][0]
-            raise blocks[0].error(f"a node has the number {wrong:g}; expected a whole number >= 1")
+        wrong = (table[:, 0] != np.rint(table[:, 0])) | (table[:, 0] < 1) | (table[:, 0] >= MOST)
+        if wrong.any():
+            raise blocks[0].error(
+                f"a node has the number {table[wrong, 0][0]:g}; expected a whole number >= 1 of at most ten digits"
+            )
         _, where, again = np.unique(table[:, 0].astype(np.int64), return_index=True, return_inverse=True)
         moved = np.nonzero((table[:, 1:] != table[where[again], 1:]).any(axis=1))[0]
         if len(moved):

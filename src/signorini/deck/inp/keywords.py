@@ -62,6 +62,7 @@ MODEL_WORDS = (
     "EXPANSION",
     "FRICTION",
     "HEADING",
+    "INITIAL CONDITIONS",
     "MATERIAL",
     "NODE",
     "NSET",
@@ -70,10 +71,24 @@ MODEL_WORDS = (
     "SURFACE",
     "SURFACE BEHAVIOR",
     "SURFACE INTERACTION",
+    "TIE",
 )
 """What is read outside the steps."""
 
-STEP_WORDS = ("BOUNDARY", "CLOAD", "DLOAD", "DSLOAD", "NSET", "ELSET", "STATIC")
+STEP_WORDS = (
+    "BOUNDARY",
+    "CHANGE CONTACT PAIR",
+    "CHANGE FRICTION",
+    "CLOAD",
+    "DLOAD",
+    "DSLOAD",
+    "ELSET",
+    "FRICTION",
+    "MODEL CHANGE",
+    "NSET",
+    "STATIC",
+    "TEMPERATURE",
+)
 """What is read inside the steps."""
 
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.arrays import IntArray
+from signorini.arrays import Array, IntArray
 from signorini.deck.inp.amplitudes import Amplitude, find_amplitude
-from signorini.deck.inp.block import Row
+from signorini.deck.inp.block import Block, Row
 from signorini.deck.inp.course import Course
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.materials import Section
@@ -34,6 +34,7 @@ class Known:
     edges: Edges
     sections: tuple[Section, ...]
     amplitudes: Mapping[str, Amplitude]
+    axisymmetric: bool
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -46,12 +47,18 @@ class Courses:
     force : the same slots, force
     pressure : slots are keys of edges, force per area
     body : slots ``DIMENSION * section + axis``, force per volume
+    temperature : slots are nodes, above the initial temperature
+    rotation : slots are sections, squares of angular velocities
+    centres : of rotation by label, None for axisymmetric bodies
     """
 
     displacement: Course
     force: Course
     pressure: Course
     body: Course
+    temperature: Course
+    rotation: Course
+    centres: dict[str, tuple[float, float] | None]
 
 
 def follow_steps(model: list[Placed], steps: list[DeckStep], known: Known) -> Courses:
@@ -66,12 +73,15 @@ def follow_steps(model: list[Placed], steps: list[DeckStep], known: Known) -> Co
     DeckError
         For what is not supported, with its line.
     """
-    courses = Courses(displacement=Course(), force=Course(), pressure=Course(), body=Course())
+    names = ("displacement", "force", "pressure", "body", "temperature", "rotation")
+    courses = Courses(**{name: Course() for name in names}, centres={})
+    initial = initial_temperatures(model, known)
     readers: Mapping[str, Callable[[Placed, Known, Courses], None]] = {
         "BOUNDARY": _boundary,
         "CLOAD": _cload,
         "DLOAD": _dload,
         "DSLOAD": _dsload,
+        "TEMPERATURE": lambda item, known, courses: _temperature(item, known, courses, initial),
     }
     for item in model:
         if item.block.keyword == "BOUNDARY":
@@ -89,15 +99,17 @@ def follow_steps(model: list[Placed], steps: list[DeckStep], known: Known) -> Co
                 for course in _of(block.keyword, courses):
                     course.clear()
             readers[block.keyword](item, known, courses)
-        for course in (courses.displacement, courses.force, courses.pressure, courses.body):
-            course.end_step(step)
+        for name in names:
+            getattr(courses, name).end_step()
     return courses
 
 
 def _of(keyword: str, courses: Courses) -> tuple[Course, ...]:
     if keyword == "BOUNDARY":
         return (courses.displacement,)
-    return (courses.force,) if keyword == "CLOAD" else (courses.pressure, courses.body)
+    if keyword == "TEMPERATURE":
+        return (courses.temperature,)
+    return (courses.force,) if keyword == "CLOAD" else (courses.pressure, courses.body, courses.rotation)
 
 
 def _boundary(item: Placed, known: Known, courses: Courses) -> None:
@@ -173,8 +185,30 @@ def _dload(item: Placed, known: Known, courses: Courses) -> None:
                 slots = np.array([DIMENSION * i + "XY".index(kind[1])])
                 value = row.number(2, "the force per volume")
                 courses.body.put(slots, value, f"{kind} {known.sections[i].name}", block, amplitude, adds=True)
+        elif kind == "CENTRIF":
+            _rotate(row, _whole_sections(elements, label, known, row), block, amplitude, known, courses)
         else:
-            raise row.error(f"*DLOAD: '{kind}' is not supported; expected P1 to P4, GRAV, BX or BY")
+            raise row.error(f"*DLOAD: '{kind}' is not supported; expected P1 to P4, GRAV, CENTRIF, BX or BY")
+
+
+def _rotate(
+    row: Row, sections: list[int], block: Block, amplitude: Amplitude | None, known: Known, courses: Courses
+) -> None:
+    """Square of the angular velocity, a point of the axis and its direction."""
+    square = row.number(2, "the square of the angular velocity")
+    if square < 0.0:
+        raise row.error(f"*DLOAD: the square of the angular velocity is {square:g}; expected a number >= 0")
+    x, y, _, *axis = (row.number(i, "a coordinate or direction", 0.0) for i in range(3, 9))
+    along = np.flatnonzero(axis).tolist()
+    if along != ([1] if known.axisymmetric else [2]) or (known.axisymmetric and x):
+        expected = "the y axis, of symmetry" if known.axisymmetric else "across the plane, like 0, 0, 1"
+        raise row.error(f"*DLOAD: the axis of rotation is along {axis}; expected {expected}")
+    label = "rotation" if known.axisymmetric else f"rotation about ({x:g}, {y:g})"
+    courses.centres[label] = None if known.axisymmetric else (x, y)
+    for i in sections:
+        if known.sections[i].substance.density is None:
+            raise row.error(f"*DLOAD: rotation needs *DENSITY in the material of '{known.sections[i].name}'")
+        courses.rotation.put(np.array([i]), square, label, block, amplitude, adds=False)
 
 
 def _dsload(item: Placed, known: Known, courses: Courses) -> None:
@@ -198,3 +232,31 @@ def _whole_sections(elements: IntArray, label: str, known: Known, row: Row) -> l
     if covered < len(chosen):
         raise row.error(f"*DLOAD: '{label}' holds a part of a section; expected whole sections")
     return found
+
+
+def initial_temperatures(model: list[Placed], known: Known) -> Array:
+    """Temperature of every node at the beginning, (n,), from ``*INITIAL CONDITIONS``; 0 where none is given."""
+    temperatures = np.zeros(len(known.nodes.numbering.labels))
+    for item in model:
+        block = item.block
+        if block.keyword == "INITIAL CONDITIONS":
+            block.refuse_unknown(("TYPE",))
+            block.choice("TYPE", ("TEMPERATURE",), "")
+            for row in block.rows():
+                nodes = known.nodes.find(row.text(0, "a node or a node set"), item.scope, row)[1]
+                temperatures[nodes] = row.number(1, "the temperature")
+    return temperatures
+
+
+def _temperature(item: Placed, known: Known, courses: Courses, initial: Array) -> None:
+    block = item.block
+    block.refuse_unknown(("OP", "AMPLITUDE"))
+    amplitude = find_amplitude(block, known.amplitudes)
+    for row in block.rows():
+        nodes = known.nodes.find(row.text(0, "a node or a node set"), item.scope, row)[1]
+        value = row.number(1, "the temperature")
+        if amplitude is not None and initial[nodes].any():
+            raise row.error("*TEMPERATURE: an amplitude together with initial temperatures is not supported")
+        for start in np.unique(initial[nodes]):
+            own = nodes[initial[nodes] == start]
+            courses.temperature.put(own, value - float(start), "temperature", block, amplitude, adds=False)

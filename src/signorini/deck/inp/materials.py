@@ -10,6 +10,7 @@ import numpy as np
 from signorini.arrays import IntArray
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.flatten import Placed
+from signorini.deck.inp.grid import Grid, nodes_of
 from signorini.deck.inp.sets import Sets
 from signorini.errors import InputError, one_of
 from signorini.model.material import Elastic, Material, Orthotropic
@@ -44,7 +45,7 @@ class Section:
     ----------
     block : the ``*SOLID SECTION``
     name : of the body
-    elements : their indices
+    elements, nodes : their indices, and those of their nodes, sorted
     substance : what they are made of
     angle : of the material's axes, degrees
     thickness : out of plane, length
@@ -53,6 +54,7 @@ class Section:
     block: Block
     name: str
     elements: IntArray
+    nodes: IntArray
     substance: Substance
     angle: float
     thickness: float
@@ -129,16 +131,11 @@ def _constant(block: Block, what: str) -> float:
     return values.pop()
 
 
-def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Substance], count: int) -> list[Section]:
-    """Read all ``*SOLID SECTION`` keywords; every element has exactly one.
-
-    Parameters
-    ----------
-    count : of elements
-    """
+def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Substance], grid: Grid) -> list[Section]:
+    """Read all ``*SOLID SECTION`` keywords; every element has exactly one."""
     sections: list[Section] = []
     angles = make_orientations(placed)
-    owner = np.full(count, -1)
+    owner = np.full(len(grid.elements.labels), -1)
     for item in placed:
         block = item.block
         if block.keyword != "SOLID SECTION":
@@ -165,6 +162,7 @@ def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Sub
                 block=block,
                 name=name,
                 elements=members,
+                nodes=nodes_of(grid, members),
                 substance=substance,
                 angle=angle,
                 thickness=_thickness(block),

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.deck.inp.block import Block
+from signorini.deck.inp.block import LARGEST, MOST, Block
 
 _EXPONENT = bytes.maketrans(b"Dd", b"ee")
 _LETTERS = b"abcdfghijklmnopqrstuvwxyzABCDFGHIJKLMNOPQRSTUVWXYZ"  # but not e: 1e5
@@ -44,7 +44,7 @@ def bulk(data: bytes) -> tuple[Array, IntArray] | None:
             values = np.fromstring(plain.replace(b",", b" "), sep=" ")
     except (ValueError, DeprecationWarning):
         return None
-    if len(values) != counts.sum() or not np.isfinite(values).all():
+    if len(values) != counts.sum() or not (np.abs(values) <= LARGEST).all():
         return None
     return values, counts
 
@@ -91,7 +91,7 @@ def record_table(block: Block, size: int, what: str) -> IntArray:
         if found is None or len(found[0]) % size or (found[0] != np.rint(found[0])).any():
             return _records(block, size, what)
         ends = np.cumsum(found[1])
-        if not np.isin(np.arange(size, len(found[0]) + 1, size), ends).all() or np.abs(found[0]).max(initial=0) > 2**53:
+        if not np.isin(np.arange(size, len(found[0]) + 1, size), ends).all() or np.abs(found[0]).max(initial=0) >= MOST:
             return _records(block, size, what)
         tables.append(found[0].astype(np.int64).reshape(-1, size))
     return np.vstack(tables) if tables else np.empty((0, size), np.int64)
@@ -102,7 +102,7 @@ def whole_numbers(block: Block) -> IntArray | None:
     lists = []
     for part in _parts(block):
         found = bulk(part.chunks[0][2])
-        if found is None or (found[0] != np.rint(found[0])).any() or np.abs(found[0]).max(initial=0) > 2**53:
+        if found is None or (found[0] != np.rint(found[0])).any() or np.abs(found[0]).max(initial=0) >= MOST:
             return None
         lists.append(found[0].astype(np.int64))
     return np.concatenate(lists) if lists else np.empty(0, np.int64)

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from signorini.deck.inp.block import Block, Row, to_number
@@ -25,9 +26,18 @@ _IGNORED = (
 )
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Pair:
+    """A contact, the keyword that it comes from, and the name of its law in capitals."""
+
+    contact: Contact
+    block: Block
+    interaction: str = ""
+
+
 def make_contacts(
     placed: list[Placed], interactions: Mapping[str, Interaction], surfaces: Surfaces, nodes: Sets
-) -> list[tuple[Contact, Block]]:
+) -> list[Pair]:
     """Read all ``*CONTACT PAIR`` keywords: the slave side is nonmortar.
 
     Raises
@@ -36,7 +46,7 @@ def make_contacts(
         For an unknown surface or interaction, or a surface without edges.
     """
     clearances = _clearances(placed, surfaces)
-    found: list[tuple[Contact, Block]] = []
+    found: list[Pair] = []
     for item in placed:
         block = item.block
         if block.keyword != "CONTACT PAIR":
@@ -48,26 +58,56 @@ def make_contacts(
             known = [law.block.value("NAME") for law in interactions.values()]
             raise block.error(one_of(name, known, "surface interaction"))
         law = interactions[name.upper()]
-        if law.tied:
-            raise law.block.error("PRESSURE-OVERCLOSURE=TIED is not supported")
         if not block.has_data:
             raise block.error("has no data line; expected the slave and the master surface")
         for row in block.rows():
             slave, master = (_side(item, row, i, surfaces) for i in (0, 1))
-            given: dict[str, Any] = _adjusted(block, nodes, item)
+            given = _adjusted(block, nodes, item)
             if (slave, master) in clearances:
                 given = {"gap": clearances[slave, master]}
             contact = Contact(
                 slave,
                 master,
-                friction=law.friction,
-                normal_compliance=law.normal_compliance,
-                tangential_compliance=law.tangential_compliance,
-                name=slave if not any(other.nonmortar == slave for other, _ in found) else f"{slave} on {master}",
+                friction="tied" if law.tied else law.friction,
+                normal_compliance=0.0 if law.tied else law.normal_compliance,
+                tangential_compliance=0.0 if law.tied else law.tangential_compliance,
+                name=_label(slave, master, found),
                 **given,
             )
-            found.append((contact, block))
+            found.append(Pair(contact=contact, block=block, interaction=name.upper()))
     return found
+
+
+def make_ties(placed: list[Placed], surfaces: Surfaces, contacts: Sequence[Pair]) -> list[Pair]:
+    """Read all ``*TIE`` keywords: surfaces that neither slip nor open; initial gaps count as filled.
+
+    Raises
+    ------
+    DeckError
+        For an unknown surface, or what is not tied by its edges.
+    """
+    found: list[Pair] = []
+    for item in placed:
+        block = item.block
+        if block.keyword != "TIE":
+            continue
+        block.refuse_unknown(("NAME", "POSITION TOLERANCE", "ADJUST"), ("TYPE", "TIED NSET", "CONSTRAINT RATIO"))
+        given: dict[str, Any] = {}
+        if "POSITION TOLERANCE" in block.parameters:
+            reach = to_number(block.value("POSITION TOLERANCE", "a distance"))
+            if reach is None or not reach > 0.0:
+                raise block.error("POSITION TOLERANCE: expected a distance > 0")
+            given["search"] = reach
+        for row in block.rows():
+            slave, master = (_side(item, row, i, surfaces) for i in (0, 1))
+            name = _label(slave, master, [*contacts, *found])
+            found.append(Pair(contact=Contact(slave, master, friction="tied", name=name, **given), block=block))
+    return found
+
+
+def _label(slave: str, master: str, others: Sequence[Pair]) -> str:
+    """The slave surface's name, or both if it has another partner too."""
+    return slave if not any(other.contact.nonmortar == slave for other in others) else f"{slave} on {master}"
 
 
 def _side(item: Placed, row: Row, i: int, surfaces: Surfaces) -> str:

@@ -11,9 +11,9 @@ import numpy as np
 from signorini.arrays import IntArray
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.flatten import Placed
+from signorini.deck.inp.pairs import Pair
 from signorini.deck.inp.sets import Sets
 from signorini.deck.inp.steps import DeckStep
-from signorini.model.contact import Contact
 from signorini.model.mesh import Mesh
 from signorini.model.prints import Table
 
@@ -22,7 +22,7 @@ _SAME = {"CDISP": "CDIS", "CSTRESS": "CSTR", "CFN": "CF", "CFS": "CF"}
 
 
 def make_tables(
-    steps: Sequence[DeckStep], nodes: Sets, elements: Sets, mesh: Mesh, contacts: Sequence[tuple[Contact, Block]]
+    steps: Sequence[DeckStep], nodes: Sets, elements: Sets, mesh: Mesh, contacts: Sequence[Pair]
 ) -> Iterator[Table]:
     """``*NODE PRINT`` (U, RF), ``*EL PRINT`` (S) and ``*CONTACT PRINT`` (CDIS, CSTR, CF); others are left out.
 
@@ -46,8 +46,8 @@ def make_tables(
                 if not quantities:
                     continue
                 if keyword == "CONTACT PRINT":
-                    for i, (contact, _) in enumerate(contacts):
-                        place = f"slave set {contact.nonmortar}, master set {contact.mortar}"
+                    for i, pair in enumerate(contacts):
+                        place = f"slave set {pair.contact.nonmortar}, master set {pair.contact.mortar}"
                         yield Table(
                             step=k, of="contact", place=place, members=np.array([i]), quantities=quantities, totals="no"
                         )

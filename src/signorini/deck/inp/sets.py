@@ -8,9 +8,9 @@ from collections import defaultdict
 import numpy as np
 
 from signorini.arrays import IntArray
-from signorini.deck.inp.block import Block, Row, to_number
+from signorini.deck.inp.block import MOST, Block, Row, to_number
 from signorini.deck.inp.flatten import Placed, Scope
-from signorini.deck.inp.grid import Grid
+from signorini.deck.inp.grid import Grid, nodes_of
 from signorini.deck.inp.numbering import Numbering
 from signorini.deck.inp.numbers import number_table, whole_numbers
 from signorini.errors import one_of
@@ -73,7 +73,7 @@ class Sets:
             return self.spelled(name), self[name]
         outer, dot, inner = word.rpartition(".")
         number = to_number(inner if dot and outer and not outer.isdigit() else word)
-        if number is None or number != int(number):
+        if number is None or number != int(number) or abs(number) >= MOST:
             raise at.error(one_of(word, self.names, f"{self.numbering.what} set"))
         place = Scope(name=outer.upper()) if dot and outer and not outer.isdigit() else scope
         members = self.numbering.index(place, np.array([int(number)]), at)
@@ -113,7 +113,7 @@ def _define(item: Placed, key: str, sets: Sets, elements: Sets, grid: Grid) -> N
     inside = Scope(name=block.parameters["INSTANCE"].upper()) if block.parameters.get("INSTANCE") else item.scope
     if key == "NSET" and block.parameters.get("ELSET"):
         members = elements.find(block.parameters["ELSET"], inside, block)[1]
-        sets.add(name, _nodes_of(grid, members))
+        sets.add(name, nodes_of(grid, members))
         return
     if "GENERATE" in block.parameters:
         sets.add(name, _generated(block, sets.numbering, inside))
@@ -139,8 +139,3 @@ def _generated(block: Block, numbering: Numbering, scope: Scope) -> IntArray:
             raise row.error(f"*{block.keyword}: goes from {first} to {last} by {step}; expected an ascending range")
         pieces.append(numbering.find(scope.name, np.arange(first, last + 1, step))[0])
     return np.concatenate(pieces)
-
-
-def _nodes_of(grid: Grid, elements: IntArray) -> IntArray:
-    pieces = [group.nodes[np.isin(group.index, elements)].ravel() for group in grid.groups]
-    return np.unique(np.concatenate([np.empty(0, np.int64), *pieces]))

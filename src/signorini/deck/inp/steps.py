@@ -10,7 +10,8 @@ from signorini.deck.inp.block import Block
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.keywords import HARMLESS, STEP_WORDS
 
-_IGNORED = ("INC", "NAME", "UNSYMM", "SOLVER", "CONVERT SDI", "EXTRAPOLATION", "PERTURBATION MASS")
+_MOST = 100_000  # increments of a step
+_IGNORED = ("INC", "INCF", "NAME", "UNSYMM", "SOLVER", "CONVERT SDI", "EXTRAPOLATION", "PERTURBATION MASS")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -101,7 +102,7 @@ def _step(block: Block, number: int, members: list[Placed], start: float, before
         name=block.parameters.get("NAME", "") or f"step {number}",
         start=start,
         end=start + period,
-        increments=min(max(1, math.ceil(period / first - 1e-6)), 100_000),
+        increments=max(1, math.ceil(min(period / first, _MOST) - 1e-6)),
         held=block.choice("AMPLITUDE", ("RAMP", "STEP"), "RAMP") == "STEP",
         nlgeom=nlgeom,
         placed=tuple(members),

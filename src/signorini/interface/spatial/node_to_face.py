@@ -65,7 +65,7 @@ def node_pairs(nonmortar: Surface, mortar: Surface) -> tuple[Coupling | None, st
     """Node opposite node, where two linear sides match; otherwise None and why they do not, in words."""
     if not (nonmortar.linear and mortar.linear):
         return None, "quadratic faces have no pairs at their middle nodes; expected linear faces"
-    partner, reason = match_nodes(nonmortar.points, nonmortar, mortar)
+    partner, reason = match_nodes(nonmortar.points, nonmortar, mortar, np.arange(1, len(nonmortar.points) + 1))
     if reason:
         return None, reason
     nodes, k = nonmortar.nodes, len(nonmortar.nodes)

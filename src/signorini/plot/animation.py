@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A contact along its load history, as a moving picture: between events everything is linear, and drawn so."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signorini.arrays import Array
+from signorini.errors import InputError, one_of
+from signorini.plot.curve import surface_coordinate
+from signorini.plot.style import BOUND, INK, PRESSURE, STATUS_COLOURS, TRACTION, dress
+from signorini.solution.history import History
+from signorini.solution.results import OPEN, SLIP, STICK
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Way:
+    """A contact at every instant of a history, its k nodes in the order of the coordinate s.
+
+    Attributes
+    ----------
+    name, axis : of the contact, and what s is
+    friction : Coulomb's coefficient
+    s : (k,)
+    load : (m,) where in the history; every straight segment of the loads takes 1
+    pressure, traction, slip : (m, k)
+    force : (m, 1) friction along the tangent
+    status : (m, k)
+    steps : (m,) names
+    """
+
+    name: str
+    axis: str
+    friction: float
+    s: Array
+    load: Array
+    pressure: Array
+    traction: Array
+    slip: Array
+    force: Array
+    status: NDArray[np.str_]
+    steps: tuple[str, ...]
+
+    def index(self, load: float) -> int:
+        """The instant that comes next at a load factor."""
+        return int(np.clip(np.searchsorted(self.load, load, side="left"), 1, len(self.load) - 1))
+
+    def at(self, load: float, values: Array) -> Array:
+        """Values at a load factor, straight between instants."""
+        k = self.index(load)
+        length = self.load[k] - self.load[k - 1]
+        t = (load - self.load[k - 1]) / length if length > 0 else 1.0
+        between: Array = (1.0 - t) * values[k - 1] + t * values[k]
+        return between
+
+
+def way_of(history: History, contact: str | None = None) -> Way:
+    """A contact at every instant, with the unloaded beginning.
+
+    Parameters
+    ----------
+    contact : by name; the first where not given
+
+    Raises
+    ------
+    InputError
+        If no step was finished, or there is no such contact.
+    """
+    names = [result.name for result in history.last.contacts]
+    if not names:
+        raise InputError("the model has no contact to draw")
+    if contact is not None and contact not in names:
+        raise InputError(one_of(contact, names, "contact"), where=("contact",))
+    i = names.index(contact) if contact is not None else 0
+    found = [(step.name, instant, instant.contacts[i]) for step in history.steps for instant in step.instants]
+    kinks = [0.0, *(instant.load_factor for _, instant, _ in found if instant.what == "segment")]
+    loads = np.array([0.0, *(instant.load_factor for _, instant, _ in found)])
+    axis, s = surface_coordinate(found[0][2].points)
+    order = np.argsort(s, kind="stable")
+
+    def values(key: str) -> Array:
+        later = np.array([getattr(result, key)[order] for _, _, result in found])
+        return np.concatenate([np.zeros_like(later[:1]), later])
+
+    return Way(
+        name=names[i],
+        axis=axis,
+        friction=history.model.contacts[i].coefficient,
+        s=s[order],
+        load=np.interp(loads, kinks, np.arange(len(kinks))),
+        pressure=values("pressure"),
+        traction=values("traction"),
+        slip=values("slip"),
+        force=np.array([[0.0], *([float(result.traction @ result.area)] for _, _, result in found)]),
+        status=np.array([np.full(len(s), OPEN), *(result.status[order] for _, _, result in found)]),
+        steps=(found[0][0], *(step for step, _, _ in found)),
+    )
+
+
+def animate_path(
+    history: History, path: Path, *, contact: str | None = None, frames: int = 100, rate: int = 12
+) -> None:
+    """Write a GIF of pressure, friction and slip of a contact along the whole history.
+
+    Parameters
+    ----------
+    history : with at least one finished step; exact paths have every event
+    path : of the file, ``*.gif``
+    contact : by name; the first where not given
+    frames : pictures, equally many for every straight segment of the loads
+    rate : pictures a second
+    """
+    from matplotlib.animation import FuncAnimation, PillowWriter
+
+    way = way_of(history, contact)
+    figure, draw = _scene(way, history.model.title)
+    loads = np.linspace(way.load[0], way.load[-1], frames)
+    film = FuncAnimation(figure, lambda i: draw(float(loads[i])), frames=frames, blit=False)
+    film.save(str(path), writer=PillowWriter(fps=rate), dpi=72)
+
+
+def _scene(way: Way, title: str) -> tuple[Figure, Callable[[float], list[Artist]]]:
+    """The figure, and what draws it at a load factor."""
+    from matplotlib.figure import Figure
+    from matplotlib.patches import Patch
+
+    figure = Figure(figsize=(7.6, 6.4), layout="constrained")
+    tractions, slips, forces = figure.subplots(3, gridspec_kw={"height_ratios": [3.0, 1.3, 1.0]})
+    low, high = _shown(way)
+    for axes in (tractions, slips):
+        axes.set_xlim(low, high)
+    most = 1.08 * max(way.pressure.max(), np.abs(way.traction).max(), 1e-300)
+    tractions.set_ylim(-1.08 * max(np.abs(way.traction).max(), 0.05 * most, _widest(way)), most)
+    sliding = 1.1 * np.abs(way.slip).max() or 1.0
+    slips.set_ylim(-sliding, sliding)
+    (pressure,) = tractions.plot([], [], color=PRESSURE, lw=2.0, label="pressure p")
+    (traction,) = tractions.plot([], [], color=TRACTION, lw=1.8, label="friction q")
+    bounds = []
+    if 0.0 < way.friction < math.inf:
+        bounds = [tractions.plot([], [], "--", color=BOUND, lw=0.9, alpha=0.7)[0] for _ in range(2)]
+        bounds[0].set_label(rf"$\pm\mu p$, $\mu$ = {way.friction:g}")
+    (slip,) = slips.plot([], [], color=INK, lw=1.5)
+    forces.plot(way.load, way.force[:, 0], color=TRACTION, lw=1.2)
+    (here,) = forces.plot([], [], "o", color=INK, ms=6)
+    _label(way, tractions, slips, forces)
+    patches = [Patch(color=STATUS_COLOURS[name], label=name) for name in (STICK, SLIP)]
+    handles = [pressure, traction, *bounds[:1], *patches]
+    figure.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=9, frameon=False)
+    heading = tractions.set_title("", loc="left", fontsize=10, color=INK)
+    figure.suptitle(title, fontsize=12, color=INK)
+    shades: list[Artist] = []
+
+    def draw(load: float) -> list[Artist]:
+        p = way.at(load, way.pressure)
+        pressure.set_data(way.s, p)
+        traction.set_data(way.s, way.at(load, way.traction))
+        for sign, bound in zip((1.0, -1.0), bounds, strict=False):
+            bound.set_data(way.s, sign * way.friction * p)
+        slip.set_data(way.s, way.at(load, way.slip))
+        here.set_data([load], way.at(load, way.force))
+        while shades:
+            shades.pop().remove()
+        k = way.index(load)
+        # on the way to the next event the pairs are as the last one has left them, which the next still shows
+        shades.extend(_shade(tractions, way.s, way.status[k - 1]))
+        heading.set_text(f"step '{way.steps[k]}'")
+        return []
+
+    return figure, draw
+
+
+def _label(way: Way, tractions: Axes, slips: Axes, forces: Axes) -> None:
+    tractions.set_ylabel("force per area", fontsize=9.5, color=INK)
+    slips.set_ylabel("slip", fontsize=9.5, color=INK)
+    slips.set_xlabel(f"{way.axis} along '{way.name}', undeformed", fontsize=9.5, color=INK)
+    forces.set_ylabel("friction force", fontsize=9.5, color=INK)
+    forces.set_xlabel("segment of the loads", fontsize=9.5, color=INK)
+    forces.set_xlim(way.load[0], way.load[-1])
+    for axes in (tractions, slips, forces):
+        axes.axhline(0.0, color=INK, lw=0.7)
+        dress(axes)
+
+
+def _widest(way: Way) -> float:
+    """The largest friction that could act."""
+    return way.friction * float(way.pressure.max()) if math.isfinite(way.friction) else 0.0
+
+
+def _shown(way: Way) -> tuple[float, float]:
+    """Where the contact is closed at some time, with a margin."""
+    closed = np.flatnonzero((way.status != OPEN).any(axis=0))
+    if not len(closed):
+        return float(way.s[0]), float(way.s[-1])
+    low, high = float(way.s[closed[0]]), float(way.s[closed[-1]])
+    margin = 0.12 * (high - low) or 1.0
+    return max(low - margin, float(way.s[0])), min(high + margin, float(way.s[-1]))
+
+
+def _shade(axes: Axes, s: Array, status: NDArray[np.str_]) -> list[Artist]:
+    """Stick and slip as colours behind the curves."""
+    edges = np.concatenate([s[:1], 0.5 * (s[1:] + s[:-1]), s[-1:]])
+    changes = [0, *(np.flatnonzero(status[1:] != status[:-1]) + 1), len(s)]
+    found: list[Artist] = []
+    for start, end in pairwise(changes):
+        if status[start] != OPEN:
+            colour = STATUS_COLOURS[str(status[start])]
+            found.append(axes.axvspan(edges[start], edges[end], color=colour, lw=0, zorder=0))
+    return found

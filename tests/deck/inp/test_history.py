@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What steps do: amplitudes, changes of friction and contact, temperatures, rotation."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.deck import DeckError
+
+DECKS = Path(__file__).parent / "decks"
+TWO_BLOCKS = (DECKS / "two_blocks.inp").read_text()
+HEAD = TWO_BLOCKS[: TWO_BLOCKS.index("*STEP")]
+
+
+def read(folder: Path, steps: str, *, before: str = "") -> sg.Model:
+    deck = folder / "deck.inp"
+    deck.write_text(HEAD + before + steps)
+    return sg.read(deck)
+
+
+def test_an_amplitude_is_followed_turn_by_turn(tmp_path: Path) -> None:
+    """It jumps at the beginning and turns inside the step; what has no amplitude goes on in a straight line."""
+    model = read(
+        tmp_path,
+        "*STEP\n*STATIC\n1., 4.\n*BOUNDARY, AMPLITUDE=Zigzag\nTop, 2, 2, -0.001\n*CLOAD\n14, 1, 8.\n*END STEP\n"
+        "*STEP\n*STATIC\n1., 2.\n*CLOAD\n14, 1, 4.\n*END STEP\n",
+        before="*AMPLITUDE, NAME=Zigzag\n0., 0.5, 1., 1.0, 3., 0.2\n",
+    )
+    moves, force = "Top u2", "forces on single nodes"
+    first, second = (dict(step.scale or {}) for step in model.steps)
+    assert first[moves] == pytest.approx((0.5, 1.0, 0.2, 0.2))
+    assert first[force] == pytest.approx((0.0, 0.25, 0.75, 1.0))
+    # time counts anew in the second step: the factor jumps back to 0.5 and is 0.6 ... at its end
+    assert second[moves] == pytest.approx((0.5, 1.0, 0.6))
+    assert second[force] == pytest.approx((1.0, 0.75, 0.5))
+
+
+def test_total_time_goes_on(tmp_path: Path) -> None:
+    step = "*STEP\n*STATIC\n1., 1.\n*BOUNDARY, AMPLITUDE=Ramp\nTop, 2, 2, -0.001\n*END STEP\n"
+    ramp = "*AMPLITUDE, NAME=Ramp, TIME=TOTAL TIME\n0., 0., 2., 1.\n"
+    model = read(tmp_path, step + step, before=ramp)
+    assert [(step.scale or {})["Top u2"] for step in model.steps] == pytest.approx([0.5, 1.0])
+
+
+def test_steps_can_hold_their_loads(tmp_path: Path) -> None:
+    model = read(tmp_path, "*STEP, AMPLITUDE=STEP\n*STATIC\n*BOUNDARY\nTop, 2, 2, -0.001\n*END STEP\n")
+    assert (model.steps[0].scale or {})["Top u2"] == (1.0, 1.0)
+
+
+def test_friction_and_pairs_change(tmp_path: Path) -> None:
+    press = "*STEP\n*STATIC\n*BOUNDARY\nTop, 2, 2, -0.001\n*END STEP\n"
+    model = read(
+        tmp_path,
+        press
+        + "*STEP\n*STATIC\n*CHANGE FRICTION, INTERACTION=Rub\n*FRICTION\n0.1\n*BOUNDARY\nTop, 1, 1, 0.01\n*END STEP\n"
+        + "*STEP\n*STATIC\n*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nSslave, Smaster\n*END STEP\n"
+        + "*STEP\n*STATIC\n*MODEL CHANGE, TYPE=CONTACT PAIR, ADD\nSslave, Smaster\n*END STEP\n",
+    )
+    _, changed, removed, added = model.steps
+    assert dict(changed.friction) == {"Sslave": 0.1}
+    assert (removed.inactive, added.active) == (("Sslave",), ("Sslave",))
+    second = sg.solve(model).steps[1].contacts[0]
+    assert second.tangential_force[0] == pytest.approx(-0.1 * second.normal_force[1])
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        ("*CHANGE FRICTION, INTERACTION=Rab\n*FRICTION\n0.1", "unknown surface interaction 'Rab'; did you mean 'Rub'"),
+        ("*CHANGE FRICTION, INTERACTION=Rub\n*FRICTION\n0.1, 80.", "changes the stick slope"),
+        ("*FRICTION\n0.1", r"without \*CHANGE FRICTION"),
+        ("*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nLower", "TYPE=ELEMENT is not supported"),
+        ("*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nSmaster, Sslave", "there is no contact pair"),
+    ],
+)
+def test_other_changes_are_refused(tmp_path: Path, lines: str, said: str) -> None:
+    with pytest.raises(DeckError, match=said):
+        read(tmp_path, f"*STEP\n*STATIC\n{lines}\n*END STEP\n")
+
+
+RING = """*NODE, NSET=N
+1, 1., 0.
+2, 2., 0.
+3, 2., 1.
+4, 1., 1.
+*ELEMENT, TYPE=CAX4, ELSET=E
+1, 1, 2, 3, 4
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.
+*DENSITY
+2.
+*EXPANSION
+1.D-3
+*SOLID SECTION, ELSET=E, MATERIAL=M
+*INITIAL CONDITIONS, TYPE=TEMPERATURE
+N, 20.
+*BOUNDARY
+1, 2
+2, 2
+*STEP
+*STATIC
+{}
+*END STEP
+"""
+
+
+def test_a_free_ring_grows_with_its_temperature(tmp_path: Path) -> None:
+    deck = tmp_path / "ring.inp"
+    deck.write_text(RING.format("*TEMPERATURE\nN, 120."))
+    moved = sg.solve(sg.read(deck)).last.displacement
+    points = sg.read(deck).mesh.points
+    assert moved == pytest.approx(0.1 * points, abs=1e-12)  # alpha times 100 degrees
+
+
+def test_gravity_and_rotation_are_those_of_the_package(tmp_path: Path) -> None:
+    deck = tmp_path / "ring.inp"
+    deck.write_text(RING.format("*DLOAD\nE, CENTRIF, 9., 0., 0., 0., 0., 1., 0.\nE, GRAV, 5., 0., -1., 0."))
+    model = sg.read(deck)
+    spun, heavy = (next(load for load in model.loads if getattr(load, key)) for key in ("centrifugal", "body_force"))
+    assert spun.centrifugal == 3.0
+    assert heavy.body_force == (0.0, -10.0)
+    weight = 10.0 * np.pi * (4.0 - 1.0)
+    reactions = sg.solve(model).last.reactions
+    assert sum(force[1] for force in reactions.values()) == pytest.approx(weight)
+    deck.write_text(RING.format("*DLOAD\nE, CENTRIF, 9., 0., 0., 0., 0., 0., 1."))
+    with pytest.raises(DeckError, match="expected the y axis"):
+        sg.read(deck)
