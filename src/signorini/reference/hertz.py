@@ -55,7 +55,7 @@ class HertzLine:
         return pressure
 
     def axis_stress(self, z: ArrayLike) -> tuple[Array, Array]:
-        """Stresses along and across the surface, (sigma_x, sigma_z), at the depth z >= 0 below the centre; tension positive.
+        """Stresses along and across the surface, (sigma_x, sigma_z), at the depth z >= 0 below the centre; tension > 0.
 
         ``sigma_x = -p_0 [(1 + 2 s^2) / sqrt(1 + s^2) - 2 s]``, ``sigma_z = -p_0 / sqrt(1 + s^2)``, ``s = z / a``.
         """
@@ -110,7 +110,8 @@ class HertzPoint:
     def axis_stress(self, z: ArrayLike, nu: float) -> tuple[Array, Array]:
         """Radial (and hoop) and axial stress at the depth z >= 0 below the centre in a body with nu; tension positive.
 
-        ``sigma_r = -p_0 [(1 + nu) (1 - s atan(1/s)) - 1 / (2 (1 + s^2))]``, ``sigma_z = -p_0 / (1 + s^2)``, ``s = z / a``.
+        ``sigma_r = -p_0 [(1 + nu) (1 - s atan(1/s)) - 1 / (2 (1 + s^2))]``, ``sigma_z = -p_0 / (1 + s^2)``,
+        ``s = z / a``.
         """
         s = np.asarray(z, float) / self.contact_radius
         fading = 1.0 / (1.0 + s**2)

@@ -27,16 +27,21 @@ _POINT = HertzPoint(force=POINT_FORCE, radius=RADIUS, modulus=MODULUS)
 _INSIDE = 0.85
 """Part of the half-width where pressures are compared: at the edge they are steeper than a cell."""
 
+_Meshes = tuple[tuple[Cells, tuple[int, int]], ...]
+_LINES: _Meshes = (("quad", (26, 26)), ("quad", (26, 39)), ("quad8", (13, 20)), ("triangle6", (13, 20)))
+_POINTS: _Meshes = (("quad", (40, 40)), ("quad", (40, 60)), ("quad8", (20, 30)))
+"""Cells, and how many of the upper and the lower body where they may touch."""
+
 
 def line_contact() -> Iterator[Check]:
     """B01: two cylinders on meshes that match or not, linear and quadratic cells."""
-    for cells, across in (("quad", (26, 26)), ("quad", (26, 39)), ("quad8", (13, 20)), ("triangle6", (13, 20))):
+    for cells, across in _LINES:
         yield from _contact("plane strain", cells, across)
 
 
 def point_contact() -> Iterator[Check]:
     """B02: two spheres."""
-    for cells, across in (("quad", (40, 40)), ("quad", (40, 60)), ("quad8", (20, 30))):
+    for cells, across in _POINTS:
         yield from _contact("axisymmetric", cells, across)
 
 
@@ -95,9 +100,7 @@ def _axis(
         ("largest error of the stresses / p_0, 0.2 a < z < 2 a", worst / hertz.peak_pressure, 0.0),
         ("largest shear stress / p_0", shear[0], shear[1]),
     ):
-        yield Check(
-            case=case, quantity=quantity, computed=computed, reference=reference, tolerance=0.01, source=source
-        )
+        yield Check(case=case, quantity=quantity, computed=computed, reference=reference, tolerance=0.01, source=source)
 
 
 def equal_spheres() -> Iterator[Check]:

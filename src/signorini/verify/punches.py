@@ -16,6 +16,7 @@ from signorini.reference.corners import bonded_corner, frictionless_corner
 from signorini.solution.results import ContactResult
 from signorini.verify.check import Check
 
+
 def flat_punches() -> Iterator[Check]:
     """What part of the load the inner half of the punch carries."""
     kinds: tuple[tuple[Kind, float, str], ...] = (

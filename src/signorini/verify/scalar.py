@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """B11: Signorini's problem for the Laplacian, which tests the unilateral solver apart from elasticity.
 
-    u = -r^(3/2) sin(3 theta / 2),  Laplace u = 0 above y = 0,
-    u >= 0,  du/dn >= 0,  u du/dn = 0 on y = 0: contact for x > 0, free for x < 0
+u = -r^(3/2) sin(3 theta / 2),  Laplace u = 0 above y = 0,
+u >= 0,  du/dn >= 0,  u du/dn = 0 on y = 0: contact for x > 0, free for x < 0
 """
 
 from __future__ import annotations

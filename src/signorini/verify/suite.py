@@ -5,31 +5,59 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from signorini.verify import blocks, cylinder, half_planes, rings
+from signorini.verify import (
+    cylinder,
+    fenet,
+    half_planes,
+    hertz,
+    one_node,
+    patches,
+    punches,
+    rates,
+    rings,
+    scalar,
+)
 from signorini.verify.check import Check
 
 Case = Callable[[], Iterator[Check]]
 
 QUICK: tuple[Case, ...] = (
-    blocks.patch_p1,
-    blocks.patch_p2,
-    blocks.patch_p4,
-    blocks.one_node,
-    blocks.one_node_path,
+    patches.patch_p1,
+    patches.patch_p2,
+    patches.patch_turned,
+    patches.patch_p4,
+    patches.patch_p5,
+    patches.patch_p6,
+    patches.patch_discs,
+    hertz.line_contact,
+    hertz.point_contact,
+    hertz.below_the_contact,
+    hertz.equal_spheres,
+    fenet.cylinder,
+    punches.flat_punches,
+    punches.corner_exponents,
     rings.press_fit_plane_stress,
     rings.press_fit_plane_strain,
+    rings.shrink_fits,
+    rings.hollow_bodies,
+    scalar.scalar_signorini,
+    one_node.one_node,
+    one_node.one_node_path,
     cylinder.paper_mesh,
     cylinder.refined,
     cylinder.literal_equals_compliance,
     cylinder.exact_path,
     cylinder.increments_at_events,
     half_planes.cattaneo_mindlin,
+    rates.smooth_contact,
 )
 SLOW: tuple[Case, ...] = (
     cylinder.small_load,
     half_planes.cattaneo_mindlin_refined,
     half_planes.spence,
     half_planes.complete_contact,
+    rates.smooth_contact_refined,
+    rates.corners,
 )
 
 
