@@ -21,13 +21,15 @@ if TYPE_CHECKING:
     from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
     from signorini.fem.profile import mesh_profile
     from signorini.fem.read import read_mesh
+    from signorini.fem.solids import box
     from signorini.model.body import Body
     from signorini.model.conditions import Foundation, Load, Support
     from signorini.model.contact import Contact
     from signorini.model.material import Elastic, Orthotropic
     from signorini.model.mesh import Mesh, join
     from signorini.model.model import Model
-    from signorini.model.obstacle import Circle, Plane, Profile
+    from signorini.model.obstacle import Circle, Plane, Profile, Sphere
+    from signorini.model.revolved import Cone, Cylinder, Torus
     from signorini.model.rigid import Rigid
     from signorini.model.step import Step
     from signorini.model.varying import Along
@@ -36,7 +38,9 @@ __all__ = [
     "Along",
     "Body",
     "Circle",
+    "Cone",
     "Contact",
+    "Cylinder",
     "Elastic",
     "Foundation",
     "InputError",
@@ -50,10 +54,13 @@ __all__ = [
     "SignoriniError",
     "Solution",
     "SolveFailed",
+    "Sphere",
     "Step",
     "Support",
+    "Torus",
     "__version__",
     "annulus",
+    "box",
     "half_disk",
     "join",
     "lcp",
@@ -75,13 +82,15 @@ _HOMES = {
     "signorini.fem.generators": ("annulus", "half_disk", "quarter_disk", "rectangle"),
     "signorini.fem.profile": ("mesh_profile",),
     "signorini.fem.read": ("read_mesh",),
+    "signorini.fem.solids": ("box",),
     "signorini.model.body": ("Body",),
     "signorini.model.conditions": ("Foundation", "Load", "Support"),
     "signorini.model.contact": ("Contact",),
     "signorini.model.material": ("Elastic", "Orthotropic"),
     "signorini.model.mesh": ("Mesh", "join"),
     "signorini.model.model": ("Model",),
-    "signorini.model.obstacle": ("Circle", "Plane", "Profile"),
+    "signorini.model.obstacle": ("Circle", "Plane", "Profile", "Sphere"),
+    "signorini.model.revolved": ("Cone", "Cylinder", "Torus"),
     "signorini.model.rigid": ("Rigid",),
     "signorini.model.step": ("Step",),
     "signorini.model.varying": ("Along",),

@@ -49,7 +49,8 @@ def test_every_key_is_explained() -> None:
 def test_every_generator_is_told_with_its_names() -> None:
     for name, generator in GENERATORS.items():
         needed = {"radius": 8.0, "contact_length": 4.0, "contact_spacing": 0.5, "inner": 1.0, "outer": 2.0}
-        needed |= {"n_radial": 1, "n_angular": 2, "angle": 90.0}
+        needed |= {"n_radial": 1, "n_angular": 2, "angle": 90.0, "z": (0.0, 1.0)}
+        needed |= {"x": (0.0, 1.0), "y": (0.0, 1.0)} if name == "box" else {}
         takes = inspect.signature(generator).parameters
         mesh = generator(**{key: value for key, value in needed.items() if key in takes})
         row = next(line for line in MANUAL.splitlines() if line.startswith(f"| `{name}`"))

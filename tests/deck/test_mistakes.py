@@ -50,7 +50,8 @@ MISTAKES = {
         "friction = 0.4",
         "fricton = 0.4",
         ":29: contact[0].fricton: unknown key; did you mean 'friction'? Known: name, nonmortar, mortar, plane, circle, "
-        "profile, friction, gap, interference, normal_compliance, tangential_compliance, coupling, side, "
+        "profile, sphere, cylinder, cone, torus, friction, gap, interference, normal_compliance, "
+        "tangential_compliance, coupling, side, "
         "search, adjust",
     ),
     "unknown table": (
@@ -90,7 +91,8 @@ MISTAKES = {
     "contact with nothing": (
         "plane = { point = [0.0, 0.0], normal = [0.0, 1.0] }\n",
         "",
-        ":26: contact[0]: has no other side; expected one of mortar, plane, circle, profile",
+        ":26: contact[0]: has no other side; expected one of mortar, plane, circle, profile, sphere, cylinder, cone, "
+        "torus",
     ),
     "plane without direction": (
         "normal = [0.0, 1.0]",
@@ -111,7 +113,8 @@ MISTAKES = {
     "unknown generator": (
         '"quarter_disk"',
         '"quarterdisk"',
-        ":5: mesh.generator: unknown generator 'quarterdisk'; did you mean 'quarter_disk'? Known: annulus, half_disk, "
+        ":5: mesh.generator: unknown generator 'quarterdisk'; did you mean 'quarter_disk'? Known: annulus, box, "
+        "half_disk, "
         "quarter_disk, rectangle",
     ),
     "parameter missing": ("radius = 8.0\n", "", ":4: mesh: has no 'radius'; expected it"),

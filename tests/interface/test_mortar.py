@@ -68,8 +68,10 @@ def test_weights_are_exact_on_any_two_meshes(upper, lower, angle, shift):
     along = mesh.points @ [np.cos(angle), np.sin(angle)]
     low, high = max(0.0, shift), min(1.0, 1.0 + shift)
     # of both sides the weights sum to one, and linear fields are the same from either side
-    np.testing.assert_allclose(coupling.relative.sum(axis=1), 0.0, atol=1e-9)
-    np.testing.assert_allclose(coupling.relative @ mesh.points, 0.0, atol=1e-9)
+    # (rounding grows where little of a facet is covered)
+    rounding = 1e-13 / coupling.area.min()
+    np.testing.assert_allclose(coupling.relative.sum(axis=1), 0.0, atol=rounding)
+    np.testing.assert_allclose(coupling.relative @ mesh.points, 0.0, atol=rounding)
     # uniform pressure arrives on both sides as int N over what is covered
     for side, sign in ((own, 1.0), (other, -1.0)):
         order = side.nodes[np.argsort(along[side.nodes])]

@@ -73,6 +73,7 @@ class Results:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.summary: dict[str, Any] = json.loads((folder / "summary.json").read_text())
+        self.solid = self.summary["kind"] == "3d"
         text = (folder / "contact.csv").read_text()
         self.header = text.split("\n", 1)[0]
         rows = list(csv.DictReader(text.splitlines()))
@@ -134,13 +135,14 @@ def test_rows_obey_the_law_of_contact(results: tuple[Results, dict[str, Any]]) -
     assert all(np.isfinite(column).all() for column in value.values())
     assert sorted(set(value["step"])) == list(range(1, len(found.summary["steps"]) + 1))
     assert (value["area"] > 0).all()
-    assert not value["z"].any()
-    assert not value["traction_2"].any()
-    assert not value["slip_2"].any()
+    if not found.solid:
+        assert not value["z"].any()
+        assert not value["traction_2"].any()
+        assert not value["slip_2"].any()
     assert set(found.status) <= {"open", "stick", "slip"}
     friction = {contact.get("name", contact["nonmortar"]): contact.get("friction", 0.0) for contact in deck["contact"]}
     mu = np.array([friction[name] for name in found.contact])
-    p, t, peak = value["pressure"], np.abs(value["traction_1"]), value["pressure"].max()
+    p, t, peak = value["pressure"], np.hypot(value["traction_1"], value["traction_2"]), value["pressure"].max()
     size = max(np.abs(value[axis]).max() for axis in "xy")
     assert p.min() >= -1e-9 * peak
     assert np.abs(value["gap"] * p).max() <= 1e-9 * peak * size
@@ -161,13 +163,13 @@ def test_summary_and_rows_say_the_same(results: tuple[Results, dict[str, Any]]) 
             for status in ("open", "stick", "slip"):
                 assert contact[status] == (found.status[own] == status).sum()
             pressed = (value["pressure"] * value["area"])[own].sum()
-            rubbed = (value["traction_1"] * value["area"])[own]
+            rubbed = (np.hypot(value["traction_1"], value["traction_2"]) * value["area"])[own]
             force = math.hypot(*contact["normal_force"])
             assert force <= pressed * (1.0 + 1e-12)  # equal on a plane, less where normals turn
             assert math.hypot(*contact["tangential_force"]) <= np.abs(rubbed).sum() + 1e-12 * pressed
             assert contact["max_pressure"] == value["pressure"][own].max()
             worst = np.flatnonzero(own)[value["pressure"][own].argmax()]
-            assert contact["max_pressure_at"] == [value["x"][worst], value["y"][worst]]
+            assert contact["max_pressure_at"] == [value[axis][worst] for axis in ("xyz" if found.solid else "xy")]
             assert contact["area"] == pytest.approx(value["area"][own & (found.status != "open")].sum())
     assert found.summary["size"]["contact_pairs"] == (value["step"] == 1).sum()
 
@@ -192,8 +194,8 @@ def test_fields(results: tuple[Results, dict[str, Any]]) -> None:
     assert last == count - 1
     # rows and fields speak of the same nodes
     where = {int(node): point for node, point in zip(fields.point_data["node"], fields.points, strict=True)}
-    for node, x, y in zip(found.values["node"], found.values["x"], found.values["y"], strict=True):
-        assert where[int(node)].tolist() == [x, y, 0.0]
+    for node, *point in zip(*(found.values[key] for key in ("node", "x", "y", "z")), strict=True):
+        assert where[int(node)].tolist() == point
 
 
 def test_series(results: tuple[Results, dict[str, Any]]) -> None:
@@ -201,7 +203,7 @@ def test_series(results: tuple[Results, dict[str, Any]]) -> None:
     steps = len(found.summary["steps"])
     names = [f"solution_{number:04d}.vtu" for number in range(1, steps + 1)] if steps > 1 else []
     expected = {"summary.json", "contact.csv", "history.csv", "state.npz", "solution.vtu", "solution.h5", *names}
-    expected |= {"solution.pvd"} if names else set()
+    expected |= ({"solution.pvd"} if names else set()) | ({"contact.vtu"} if found.solid else set())
     assert {file.name for file in found.folder.iterdir()} == expected
     if names:
         text = (found.folder / "solution.pvd").read_text()

@@ -220,7 +220,7 @@ def test_a_deck_can_take_a_profile_from_a_mesh(tmp_path):
     [
         ({"force": (1.0, -10.0)}, "a force acts in a prescribed direction"),
         ({"rotation": 0.0, "moment": 1.0}, "acts on a prescribed rotation"),
-        ({"shape": "ball"}, "shape: is 'ball'; expected a Plane, Circle or Profile"),
+        ({"shape": "ball"}, "shape: is 'ball'; expected a Plane, Circle, Profile or another shape"),
         ({"shape": Circle((0.0, -2.0), 0.5)}, "faces away from a circle"),
         ({"shape": Circle((0.0, 3.0), 2.0)}, "obstacle 'punch' can rotate about (0, 3): nothing but frictionless"),
         ({"shape": Circle((0.0, 0.5), 2.0), "rotation": 0.0}, "the two sides overlap by 1.5 at node"),

@@ -21,11 +21,13 @@ Rows = list[tuple[str, ...]]
 def describe(deck: Deck, examined: Examined) -> list[str]:
     """Lines on everything that the deck holds."""
     model, mesh = deck.model, deck.model.mesh
-    families = ", ".join(f"{len(cells)} {family}s" for family, cells in mesh.cells.items())
+    families = ", ".join(
+        f"{len(cells)} {family}{'s' if family.isalpha() else ''}" for family, cells in mesh.cells.items()
+    )
     free = examined.constraints.transform.shape[1]
     lines = [
         f"{deck.path}: {model.title or 'untitled'}",
-        f"{model.kind}, thickness {model.thickness:g}, units: {model.units}",
+        f"{model.kind}{_thickness(model)}, units: {model.units}",
         f"{len(mesh.points)} nodes, {mesh.number_of_cells} elements ({families}), "
         f"{mesh.points.size} dofs, {free} of them free",
     ]
@@ -34,6 +36,7 @@ def describe(deck: Deck, examined: Examined) -> list[str]:
         ("supports", _supports(examined)),
         ("foundations", _foundations(model)),
         ("loads", _loads(examined)),
+        *([("obstacles", _obstacles(model))] if model.obstacles else []),
         ("contacts", _contacts(examined)),
         ("steps", _steps(model)),
     ):
@@ -68,6 +71,23 @@ def _foundations(model: Model) -> Rows:
         (f.label, f"normal stiffness {f.normal_stiffness:g}", f"tangential stiffness {f.tangential_stiffness:g}")
         for f in model.foundations
     ]
+
+
+def _thickness(model: Model) -> str:
+    if model.axisymmetric:
+        return ", forces on the whole circumference"
+    return f", thickness {model.thickness:g}" if model.dimension == 2 else ""
+
+
+def _obstacles(model: Model) -> Rows:
+    """Those that move."""
+    rows: Rows = []
+    for obstacle in model.obstacles:
+        parts = ", ".join("free" if part is None else f"{part:g}" for part in obstacle.u)
+        turn = "free" if obstacle.turn is None else f"{obstacle.turn:g}"
+        force = spell_vector([part or 0.0 for part in obstacle.force or (0.0,) * model.dimension])
+        rows.append((obstacle.name, str(obstacle.shape), f"u = ({parts})", f"rotation {turn}", f"force {force}"))
+    return rows
 
 
 def _loads(examined: Examined) -> Rows:

@@ -13,6 +13,7 @@ from signorini.plot.contact import draw_contacts
 from signorini.plot.field import draw_mesh, draw_stress
 from signorini.plot.files import ResultFolder
 from signorini.plot.history import draw_history
+from signorini.plot.patch import draw_patches
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,10 +37,14 @@ def plot(options: argparse.Namespace) -> int:
 
 
 def _draw(folder: ResultFolder, what: str) -> Figure:
+    if folder.solid and what in ("stress", "mesh"):
+        raise InputError(f"draws plane models only; open '{folder.path / 'solution.vtu'}' in ParaView", where=(what,))
     if what == "stress":
         return draw_stress(folder)
     if what == "mesh":
         return draw_mesh(folder)
     if not folder.rows:
         raise InputError(f"the results in '{folder.path}' have no contact to draw")
-    return draw_history(folder) if what == "history" else draw_contacts(folder.steps[-1], folder.title)
+    if what == "history":
+        return draw_history(folder)
+    return draw_patches(folder.patches, folder.title) if folder.solid else draw_contacts(folder.steps[-1], folder.title)

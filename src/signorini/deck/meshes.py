@@ -12,6 +12,7 @@ from signorini.checks import choice, text, vector
 from signorini.deck.table import check_keys, table
 from signorini.errors import InputError, Where
 from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
+from signorini.fem.solids import box
 from signorini.model.mesh import Mesh, join
 
 GENERATORS: Mapping[str, Callable[..., Mesh]] = {
@@ -19,6 +20,7 @@ GENERATORS: Mapping[str, Callable[..., Mesh]] = {
     "quarter_disk": quarter_disk,
     "half_disk": half_disk,
     "annulus": annulus,
+    "box": box,
 }
 
 

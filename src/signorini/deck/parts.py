@@ -14,7 +14,8 @@ from signorini.model.body import Body
 from signorini.model.conditions import Foundation, Load, Support
 from signorini.model.contact import Contact
 from signorini.model.material import Elastic, Material, Orthotropic
-from signorini.model.obstacle import Circle, Obstacle, Plane, Profile
+from signorini.model.obstacle import Circle, Obstacle, Plane, Profile, Sphere
+from signorini.model.revolved import Cone, Cylinder, Torus
 from signorini.model.rigid import Rigid
 from signorini.model.step import Step
 from signorini.model.varying import Along
@@ -26,6 +27,10 @@ _CONTACT_KEYS = (
     "plane",
     "circle",
     "profile",
+    "sphere",
+    "cylinder",
+    "cone",
+    "torus",
     "friction",
     "gap",
     "interference",
@@ -36,7 +41,15 @@ _CONTACT_KEYS = (
     "search",
     "adjust",
 )
-_OBSTACLES = {"plane": Plane, "circle": Circle, "profile": Profile}
+_OBSTACLES = {
+    "plane": Plane,
+    "circle": Circle,
+    "profile": Profile,
+    "sphere": Sphere,
+    "cylinder": Cylinder,
+    "cone": Cone,
+    "torus": Torus,
+}
 _OBSTACLE_KEYS = ("name", *_OBSTACLES, "u", "rotation", "force", "moment", "point")
 
 

@@ -212,7 +212,7 @@ def _visited(
         else:
             here = _on_the_way(prepared, last, point, now)
         what = span.ends if s == 1.0 else "event"
-        found.append(Snapshot(load_factor=span.factor(s), what=what, state=here, whole=recovered))
+        found.append(Snapshot(load_factor=span.factor(s), what=what, state=here, whole=recovered, worked=recovered))
     return tuple(found)
 
 

@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from typing import Literal
+
+import numpy as np
 
 from signorini.solution.certificate import Certificate
 from signorini.solution.results import PairEvent
@@ -24,15 +26,22 @@ class Snapshot:
     ----------
     load_factor : step k goes from k - 1 to k
     what : happens there
-    state : its displacement, external forces and work are those of an earlier snapshot unless ``whole``; gaps of
-        pairs that the law is not asked of are NaN then
-    whole : whether the displacement of the bodies was recovered
+    state : its displacement and external forces hold only where it is ``whole``, its work where it is ``worked``; gaps
+        of pairs that the law is not asked of are NaN where it is neither
+    whole : whether the displacement of the bodies is kept
+    worked : whether it was recovered
     """
 
     load_factor: float
     what: What
     state: State
     whole: bool = True
+    worked: bool = True
+
+    def light(self) -> Snapshot:
+        """Without the displacement of the bodies: a history may have thousands of snapshots."""
+        none = np.zeros(0)
+        return replace(self, state=replace(self.state, displacement=none, external=none), whole=False)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -58,6 +67,12 @@ class Leg:
     snapshots: tuple[Snapshot, ...]
     events: tuple[PairEvent, ...] = ()
     notes: tuple[str, ...] = ()
+
+
+def lightened(leg: Leg) -> Leg:
+    """A leg that keeps the displacement of the bodies only at times asked for, and where it ends."""
+    kept = tuple(shot if shot.what == "asked" else shot.light() for shot in leg.snapshots)
+    return replace(leg, snapshots=kept)
 
 
 def joined(legs: Sequence[Leg]) -> Leg:

@@ -114,19 +114,25 @@ def _obstacles(prepared: Prepared, state: State) -> dict[str, ObstacleResult]:
     """Motions of the obstacles and what acts on them from outside, by name."""
     found, length = {}, arm(prepared.model)
     for j, obstacle in enumerate(prepared.model.obstacles):
-        x, y, turn, _ = prepared.space.obstacle_dofs(j)
+        d, dofs = prepared.model.dimension, prepared.space.obstacle_dofs(j)
+        turn = dofs[2:3] if d == 2 else dofs[3:]
         found[obstacle.name] = ObstacleResult(
-            displacement=frozen(state.displacement[[x, y]]),
-            rotation=float(state.displacement[turn]) / length,
-            force=frozen(state.external[[x, y]]),
-            moment=float(state.external[turn]) * length,
+            displacement=frozen(state.displacement[dofs[:d]]),
+            rotation=_number(state.displacement[turn] / length),
+            force=frozen(state.external[dofs[:d]]),
+            moment=_number(state.external[turn] * length),
         )
     return found
 
 
+def _number(values: Array) -> float | Array:
+    """One value as a number."""
+    return float(values[0]) if len(values) == 1 else frozen(values)
+
+
 def contacts_of(prepared: Prepared, before: State, state: State) -> tuple[ContactResult, ...]:
     """The contacts in one state, with slips and dissipation since another."""
-    moved = np.abs(state.slip - before.slip)
+    moved = prepared.interface.across(state.slip - before.slip)
     return tuple(
         _contact_result(prepared, _surface(prepared, i), before, state, moved, moved)
         for i in range(len(prepared.model.contacts))
@@ -149,13 +155,12 @@ def _instants(
             _contact_result(prepared, surface, leg.before, snapshot.state, sliding, across(high - low))
             for surface in surfaces
         )
-        moved = prepared.space.at_nodes(snapshot.state.displacement)
         yield Instant(
             load_factor=snapshot.load_factor,
             what=snapshot.what,
             contacts=contacts,
-            work=snapshot.state.work - leg.before.work + heat(snapshot.state) - begun if snapshot.whole else np.nan,
-            displacement=frozen(moved) if snapshot.whole else None,
+            work=snapshot.state.work - leg.before.work + heat(snapshot.state) - begun if snapshot.worked else np.nan,
+            displacement=frozen(prepared.space.at_nodes(snapshot.state.displacement)) if snapshot.whole else None,
         )
         if cycle + 1 < len(cycle_ends) and snapshot.load_factor == cycle_ends[cycle]:
             low, high, cycle = slip, slip, cycle + 1

@@ -14,7 +14,7 @@ from signorini.engine.automatic import follow_automatically
 from signorini.engine.enter import relaxed, switched
 from signorini.engine.exact import follow_exactly
 from signorini.engine.increments import follow_increments, measured
-from signorini.engine.leg import Leg, Snapshot, joined
+from signorini.engine.leg import Leg, Snapshot, joined, lightened
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
 from signorini.engine.span import Span, spans
@@ -135,7 +135,8 @@ def checkpoint(prepared: Prepared, state: State, *, inactive: frozenset[str]) ->
 
 def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[float]]:
     """A step from what it changes at once through all its straight parts; and the load factors at its cycles' ends."""
-    legs, cycle_ends = [], []
+    legs: list[Leg] = []
+    cycle_ends: list[float] = []
     begin = float(stage.number - 1)
     change = relaxed(prepared, state, stage.name)
     if change is not None:
@@ -153,12 +154,15 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
         )
         state = after
     end = LoadPoint(factors=stage.ends[-1], gap=nominal_gap(prepared, stage), given=np.zeros_like(state.point.given))
+    # the work of temperatures needs the displacements, see signorini.engine.heat
+    heated = any(load.temperature is not None for load in prepared.model.loads)
     for span, point in spans(stage, state.point, end):
-        legs.append(_leg(prepared, stage, span, state, point))
-        state = legs[-1].after
+        leg = _leg(prepared, stage, span, state, point)
+        legs = [joined([*legs, leg if heated or stage.step.at == "events" else lightened(leg)])]
+        state = leg.after
         if span.cycle:
             cycle_ends.append(span.factor(1.0))
-    return joined(legs), cycle_ends
+    return legs[0], cycle_ends
 
 
 def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPoint) -> Leg:

@@ -10,8 +10,8 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
-from signorini.fem.faces import outer_faces
-from signorini.fem.facets import CORNERS, facet_nodes, facet_rule, facet_shapes
+from signorini.fem.faces import CORNERS, outer_faces
+from signorini.fem.facets import facet_nodes, facet_rule, facet_shapes
 from signorini.fem.space import Space
 
 

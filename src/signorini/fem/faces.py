@@ -10,8 +10,17 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
-from signorini.fem.facets import CORNERS
 from signorini.model.mesh import Mesh
+
+CORNERS = {3: 3, 4: 4, 6: 3, 8: 4, 9: 4}
+"""Of faces, by the number of their nodes."""
+
+HEXAHEDRON = ((0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)) + (
+    ((1, 0, 0), (2, 1, 0), (1, 2, 0), (0, 1, 0), (1, 0, 2), (2, 1, 2), (1, 2, 2), (0, 1, 2))
+    + ((0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1))
+    + ((0, 1, 1), (2, 1, 1), (1, 0, 1), (1, 2, 1), (1, 1, 0), (1, 1, 2), (1, 1, 1))
+)
+"""Nodes of the hexahedra in the order of meshio, which scikit-fem numbers otherwise; edges are 2 long here."""
 
 _TETRA = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
 _TETRA10 = ((0, 2, 1, 6, 5, 4), (0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6))

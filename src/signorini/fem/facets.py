@@ -12,9 +12,6 @@ import skfem
 from signorini.arrays import Array
 from signorini.fem.line import line_shapes
 
-CORNERS = {3: 3, 4: 4, 6: 3, 8: 4, 9: 4}
-"""Of faces in space, by the number of their nodes."""
-
 _EDGE_POINTS = {2: 2, 3: 4}  # of Gauss, by nodes of an edge: exact for pressure on both, with a radius too
 _FACES: Mapping[int, tuple[type[skfem.Element], int]] = {
     # nodes: element, degree of polynomials that the quadrature integrates exactly

@@ -13,6 +13,7 @@ from signorini.fem.measure import measure
 from signorini.fem.space import Block, Space
 from signorini.model.model import Model
 
+_AT_ONCE = 1 << 16
 _SQUARE = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
 BRICKS = {
     "quad": np.array(_SQUARE),
@@ -112,16 +113,17 @@ class Kinematics:
 
 
 def groups(space: Space, model: Model) -> Iterator[Group]:
-    """All cells, by family and formulation."""
+    """All cells, by family and formulation, so many at once that arrays over their points stay small."""
     owner = model.body_of_cells()
     incompatible = np.array([body.formulation == "incompatible" for body in model.bodies])
     for block in space.blocks:
         body = owner[block.first : block.first + len(block.cells)]
         special = incompatible[body] if block.family in BRICKS else np.zeros(len(body), bool)
         for kind in (False, True):
-            index = np.nonzero(special == kind)[0]
-            if len(index):
-                yield Group(block=block, index=index, body=body[index], incompatible=kind)
+            every = np.nonzero(special == kind)[0]
+            for index in np.split(every, range(_AT_ONCE, len(every), _AT_ONCE)):
+                if len(index):
+                    yield Group(block=block, index=index, body=body[index], incompatible=kind)
 
 
 def kinematics(space: Space, model: Model, group: Group, *, best: bool = False) -> Kinematics:

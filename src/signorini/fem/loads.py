@@ -5,13 +5,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from signorini.arrays import Array
-from signorini.errors import Where
+from signorini.arrays import Array, IntArray
+from signorini.errors import InputError, Where
 from signorini.fem.boundary import boundary
 from signorini.fem.measure import facet_areas, measure
 from signorini.fem.obstacles import obstacle_loads
 from signorini.fem.places import nodes_at
-from signorini.fem.space import Space
+from signorini.fem.space import ON_AXIS, Space
 from signorini.fem.thermal import thermal_forces
 from signorini.model.conditions import BODY_LOADS, Load
 from signorini.model.model import Model
@@ -30,12 +30,10 @@ def _forces(space: Space, model: Model, load: Load, where: Where) -> Array:
     if load.kind in BODY_LOADS:
         return _body_forces(space, model, load)
     forces = np.zeros((len(space.mesh.points), space.dimension))
-    if load.nodal_forces is not None:
-        forces[nodes_at(space, load.on, (*where, "on"))] = load.nodal_forces
-        return forces.ravel()
-    if load.force is not None and load.on not in space.mesh.boundaries:
+    if load.nodal_forces is not None or (load.force is not None and load.on not in space.mesh.boundaries):
         nodes = nodes_at(space, load.on, (*where, "on"))
-        forces[nodes] = _given(load.force) / len(nodes)
+        forces[nodes] = _given(load.force) / len(nodes) if load.force is not None else load.nodal_forces
+        _check_axis(model, nodes, forces, where)
         return forces.ravel()
     side = boundary(space, str(load.on), (*where, "on"))
     area = facet_areas(model, side)[..., None]
@@ -47,6 +45,16 @@ def _forces(space: Space, model: Model, load: Load, where: Where) -> Array:
         force = area * np.array(load.traction)
     forces[side.nodes] = side.nodal(force)
     return forces.ravel()
+
+
+def _check_axis(model: Model, nodes: IntArray, forces: Array, where: Where) -> None:
+    """A radial force at one node of the axis is not symmetric."""
+    if not model.axisymmetric:
+        return
+    radii = model.mesh.points[:, 0]
+    wrong = nodes[(radii[nodes] <= ON_AXIS * radii.max()) & (forces[nodes, 0] != 0.0)]
+    if len(wrong):
+        raise InputError(f"has a radial component at node {wrong[0] + 1}, which is on the axis", where=where)
 
 
 def _given(force: tuple[float | None, ...]) -> Array:

@@ -16,21 +16,26 @@ def arm(model: Model) -> float:
 
 
 def carried(model: Model, j: int, points: Array) -> Array:
-    """Displacement of points (k, 2) with the unknowns of obstacle j, (k, 2, 4): ``u_x, u_y, theta arm`` and none.
+    """Displacement of points (k, d) with the unknowns of obstacle j, (k, d, 2 d): in 2D ``u_x, u_y, theta arm``, none.
 
-    ``u(x) = u + theta (-(y - y_c), x - x_c)``
+    ``u(x) = u + theta (-(y - y_c), x - x_c)``; in space ``u + theta x (x - x_c)`` with three rotations.
     """
     lever = (points - np.array(model.obstacles[j].about)) / arm(model)
-    result = np.zeros((len(points), 2, 4))
-    result[:, 0, 0] = result[:, 1, 1] = 1.0
-    result[:, 0, 2], result[:, 1, 2] = -lever[:, 1], lever[:, 0]
+    d = lever.shape[1]
+    result = np.zeros((len(points), d, 2 * d))
+    result[:, :, :d] = np.eye(d)
+    if d == 2:
+        result[:, 0, 2], result[:, 1, 2] = -lever[:, 1], lever[:, 0]
+    else:
+        result[:, :, 3:] = np.cross(np.eye(3), lever[:, None]).swapaxes(1, 2)
     return result
 
 
 def driven(model: Model, j: int) -> tuple[BoolArray, Array]:
-    """Which unknowns of obstacle j are prescribed, and their values at factor 1, (4,) each."""
+    """Which unknowns of obstacle j are prescribed, and their values at factor 1, (2 d,) each."""
     obstacle = model.obstacles[j]
-    given = (*obstacle.u, None if obstacle.turn is None else obstacle.turn * arm(model), 0.0)
+    turn = None if obstacle.turn is None else obstacle.turn * arm(model)
+    given = (*(obstacle.u or ()), *((turn, 0.0) if model.dimension == 2 else (turn,) * 3))
     return np.array([part is not None for part in given]), np.array([part or 0.0 for part in given])
 
 
@@ -40,7 +45,8 @@ def obstacle_loads(space: Space, model: Model) -> dict[str, Array]:
     for j, obstacle in enumerate(model.obstacles):
         if any(obstacle.force or ()) or obstacle.moment:
             forces = np.zeros(space.number_of_dofs)
-            given = (*(part or 0.0 for part in obstacle.force or (0.0, 0.0)), obstacle.moment / arm(model), 0.0)
-            forces[space.obstacle_dofs(j)] = given
+            dofs, d = space.obstacle_dofs(j), model.dimension
+            forces[dofs[:d]] = [part or 0.0 for part in obstacle.force or (0.0,) * d]
+            forces[dofs[2]] += obstacle.moment / arm(model)
             loads[obstacle.label] = forces
     return loads

@@ -12,8 +12,7 @@ from numpy.typing import ArrayLike
 from signorini.arrays import Array, IntArray
 from signorini.checks import choice, vector
 from signorini.errors import InputError
-from signorini.fem.faces import make_faces
-from signorini.fem.space import HEXAHEDRON
+from signorini.fem.faces import HEXAHEDRON, make_faces
 from signorini.model.mesh import NODES_PER_SOLID_CELL, Mesh
 
 SolidCells = Literal["hexahedron", "hexahedron20", "hexahedron27", "tetra", "tetra10"]

@@ -13,7 +13,7 @@ import skfem
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.fem.edges import Edges, check_conforming, make_edges
-from signorini.fem.faces import Faces, make_faces
+from signorini.fem.faces import HEXAHEDRON, Faces, make_faces
 from signorini.model.mesh import CORNERS, Mesh
 
 ON_AXIS = 1e-10
@@ -52,12 +52,6 @@ _ELEMENTS: Mapping[str, _Element] = {
     "hexahedron27": _Element(skfem.ElementHex2, 5, 5, 2, _TRILINEAR),
     "wedge": _Element(skfem.ElementWedge1, 3, 3, 2, _SOLID),
 }
-HEXAHEDRON = ((0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)) + (
-    ((1, 0, 0), (2, 1, 0), (1, 2, 0), (0, 1, 0), (1, 0, 2), (2, 1, 2), (1, 2, 2), (0, 1, 2))
-    + ((0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1))
-    + ((0, 1, 1), (2, 1, 1), (1, 0, 1), (1, 2, 1), (1, 1, 0), (1, 1, 2), (1, 1, 1))
-)
-"""Nodes of the hexahedra in the order of meshio, which scikit-fem numbers otherwise; edges are 2 long here."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -12,6 +12,7 @@ import numpy as np
 from signorini.arrays import Array, frozen
 from signorini.checks import number, vector
 from signorini.errors import InputError
+from signorini.model.revolved import Cone, Cylinder, Torus
 
 
 @dataclass(frozen=True)
@@ -245,7 +246,10 @@ class Profile:
         return distance[rows, best], sign[best, None] * direction[rows, best]
 
 
-Obstacle = Plane | Circle | Profile
+Sphere = Circle
+"""In space a circle is a sphere."""
+
+Obstacle = Plane | Circle | Profile | Cylinder | Cone | Torus
 
 
 def _spell(vector: tuple[float, ...]) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 
 from signorini.checks import components, number, text, vector
 from signorini.errors import InputError
-from signorini.model.obstacle import Circle, Obstacle, Plane
+from signorini.model.obstacle import Circle, Obstacle, Profile
 
 
 @dataclass(frozen=True)
@@ -24,9 +24,9 @@ class Rigid:
     name : what contacts, steps and results call it
     shape : its surface
     u : displacement of the point, one entry per direction, length: a number prescribes it, None leaves it free
-    rotation : radians, counterclockwise; None leaves it free
+    rotation : radians, counterclockwise; None leaves it free; in space 0, or None for all three
     force : on it in every free direction, None or 0 elsewhere
-    moment : on it about the point, counterclockwise, where the rotation is free
+    moment : on it about the point, counterclockwise, where the rotation is free; not in space
     point : about which it rotates, length; by default a circle's centre, a plane's point, the middle of a profile
 
     Raises
@@ -43,7 +43,7 @@ class Rigid:
 
     name: str
     shape: Obstacle
-    u: tuple[float | None, ...] = (0.0, 0.0)
+    u: tuple[float | None, ...] = ()
     rotation: float | Literal["free"] | None = 0.0
     force: tuple[float | None, ...] | None = None
     moment: float = 0.0
@@ -52,9 +52,13 @@ class Rigid:
     def __post_init__(self) -> None:
         text(self.name, ("name",))
         if not isinstance(self.shape, Obstacle):
-            raise InputError(f"is {self.shape!r}; expected a Plane, Circle or Profile", where=("shape",))
+            raise InputError(f"is {self.shape!r}; expected a Plane, Circle, Profile or another shape", where=("shape",))
         d = self.shape.dimension
-        object.__setattr__(self, "u", components(self.u, ("u",), dimension=d))
+        if d == 3 and self.rotation not in (0.0, None, "free"):
+            raise InputError(f"is {self.rotation}; in space it is 0 or free", where=("rotation",))
+        if d == 3 and self.moment:
+            raise InputError("is not for models in space; expected 0", where=("moment",))
+        object.__setattr__(self, "u", components(self.u or (0.0,) * d, ("u",), dimension=d))
         if self.rotation is not None:
             turn = None if self.rotation == "free" else number(self.rotation, ("rotation",))
             object.__setattr__(self, "rotation", turn)
@@ -86,9 +90,9 @@ class Rigid:
             return self.point
         if isinstance(self.shape, Circle):
             return self.shape.centre
-        if isinstance(self.shape, Plane):
-            return self.shape.point
-        return tuple(float(x) for x in np.mean(self.shape.points, axis=0))
+        if isinstance(self.shape, Profile):
+            return tuple(float(x) for x in np.mean(self.shape.points, axis=0))
+        return self.shape.point
 
     @property
     def turn(self) -> float | None:

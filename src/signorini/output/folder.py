@@ -23,17 +23,21 @@ from signorini.output.replacing import replacing
 from signorini.output.rows import write_rows
 from signorini.output.series import series
 from signorini.output.summary import summary
+from signorini.output.surface import write_surfaces
 from signorini.output.vtu import write_step
 from signorini.solution.history import History
 
 _OURS = re.compile(
-    r"(summary\.json|(contact|history)\.csv|state\.npz|solution(_\d{4,})?\.vtu|solution\.(pvd|h5|frd|dat)|"
+    r"(summary\.json|(contact|history)\.csv|state\.npz|solution(_\d{4,})?\.vtu|contact\.vtu|solution\.(pvd|h5|frd|dat)|"
     r"(contact|stress|mesh|history)\.png)"
 )
 
 
 ARCHIVE = "solution.h5"
 """The whole history, in a result folder."""
+
+SURFACES = "contact.vtu"
+"""The contact surfaces of a model in space."""
 
 
 def open_folder(path: Path) -> Path:
@@ -107,6 +111,9 @@ def _write_fields(history: History, folder: Path, tables: Sequence[Table] | None
             write_step(history.model, step, folder / part)
         (folder / "solution.pvd").write_text(series(parts) + "\n", encoding="utf-8")
         names += [*parts, "solution.pvd"]
+    if history.model.dimension == 3 and history.model.contacts:
+        write_surfaces(history, folder / SURFACES)
+        names.append(SURFACES)
     write_step(history.model, history.last, folder / "solution.vtu")
     write_history(history, folder / "history.csv")
     names += ["solution.vtu", "history.csv"]

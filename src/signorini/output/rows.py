@@ -7,7 +7,9 @@ import csv
 from collections.abc import Iterator
 from pathlib import Path
 
-from signorini.arrays import IntArray
+import numpy as np
+
+from signorini.arrays import Array, IntArray
 from signorini.output.replacing import replacing
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult
@@ -51,15 +53,21 @@ def contact_rows(step: int, contact: ContactResult, numbers: IntArray) -> Iterat
     """
     for i in range(len(contact.node)):
         if contact.area[i] > 0:
-            x, y = contact.points[i]
             yield (
                 str(step),
                 contact.name,
                 str(numbers[contact.node[i]]),
-                *(_number(value) for value in (x, y, 0.0, contact.area[i], contact.gap[i], contact.pressure[i])),
-                *(_number(value) for value in (contact.traction[i], 0.0, contact.slip[i], 0.0)),
+                *(_number(value) for value in (*_padded(contact.points[i], 3), contact.area[i], contact.gap[i])),
+                *(_number(value) for value in (contact.pressure[i], *_padded(contact.traction[i], 2))),
+                *(_number(value) for value in _padded(contact.slip[i], 2)),
                 str(contact.status[i]),
             )
+
+
+def _padded(values: Array, count: int) -> Array:
+    """A row with zeros behind it: plane models have fewer components."""
+    row = np.atleast_1d(values)
+    return np.concatenate([row, np.zeros(count - len(row))])
 
 
 def _number(value: float) -> str:

@@ -88,9 +88,9 @@ def _step(model: Model, step: StepResult) -> dict[str, Any]:
         "obstacles": {
             name: {
                 "displacement": _list(obstacle.displacement),
-                "rotation": obstacle.rotation,
+                "rotation": _turn(obstacle.rotation),
                 "force": _list(obstacle.force),
-                "moment": obstacle.moment,
+                "moment": _turn(obstacle.moment),
             }
             for name, obstacle in step.obstacles.items()
         },
@@ -128,11 +128,15 @@ def _contact(contact: Contact, result: ContactResult) -> dict[str, Any]:
         "open": result.count(OPEN),
         "stick": result.count(STICK),
         "slip": result.count(SLIP),
-        "max_slip": float(abs(result.slip).max()),
+        "max_slip": float(result.slipped.max()),
         "max_sliding": float(result.sliding.max()),
         "max_slip_amplitude": float(0.5 * result.slip_range.max()),
         "dissipation": result.dissipation,
     }
+
+
+def _turn(value: float | Array) -> float | list[float]:
+    return value if isinstance(value, float) else _list(value)
 
 
 def _list(vector: Array) -> list[float]:

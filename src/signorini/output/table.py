@@ -75,7 +75,7 @@ def _step_lines(step: StepResult, number: int) -> list[str]:
             spell_vector(contact.points[contact.pressure.argmax()]),
             f"{contact.closed_area:.5g}",
             *(str(contact.count(status)) for status in (OPEN, STICK, SLIP)),
-            spell_number(float(abs(contact.slip).max(initial=0.0)), still),
+            spell_number(float(contact.slipped.max(initial=0.0)), still),
         )
         for contact in step.contacts
     ]
@@ -87,12 +87,16 @@ def _step_lines(step: StepResult, number: int) -> list[str]:
         *(align([_HEAD, *rows], right=_NUMBERS) if rows else ["no contact"]),
         *([f"reactions: {reactions}"] if reactions else []),
         *(
-            f"obstacle {name}: moved {spell_vector(obstacle.displacement)}, turned {obstacle.rotation:.5g}, bears "
-            f"force {spell_vector(obstacle.force)}, moment {obstacle.moment:.5g}"
+            f"obstacle {name}: moved {spell_vector(obstacle.displacement)}, turned {_turn(obstacle.rotation)}, bears "
+            f"force {spell_vector(obstacle.force)}, moment {_turn(obstacle.moment)}"
             for name, obstacle in step.obstacles.items()
         ),
         f"certificate {verdict}: worst of five {certificate.worst:.1e}, allowed {TOLERANCE:.0e}",
     ]
+
+
+def _turn(value: float | Array) -> str:
+    return f"{value:.5g}" if isinstance(value, float) else spell_vector(value)
 
 
 def spell_vector(vector: Array | Sequence[float], noise: float = 0.0) -> str:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from signorini.plot.curve import Curve, closed_range, curves_of
+from signorini.plot.patch import draw_patches, patches_of
 from signorini.plot.style import BOUND, INK, PRESSURE, STATUS_COLOURS, TRACTION, dress
 from signorini.solution.history import History
 from signorini.solution.results import STICK
@@ -29,6 +30,8 @@ def plot_contact(history: History) -> Figure:
     InputError
         If no step was finished.
     """
+    if history.model.dimension == 3:
+        return draw_patches(patches_of(history, history.last), history.model.title)
     return draw_contacts(curves_of(history, history.last), history.model.title)
 
 

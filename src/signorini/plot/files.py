@@ -16,6 +16,7 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.plot.curve import Curve, make_curve
+from signorini.plot.patch import Patch, halved
 
 # corners and nodes between them, in the order around a cell
 _AROUND = {
@@ -80,6 +81,12 @@ class ResultFolder:
             return list(csv.DictReader(file))
 
     @cached_property
+    def instants(self) -> list[dict[str, str]]:
+        """``history.csv``."""
+        with self._file("history.csv").open(newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    @cached_property
     def grid(self) -> Grid:
         """``solution.vtu``."""
         import meshio
@@ -95,6 +102,37 @@ class ResultFolder:
             cells=tuple(found.cells[i].data[:, _AROUND[found.cells[i].type]] for i in blocks),
             body=tuple(found.cell_data["body"][i] for i in blocks),
         )
+
+    @property
+    def solid(self) -> bool:
+        """Whether the model is one in space."""
+        return bool(self.summary.get("kind") == "3d")
+
+    @cached_property
+    def patches(self) -> list[Patch]:
+        """``contact.vtu``: every contact in space after the last step."""
+        import meshio
+
+        found, last = meshio.read(self._file("contact.vtu")), self.summary["steps"][-1]
+        data, patches = found.point_data, []
+        faces = zip(found.cells, found.cell_data["contact"], strict=True)
+        cut = [(halved(block.data), owner) for block, owner in faces]
+        triangles = [(cells, np.tile(owner, len(cells) // len(owner))) for cells, owner in cut]
+        for i, contact in enumerate(last["contacts"]):
+            own = np.vstack([cells[owner == i] for cells, owner in triangles if (owner == i).any()])
+            nodes, index = np.unique(own, return_inverse=True)
+            patches.append(
+                Patch(
+                    contact=contact["name"],
+                    step=last["name"],
+                    points=found.points[nodes],
+                    triangles=index.reshape(-1, 3),
+                    pressure=data["pressure"][nodes],
+                    shear=data["traction"][nodes],
+                    status=data["status"][nodes],
+                )
+            )
+        return patches
 
     @property
     def title(self) -> str:

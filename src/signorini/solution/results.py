@@ -85,6 +85,11 @@ class ContactResult:
         return np.einsum("nk,nki->ni", self.traction, self.tangents)
 
     @property
+    def slipped(self) -> Array:
+        """Size of the accumulated slip, (n,) length."""
+        return np.abs(self.slip) if self.slip.ndim == 1 else np.linalg.norm(self.slip, axis=1)
+
+    @property
     def forces(self) -> Array:
         """On the nonmortar body at every node, (n, d) force."""
         forces: Array = self.area[:, None] * (self.pressure[:, None] * self.normals + self.shear)
@@ -123,15 +128,15 @@ class ObstacleResult:
     Attributes
     ----------
     displacement : (d,) of the point about which it rotates, length
-    rotation : radians, counterclockwise
+    rotation : radians, counterclockwise; in space (3,)
     force : (d,) on it, given or needed to drive it
-    moment : the same about that point, counterclockwise
+    moment : the same about that point, counterclockwise; in space (3,)
     """
 
     displacement: Array
-    rotation: float
+    rotation: float | Array
     force: Array
-    moment: float
+    moment: float | Array
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -164,7 +169,7 @@ class Instant:
     contacts : in the order of the model; gaps are NaN where the bodies were not looked at and a pair is far from
         touching, dissipation counts from the beginning of the step
     work : since the beginning of the step, NaN where the bodies were not looked at
-    displacement : (nodes, d) length, or None
+    displacement : (nodes, d) length, at times asked for, and everywhere where ``at = "events"``; otherwise None
     """
 
     load_factor: float

@@ -55,4 +55,5 @@ class Check:
             "tolerance": self.tolerance,
             "source": self.source,
             "passed": self.passed,
+            "at_least": self.least,
         }

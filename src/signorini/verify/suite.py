@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 
 from signorini.verify import (
     cylinder,
+    elements,
     fenet,
     half_planes,
     hertz,
@@ -49,6 +50,10 @@ QUICK: tuple[Case, ...] = (
     cylinder.exact_path,
     cylinder.increments_at_events,
     half_planes.cattaneo_mindlin,
+    elements.sphere_on_a_plane,
+    elements.hollow_spheres,
+    elements.cantilever,
+    elements.inside_bodies,
     rates.smooth_contact,
 )
 SLOW: tuple[Case, ...] = (
@@ -66,6 +71,7 @@ def run(slow: bool = False) -> list[dict[str, str | float | bool]]:
 
     Returns
     -------
-    rows with case, quantity, computed, reference, error, tolerance, source, passed
+    rows with case, quantity, computed, reference, error, tolerance, source, passed, and at_least: the reference is a
+    lower bound
     """
     return [check.row() for case in (QUICK + SLOW if slow else QUICK) for check in case()]

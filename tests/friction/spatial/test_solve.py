@@ -12,6 +12,7 @@ from signorini.bench.spatial import hard_random
 from signorini.friction.spatial import (
     SLIP,
     STICK,
+    SpatialSettings,
     decoded,
     faceted_lcp,
     from_compliance,
@@ -71,7 +72,7 @@ def test_a_proximal_layer_leaves_its_centre_where_that_is_the_solution():
     problem = random_problem(2, 8, 0.5)
     result = solve_spatial(problem)
     h, r = split(problem, result.y)
-    layer = Equilibrium(problem=problem, alpha=0.7, force=r, motion=np.zeros(0))
+    layer = Equilibrium(problem=problem, alpha=0.7, beta=0.7, force=r, motion=np.zeros(0))
     np.testing.assert_allclose(layer.moved(r, np.zeros(0)), h, atol=1e-9)
 
 
@@ -143,6 +144,22 @@ def test_circular_friction_bears_a_diagonal_drag_up_to_mu_and_the_load_factor_sa
     assert 0.499 <= limit.factor <= 0.5 <= limit.beyond <= 0.501
     assert limit.closed == 9
     assert limit_load(replace(base, b=full.b), full.b) is None
+
+
+def test_a_limit_load_below_what_statics_allow_names_the_motion():
+    # tilted and dragged: forces in the cones could balance the load, but not those that the block takes
+    problem, R = block_on_floor((-1.0, 0.177, -0.23, -0.169, 0.397, 0.126), 0.3, side=5)
+    base, _ = block_on_floor((-1.0, 0, 0, 0, 0, 0), 0.3, side=5)
+    few = SpatialSettings(swept_rounds=2, proximal_rounds=2, bisections=7)
+    limit = limit_load(problem, base.b, settings=few)
+    assert 0.9 < limit.factor < limit.beyond < 0.95
+    assert limit.sticking <= 0.1 * limit.closed
+    result = solve_spatial(problem, settings=few)
+    assert result.outcome == "not_found"
+    assert "run away" in result.message
+    rho = result.escape
+    np.testing.assert_allclose(R @ np.linalg.lstsq(R, rho)[0], rho, atol=1e-5)
+    assert rho @ problem.b > 0
 
 
 def test_a_load_that_has_a_solution_is_reached_as_a_whole():

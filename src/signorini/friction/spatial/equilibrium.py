@@ -1,18 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Equilibrium in forces, and its solution where the law of every pair is linear: one system in what is unknown.
 
-In the force form (see `friction.interface`) with an optional proximal layer of compliance alpha around (r_0, a_0)::
+In the force form (see `friction.interface`) with an optional proximal layer of compliance alpha around r_0, and springs
+of stiffness beta that pull the rigid motions to a_0::
 
-    h = A r + c + R a + alpha (r - r_0),    R'(r + b) = alpha (a - a_0)
+    h = A r + c + R a + alpha (r - r_0),    R'(r + b) = beta (a - a_0)
 
 Unknown are the normal force p of every closed pair, the tangential forces left by the law, q, and the motion a. With Z
 the forces of a unit of each, Y the motions that the law prescribes (gap 0; slip 0 where it sticks; ``tau . h = -kappa
 q`` where it slips) and r_f the known forces::
 
     [ Y'(A + alpha) Z + diag   Y'R    ] [ p, q ]     [ Y'((A + alpha) r_f + c - alpha r_0) ]
-    [ Z'R                     -alpha  ] [ a    ] = - [ R'(r_f + b) + alpha a_0              ]
+    [ Z'R                     -beta   ] [ a    ] = - [ R'(r_f + b) + beta a_0               ]
 
-Open pairs take no part. With alpha > 0 the system is regular for small friction whatever A and R are.
+Open pairs take no part. With alpha, beta > 0 the system is regular for small friction whatever A and R are.
 """
 
 from __future__ import annotations
@@ -37,17 +38,19 @@ REFINE = 1e-13
 
 @dataclass(frozen=True, kw_only=True)
 class Equilibrium:
-    """Forces and motions in balance, with or without a proximal layer.
+    """Forces and motions in balance, with or without a proximal layer and springs.
 
     Attributes
     ----------
     problem : the problem
     alpha : compliance of the layer, in units of 1 / D; 0 for the problem as posed
-    force, motion : (3n,) r_0 and (k,) a_0 that the layer is relaxed at
+    beta : stiffness of the springs, in units of D; 0 for the problem as posed
+    force, motion : (3n,) r_0 and (k,) a_0 that the layer and the springs are relaxed at
     """
 
     problem: SpatialProblem
     alpha: float
+    beta: float
     force: Array
     motion: Array
 
@@ -55,7 +58,12 @@ class Equilibrium:
     def of(cls, problem: SpatialProblem) -> Equilibrium:
         """The problem as posed."""
         k = problem.motions.shape[1]
-        return cls(problem=problem, alpha=0.0, force=np.zeros(3 * problem.pairs), motion=np.zeros(k))
+        return cls(problem=problem, alpha=0.0, beta=0.0, force=np.zeros(3 * problem.pairs), motion=np.zeros(k))
+
+    @property
+    def as_posed(self) -> bool:
+        """Whether there is neither layer nor spring."""
+        return self.alpha == 0.0 and self.beta == 0.0
 
     @cached_property
     def offset(self) -> Array:
@@ -64,8 +72,8 @@ class Equilibrium:
 
     @cached_property
     def resultant(self) -> Array:
-        """(k,) ``R'b + alpha a_0``."""
-        return self.problem.interface.R.T @ self.problem.b + self.alpha * self.motion
+        """(k,) ``R'b + beta a_0``."""
+        return self.problem.interface.R.T @ self.problem.b + self.beta * self.motion
 
     def moved(self, r: Array, a: Array) -> Array:
         """(3n,) Motion h of the pairs under forces r and rigid motion a."""
@@ -75,7 +83,7 @@ class Equilibrium:
 
     def lacking(self, r: Array, a: Array) -> Array:
         """(k,) What the forces lack to balance the resultants."""
-        return self.problem.interface.R.T @ r + self.resultant - self.alpha * a
+        return self.problem.interface.R.T @ r + self.resultant - self.beta * a
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -108,7 +116,7 @@ class LinearSystem:
         if self.singular:
             unbalanced = np.abs(form.lacking(r, a)).max(initial=0.0) > 1e-9 * max(problem.scale, np.abs(r).max())
             return None if unbalanced else (r, a, h)
-        for _ in range(2 if form.alpha == 0.0 else 0):
+        for _ in range(2 if form.as_posed else 0):
             error = problem.misfit(h, r)
             if np.abs(error).max(initial=0.0) <= REFINE * problem.scale:
                 break
@@ -181,7 +189,7 @@ def linear_system(equilibrium: Equilibrium, law: Tangent) -> LinearSystem:
     matrix[:size, :size][np.diag_indices(size)] += resisting
     matrix[:size, size:] = Y @ R
     matrix[size:, :size] = (Z.T @ R).T
-    matrix[size:, size:] = -alpha * np.eye(k)
+    matrix[size:, size:] = -equilibrium.beta * np.eye(k)
     lu, pivots, singular = matrix, np.zeros(0, dtype=np.int64), False
     if size + k:
         norm = float(np.abs(matrix).sum(axis=0).max())

@@ -108,9 +108,9 @@ def newton(
         if done or lacking <= SHARP:
             break
     if converged:
-        end = "certified" if equilibrium.alpha == 0.0 else "converged"
+        end = "certified" if equilibrium.as_posed else "converged"
     _, r, a, y = best
-    if equilibrium.alpha != 0.0:
+    if not equilibrium.as_posed:
         y = r - Equilibrium.of(problem).moved(r, a)
     attempt = Attempt(method=method, iterations=len(changes), changes=tuple(changes), end=end)
     residual = certify(problem, y) if np.isfinite(best[0]) else np.inf
@@ -142,6 +142,6 @@ def _violation(equilibrium: Equilibrium, r: Array, h: Array) -> float:
 
 def _lacking(equilibrium: Equilibrium, r: Array, h: Array, violation: float) -> float:
     """What the iterate lacks, relative: `certify`, or with a layer the violation of the law."""
-    if equilibrium.alpha == 0.0:
+    if equilibrium.as_posed:
         return certify(equilibrium.problem, r - h)
     return violation / max(float(np.linalg.norm(r)), equilibrium.problem.scale, 1e-300)

@@ -71,7 +71,7 @@ def _nothing(problem: SpatialProblem) -> tuple[Array, Array]:
 def _run(problem: SpatialProblem, alpha: float, r: Array, a: Array, steps: int, tolerance: float) -> NewtonEnd:
     """Newton's method with a layer around r and a, from there."""
     y = r - Equilibrium.of(problem).moved(r, a)
-    layer = Equilibrium(problem=problem, alpha=alpha, force=r, motion=a)
+    layer = Equilibrium(problem=problem, alpha=alpha, beta=alpha, force=r, motion=a)
     return newton(
         layer,
         tangent(problem, y),

@@ -4,6 +4,7 @@
 1. Newton from the previous solution where there is one, then from every pair sticking. Nearly always enough.
 2. Floating bodies: proof that the loads pull them away (see `rigid`).
 3. Sweeps and proximal Newton in rounds, then proximal Newton alone (see `proximal`).
+4. Floating bodies: the motion along which they run away (see `escape`).
 
 Whatever a method finds is certified (see `certify`) before it is believed. `limit_load` says how far the load can be
 raised where all of them end without an answer.
@@ -18,9 +19,10 @@ import numpy as np
 
 from signorini.arrays import Array, frozen
 from signorini.errors import InputError
-from signorini.friction.answer import NOTHING, PULLED_AWAY, VERGE
+from signorini.friction.answer import ESCAPES, NOTHING, PULLED_AWAY, VERGE
 from signorini.friction.result import Outcome
 from signorini.friction.spatial.equilibrium import Equilibrium
+from signorini.friction.spatial.escape import escape_motion
 from signorini.friction.spatial.law import OPEN, SLIP, STICK, split, states, sticking, tangent
 from signorini.friction.spatial.newton import NewtonEnd, newton
 from signorini.friction.spatial.problem import SpatialProblem
@@ -41,6 +43,7 @@ class SpatialSettings:
     newton_steps : most linear systems of one Newton run
     swept_rounds, sweeps : most rounds of sweeps and proximal Newton, and sweeps of each
     proximal_rounds : most rounds of proximal Newton alone
+    springs : stiffness of the springs that show where a body runs, falling, in units of the interface stiffness
     bisections : of the load factor, in `limit_load`
     """
 
@@ -49,6 +52,7 @@ class SpatialSettings:
     swept_rounds: int = 15
     sweeps: int = 20
     proximal_rounds: int = 50
+    springs: tuple[float, ...] = (1e-3, 1e-6, 1e-9)
     bisections: int = 10
 
 
@@ -94,9 +98,10 @@ def solve_spatial(
         best = _tried(best, _rounds(problem, settings), settings.tolerance, trace)
     if best.residual <= settings.tolerance:
         return _solved(problem, best.y, best.residual, tuple(trace))
+    escape = escape_motion(problem, springs=settings.springs, steps=settings.newton_steps) if problem.floating else None
     ends = "; ".join(f"{attempt.method}: {attempt.end}" for attempt in trace[:3])
-    message = f"{NOTHING} ({ends}; least residual {best.residual:.1e})"
-    return _unsolved(problem, "not_found", tuple(trace), best.residual, message)
+    message = f"{NOTHING if escape is None else ESCAPES} ({ends}; least residual {best.residual:.1e})"
+    return _unsolved(problem, "not_found", tuple(trace), best.residual, message, escape)
 
 
 def limit_load(

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The picture of a contact in space: a map of the pressure, and one of stick, slip and friction."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.plot.style import INK, STATUS_INK
+from signorini.solution.history import History
+from signorini.solution.results import StepResult
+from signorini.solution.surface import contact_faces, status_codes
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_ARROWS = 400  # of friction; more hide each other
+_AROUND = 0.35  # of the size of the patch: what is shown around it
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Patch:
+    """One contact in space at the end of a step.
+
+    Attributes
+    ----------
+    contact, step : names
+    points : (n, 3) undeformed, length
+    triangles : (m, 3) indices of them
+    pressure : (n,) force per area
+    shear : (n, 3) friction on the nonmortar body, force per area
+    status : (n,) 0 open, 1 stick, 2 slip
+    """
+
+    contact: str
+    step: str
+    points: Array
+    triangles: IntArray
+    pressure: Array
+    shear: Array
+    status: IntArray
+
+    @property
+    def axes(self) -> tuple[int, int]:
+        """The two coordinates along which the surface extends most."""
+        first, second = sorted(np.argsort(-np.ptp(self.points, axis=0), kind="stable")[:2].tolist())
+        return first, second
+
+
+def patches_of(history: History, step: StepResult) -> list[Patch]:
+    """Every contact at the end of a step of a solution."""
+    return [
+        Patch(
+            contact=result.name,
+            step=step.name,
+            points=result.points,
+            triangles=halved(contact_faces(history.model, result)),
+            pressure=result.pressure,
+            shear=result.shear,
+            status=status_codes(result),
+        )
+        for result in step.contacts
+    ]
+
+
+def halved(faces: IntArray) -> IntArray:
+    """Faces (m, 3) or (m, 4) as triangles."""
+    return faces if faces.shape[1] == 3 else np.vstack([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]])
+
+
+def draw_patches(patches: Sequence[Patch], title: str) -> Figure:
+    """One row a contact: pressure on the left; stick, slip and the friction as arrows on the right."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(11.0, 0.7 + 4.6 * max(len(patches), 1)), layout="constrained")
+    panels = figure.subplots(max(len(patches), 1), 2, squeeze=False)
+    for (left, right), patch in zip(panels, patches, strict=False):
+        _pressure(figure, left, patch)
+        _status(right, patch)
+        for axes in (left, right):
+            _frame(axes, patch)
+    if title:
+        figure.suptitle(title, fontsize=12, color=INK)
+    return figure
+
+
+def _plane(patch: Patch) -> tuple[Array, Array]:
+    a, b = patch.axes
+    return patch.points[:, a], patch.points[:, b]
+
+
+def _pressure(figure: Figure, axes: Axes, patch: Patch) -> None:
+    from matplotlib.tri import Triangulation
+
+    x, y = _plane(patch)
+    surface = Triangulation(x, y, patch.triangles)
+    shown = axes.tripcolor(surface, patch.pressure, shading="gouraud", cmap="viridis", vmin=0.0)
+    bar = figure.colorbar(shown, ax=axes, shrink=0.85, pad=0.02)
+    bar.set_label("pressure, force per area", fontsize=10, color=INK)
+    bar.outline.set_visible(False)
+    bar.ax.tick_params(labelsize=9, colors=INK)
+    axes.set_title(f"{patch.contact}, end of step '{patch.step}'", fontsize=10, color=INK, loc="left")
+
+
+def _status(axes: Axes, patch: Patch) -> None:
+    from matplotlib.patches import Patch as Swatch
+
+    x, y = _plane(patch)
+    names = ("open", "stick", "slip")
+    axes.triplot(x, y, patch.triangles, color="#d8d8d4", lw=0.3, zorder=0)
+    size = _marker(patch)
+    handles = []
+    for code, name in enumerate(names):
+        own = patch.status == code
+        if own.any():
+            colour = STATUS_INK[name]
+            axes.scatter(x[own], y[own], s=size, color=colour, alpha=0.6, edgecolors="none", zorder=1)
+            plain = name == "slip" and not patch.shear.any()
+            handles.append(Swatch(color=colour, alpha=0.6, label="closed, without friction" if plain else name))
+    a, b = patch.axes
+    rubbed = np.nonzero(np.linalg.norm(patch.shear, axis=1) > 0.0)[0]
+    if len(rubbed):
+        some = rubbed[:: max(1, len(rubbed) // _ARROWS)]
+        axes.quiver(x[some], y[some], patch.shear[some, a], patch.shear[some, b], color=INK, width=0.003, zorder=2)
+    words = "status and friction on the nonmortar body" if len(rubbed) else "status"
+    axes.set_title(words, fontsize=10, color=INK, loc="left")
+    axes.legend(handles=handles, fontsize=8.5, frameon=True, framealpha=0.92, edgecolor="none", loc="upper right")
+
+
+def _marker(patch: Patch) -> float:
+    """Size of a dot, points squared: about the distance between nodes."""
+    low, high = _window(patch)
+    inside = (patch.points[:, patch.axes] >= low) & (patch.points[:, patch.axes] <= high)
+    count = max(int(inside.all(axis=1).sum()), 1)
+    return float(np.clip(2.5e4 / count, 4.0, 300.0))
+
+
+def _window(patch: Patch) -> tuple[Array, Array]:
+    """What is worth showing: the closed nodes and something around them, at most everything."""
+    points = patch.points[:, patch.axes]
+    closed = points[patch.status > 0]
+    low, high = points.min(axis=0), points.max(axis=0)
+    if not len(closed):
+        return low, high
+    margin = _AROUND * np.ptp(closed, axis=0).max()
+    return np.maximum(low, closed.min(axis=0) - margin), np.minimum(high, closed.max(axis=0) + margin)
+
+
+def _frame(axes: Axes, patch: Patch) -> None:
+    low, high = _window(patch)
+    edge = 0.02 * (high - low).max()
+    axes.set_xlim(low[0] - edge, high[0] + edge)
+    axes.set_ylim(low[1] - edge, high[1] + edge)
+    axes.set_aspect("equal")
+    for side in axes.spines.values():
+        side.set_visible(False)
+    axes.tick_params(colors=INK, labelsize=9)
+    a, b = patch.axes
+    axes.set_xlabel("xyz"[a], fontsize=10, color=INK)
+    axes.set_ylabel("xyz"[b], fontsize=10, color=INK)
