@@ -116,12 +116,11 @@ def test_groups_become_names(tmp_path, text):
     ("change", "message"),
     [
         (lambda t: t.replace("3 1 1 0\n", "3 1 1 0.5\n"), r"is not plane: z goes from 0 to 0.5"),
-        (lambda t: t.replace('2 5 "wedge"\n', "").replace("s\n5\n0 3", "s\n4\n0 3"), "has a physical group 5 of dimen"),
         (lambda t: t.replace("6 2 2 5 2 2 5 3", "6 21 2 5 2 2 5 3 1 1 1 1 1 1 1"), "1 cells of the kind 'triangle10'"),
         (lambda t: t[:200], "meshio cannot read"),
         (lambda _: "nonsense", "meshio cannot read"),
     ],
-    ids=["not plane", "no name", "third order", "cut off", "no mesh"],
+    ids=["not plane", "third order", "cut off", "no mesh"],
 )
 def test_mistakes_in_a_file(tmp_path, change, message):
     with pytest.raises(InputError, match=message):
@@ -140,13 +139,14 @@ def test_a_missing_file(tmp_path):
         read_mesh(tmp_path / "none.msh")
 
 
-def test_without_groups_there_is_one_body(tmp_path):
+def test_without_physical_groups_there_are_elementary_ones(tmp_path):
     text = VERSION_2.replace(NAMES, "").replace(" 2 4 1 1 2", " 2 0 1 1 2").replace(" 2 5 2 2 5", " 2 0 2 2 5")
     for old, new in (("15 2 3", "15 2 0"), ("1 2 1 1", "1 2 0 1"), ("1 2 2 2", "1 2 0 2")):
         text = text.replace(old, new)
     mesh = read_mesh(write(tmp_path, text))
-    assert {name: len(cells) for name, cells in mesh.bodies.items()} == {"body": 2}
-    assert not mesh.boundaries
+    assert {name: len(cells) for name, cells in mesh.bodies.items()} == {"surface 1": 1, "surface 2": 1}
+    assert set(mesh.boundaries) == {"curve 1", "curve 2"}
+    assert set(mesh.nodes) == {"point 1"}
 
 
 @pytest.mark.parametrize("version", [2.2, 4.1])

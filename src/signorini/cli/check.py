@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 
 from signorini.cli.reading import load_deck
 from signorini.errors import InputError
@@ -12,17 +13,25 @@ from signorini.errors import InputError
 def check(options: argparse.Namespace) -> int:
     """Print a deck as it was understood, and notes on it; 0 unless something is wrong."""
     deck = load_deck(options)
-    from signorini.cli.describe import describe  # everything heavy: a wrong deck never waits for it
+    from signorini.cli.describe import all_notes, describe  # everything heavy: a wrong deck never waits for it
+    from signorini.cli.described import described
     from signorini.engine.prepare import examine
 
     try:
         examined = examine(deck.model)
     except InputError as error:
         raise deck.locate(error) from error
-    print("\n".join(describe(deck, examined)))
+    words = ""
     if options.wellposed:
         from signorini.engine.prepare import prepare
         from signorini.engine.wellposed import assess
 
-        print(f"\nuniqueness\n  {assess(prepare(deck.model)).words}")
+        words = assess(prepare(deck.model)).words
+    if options.json:
+        found = described(deck, examined, all_notes(deck, examined))
+        print(json.dumps(found | ({"uniqueness": words} if words else {}), indent=1))
+    elif not options.quiet:
+        print("\n".join(describe(deck, examined)))
+        if words:
+            print(f"\nuniqueness\n  {words}")
     return 0

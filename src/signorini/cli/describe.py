@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.cli.suspicion import far_notes, held_notes, mesh_notes, unit_notes
 from signorini.deck import Deck
 from signorini.engine.prepare import Examined
 from signorini.fem.locking import thin_bodies
@@ -41,8 +42,22 @@ def describe(deck: Deck, examined: Examined) -> list[str]:
         ("steps", _steps(model)),
     ):
         lines += ["", title, *(align(rows) if rows else ["  none"])]
-    notes = [*_notes(deck), *_bending_notes(examined), *_contact_notes(examined), *_motion_notes(examined)]
+    notes = all_notes(deck, examined)
     return [*lines, "", "notes", *(f"  {note}" for note in notes or ["nothing looks wrong"])]
+
+
+def all_notes(deck: Deck, examined: Examined) -> list[str]:
+    """What looks wrong, or differs from the deck, in words."""
+    return [
+        *_notes(deck),
+        *mesh_notes(deck.model),
+        *unit_notes(deck.model),
+        *_bending_notes(examined),
+        *_contact_notes(examined),
+        *far_notes(examined),
+        *held_notes(examined),
+        *_motion_notes(examined),
+    ]
 
 
 def _bodies(model: Model) -> Rows:

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
+from typing import Any
 
 from signorini._version import __version__
 
@@ -27,17 +29,7 @@ def make_parser() -> argparse.ArgumentParser:
     )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
-    run = commands.add_parser("run", parents=[shared, keywords], help="solve a deck and write the results")
-    run.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
-    run.add_argument("-o", dest="folder", metavar="DIR", help="result folder (default: out/ and the deck's name)")
-    run.add_argument(
-        "--from", dest="start", metavar="DIR", help="go on from the end of a run: its result folder, or its state.npz"
-    )
-    run.add_argument("--quiet", action="store_true", help="print nothing but errors")
-    run.add_argument(
-        "--wellposed", action="store_true", help="ask whether the solution is the only one, and look for others"
-    )
-    run.add_argument("--backend", default="auto", metavar="NAME", help="of the factorisation (default: auto)")
+    _add_run(commands, [shared, keywords])
 
     check = commands.add_parser("check", parents=[shared, keywords], help="say what would be solved, what looks wrong")
     check.add_argument(
@@ -46,6 +38,9 @@ def make_parser() -> argparse.ArgumentParser:
         help="factorise, and say up to which friction uniqueness is proved",
     )
     check.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
+
+    check.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    check.add_argument("--json", action="store_true", help="print plain data for other programs")
 
     convert = commands.add_parser("convert", parents=[shared, keywords], help="write a deck as TOML, its mesh as .vtu")
     convert.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
@@ -70,3 +65,18 @@ def make_parser() -> argparse.ArgumentParser:
     bench.add_argument("--dofs", type=int, metavar="N", help="size of the problems")
     bench.add_argument("--json", metavar="FILE", help="write the table as JSON")
     return parser
+
+
+def _add_run(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
+    run = commands.add_parser("run", parents=parents, help="solve a deck and write the results")
+    run.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
+    run.add_argument("-o", dest="folder", metavar="DIR", help="result folder (default: out/ and the deck's name)")
+    run.add_argument(
+        "--from", dest="start", metavar="DIR", help="go on from the end of a run: its result folder, or its state.npz"
+    )
+    run.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    run.add_argument("--json", action="store_true", help="print the summary as JSON instead of tables")
+    run.add_argument(
+        "--wellposed", action="store_true", help="ask whether the solution is the only one, and look for others"
+    )
+    run.add_argument("--backend", default="auto", metavar="NAME", help="of the factorisation (default: auto)")

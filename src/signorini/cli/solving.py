@@ -13,6 +13,7 @@ from signorini.api import solve
 from signorini.cli.progress import progress
 from signorini.clock import Clock
 from signorini.deck import Deck
+from signorini.engine.solve import INTERRUPTED
 from signorini.errors import InputError, SolveFailed, one_of
 from signorini.linalg.registry import BACKENDS
 from signorini.output.archive import read_archive
@@ -34,16 +35,18 @@ def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: f
 
     Returns
     -------
-    The exit code, 0 or 3
+    The exit code: 0, 3, or 130 where it was interrupted: what was finished before is written
     """
     if options.backend not in ("auto", *BACKENDS):
         raise InputError(one_of(options.backend, ["auto", *BACKENDS], "back end"), where=("--backend",))
     start = _start(options.start)
     folder = open_folder(Path(options.folder) if options.folder else Path("out", deck.path.stem))
-    with progress(quiet=options.quiet, seconds=clock.seconds) as clock:
+    with progress(quiet=options.quiet or options.json, seconds=clock.seconds) as clock:
         history = _solve(deck, options, clock, start)
         files = publish(history, folder, clock, started=started, tables=deck.tables)
-    if not options.quiet:
+    if options.json:
+        print((folder / "summary.json").read_text(encoding="utf-8"), end="")
+    elif not options.quiet:
         if history.solved or history.steps:
             print(history_table(history), end="\n\n")
         for note in deck.notes:
@@ -52,6 +55,9 @@ def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: f
     if history.solved:
         return 0
     sys.stdout.flush()
+    if history.status == INTERRUPTED:
+        print(f"signorini: {deck.path}: {history.message}; results in {folder}", file=sys.stderr)
+        return 130
     print(f"signorini: {deck.path}: no certified solution ({history.status}): {history.message}", file=sys.stderr)
     return 3
 

@@ -16,10 +16,18 @@ from signorini.solution.state import LoadPoint, State
 
 MOST = 4096
 """Increments of one straight part of a step."""
+_MORE = 'expected less? Give the step increments = "auto" or their number'
 
 
 def follow_automatically(
-    prepared: Prepared, tolerance: float, where: str, span: Span, state: State, end: LoadPoint
+    prepared: Prepared,
+    tolerance: float,
+    where: str,
+    span: Span,
+    state: State,
+    end: LoadPoint,
+    *,
+    enough: int | None = None,
 ) -> Leg:
     """Follow a straight part of a step in 1, 2, 4, ... increments, each time from its beginning.
 
@@ -27,6 +35,7 @@ def follow_automatically(
     ----------
     tolerance : largest change of a contact force from one number to the next, of the largest force
     where : name of the step, for messages
+    enough : increments at which to stop whatever they still change, and to say so; None: go on to 4096
 
     Raises
     ------
@@ -46,9 +55,11 @@ def follow_automatically(
         if coarse is not None:
             size = float(np.abs(fine.after.forces).max(initial=0.0)) or 1.0
             change = float(np.abs(fine.after.forces - coarse.after.forces).max(initial=0.0)) / size
+            note = f"{number} increments: half as many change contact forces by {change:.1e} of the largest"
             if change <= tolerance:
-                note = f"{number} increments: half as many change contact forces by {change:.1e} of the largest"
                 return replace(fine, path="increments", notes=(note,))
+            if enough is not None and number >= enough:
+                return replace(fine, path="increments", notes=(f"{note}; {_MORE}",))
         coarse, number = fine, 2 * number
     raise SolveFailed(
         f"{where}: {MOST} increments still change contact forces by {change:.1e} of the largest; expected a larger "

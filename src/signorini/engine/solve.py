@@ -34,7 +34,11 @@ from signorini.solution.state import LoadPoint, State, initial_state
 RELAXED = "friction is lower than what pairs carried: they slip at once, before the loads of the step"
 """What a step says whose change of friction lets pairs slip."""
 
+INTERRUPTED = "interrupted"
+"""Status of a history that was stopped from outside."""
+
 _BEHIND_A_JUMP = 10  # increments
+_ENOUGH = 16  # increments of a straight part in space where none were asked for
 
 
 def solve(
@@ -61,8 +65,10 @@ def solve_prepared(
     """
     begin = _begin(prepared, start)
     history = _follow(prepared, begin, wellposed)
-    if prepared.limited and not history.solved:
+    if prepared.limited and not history.solved and history.status != INTERRUPTED:
         history = _follow(prepared.widened(), begin, wellposed)
+    if raise_on_failure and history.status == INTERRUPTED:
+        raise KeyboardInterrupt
     if raise_on_failure and not history.solved:
         raise SolveFailed(history.message, status=history.status, solution=history)
     return history
@@ -105,6 +111,9 @@ def _follow(prepared: Prepared, begin: Checkpoint, wellposed: bool) -> History:
             leg, cycle_ends = _step(now, stage, switched(now, state, absent))
             steps.append(step_result(now, stage, leg, cycle_ends))
             state, inactive = leg.after, stage.inactive
+    except KeyboardInterrupt:
+        words = f"interrupted in step {len(steps) + 1} of {len(schedule)}; {len(steps)} steps were finished"
+        return _history(prepared, INTERRUPTED, words, steps, checkpoint(prepared, state, inactive=inactive))
     except SolveFailed as failure:
         end = checkpoint(prepared, state, inactive=inactive)
         return replace(_history(prepared, failure.status, str(failure), steps, end), escape=_motion(failure))
@@ -168,6 +177,7 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
 def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPoint) -> Leg:
     """Follow a straight part of a step as asked; where nothing was asked, exactly if there is Coulomb friction.
 
+    In space, where there is no exact path, in increments that are doubled until the answer stays, up to 16.
     Where the exact path that nobody asked for ends in a jump or is lost, it is followed in increments, and the notes
     say so: what they reach behind a jump is a candidate.
     """
@@ -177,6 +187,8 @@ def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPo
         if step.increments == "auto":
             return follow_automatically(prepared, step.tolerance, stage.name, span, state, end)
         return follow_increments(prepared, _increments(step, span, stage), stage.name, span, state, end)
+    if step.path is None and prepared.interface.directions == 3:
+        return follow_automatically(prepared, step.tolerance, stage.name, span, state, end, enough=_ENOUGH)
     try:
         return follow_exactly(
             prepared, stage.name, span, state, end, whole=step.at == "events", jumps=step.follows_jumps

@@ -174,6 +174,58 @@ def annulus(
     return _assemble([grid], named, "ring", family)
 
 
+def target(*, radii: ArrayLike, n: int, angle: float = 90.0, cells: Cells = "quad", order: int = 1) -> Mesh:
+    """A "disk" about the origin, or a quarter or half of it, of rings about a core of cells, fine at its centre.
+
+    Boundaries: outer; of a quarter and a half also start (on the ray at angle 0) and end (on the ray at ``angle``).
+
+    Parameters
+    ----------
+    radii : increasing radii of circles of nodes, length; within the first is the core
+    n : cells along half a side of the core, and from the core to the first circle; 2 n cells go round a quarter
+    angle : 90, 180 or 360 degrees
+    cells, order : as in :func:`rectangle`; middle nodes of a quadratic cell are on the circle
+
+    Raises
+    ------
+    InputError
+        If radii do not increase from above 0, or the angle is another.
+
+    Examples
+    --------
+    >>> target(radii=[1.0, 2.0], n=1)
+    Mesh(10 nodes, 5 quads; bodies: disk; boundaries: outer, start, end)
+    """
+    given = np.array(vector(tuple(np.asarray(radii, float)), ("mesh", "radii")))
+    if (np.diff(given, prepend=0.0) <= 0.0).any():
+        raise InputError("do not increase from above 0; expected increasing radii", where=("mesh", "radii"))
+    quarters = {90.0: 1, 180.0: 2, 360.0: 4}.get(number(angle, ("mesh", "angle")))
+    if quarters is None:
+        raise InputError(f"is {angle:g}; expected 90, 180 or 360 degrees", where=("mesh", "angle"))
+    family = _family(cells, order)
+    step = _step(family)
+    across = np.linspace(0.0, 1.0, step * whole(n, ("mesh", "n")) + 1)
+    circles = np.interp(np.arange(step * (len(given) - 1) + 1) / step, np.arange(len(given)), given)
+    # a core whose corner is between that of a square and that of a circle keeps all angles away from 0 and 180 degrees
+    side, corner = 0.5 * given[0] * np.eye(2), np.full(2, 0.4 * given[0])
+    core = _transfinite(across[:, None] * side[0], _line(side[1], corner, across), across[:, None] * side[1],
+                        _line(side[0], corner, across))  # fmt: skip
+    rim = np.vstack([core[:, -1], core[-1, -2::-1]])
+    turns = np.radians(np.linspace(0.0, 90.0, len(rim)))
+    ray = np.column_stack([np.cos(turns), np.sin(turns)])
+    inner = _between(rim, given[0] * ray, across)
+    rings = np.concatenate([inner, circles[1:, None, None] * ray])
+    grids = [np.stack([c * g[..., 0] - s * g[..., 1], s * g[..., 0] + c * g[..., 1]], axis=-1)
+             for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1))[:quarters] for g in (core, rings)]  # fmt: skip
+    for grid in grids:
+        grid[np.abs(grid) < 1e-12 * given[-1]] = 0.0
+    sides = {"outer": [grid[-1] for grid in grids[1::2]]}
+    if quarters < 4:
+        sides["start"] = [grids[0][0], grids[1][:, 0]]
+        sides["end"] = [grids[-2][:, 0], grids[-1][:, -1]]
+    return _assemble(grids, sides, "disk", family)
+
+
 def _quarter(
     radius: float, contact_length: float, contact_spacing: float, refine: int
 ) -> tuple[list[Array], Mapping[str, list[Array]]]:

@@ -31,7 +31,7 @@ def _forces(space: Space, model: Model, load: Load, where: Where) -> Array:
         return _body_forces(space, model, load)
     forces = np.zeros((len(space.mesh.points), space.dimension))
     if load.nodal_forces is not None or (load.force is not None and load.on not in space.mesh.boundaries):
-        nodes = nodes_at(space, load.on, (*where, "on"))
+        nodes = nodes_at(space, load.on, (*where, "on"), completed=load.force is not None)
         forces[nodes] = _given(load.force) / len(nodes) if load.force is not None else load.nodal_forces
         _check_axis(model, nodes, forces, where)
         return forces.ravel()

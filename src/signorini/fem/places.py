@@ -7,15 +7,21 @@ import numpy as np
 
 from signorini.arrays import IntArray
 from signorini.errors import InputError, Where
+from signorini.fem.boundary import boundary
 from signorini.fem.space import Space
 from signorini.model.conditions import Place
+from signorini.model.mesh import CORNERS, NODES_PER_CELL
 
 # of the size of the mesh: how far a node may be from the point that a user gives
 _NEAR = 1e-6
 
 
-def nodes_at(space: Space, on: Place, where: Where) -> IntArray:
+def nodes_at(space: Space, on: Place, where: Where, *, completed: bool = True) -> IntArray:
     """Nodes of a boundary, a node set, or the one node at a point, sorted.
+
+    Parameters
+    ----------
+    completed : of a boundary that names the corners of its facets only, also the nodes in the middle of them
 
     Raises
     ------
@@ -24,6 +30,8 @@ def nodes_at(space: Space, on: Place, where: Where) -> IntArray:
     """
     if isinstance(on, str):
         nodes = space.mesh.nodes_of(on)
+        if completed and on in space.mesh.boundaries and _corners_only(space, on):
+            nodes = boundary(space, on, where).nodes
         loose = np.setdiff1d(nodes, space.used_nodes)
         if len(loose):
             raise InputError(f"'{on}' holds node {space.mesh.labels[loose[0]]}, which belongs to no cell", where=where)
@@ -36,3 +44,9 @@ def nodes_at(space: Space, on: Place, where: Where) -> IntArray:
         node = space.mesh.labels[space.used_nodes[nearest]]
         raise InputError(f"no node at {on}; the nearest is node {node} at {at}", where=where)
     return space.used_nodes[[nearest]]
+
+
+def _corners_only(space: Space, name: str) -> bool:
+    """Whether a boundary of quadratic cells leaves out the middle nodes."""
+    linear = space.mesh.boundaries[name].shape[1] <= (2 if space.dimension == 2 else 4)
+    return linear and any(NODES_PER_CELL[family] > CORNERS[family] for family in space.mesh.cells)

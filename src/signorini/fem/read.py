@@ -20,6 +20,8 @@ _LINES, _POINTS = ("line", "line3"), "vertex"
 NAMED = "set:"
 """Before the name of a set, in arrays of 0 and 1 on cells or points."""
 
+_DIMENSIONS = ("point", "curve", "surface", "volume")
+
 NODE_NUMBER = "number"
 """Array of the numbers of nodes, or of cells."""
 
@@ -30,9 +32,10 @@ def read_mesh(path: str | Path) -> Mesh:
     """Read a mesh; physical groups (or named cell sets) become bodies, boundaries and node sets.
 
     A mesh that holds solid cells is one in space: volumes become bodies, surfaces boundaries. Otherwise surfaces become
-    bodies and curves boundaries. Points become node sets. Cells without a name form the body "body" if no cell has one.
-    Nodes keep their order: number k of the file is index k - 1, unless an array ``number`` says otherwise. Arrays
-    ``set:NAME`` of 0 and 1 name sets too (:mod:`signorini.fem.write`).
+    bodies and curves boundaries. Points become node sets. A Gmsh file without physical groups has its elementary ones
+    instead; groups without a name are called "surface 3", "curve 1", "point 7" by their tags. Cells without any form
+    the body "body" if no cell has one. Nodes keep their order: number k of the file is index k - 1, unless an array
+    ``number`` says otherwise. Arrays ``set:NAME`` of 0 and 1 name sets too (:mod:`signorini.fem.write`).
 
     Parameters
     ----------
@@ -41,8 +44,8 @@ def read_mesh(path: str | Path) -> Mesh:
     Raises
     ------
     InputError
-        If the file is missing or unreadable, holds cells of a kind that this version does not have, has no solid cells
-        and is not plane, or a group has no name.
+        If the file is missing or unreadable, holds cells of a kind that this version does not have, or has no solid
+        cells and is not plane.
     """
     path = Path(path)
     if not path.is_file():
@@ -95,6 +98,15 @@ def _cell_numbers(found: meshio.Mesh, families: Collection[str]) -> IntArray | N
     return np.concatenate([part for family in families for block, part in pairs if block.type == family])
 
 
+def _groups(found: meshio.Mesh) -> list[IntArray]:
+    """Number of the group of every cell, 0 for none: physical groups of Gmsh, elementary ones where there are none."""
+    for key in ("gmsh:physical", "gmsh:geometrical"):
+        tags = found.cell_data.get(key)
+        if tags is not None and any((part > 0).any() for part in tags):
+            return list(tags)
+    return [np.zeros(len(block.data), np.int64) for block in found.cells]
+
+
 def _boundaries(named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntArray]]) -> dict[str, IntArray]:
     """Edges by name; where edges with and without a middle node bear one name, the ends alone say which they are."""
     found: dict[str, list[IntArray]] = defaultdict(list)
@@ -139,7 +151,7 @@ def _read(path: Path) -> meshio.Mesh:
 def _named_parts(found: meshio.Mesh, path: Path) -> tuple[dict[str, dict[str, IntArray]], dict[str, list[IntArray]]]:
     """Family to name to indices, and family to the blocks of cells that the indices count through."""
     tags = {(int(dimension), int(tag)): name for name, (tag, dimension) in found.field_data.items()}
-    physical = found.cell_data.get("gmsh:physical", [np.zeros(len(block.data), int) for block in found.cells])
+    physical = _groups(found)
     named: dict[str, dict[str, list[IntArray]]] = defaultdict(lambda: defaultdict(list))
     cells: dict[str, list[IntArray]] = defaultdict(list)
     counts: dict[str, int] = defaultdict(int)
@@ -153,10 +165,8 @@ def _named_parts(found: meshio.Mesh, path: Path) -> tuple[dict[str, dict[str, In
             )
         index = counts[family] + np.arange(len(block.data))
         for tag in np.unique(tag_of_cell[tag_of_cell > 0]):
-            key = (block.dim, int(tag))
-            if key not in tags:
-                raise InputError(f"'{path}' has a physical group {tag} of dimension {block.dim} without a name")
-            named[family][tags[key]].append(index[tag_of_cell == tag])
+            name = tags.get((block.dim, int(tag)), f"{_DIMENSIONS[block.dim]} {tag}")
+            named[family][name].append(index[tag_of_cell == tag])
         if "gmsh:physical" not in found.cell_data:
             for name, members in found.cell_sets.items():
                 if members[number] is not None and len(members[number]):

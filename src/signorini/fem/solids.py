@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Solid meshes with named boundaries: a box, to be bent by whoever moves its points."""
+"""Solid meshes with named boundaries: a box, and plane meshes raised; to be bent by whoever moves their points."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, IntArray
 from signorini.checks import choice, vector
-from signorini.errors import InputError
+from signorini.errors import InputError, Where
 from signorini.fem.faces import HEXAHEDRON, make_faces
 from signorini.model.mesh import NODES_PER_SOLID_CELL, Mesh
 
@@ -19,6 +19,8 @@ SolidCells = Literal["hexahedron", "hexahedron20", "hexahedron27", "tetra", "tet
 SIDES = (("left", "right"), ("front", "back"), ("bottom", "top"))
 """Of a box: its lower and upper boundary along x, y and z."""
 
+_RAISED = {"quad": "hexahedron", "quad8": "hexahedron20", "quad9": "hexahedron27", "triangle": "wedge"}
+_QUADRILATERAL = ((0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1))  # places of its nodes
 _FAMILIES = tuple(family for family in NODES_PER_SOLID_CELL if family != "wedge")
 _EDGES = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))  # of a tetrahedron, in the order of its middle nodes
 
@@ -43,12 +45,7 @@ def box(*, x: ArrayLike, y: ArrayLike, z: ArrayLike, cells: SolidCells = "hexahe
     """
     choice(cells, _FAMILIES, ("mesh", "cells"), "family")
     step = 1 if cells in ("hexahedron", "tetra") else 2
-    lines = []
-    for key, given in (("x", x), ("y", y), ("z", z)):
-        line = np.array(vector(tuple(np.asarray(given, float)), ("mesh", key)))
-        if len(line) < 2 or (np.diff(line) <= 0).any():
-            raise InputError("does not increase; expected two or more increasing coordinates", where=("mesh", key))
-        lines.append(np.interp(np.arange(step * (len(line) - 1) + 1) / step, np.arange(len(line)), line))
+    lines = [_line(given, ("mesh", key), step) for key, given in (("x", x), ("y", y), ("z", z))]
     shape = tuple(len(line) for line in lines)
     points = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 3)
     number = np.arange(len(points)).reshape(shape)
@@ -57,6 +54,66 @@ def box(*, x: ArrayLike, y: ArrayLike, z: ArrayLike, cells: SolidCells = "hexahe
     nodes = nodes.reshape(-1, NODES_PER_SOLID_CELL[cells])
     plain = Mesh(points=points[used], cells={cells: nodes}, bodies={"block": np.arange(len(nodes))})
     return Mesh(points=plain.points, cells=plain.cells, bodies=plain.bodies, boundaries=_sides(plain))
+
+
+def extruded(mesh: Mesh, *, z: ArrayLike) -> Mesh:
+    """A plane mesh raised along z; its boundaries become walls, "bottom" and "top" are added.
+
+    Quadrilaterals become hexahedra of the same order ("quad8" has 20 nodes, "quad9" 27), triangles wedges.
+
+    Parameters
+    ----------
+    mesh : with two coordinates, of "quad", "quad8", "quad9" or "triangle"
+    z : increasing heights of the layers, length
+
+    Raises
+    ------
+    InputError
+        If the mesh is of other cells, or heights do not increase.
+
+    Examples
+    --------
+    >>> from signorini.fem.generators import annulus
+    >>> extruded(annulus(inner=1, outer=2, n_radial=1, n_angular=4), z=[0, 1])
+    Mesh(16 nodes, 4 hexahedrons; bodies: ring; boundaries: inner, outer, bottom, top)
+    """
+    if mesh.points.shape[1] != 2 or len(mesh.cells) != 1 or not set(mesh.cells) <= set(_RAISED):
+        raise InputError(f"is {mesh!r}; expected plane cells of one family of {', '.join(_RAISED)}", where=("mesh",))
+    ((plane, cells),) = mesh.cells.items()
+    family = _RAISED[plane]
+    step = 1 if family in ("hexahedron", "wedge") else 2
+    heights = _line(z, ("mesh", "z"), step)
+    n, layers = len(mesh.points), np.arange(0, len(heights) - 1, step)
+    points = np.column_stack([np.tile(mesh.points, (len(heights), 1)), np.repeat(heights, n)])
+    if family == "wedge":
+        nodes = np.hstack([cells, cells + n])
+    else:
+        offsets = np.array(HEXAHEDRON[: NODES_PER_SOLID_CELL[family]])
+        column = [_QUADRILATERAL.index((a, b)) for a, b in offsets[:, :2]]
+        nodes = cells[:, column] + n * (offsets[:, 2] // (3 - step))
+    raised = np.concatenate([nodes + n * k for k in layers])
+    walls = {}
+    for name, edges in mesh.boundaries.items():
+        corners = np.hstack([edges[:, :2], edges[:, 1::-1] + step * n])
+        walls[name] = np.concatenate([corners + n * k for k in layers])
+    corners = cells[:, :3] if family == "wedge" else cells[:, :4]
+    walls |= {"bottom": corners, "top": corners + n * (len(heights) - 1)}
+    used, compact = np.unique(raised, return_inverse=True)  # hexahedra of 20 nodes have none inside faces
+    first = mesh.number_of_cells * np.arange(len(layers))[:, None]
+    return Mesh(
+        points=points[used],
+        cells={family: compact.reshape(raised.shape)},
+        bodies={name: (own + first).ravel() for name, own in mesh.bodies.items()},
+        boundaries={name: np.searchsorted(used, faces) for name, faces in walls.items()},
+    )
+
+
+def _line(given: ArrayLike, where: Where, step: int) -> Array:
+    """Increasing coordinates, with those in the middle where a cell takes two steps."""
+    line = np.array(vector(tuple(np.asarray(given, float)), where))
+    if len(line) < 2 or (np.diff(line) <= 0).any():
+        raise InputError("does not increase; expected two or more increasing coordinates", where=where)
+    return np.interp(np.arange(step * (len(line) - 1) + 1) / step, np.arange(len(line)), line)
 
 
 def _origins(number: IntArray, step: int) -> tuple[IntArray, ...]:

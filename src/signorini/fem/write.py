@@ -11,6 +11,11 @@ from signorini.arrays import IntArray
 from signorini.fem.read import NAMED, NODE_NUMBER
 from signorini.model.mesh import Mesh
 
+_FACETS = {
+    2: {2: "line", 3: "line3"},
+    3: {3: "triangle", 4: "quad", 6: "triangle6", 8: "quad8", 9: "quad9"},
+}
+
 
 def write_mesh(mesh: Mesh, path: Path) -> None:
     """Write a mesh as VTU: :func:`signorini.fem.read.read_mesh` gives the same mesh.
@@ -25,7 +30,8 @@ def write_mesh(mesh: Mesh, path: Path) -> None:
     import meshio
 
     blocks: list[tuple[str, IntArray]] = list(mesh.cells.items())
-    edges = [("line" if facets.shape[1] == 2 else "line3", facets) for facets in mesh.boundaries.values()]
+    kinds = _FACETS[mesh.points.shape[1]]
+    edges = [(kinds[facets.shape[1]], facets) for facets in mesh.boundaries.values()]
     sizes = [len(nodes) for _, nodes in (*blocks, *edges)]
     ends = np.cumsum(sizes)[:-1]
     count = mesh.number_of_cells

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A shaft pressed into a hub."""
+"""A shaft pressed into a hub, plane and in space."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from signorini.fem.generators import Cells, annulus
+from signorini.fem.solids import extruded
 from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact
@@ -44,4 +47,22 @@ def press_fit(
             *(Support(f"{name}.end", u=(0.0, None)) for name in ("shaft", "hub")),
         ],
         contacts=[Contact("shaft.outer", "hub.inner", friction=friction, interference=interference, name="fit")],
+    )
+
+
+def press_fit_in_space(
+    *, n_radial: int = 4, n_angular: int | tuple[int, int] = 12, friction: float = 0.0, cells: Cells = "quad"
+) -> Model:
+    """The same as a slab of thickness 1 whose faces stay plane: plane strain, and normals that turn with the fit."""
+    flat = press_fit(n_radial=n_radial, n_angular=n_angular, kind="plane strain", friction=friction, cells=cells)
+    return Model(
+        extruded(flat.mesh, z=[0.0, 0.5, 1.0]),
+        title="Press fit in space",
+        bodies=flat.bodies,
+        supports=[
+            *(replace(support, u=(*support.u, None)) for support in flat.supports),
+            Support("bottom", u=(None, None, 0.0)),
+            Support("top", u=(None, None, 0.0)),
+        ],
+        contacts=flat.contacts,
     )

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +15,7 @@ from signorini.fem.obstacles import carried
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.frames import tangents
-from signorini.interface.pairing import Sides, make_pairs
+from signorini.interface.pairing import Pairs, Sides, make_pairs
 from signorini.model.model import Model
 
 
@@ -95,6 +96,7 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
     parts = [make_pairs(space, model, constraints, i) for i in range(len(model.contacts))]
     index = np.repeat(np.arange(len(parts)), [len(part.nodes) for part in parts]).astype(int)
     normals = np.concatenate([part.normals for part in parts]) if parts else np.empty((0, space.dimension))
+    _refuse_no_normal(space, parts)
     mirrored = np.concatenate([part.mirrored for part in parts]) if parts else np.empty((0, space.dimension), bool)
     axes, still = tangents(normals, mirrored)
     none = sp.csr_array((0, len(space.mesh.points)))
@@ -127,6 +129,14 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
         tied=data("tied").astype(bool),
         sides=tuple(part.sides for part in parts),
     )
+
+
+def _refuse_no_normal(space: Space, parts: Sequence[Pairs]) -> None:
+    for i, part in enumerate(parts):
+        lost = np.flatnonzero(~np.isfinite(part.normals).all(axis=1))
+        if len(lost):
+            number = space.mesh.labels[part.nodes[lost[0]]]
+            raise InputError(f"node {number} has no normal: a face there has no area", where=("contact", i))
 
 
 def friction_of(space: Space, model: Model, node: IntArray, contact: IntArray) -> Array:

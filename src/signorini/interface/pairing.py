@@ -159,6 +159,8 @@ def _on_side(
     plane = side.dimension == 2
     if how != "nodes" and plane:
         gap = without_chords(gap, coupling.nodes, coupling.relative, side, mortar)
+    elif how != "nodes":
+        gap = spatial.without_chords(gap, coupling, *(spatial.make_surface(points, b.facets) for b in (side, mortar)))
     partner = symmetric_partners(space, constraints, coupling.nodes, normals, mortar.nodes)
     return Pairs(
         nodes=coupling.nodes,

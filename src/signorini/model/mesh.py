@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray, frozen
+from signorini.arrays import Array, IntArray, distinct, frozen
 from signorini.errors import InputError
 
 NODES_PER_PLANE_CELL = {"triangle": 3, "quad": 4, "triangle6": 6, "quad8": 8, "quad9": 9}
@@ -151,7 +151,7 @@ def _numbers(values: IntArray, count: int, part: str) -> IntArray:
     numbers = frozen(values, np.int64)
     if numbers.shape != (count,):
         raise InputError(f"has shape {numbers.shape}; expected ({count},)", where=("mesh", part))
-    if len(np.unique(numbers)) < count:
+    if len(distinct(numbers)) < count:
         raise InputError("has a number twice; expected a number of its own for each", where=("mesh", part))
     return numbers
 

@@ -37,7 +37,8 @@ class Step:
         less than ``tolerance``; None leaves it to ``path``
     tolerance : of "auto", relative to the largest contact force
     path : "increments", or "exact": from event to event (a pair closes, opens, slips, sticks), without any step size.
-        None chooses: "increments" where their number is given or nothing rubs (one is exact then), otherwise "exact"
+        None chooses: "increments" where their number is given or nothing rubs (one is exact then), otherwise "exact",
+        in space up to 16 increments as with "auto"; the notes say what they left
     jump : where an exact path has no gradual continuation, "stop" there, or "follow" the equilibria to the next one at
         that load, which is called a candidate. None stops where the path is asked to be exact, otherwise follows
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, padded
 from signorini.fem.space import make_space
 from signorini.fem.stress import point_stresses
 from signorini.model.model import Model
@@ -47,7 +47,7 @@ def _lines(model: Model, step: StepResult, table: Table, time: float) -> Iterato
 
 def _nodes(model: Model, step: StepResult, table: Table, quantity: str, end: str) -> Iterator[str]:
     values = step.displacement if quantity == "U" else step.external
-    rows = _three(values[table.members])
+    rows = padded(values[table.members], 3)
     if table.totals != "only" or quantity == "U":
         yield from ("", f" {'displacements (vx,vy,vz)' if quantity == 'U' else 'forces (fx,fy,fz)'} {end}", "")
         yield from _numbered(model.mesh.labels[table.members], rows)
@@ -69,23 +69,18 @@ def _contact(model: Model, step: StepResult, table: Table, quantity: str, time: 
     contact = step.contacts[int(table.members[0])]
     sides = table.place
     if quantity == "CF":
-        force, arm = contact.normal_force + contact.tangential_force, contact.points
-        nodal = contact.area[:, None] * (
-            contact.pressure[:, None] * contact.normals + contact.traction[:, None] * contact.tangents
-        )
-        moment = float(np.sum(arm[:, 0] * nodal[:, 1] - arm[:, 1] * nodal[:, 0]))
+        forces, arms = padded(contact.forces, 3), padded(contact.points, 3)
+        total = np.concatenate([forces.sum(axis=0), np.cross(arms, forces).sum(axis=0)])
         yield from ("", f" statistics for {sides} and time {time:14.7E}", "")
         yield from ("   total surface force (fx,fy,fz) and moment about the origin (mx,my,mz)", "")
-        yield f"   {_spelled(np.array([*force, 0.0, 0.0, 0.0, moment]))}"
+        yield f"   {_spelled(total)}"
         return
-    zero = np.zeros(len(contact.node))
     if quantity == "CDIS":
-        head, columns = (
-            "relative contact displacement (slave node,normal,tang1,tang2)",
-            (contact.gap, contact.slip, zero),
-        )
+        head = "relative contact displacement (slave node,normal,tang1,tang2)"
+        columns = (contact.gap, padded(contact.slip, 2))
     else:
-        head, columns = "contact stress (slave node,press,tang1,tang2)", (contact.pressure, contact.traction, zero)
+        head = "contact stress (slave node,press,tang1,tang2)"
+        columns = (contact.pressure, padded(contact.traction, 2))
     yield from ("", f" {head} for {sides} and time {time:14.7E}", "")
     yield from _numbered(model.mesh.labels[contact.node], np.column_stack(columns))
 
@@ -97,7 +92,3 @@ def _numbered(labels: IntArray, rows: Array) -> Iterator[str]:
 
 def _spelled(values: Array) -> str:
     return " ".join(f"{value + 0.0:13.6E}" for value in values.tolist())
-
-
-def _three(plane: Array) -> Array:
-    return np.column_stack([plane, np.zeros((len(plane), 3 - plane.shape[1]))])

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from signorini._version import __version__
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, padded
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
 from signorini.model.model import Model
@@ -18,7 +18,12 @@ from signorini.solution.history import History
 from signorini.solution.results import StepResult
 
 # family: number of the element type, nodes of it that are written
-_TYPES = {"triangle": (7, 3), "triangle6": (8, 6), "quad": (9, 4), "quad8": (10, 8), "quad9": (10, 8)}
+_TYPES = {
+    **{"triangle": (7, 3), "triangle6": (8, 6), "quad": (9, 4), "quad8": (10, 8), "quad9": (10, 8)},
+    **{"hexahedron": (1, 8), "wedge": (2, 6), "tetra": (3, 4), "tetra10": (6, 10)},
+    **{"hexahedron20": (4, 20), "hexahedron27": (4, 20)},
+}
+_UPRIGHT = [*range(12), *range(16, 20), *range(12, 16)]  # in .frd the upright edges come before those of the top
 _TENSOR = (("SXX", 1, 1), ("SYY", 2, 2), ("SZZ", 3, 3), ("SXY", 1, 2), ("SYZ", 2, 3), ("SZX", 3, 1))
 _CONTACT = ("COPEN", "CSLIP1", "CSLIP2", "CPRESS", "CSHEAR1", "CSHEAR2")
 
@@ -49,7 +54,7 @@ def _document(history: History) -> Iterator[str]:
         yield f"    1UMAT{number:5d}{body.name[:60]}\n"
     labels = mesh.labels[used]
     yield f"    2C                  {len(used):12d}                                     1\n"
-    yield _records(labels, _three(mesh.points[used]))
+    yield _records(labels, padded(mesh.points[used], 3))
     yield " -3\n"
     yield f"    3C                  {mesh.number_of_cells:12d}                                     1\n"
     yield from _elements(model)
@@ -69,19 +74,20 @@ def _elements(model: Model) -> Iterator[str]:
     labels, owner, first = model.mesh.cell_labels, model.body_of_cells() + 1, 0
     for family, cells in model.mesh.cells.items():
         kind, width = _TYPES[family]
-        nodes = model.mesh.labels[cells[:, :width]]
+        nodes = model.mesh.labels[cells[:, _UPRIGHT if width == 20 else slice(width)]]
         lines = []
         for row, cell in enumerate(nodes.tolist(), start=first):
-            lines.append(f" -1{labels[row]:10d}{kind:5d}    0{owner[row]:5d}\n -2")
-            lines.append("".join(f"{node:10d}" for node in cell) + "\n")
+            lines.append(f" -1{labels[row]:10d}{kind:5d}    0{owner[row]:5d}\n")
+            words = [f"{node:10d}" for node in cell]
+            lines += [f" -2{''.join(words[start : start + 10])}\n" for start in range(0, len(words), 10)]
         first += len(cells)
         yield "".join(lines)
 
 
 def _fields(model: Model, step: StepResult, used: IntArray) -> Iterator[tuple[str, list[str], Array]]:
     """Name, component lines and values (nodes, k) of every field."""
-    yield "DISP", _vector("D"), _three(step.displacement[used])
-    yield "FORC", _vector("F"), _three(step.external[used])
+    yield "DISP", _vector("D"), padded(step.displacement[used], 3)
+    yield "FORC", _vector("F"), padded(step.external[used], 3)
     space = make_space(model.mesh, axisymmetric=model.axisymmetric)
     total, count = np.zeros((len(model.mesh.points), 6)), np.zeros(len(model.mesh.points))
     for part in body_stresses(space, model, step.displacement, step.factors):
@@ -93,8 +99,8 @@ def _fields(model: Model, step: StepResult, used: IntArray) -> Iterator[tuple[st
     if step.contacts:
         values = np.zeros((len(model.mesh.points), 6))
         for contact in step.contacts:
-            columns = (contact.gap, contact.slip, contact.pressure, contact.traction)
-            values[contact.node[:, None], [0, 1, 3, 4]] = np.column_stack(columns)
+            for column, found in ((0, contact.gap), (1, contact.slip), (3, contact.pressure), (4, contact.traction)):
+                values[contact.node, column : column + _width(found)] = found.reshape(len(contact.node), -1)
         parts = [f" -5  {name:8s}    1    4{i:5d}{j:5d}\n" for name, (_, i, j) in zip(_CONTACT, _TENSOR, strict=True)]
         yield "CONTACT", parts, values[used]
 
@@ -111,5 +117,6 @@ def _records(labels: IntArray, values: Array) -> str:
     return "".join(line % (label, *row) + "\n" for label, row in zip(labels.tolist(), rows, strict=True))
 
 
-def _three(plane: Array) -> Array:
-    return np.column_stack([plane, np.zeros((len(plane), 3 - plane.shape[1]))])
+def _width(values: Array) -> int:
+    """Components of values of pairs: one, or two in space."""
+    return 1 if values.ndim == 1 else values.shape[1]

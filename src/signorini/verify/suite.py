@@ -17,6 +17,7 @@ from signorini.verify import (
     rates,
     rings,
     scalar,
+    space,
 )
 from signorini.verify.check import Check
 
@@ -54,6 +55,10 @@ QUICK: tuple[Case, ...] = (
     elements.hollow_spheres,
     elements.cantilever,
     elements.inside_bodies,
+    space.ball_on_plane,
+    space.ball_on_block,
+    space.mindlin,
+    space.press_fit,
     rates.smooth_contact,
 )
 SLOW: tuple[Case, ...] = (
@@ -61,6 +66,9 @@ SLOW: tuple[Case, ...] = (
     half_planes.cattaneo_mindlin_refined,
     half_planes.spence,
     half_planes.complete_contact,
+    space.balls_refined,
+    space.punch,
+    space.mindlin_refined,
     rates.smooth_contact_refined,
     rates.corners,
 )

@@ -91,6 +91,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
     _refuse_large(steps, small_strain)
 
     grid = make_grid(outside)
+    kind = _kind(grid)
     nodes, elements = make_sets(placed, grid)
     edges = Edges(grid)
     surfaces = make_surfaces(outside, edges, nodes, elements)
@@ -106,14 +107,14 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
         edges=edges,
         sections=tuple(sections),
         amplitudes=make_amplitudes(outside),
-        axisymmetric=_kind(grid) == "axisymmetric",
+        axisymmetric=kind == "axisymmetric",
+        dimension=3 if kind == "3d" else 2,
     )
     places = Places(edges, surfaces, nodes)
-    conditions = make_conditions(follow_steps(outside, steps, known), places, steps, sections, len(grid.points))
+    conditions = make_conditions(follow_steps(outside, steps, known), places, steps, known)
     changes = [make_changes(step, contacts, interactions, surfaces) for step in steps]
     model_steps = [_step(k, steps, conditions, changes[k], deck_increments) for k in range(len(steps))]
     where = _where(sections, contacts, conditions, steps)
-    kind = _kind(grid)
     try:
         model = Model(
             _mesh(grid, sections, places),
@@ -171,13 +172,13 @@ def _kind(grid: Grid) -> Kind:
 
 
 def _thickness(sections: Sequence[Section], kind: str) -> float:
-    for section in sections if kind != "axisymmetric" else ():
+    for section in sections if kind not in ("axisymmetric", "3d") else ():
         if section.thickness != sections[0].thickness:
             raise section.block.error(
                 f"the thickness is {section.thickness:g}, but {sections[0].thickness:g} in line "
                 f"{sections[0].block.line}; expected one thickness for all"
             )
-    return 1.0 if kind == "axisymmetric" else sections[0].thickness  # CalculiX: the angle that it cuts out
+    return 1.0 if kind in ("axisymmetric", "3d") else sections[0].thickness  # CalculiX: the angle that it cuts out
 
 
 def _mesh(grid: Grid, sections: Sequence[Section], places: Places) -> Mesh:
@@ -193,7 +194,7 @@ def _mesh(grid: Grid, sections: Sequence[Section], places: Places) -> Mesh:
     cell_of = np.empty(len(element), np.int64)
     cell_of[element] = np.arange(len(element))
     return Mesh(
-        points=grid.points[:, :2],
+        points=grid.points[:, : 3 if grid.groups[0].type.kind == "3d" else 2],
         cells=cells,
         bodies={section.name: np.sort(cell_of[section.elements]) for section in sections},
         boundaries=places.boundaries,

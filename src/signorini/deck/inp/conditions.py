@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, distinct
 from signorini.deck.error import DeckError
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.course import Course, Pattern, unique_label
-from signorini.deck.inp.loading import DIMENSION, Courses
+from signorini.deck.inp.loading import STRIDE, Courses, Known
 from signorini.deck.inp.materials import Section
 from signorini.deck.inp.places import Places
 from signorini.deck.inp.steps import DeckStep
@@ -72,9 +72,7 @@ class Conditions:
         }
 
 
-def make_conditions(
-    courses: Courses, places: Places, steps: Sequence[DeckStep], sections: Sequence[Section], number_of_nodes: int
-) -> Conditions:
+def make_conditions(courses: Courses, places: Places, steps: Sequence[DeckStep], known: Known) -> Conditions:
     """Turn courses into supports and loads.
 
     Raises
@@ -83,19 +81,20 @@ def make_conditions(
         If a step takes a support away or brings a new one.
     """
     _refuse_changes(courses.displacement, steps)
-    conditions = Conditions()
-    _supports(courses.displacement, places, conditions)
-    _forces(courses.force, places, conditions)
+    conditions, sections, dimension = Conditions(), known.sections, known.dimension
+    number_of_nodes = len(known.nodes.numbering.labels)
+    _supports(courses.displacement, places, conditions, dimension)
+    _forces(courses.force, places, conditions, dimension)
     for pattern in courses.pressure.patterns():
         for value, keys in _by_value(pattern):
             if value:
                 on = places.at_edges(keys, pattern.label)
                 conditions.add_load(pattern, on=on, pressure=value, name=on)
     for pattern in courses.body.patterns():
-        for section in np.unique(pattern.slots // DIMENSION):
-            force = np.zeros(DIMENSION)
-            own = pattern.slots // DIMENSION == section
-            force[pattern.slots[own] % DIMENSION] = pattern.values[own]
+        for section in np.unique(pattern.slots // STRIDE):
+            force = np.zeros(dimension)
+            own = pattern.slots // STRIDE == section
+            force[pattern.slots[own] % STRIDE] = pattern.values[own]
             if force.any():
                 conditions.add_load(pattern, on=sections[section].name, body_force=tuple(force), name=pattern.label)
     for pattern in courses.rotation.patterns():
@@ -132,7 +131,7 @@ def _refuse_changes(course: Course, steps: Sequence[DeckStep]) -> None:
                 )
 
 
-def _supports(course: Course, places: Places, conditions: Conditions) -> None:
+def _supports(course: Course, places: Places, conditions: Conditions, dimension: int) -> None:
     """Supports at rest hold all directions of a place at once; those that move are one a direction."""
     resting: dict[str, list[Pattern]] = {}
     for pattern in course.patterns():
@@ -140,30 +139,28 @@ def _supports(course: Course, places: Places, conditions: Conditions) -> None:
             resting.setdefault(pattern.label, []).append(pattern)
             continue
         for value, slots in _by_value(pattern):
-            for axis in range(DIMENSION):
-                nodes = slots[slots % DIMENSION == axis] // DIMENSION
+            for axis in range(dimension):
+                nodes = slots[slots % STRIDE == axis] // STRIDE
                 if len(nodes):
-                    u = tuple(value if i == axis else None for i in range(DIMENSION))
+                    u = tuple(value if i == axis else None for i in range(dimension))
                     on = places.at_nodes(nodes, pattern.label)
                     conditions.add_support(pattern, on=on, u=u, name=f"{pattern.label} u{axis + 1}")
     for label, patterns in resting.items():
-        slots = np.unique(np.concatenate([pattern.slots for pattern in patterns]))
-        first, second = (slots[slots % DIMENSION == axis] // DIMENSION for axis in range(DIMENSION))
-        both = np.intersect1d(first, second)
-        for nodes, u in (
-            (both, (0.0, 0.0)),
-            (np.setdiff1d(first, both), (0.0, None)),
-            (np.setdiff1d(second, both), (None, 0.0)),
-        ):
-            if len(nodes):
-                conditions.add_support(patterns[0], on=places.at_nodes(nodes, label), u=u, name=label)
+        slots = distinct(np.concatenate([pattern.slots for pattern in patterns]))
+        nodes, where = np.unique(slots // STRIDE, return_inverse=True)
+        held = np.zeros((len(nodes), dimension), bool)
+        held[where, slots % STRIDE] = True
+        for which in np.unique(held, axis=0)[::-1]:
+            own = nodes[(held == which).all(axis=1)]
+            u = tuple(0.0 if part else None for part in which)
+            conditions.add_support(patterns[0], on=places.at_nodes(own, label), u=u, name=label)
 
 
-def _forces(course: Course, places: Places, conditions: Conditions) -> None:
+def _forces(course: Course, places: Places, conditions: Conditions, dimension: int) -> None:
     for pattern in course.patterns():
-        nodes, where = np.unique(pattern.slots // DIMENSION, return_inverse=True)
-        forces: Array = np.zeros((len(nodes), DIMENSION))
-        forces[where, pattern.slots % DIMENSION] = pattern.values
+        nodes, where = np.unique(pattern.slots // STRIDE, return_inverse=True)
+        forces: Array = np.zeros((len(nodes), dimension))
+        forces[where, pattern.slots % STRIDE] = pattern.values
         if not forces.any():
             continue
         on = places.at_nodes(nodes, pattern.label)

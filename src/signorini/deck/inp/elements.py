@@ -7,20 +7,39 @@ from dataclasses import dataclass
 from typing import cast
 
 from signorini.deck.inp.block import Block
+from signorini.model.mesh import CORNERS, NODES_PER_CELL
 from signorini.model.model import Kind
 
 _PLANES = {"CPE": "plane strain", "CPS": "plane stress", "CAX": "axisymmetric"}
-_FAMILIES = {"3": "triangle", "4": "quad", "6": "triangle6", "8": "quad8"}
-_SOLIDS = ("C3D4", "C3D6", "C3D8", "C3D10", "C3D15", "C3D20")
+_PLANE = {"3": "triangle", "4": "quad", "6": "triangle6", "8": "quad8"}
+_SOLID = {"4": "tetra", "6": "wedge", "8": "hexahedron", "10": "tetra10", "20": "hexahedron20"}
+_FULLY = "reduced integration is not used: all elements are integrated fully"
 _VARIANTS = {
     "": "",
-    "R": "reduced integration is not used: all elements are integrated fully",
+    "R": _FULLY,
     "I": "",
     "IH": "",
     "H": "",
-    "M": "modified formulation is not used: it is an ordinary quadratic triangle",
-    "RH": "reduced integration is not used: all elements are integrated fully",
+    "M": "modified formulation is not used: it is an ordinary quadratic element",
+    "MH": "modified formulation is not used: it is an ordinary quadratic element",
+    "RH": _FULLY,
     "T": "temperatures of coupled elements are not unknowns here",
+}
+# faces S1, S2, ... by their corners, from 0
+_FACES = {
+    "triangle": ((0, 1), (1, 2), (2, 0)),
+    "quad": ((0, 1), (1, 2), (2, 3), (3, 0)),
+    "tetra": ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)),
+    "wedge": ((0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
+    "hexahedron": ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)),
+}
+# edges of quadratic solids in the order of the nodes on them
+_EDGES = {
+    "tetra10": ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)),
+    "hexahedron20": (
+        *((0, 1), (1, 2), (2, 3), (0, 3), (4, 5), (5, 6), (6, 7), (4, 7)),
+        *((0, 4), (1, 5), (2, 6), (3, 7)),
+    ),
 }
 
 
@@ -30,7 +49,7 @@ class ElementType:
 
     Attributes
     ----------
-    family : of cells, as "quad8"
+    family : of cells, as "quad8"; the order of its nodes is that of decks
     kind : of the model, as "plane strain"
     incompatible : with incompatible modes
     note : how it differs from what the deck asks for, empty if it does not
@@ -44,12 +63,20 @@ class ElementType:
     @property
     def nodes(self) -> int:
         """Of an element."""
-        return {"triangle": 3, "quad": 4, "triangle6": 6, "quad8": 8}[self.family]
+        return NODES_PER_CELL[self.family]
 
     @property
-    def corners(self) -> int:
-        """Of an element, and its edges: edge k goes from corner k to corner k + 1."""
-        return 3 if self.family.startswith("triangle") else 4
+    def faces(self) -> tuple[tuple[int, ...], ...]:
+        """Places of the nodes of every face S1, S2, ...: corners; in space the middles of its edges follow."""
+        linear = self.family.removesuffix("20").removesuffix("10").removesuffix("6").removesuffix("8")
+        faces = _FACES[linear]
+        if self.family not in _EDGES:
+            return faces
+        middle = {frozenset(edge): CORNERS[self.family] + k for k, edge in enumerate(_EDGES[self.family])}
+        return tuple(
+            (*face, *(middle[frozenset((face[i], face[(i + 1) % len(face)]))] for i in range(len(face))))
+            for face in faces
+        )
 
 
 def element_type(block: Block) -> ElementType:
@@ -61,17 +88,17 @@ def element_type(block: Block) -> ElementType:
         For types that this version does not have.
     """
     name = block.value("TYPE", "an element type").upper()
-    prefix, size, variant = name[:3], name[3:4], name[4:]
-    if prefix in _PLANES and size in _FAMILIES and variant in _VARIANTS:
+    solid = name.startswith("C3D")
+    size = name[3:].rstrip("RIHMT")
+    variant = name[3 + len(size) :]
+    family = (_SOLID if solid else _PLANE).get(size)
+    if (solid or name[:3] in _PLANES) and family is not None and variant in _VARIANTS:
+        if variant.startswith("I") and family not in ("quad", "hexahedron"):
+            raise block.error(f"TYPE={name} is not supported; incompatible modes are for 4 nodes, in space 8")
         note = f"{name}: {_VARIANTS[variant]}" if _VARIANTS[variant] else ""
-        if variant.startswith("I") and size != "4":
-            raise block.error(f"TYPE={name} is not supported; incompatible modes are for 4 nodes")
-        incompatible = variant.startswith("I")
-        return ElementType(
-            family=_FAMILIES[size], kind=cast(Kind, _PLANES[prefix]), incompatible=incompatible, note=note
-        )
-    if name.startswith(_SOLIDS):
-        raise block.error(f"TYPE={name} is three-dimensional, which this version does not have")
+        kind = cast(Kind, "3d" if solid else _PLANES[name[:3]])
+        return ElementType(family=family, kind=kind, incompatible=variant.startswith("I"), note=note)
     raise block.error(
-        f"TYPE={name} is not supported; expected CPE, CPS or CAX with 3, 4, 6 or 8 nodes (variants R, I, H, M)"
+        f"TYPE={name} is not supported; expected CPE, CPS or CAX with 3, 4, 6 or 8 nodes, or C3D with 4, 6, 8, 10 "
+        "or 20 (variants R, I, H, M)"
     )

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, distinct
 from signorini.deck.inp.block import MOST, Block
 from signorini.deck.inp.elements import ElementType, element_type
 from signorini.deck.inp.flatten import Placed, Scope
@@ -76,7 +76,7 @@ def make_grid(placed: list[Placed]) -> Grid:
 def nodes_of(grid: Grid, elements: IntArray) -> IntArray:
     """The sorted nodes of elements."""
     pieces = [group.nodes[np.isin(group.index, elements)].ravel() for group in grid.groups]
-    return np.unique(np.concatenate([np.empty(0, np.int64), *pieces]))
+    return distinct(np.concatenate([np.empty(0, np.int64), *pieces]))
 
 
 def _nodes(placed: list[Placed]) -> tuple[Numbering, Array]:
@@ -110,9 +110,10 @@ def _by_scope(placed: list[Placed]) -> list[tuple[Scope, list[Block]]]:
 
 
 def _refuse_twice(numbers: IntArray, block: Block, what: str) -> None:
-    known, count = np.unique(numbers, return_counts=True)
-    if (count > 1).any():
-        raise block.error(f"{what} {known[count > 1][0]} is there twice")
+    known = np.sort(numbers)
+    twice = known[1:][known[1:] == known[:-1]]
+    if len(twice):
+        raise block.error(f"{what} {twice[0]} is there twice")
     if len(known) and known[0] < 1:
         raise block.error(f"{what} has the number {known[0]}; expected a whole number >= 1")
 
@@ -120,6 +121,8 @@ def _refuse_twice(numbers: IntArray, block: Block, what: str) -> None:
 def _refuse_space(points: Array, groups: list[Group]) -> None:
     """Plane elements lie in a plane of constant z."""
     for group in groups:
+        if group.type.kind == "3d":
+            continue
         used = points[group.nodes.ravel()]
         size = float(np.ptp(used[:, :2], axis=0).max()) if len(used) else 0.0
         if len(used) and np.abs(used[:, 2] - used[0, 2]).max() > _FLAT * max(size, 1e-300):

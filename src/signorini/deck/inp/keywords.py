@@ -4,11 +4,7 @@
 from __future__ import annotations
 
 OUTPUT = (
-    "CONTACT FILE",
     "CONTACT OUTPUT",
-    "CONTACT PRINT",
-    "EL FILE",
-    "EL PRINT",
     "ELEMENT OUTPUT",
     "ENERGY FILE",
     "ENERGY OUTPUT",
@@ -18,9 +14,7 @@ OUTPUT = (
     "FILE OUTPUT",
     "FILTER",
     "MONITOR",
-    "NODE FILE",
     "NODE OUTPUT",
-    "NODE PRINT",
     "OUTPUT",
     "PREPRINT",
     "PRINT",
@@ -31,6 +25,9 @@ OUTPUT = (
     "USER OUTPUT VARIABLES",
 )
 """What to write, which does not change the answer."""
+
+PRINTED = ("CONTACT FILE", "CONTACT PRINT", "EL FILE", "EL PRINT", "NODE FILE", "NODE PRINT")
+"""What to write, which is written: ``.frd`` always, ``.dat`` as asked for."""
 
 HARMLESS = (
     *OUTPUT,
@@ -76,6 +73,7 @@ MODEL_WORDS = (
 """What is read outside the steps."""
 
 STEP_WORDS = (
+    *PRINTED,
     "BOUNDARY",
     "CHANGE CONTACT PAIR",
     "CHANGE FRICTION",

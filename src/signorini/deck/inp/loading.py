@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, distinct
 from signorini.deck.inp.amplitudes import Amplitude, find_amplitude
 from signorini.deck.inp.block import Block, Row
 from signorini.deck.inp.course import Course
@@ -18,10 +18,12 @@ from signorini.deck.inp.sets import Sets
 from signorini.deck.inp.steps import DeckStep
 from signorini.deck.inp.surfaces import Edges, Surfaces
 
-DIMENSION = 2
+STRIDE = 3
+"""Slots of a node or section: one for each direction, also in the plane."""
+
 _HELD, _PULLED = "single nodes", "forces on single nodes"  # labels where the deck gives numbers, not a set
 
-_TYPES = {"ENCASTRE": (1, 2), "PINNED": (1, 2), "XSYMM": (1,), "YSYMM": (2,), "ZSYMM": ()}
+_TYPES = {"ENCASTRE": (1, 2, 3), "PINNED": (1, 2, 3), "XSYMM": (1,), "YSYMM": (2,), "ZSYMM": (3,)}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -35,6 +37,7 @@ class Known:
     sections: tuple[Section, ...]
     amplitudes: Mapping[str, Amplitude]
     axisymmetric: bool
+    dimension: int
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -43,10 +46,10 @@ class Courses:
 
     Attributes
     ----------
-    displacement : slots ``DIMENSION * node + axis``, length
+    displacement : slots ``STRIDE * node + axis``, length
     force : the same slots, force
     pressure : slots are keys of edges, force per area
-    body : slots ``DIMENSION * section + axis``, force per volume
+    body : slots ``STRIDE * section + axis``, force per volume
     temperature : slots are nodes, above the initial temperature
     rotation : slots are sections, squares of angular velocities
     centres : of rotation by label, None for axisymmetric bodies
@@ -120,21 +123,21 @@ def _boundary(item: Placed, known: Known, courses: Courses) -> None:
     for row in block.rows():
         label, nodes = known.nodes.find(row.text(0, "a node or a node set"), item.scope, row)
         label = _HELD if label.startswith("node ") and label not in known.nodes else label
-        word = row.text(1, "a direction, 1 or 2").upper()
+        word = row.text(1, "a direction").upper()
         if word in _TYPES:
-            axes: tuple[int, ...] = _TYPES[word]
+            axes = tuple(axis for axis in _TYPES[word] if axis <= known.dimension)
             value = 0.0
         else:
-            first = row.whole(1, "a direction, 1 or 2")
+            first = row.whole(1, "a direction")
             last = row.whole(2, "the last direction", first)
             value = row.number(3, "the displacement", 0.0)
-            if first < 1 or last < first:
-                raise row.error(f"*BOUNDARY: directions {first} to {last}; expected 1 or 2")
-            if last > DIMENSION and value != 0.0:
-                raise row.error(f"*BOUNDARY: direction {last} moves by {value:g}; a plane model has 1 and 2 only")
-            axes = tuple(axis for axis in range(first, last + 1) if axis <= DIMENSION)
+            if first < 1 or last < first or last > 6:
+                raise row.error(f"*BOUNDARY: directions {first} to {last}; expected 1 to {known.dimension}")
+            if last > known.dimension and value != 0.0:
+                raise row.error(f"*BOUNDARY: direction {last} moves by {value:g}; expected 1 to {known.dimension}")
+            axes = tuple(axis for axis in range(first, last + 1) if axis <= known.dimension)
         for axis in axes:
-            slots = DIMENSION * nodes + axis - 1
+            slots = STRIDE * nodes + axis - 1
             courses.displacement.put(slots, value, label, block, amplitude, adds=False)
 
 
@@ -145,11 +148,11 @@ def _cload(item: Placed, known: Known, courses: Courses) -> None:
     for row in block.rows():
         label, nodes = known.nodes.find(row.text(0, "a node or a node set"), item.scope, row)
         label = _PULLED if label.startswith("node ") and label not in known.nodes else label
-        axis = row.whole(1, "a direction, 1 or 2")
+        axis = row.whole(1, "a direction")
         value = row.number(2, "the force")
-        if not 1 <= axis <= DIMENSION:
-            raise row.error(f"*CLOAD: direction {axis}; expected 1 or 2, a plane model has no other")
-        courses.force.put(DIMENSION * nodes + axis - 1, value, label, block, amplitude, adds=True)
+        if not 1 <= axis <= known.dimension:
+            raise row.error(f"*CLOAD: direction {axis}; expected 1 to {known.dimension}")
+        courses.force.put(STRIDE * nodes + axis - 1, value, label, block, amplitude, adds=True)
 
 
 def _dload(item: Placed, known: Known, courses: Courses) -> None:
@@ -170,25 +173,25 @@ def _dload(item: Placed, known: Known, courses: Courses) -> None:
             size = np.linalg.norm(direction)
             if not size > 0.0:
                 raise row.error("*DLOAD: gravity has no direction")
-            if direction[2]:
+            if direction[2] and known.dimension == 2:
                 raise row.error("*DLOAD: gravity leaves the plane of the model")
             for i in _whole_sections(elements, label, known, row):
                 density = known.sections[i].substance.density
                 if density is None:
                     raise row.error(f"*DLOAD: gravity needs *DENSITY in the material of '{known.sections[i].name}'")
-                for axis in range(DIMENSION):
+                for axis in range(known.dimension):
                     force = density * gravity * float(direction[axis] / size)
-                    slots = np.array([DIMENSION * i + axis])
+                    slots = np.array([STRIDE * i + axis])
                     courses.body.put(slots, force, f"gravity {known.sections[i].name}", block, amplitude, adds=False)
-        elif kind in ("BX", "BY"):
+        elif kind in ("BX", "BY", "BZ")[: known.dimension]:
             for i in _whole_sections(elements, label, known, row):
-                slots = np.array([DIMENSION * i + "XY".index(kind[1])])
+                slots = np.array([STRIDE * i + "XYZ".index(kind[1])])
                 value = row.number(2, "the force per volume")
                 courses.body.put(slots, value, f"{kind} {known.sections[i].name}", block, amplitude, adds=True)
         elif kind == "CENTRIF":
             _rotate(row, _whole_sections(elements, label, known, row), block, amplitude, known, courses)
         else:
-            raise row.error(f"*DLOAD: '{kind}' is not supported; expected P1 to P4, GRAV, CENTRIF, BX or BY")
+            raise row.error(f"*DLOAD: '{kind}' is not supported; expected P1, P2, ..., GRAV, CENTRIF, BX, BY or BZ")
 
 
 def _rotate(
@@ -196,6 +199,8 @@ def _rotate(
 ) -> None:
     """Square of the angular velocity, a point of the axis and its direction."""
     square = row.number(2, "the square of the angular velocity")
+    if known.dimension == 3:
+        raise row.error("*DLOAD: CENTRIF is not supported in space")
     if square < 0.0:
         raise row.error(f"*DLOAD: the square of the angular velocity is {square:g}; expected a number >= 0")
     x, y, _, *axis = (row.number(i, "a coordinate or direction", 0.0) for i in range(3, 9))
@@ -226,7 +231,7 @@ def _dsload(item: Placed, known: Known, courses: Courses) -> None:
 
 def _whole_sections(elements: IntArray, label: str, known: Known, row: Row) -> list[int]:
     """Indices of the sections that elements make up."""
-    chosen = np.unique(elements)
+    chosen = distinct(elements)
     found = [i for i, section in enumerate(known.sections) if np.isin(section.elements, chosen).all()]
     covered = sum(len(known.sections[i].elements) for i in found)
     if covered < len(chosen):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from signorini.arrays import IntArray
+from signorini.arrays import IntArray, distinct
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.grid import Grid, nodes_of
@@ -148,7 +148,7 @@ def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Sub
         if substance.elastic is None:
             raise substance.block.error(f"'{material}' has no *ELASTIC")
         name, members = elements.find(block.value("ELSET"), item.scope, block)
-        members = np.unique(members)
+        members = distinct(members)
         if not len(members):
             raise block.error(f"element set '{name}' is empty")
         if (owner[members] >= 0).any():

@@ -16,7 +16,7 @@ class Places:
 
     Attributes
     ----------
-    boundaries : name to (m, 2) end nodes of edges
+    boundaries : name to (m, k) nodes of edges or faces
     nodes : name to sorted nodes; no name is that of a boundary
     """
 
@@ -43,7 +43,7 @@ class Places:
 
     def at_edges(self, keys: IntArray, label: str) -> str:
         """A name for edges: that of the surface ``label`` if it has just these."""
-        ends = self._edges.ends[keys]
+        ends = self._edges.facets(keys)[0]
         known = self.boundaries.get(label)
         if known is not None and np.array_equal(known, ends):
             return label

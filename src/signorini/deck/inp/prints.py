@@ -31,9 +31,8 @@ def make_tables(
     DeckError
         For a set that does not exist.
     """
-    cell_of = np.empty(mesh.number_of_cells, np.int64)
-    order = {int(number): cell for cell, number in enumerate(mesh.cell_labels.tolist())}
-    cell_of[:] = [order[number] for number in elements.numbering.labels.tolist()]
+    order = np.argsort(mesh.cell_labels)
+    cell_of = order[np.searchsorted(mesh.cell_labels[order], elements.numbering.labels)]
     asked: dict[str, list[Placed]] = {}
     for k, step in enumerate(steps):
         for keyword in _KNOWN:

@@ -7,7 +7,7 @@ from collections import defaultdict
 
 import numpy as np
 
-from signorini.arrays import IntArray
+from signorini.arrays import IntArray, distinct
 from signorini.deck.inp.block import MOST, Block, Row, to_number
 from signorini.deck.inp.flatten import Placed, Scope
 from signorini.deck.inp.grid import Grid, nodes_of
@@ -43,7 +43,7 @@ class Sets:
         """Sorted members."""
         key = name.upper()
         if len(self._pieces[key]) > 1 or not _ascending(self._pieces[key][0]):
-            self._pieces[key] = [np.unique(np.concatenate(self._pieces[key]))]
+            self._pieces[key] = [distinct(np.concatenate(self._pieces[key]))]
         return self._pieces[key][0]
 
     def spelled(self, name: str) -> str:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from signorini.deck.inp.flatten import Placed
-from signorini.deck.inp.keywords import HARMLESS, MODEL_WORDS, STEP_WORDS
+from signorini.deck.inp.keywords import HARMLESS, MODEL_WORDS, PRINTED, STEP_WORDS
 
 
 def refuse_unsupported(placed: Sequence[Placed], known: Sequence[str], where: str) -> dict[str, int]:
@@ -29,6 +29,8 @@ def refuse_unsupported(placed: Sequence[Placed], known: Sequence[str], where: st
     ignored: dict[str, int] = {}
     for item in placed:
         keyword = item.block.keyword
+        if keyword in PRINTED:
+            continue
         if keyword in HARMLESS:
             ignored.setdefault(keyword, item.block.line)
         elif keyword not in known:

@@ -7,58 +7,67 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from signorini.arrays import IntArray
+from signorini.arrays import IntArray, distinct
 from signorini.deck.inp.block import Block, Row
 from signorini.deck.inp.flatten import Placed, Scope
 from signorini.deck.inp.grid import Grid
 from signorini.deck.inp.sets import Sets
 from signorini.errors import one_of
 
-FACES = 4
+FACES = 6
 """Room for the faces of an element: face k of element e has the key ``FACES * e + k - 1``."""
+
+_WIDEST = 8  # nodes of a face
 
 
 class Edges:
-    """The edges of all plane elements.
+    """The faces of all elements: edges in the plane.
 
     Attributes
     ----------
-    ends : (FACES * elements, 2) end nodes by key; -1 where an element has fewer edges
-    outer : (FACES * elements,) whether no other element has the edge
+    ends : (FACES * elements, 8) nodes by key, corners first; -1 where there are fewer
+    outer : (FACES * elements,) whether no other element has the face
     """
 
     def __init__(self, grid: Grid) -> None:
         count = sum(len(group.index) for group in grid.groups)
-        self.ends = np.full((FACES * count, 2), -1)
+        self.ends = np.full((FACES * count, _WIDEST if grid.groups[0].type.kind == "3d" else 2), -1)
         for group in grid.groups:
-            k = group.type.corners
-            for face in range(k):
-                self.ends[FACES * group.index + face] = group.nodes[:, [face, (face + 1) % k]]
+            for face, places in enumerate(group.type.faces):
+                self.ends[FACES * group.index + face, : len(places)] = group.nodes[:, places]
         there = np.nonzero(self.ends[:, 0] >= 0)[0]
-        low, high = np.sort(self.ends[there], axis=1).T
-        _, which, times = np.unique(low * (len(grid.points) + 1) + high, return_inverse=True, return_counts=True)
+        members = np.sort(self.ends[there], axis=1)
+        order = np.lexsort(members.T)
+        same = (members[order[1:]] == members[order[:-1]]).all(axis=1)
+        shared = np.zeros(len(there), bool)
+        shared[order[1:][same]] = shared[order[:-1][same]] = True
         self.outer = np.zeros(len(self.ends), bool)
-        self.outer[there] = times[which] == 1
+        self.outer[there] = ~shared
+
+    def facets(self, keys: IntArray) -> list[IntArray]:
+        """Nodes of faces, (m, k) for each number of nodes k that occurs."""
+        found = self.ends[keys]
+        widths = (found >= 0).sum(axis=1)
+        return [found[widths == width, :width] for width in distinct(widths)]
 
     def keys(self, elements: IntArray, face: str, at: Row, name: str) -> IntArray:
         """Keys of one face, as ``S2`` or ``P2``, of elements."""
         number = int(face[1:]) if face[1:].isdigit() else 0
-        if not 1 <= number <= FACES:
-            raise at.error(f"{name}: face '{face}' is not supported; expected {face[:1]}1 to {face[:1]}4")
-        keys: IntArray = FACES * elements + number - 1
-        if (self.ends[keys, 0] < 0).any():
-            raise at.error(f"{name}: face '{face}' of a triangle; expected {face[:1]}1 to {face[:1]}3")
+        keys: IntArray = FACES * elements + min(number, FACES) - 1
+        if not 1 <= number <= FACES or (self.ends[keys, 0] < 0).any():
+            letter = face[:1]
+            raise at.error(f"{name}: these elements have no face '{face}'; expected {letter}1, {letter}2, ...")
         return keys
 
     def outer_of(self, elements: IntArray) -> IntArray:
-        """Keys of the edges of elements that no other element has."""
+        """Keys of the faces of elements that no other element has."""
         keys = (FACES * elements[:, None] + np.arange(FACES)).ravel()
         return keys[self.outer[keys]]
 
     def between(self, nodes: IntArray) -> IntArray:
-        """Keys of outer edges whose end nodes are both among ``nodes``."""
-        inside = np.zeros(int(max(self.ends.max(initial=0), nodes.max(initial=0))) + 1, bool)
-        inside[nodes] = True
+        """Keys of outer faces whose nodes are all among ``nodes``."""
+        inside = np.zeros(int(max(self.ends.max(initial=0), nodes.max(initial=0))) + 2, bool)
+        inside[nodes] = inside[-1] = True  # the last stands for what is not there
         return np.nonzero(self.outer & inside[self.ends].all(axis=1))[0]
 
 
@@ -93,8 +102,9 @@ class Surfaces:
         raise at.error(one_of(word, self._spelled.values(), "surface"))
 
     def facets(self, edges: Edges) -> Mapping[str, IntArray]:
-        """End nodes of the edges, (m, 2), of every surface that has any."""
-        return {name: edges.ends[self.keys[key]] for key, name in self._spelled.items() if len(self.keys[key])}
+        """Nodes of the faces, (m, k), of every surface that has any, all with the same number of nodes."""
+        found = {name: edges.facets(self.keys[key]) for key, name in self._spelled.items()}
+        return {name: parts[0] for name, parts in found.items() if len(parts) == 1}
 
 
 def make_surfaces(placed: list[Placed], edges: Edges, nodes: Sets, elements: Sets) -> Surfaces:
@@ -114,7 +124,7 @@ def make_surfaces(placed: list[Placed], edges: Edges, nodes: Sets, elements: Set
         name = item.scope.prefixed(block.value("NAME"))
         if block.choice("TYPE", ("ELEMENT", "NODE"), "ELEMENT") == "NODE":
             members = [nodes.find(row.text(0, "a node or a node set"), item.scope, row)[1] for row in block.rows()]
-            found = np.unique(np.concatenate([np.empty(0, np.int64), *members]))
+            found = distinct(np.concatenate([np.empty(0, np.int64), *members]))
             surfaces.add(name, edges.between(found), block)
             surfaces.nodes[name.upper()] = found
         else:
@@ -130,8 +140,8 @@ def _of_elements(item: Placed, edges: Edges, elements: Sets) -> IntArray:
         if not face:
             pieces.append(edges.outer_of(members))
         elif face[:1] != "S":
-            raise row.error(f"*SURFACE: face '{face}' is not supported; expected S1 to S4")
+            raise row.error(f"*SURFACE: face '{face}' is not supported; expected S1, S2, ...")
         else:
             pieces.append(edges.keys(members, face, row, "*SURFACE"))
-    keys: IntArray = np.unique(np.concatenate(pieces))
+    keys: IntArray = distinct(np.concatenate(pieces))
     return keys

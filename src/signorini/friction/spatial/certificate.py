@@ -99,7 +99,7 @@ def violations(
     0.0
     """
     n = len(gap)
-    mu = np.asarray(friction, dtype=np.float64).reshape(n, -1) * np.ones((1, 2))
+    mu = np.asarray(friction, dtype=np.float64).reshape(n, -1 if n else 1) * np.ones((1, 2))
     angle = 2.0 * np.pi * np.arange(facets) / max(facets, 1)
     corners = np.column_stack([np.cos(angle), np.sin(angle)])
     flat = np.concatenate([normal_force, tangential_force.T.ravel()])

@@ -111,7 +111,7 @@ class SpatialProblem:
     def mu(self) -> Array:
         """(n, 2) Friction that can act: none along a locked tangent that is not dragged, 1e6 for ``inf``."""
         n = self.pairs
-        given = self.friction.reshape(n, -1) * np.ones((1, 2))
+        given = self.friction.reshape(n, -1 if n else 1) * np.ones((1, 2))
         given = np.where(self.bounded[:, None], given, np.minimum(given, STICKY))
         still = self.locked & (self.b[n:].reshape(2, n).T == 0)
         return np.asarray(np.where(still, 0.0, given), dtype=np.float64)
@@ -216,7 +216,7 @@ def _check(problem: SpatialProblem) -> None:
     if problem.facets < 0 or problem.facets % 4:
         raise InputError(f"is {problem.facets}; expected 0 or a multiple of 4", where=("facets",))
     pulled = problem.locked & (problem.b[n:].reshape(2, n).T != 0)
-    if np.any(pulled & np.isinf(problem.friction.reshape(n, -1))):
+    if np.any(pulled & np.isinf(problem.friction.reshape(n, -1 if n else 1))):
         raise InputError(
             "is infinite at a pair whose supports drag it along: it can neither slip nor stick; give a finite mu",
             where=("friction",),

@@ -172,7 +172,9 @@ def _solved(problem: SpatialProblem, y: Array, residual: float, trace: tuple[Att
     h, r = split(problem, y)
     state = states(problem, y)
     message = f"solved by {trace[-1].method}, {trace[-1].iterations} steps" if trace else "no pairs, nothing to solve"
-    verge = np.flatnonzero(np.isinf(problem.friction.reshape(n, -1).max(axis=1, initial=0.0)) & (state == SLIP))
+    verge = np.flatnonzero(
+        np.isinf(problem.friction.reshape(n, -1 if n else 1).max(axis=1, initial=0.0)) & (state == SLIP)
+    )
     if len(verge):
         message += VERGE.format(pairs=", ".join(map(str, verge)))
     return SpatialResult(

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A deck as it was understood, as plain data for other programs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from signorini.deck import Deck
+from signorini.engine.prepare import Examined
+
+
+def described(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str, Any]:
+    """What ``signorini check --json`` prints.
+
+    Parameters
+    ----------
+    notes : what looks wrong, or differs from the deck
+    """
+    model, mesh, interface = deck.model, deck.model.mesh, examined.interface
+    dimension = model.dimension
+    return {
+        "deck": str(deck.path),
+        "title": model.title,
+        "kind": model.kind,
+        "thickness": model.thickness,
+        "units": model.units,
+        "size": {
+            "nodes": len(mesh.points),
+            "elements": {family: len(cells) for family, cells in mesh.cells.items()},
+            "dofs": int(mesh.points.size),
+            "free_dofs": int(examined.constraints.transform.shape[1]),
+        },
+        "bodies": [
+            {"name": body.name, "material": str(body.material), "elements": len(mesh.bodies[body.name])}
+            for body in model.bodies
+        ],
+        "node_sets": {name: len(nodes) for name, nodes in mesh.nodes.items()},
+        "surfaces": {name: len(facets) for name, facets in mesh.boundaries.items()},
+        "supports": [
+            {"name": support.label, "u": list(support.u), "dofs": int((examined.constraints.owner == i).sum())}
+            for i, support in enumerate(model.supports)
+        ],
+        "loads": [
+            {
+                "name": load.label,
+                "kind": load.kind,
+                "total_force": examined.loads[load.label].reshape(-1, dimension).sum(axis=0).tolist(),
+            }
+            for load in model.loads
+        ],
+        "contacts": [
+            {
+                "name": contact.label,
+                "nonmortar": side.nonmortar,
+                "mortar": side.mortar,
+                "coupling": side.coupling,
+                "pairs": int((interface.contact == i).sum()),
+                "initial_gap": [
+                    float(interface.gap[interface.contact == i].min(initial=float("inf"))),
+                    float(interface.gap[interface.contact == i].max(initial=float("-inf"))),
+                ],
+            }
+            for i, (contact, side) in enumerate(zip(model.contacts, interface.sides, strict=True))
+        ],
+        "steps": [
+            {"name": step.name, "factors": factors}
+            for step, factors in zip(model.steps, model.factors()[1:], strict=True)
+        ],
+        "notes": list(notes),
+    }

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bodies in space: Hertz, a round punch, Mindlin, a press fit; meshes that match and do not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from signorini.engine.solve import solve
+from signorini.fem.generators import Cells
+from signorini.gallery import half_spaces
+from signorini.gallery.half_spaces import CONTACT_RADIUS, EQUAL, ball, equal_half_spaces, hertz
+from signorini.gallery.press_fit import press_fit_in_space
+from signorini.model.model import Model
+from signorini.model.step import Step
+from signorini.reference.hertz_point import round_punch
+from signorini.reference.lame import press_fit_pressure
+from signorini.verify.check import Check
+
+_PULL = 0.7
+
+
+def ball_on_plane() -> Iterator[Check]:
+    """Hertz: hexahedra of 8 nodes on a rigid plane, 8 cells to the contact radius."""
+    yield from _hertz("ball on a plane, hexahedra", ball(n=4), bodies=1, edge=0.1)
+
+
+def ball_on_block() -> Iterator[Check]:
+    """Hertz: two elastic bodies whose meshes do not match."""
+    yield from _hertz("ball on a block, not matching", ball(n=4, block=6), bodies=2, edge=0.1)
+
+
+def balls_refined() -> Iterator[Check]:
+    """Hertz: finer, quadratic, matching, and whole."""
+    yield from _hertz("ball on a plane, hexahedra, finer", ball(n=8), bodies=1, edge=0.04)
+    families: tuple[tuple[str, Cells], ...] = (("20", "quad8"), ("27", "quad9"))
+    for nodes, cells in families:
+        yield from _hertz(f"ball on a plane, hexahedra of {nodes} nodes", ball(n=4, cells=cells), bodies=1, edge=0.1)
+    yield from _hertz("ball on a block, matching", ball(n=6, block=6), bodies=2, edge=0.05)
+    yield from _hertz("ball on a block, not matching, finer", ball(n=6, block=8), bodies=2, edge=0.05)
+    yield from _hertz("half a ball on a block, not matching", ball(n=4, block=5, angle=180.0), bodies=2, edge=0.1)
+    yield from _hertz("whole ball on a plane", ball(n=4, angle=360.0), bodies=1, edge=0.1)
+
+
+def _hertz(case: str, model: Model, *, bodies: int, edge: float) -> Iterator[Check]:
+    """Centre, everything off the edge, and the edge between the last closed and the first open ring."""
+    contact, exact = solve(model).contact("contact"), hertz(bodies)
+    r = np.hypot(*contact.points.T[:2])
+    source = "Hertz; Johnson (1985), section 4.2"
+    error = np.abs(contact.pressure - exact.pressure(r)) / exact.peak_pressure
+    closed = float(r[contact.closed].max())
+    for quantity, computed, reference, tolerance in (
+        ("p_0", float(contact.pressure[np.argmin(r)]), exact.peak_pressure, 0.01),
+        ("largest error of p / p_0, r < 0.9 a", float(error[r < 0.9 * CONTACT_RADIUS].max()), 0.0, 0.03),
+        ("contact radius, to a cell", closed, CONTACT_RADIUS, edge),
+    ):
+        yield Check(
+            case=case, quantity=quantity, computed=computed, reference=reference, tolerance=tolerance, source=source
+        )
+
+
+def punch() -> Iterator[Check]:
+    """B06: a flat round rigid punch on a body 20 times as large; the pressure is infinite at its edge."""
+    contact = solve(half_spaces.round_punch(n=8)).contact("punch")
+    r = np.hypot(*contact.points.T[:2])
+    inside = r < 0.9
+    ratio = contact.pressure[inside] / round_punch(r[inside], force=1.0, radius=1.0)
+    for quantity, computed, tolerance in (
+        ("p at the centre / exact", float(ratio[np.argmin(r[inside])]), 0.01),
+        ("p / exact, worst r < 0.9 a", float(ratio[np.argmax(np.abs(ratio - 1.0))]), 0.04),
+    ):
+        yield Check(
+            case="flat round punch",
+            quantity=quantity,
+            computed=computed,
+            reference=1.0,
+            tolerance=tolerance,
+            source="Boussinesq; Johnson (1985), section 3.4",
+        )
+
+
+def mindlin() -> Iterator[Check]:
+    """B04: two equal balls pressed, then pulled by 0.7 mu P: 5 cells to the contact radius."""
+    yield from _mindlin(spacing=0.2, shift=0.2)
+
+
+def mindlin_refined() -> Iterator[Check]:
+    """The same with 10 cells to the contact radius."""
+    yield from _mindlin(spacing=0.1, shift=0.06)
+
+
+def _mindlin(*, spacing: float, shift: float) -> Iterator[Check]:
+    """Friction, stick zone, and how the shift of distant points grows beyond its linear part.
+
+    Finite bodies add a linear part of their own, which the shift under a hundredth of the load shows.
+    """
+    tiny = 0.01
+    steps = [
+        Step(name="press", scale={"press": 1.0}),
+        Step(name="start", scale={"pull": tiny}),
+        Step(name="pull", scale={"pull": _PULL}),
+    ]
+    model = equal_half_spaces(steps, spacing=spacing)
+    history = solve(model)
+    contact, top = history.last.contacts[0], np.unique(model.mesh.boundaries["upper.top"])[0]
+    before, little, much = (step.displacement[top, 0] for step in history.steps)
+    Q, most = _PULL * EQUAL.most, EQUAL.friction * EQUAL.normal.peak_pressure
+    r, c = np.hypot(*contact.points.T[:2]), EQUAL.stick_radius(Q)
+    off = np.minimum(np.abs(r - CONTACT_RADIUS), np.abs(r - c)) > spacing / 2.0
+    error = np.linalg.norm(contact.shear[:, :2] + np.column_stack([EQUAL.traction(r, Q), 0.0 * r]), axis=1) / most
+    stuck = np.sqrt(2.0 * contact.area[contact.status == "stick"].sum() / np.pi)
+    bent = EQUAL.shift(Q) - EQUAL.shift(tiny * EQUAL.most) / tiny * _PULL
+    case, source = f"Mindlin, node distance {spacing:g} a", "Johnson (1985), section 7.2"
+    for quantity, computed, reference, tolerance in (
+        ("radius of a circle as large as what sticks", float(stuck), c, spacing / 2.0),
+        ("largest error of q / mu p_0, off the edges", float(error[off].max()), 0.0, 0.08),
+        ("shift beyond its linear part", much - before - (little - before) / tiny * _PULL, bent, shift),
+        ("force along the pull", float((contact.normal_force + contact.tangential_force)[0]), -Q / 2.0, 1e-8),
+    ):
+        yield Check(
+            case=case, quantity=quantity, computed=computed, reference=reference, tolerance=tolerance, source=source
+        )
+
+
+def press_fit() -> Iterator[Check]:
+    """B09 in space: a slab of two rings in plane strain, on meshes that match and do not."""
+    exact = press_fit_pressure(
+        inner=1.0,
+        interface=2.0,
+        outer=3.0,
+        interference=0.01,
+        inner_body=(2000.0, 0.3),
+        outer_body=(1000.0, 0.3),
+        plane_strain=True,
+    )
+    for words, model in (
+        ("8 nodes, matching", press_fit_in_space(n_radial=12, n_angular=24, friction=0.2)),
+        ("8 nodes, 16:22", press_fit_in_space(n_radial=6, n_angular=(16, 22), friction=0.2)),
+        ("20 nodes, 16:22", press_fit_in_space(n_radial=3, n_angular=(16, 22), friction=0.2, cells="quad8")),
+    ):
+        pressure = solve(model).contact("fit").pressure
+        yield Check(
+            case=f"press fit in space, hexahedra of {words}",
+            quantity="interface pressure",
+            computed=float(pressure[np.argmax(np.abs(pressure - exact))]),
+            reference=exact,
+            tolerance=3e-3,
+            source="Lame; Timoshenko, Goodier section 28",
+        )
