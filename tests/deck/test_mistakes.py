@@ -49,10 +49,15 @@ MISTAKES = {
     "unknown key": (
         "friction = 0.4",
         "fricton = 0.4",
-        ":29: contact[0].fricton: unknown key; did you mean 'friction'? Known: name, nonmortar, mortar, plane, circle, "
-        "profile, sphere, cylinder, cone, torus, friction, gap, interference, normal_compliance, "
+        ":29: contact[0].fricton: unknown key; did you mean 'friction'? Known: name, between, nonmortar, mortar, "
+        "plane, circle, profile, sphere, cylinder, cone, torus, friction, gap, interference, normal_compliance, "
         "tangential_compliance, coupling, side, "
         "search, adjust",
+    ),
+    "sides named twice": (
+        'nonmortar = "arc"',
+        'between = ["arc", "cut"]',
+        ':27: contact[0].between: goes with no \'plane\'; expected two boundaries, as in ["a", "b"], and no other side',
     ),
     "unknown table": (
         "[[step]]",

@@ -188,3 +188,17 @@ def test_every_contact_keeps_its_own_data(thickness):
     assert (interface.normal_compliance[block] == 2.0).all()
     assert (interface.tangential_compliance[block] == 3.0).all()
     assert interface.area[block].sum() == pytest.approx(thickness)
+
+
+def test_of_two_sides_without_roles_the_coarser_one_is_nonmortar():
+    mesh = join({"low": rectangle(nx=3), "up": rectangle(nx=5, origin=(0.0, 1.0))})
+    bodies = [Body(name, Elastic(E=1.0, nu=0.3)) for name in ("low", "up")]
+    for pair in (("low.top", "up.bottom"), ("up.bottom", "low.top")):
+        model = Model(
+            mesh,
+            bodies=bodies,
+            supports=[Support("low.bottom", u=(0, 0))],
+            contacts=[Contact.between(*pair, friction="stick")],
+        )
+        (sides,) = prepare(model).interface.sides
+        assert (sides.nonmortar, sides.coupling) == ("low.top", "mortar")

@@ -22,6 +22,7 @@ from signorini.model.varying import Along
 
 _CONTACT_KEYS = (
     "name",
+    "between",
     "nonmortar",
     "mortar",
     "plane",
@@ -150,9 +151,25 @@ def _placed(kind: Any, entry: dict[str, Any], where: Where) -> Any:
     return make(kind, entry, where)
 
 
+def _sided(entry: dict[str, Any], where: Where) -> dict[str, Any]:
+    """The table of a contact with its sides by name: of those "between" which it is, the coarser one is nonmortar."""
+    if "between" not in entry:
+        return dict(entry)
+    named = [key for key in ("nonmortar", "mortar", *_OBSTACLES) if key in entry]
+    both = entry["between"]
+    if named or not isinstance(both, list) or len(both) != 2:
+        found = f"goes with no '{named[0]}'" if named else f"is {both!r}"
+        raise InputError(
+            f'{found}; expected two boundaries, as in ["a", "b"], and no other side', where=(*where, "between")
+        )
+    sides = [text(side, (*where, "between", i)) for i, side in enumerate(both)]
+    rest = {key: value for key, value in entry.items() if key != "between"}
+    return {"side": "coarser", **rest, "nonmortar": sides[0], "mortar": sides[1]}
+
+
 def _contact(entry: dict[str, Any], where: Where, folder: Path) -> Contact:
-    check_keys(entry, where, known=_CONTACT_KEYS, needed=["nonmortar"])
-    given = dict(entry)
+    check_keys(entry, where, known=_CONTACT_KEYS, needed=[] if "between" in entry else ["nonmortar"])
+    given = _sided(entry, where)
     if isinstance(given.get("friction"), dict):
         given["friction"] = _along(given["friction"], (*where, "friction"))
     sides = [key for key in ("mortar", *_OBSTACLES) if key in given]

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -113,6 +113,21 @@ class Contact:
                     f"is {getattr(self, key)!r}; that is for two meshed sides, and the other is a rigid obstacle",
                     where=(key,),
                 )
+
+    @classmethod
+    def between(cls, one: str, other: str, **options: Any) -> Contact:
+        """Two boundaries of which neither is named the nonmortar side: the coarser one is taken, see ``side``.
+
+        Parameters
+        ----------
+        options : everything else that a contact takes
+
+        Examples
+        --------
+        >>> Contact.between("shaft", "hub", friction=0.1).side
+        'coarser'
+        """
+        return cls(one, other, **{"side": "coarser", **options})
 
     @property
     def label(self) -> str:

@@ -230,3 +230,14 @@ def test_sections_and_axes_are_read() -> None:
     assert (wood.angle, wood.E2, wood.G12, model.thickness) == (pytest.approx(45.0), 600.0, 300.0, 0.5)
     contact = model.contacts[0]
     assert (contact.normal_compliance, contact.tangential_compliance, contact.adjust) == (1e-6, 1e-5, 0.01)
+
+
+@pytest.mark.parametrize(("adjust", "given"), [("0.01", ("geometry", 0.01)), ("Touching", ("zero", None))])
+def test_gaps_are_adjusted(tmp_path: Path, adjust: str, given: tuple[object, object]) -> None:
+    deck = edited(tmp_path, "*CONTACT PAIR, ", f"*NSET, NSET=Touching\n11, 12, 13\n*CONTACT PAIR, ADJUST={adjust}, ")
+    contact = sg.read(deck).contacts[0]
+    assert (contact.gap, contact.adjust) == given
+    deck.write_text(deck.read_text().replace("11, 12, 13", "11, 12"))
+    if adjust == "Touching":
+        with pytest.raises(DeckError, match="does not hold all nodes of the slave surface"):
+            load(deck)

@@ -98,7 +98,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
     materials = make_materials(outside)
     sections = make_sections(outside, elements, materials, grid)
     interactions = make_interactions(outside)
-    contacts = make_contacts(outside, interactions, surfaces, nodes)
+    contacts = make_contacts(outside, interactions, surfaces, nodes, edges)
     contacts += make_ties(outside, surfaces, contacts)
     known = Known(
         nodes=nodes,

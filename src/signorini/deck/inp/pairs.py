@@ -7,11 +7,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
+from signorini.arrays import IntArray, distinct
 from signorini.deck.inp.block import Block, Row, to_number
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.interactions import Interaction
 from signorini.deck.inp.sets import Sets
-from signorini.deck.inp.surfaces import Surfaces
+from signorini.deck.inp.surfaces import Edges, Surfaces
 from signorini.errors import one_of
 from signorini.model.contact import Contact
 
@@ -36,7 +39,7 @@ class Pair:
 
 
 def make_contacts(
-    placed: list[Placed], interactions: Mapping[str, Interaction], surfaces: Surfaces, nodes: Sets
+    placed: list[Placed], interactions: Mapping[str, Interaction], surfaces: Surfaces, nodes: Sets, edges: Edges
 ) -> list[Pair]:
     """Read all ``*CONTACT PAIR`` keywords: the slave side is nonmortar.
 
@@ -62,7 +65,8 @@ def make_contacts(
             raise block.error("has no data line; expected the slave and the master surface")
         for row in block.rows():
             slave, master = (_side(item, row, i, surfaces) for i in (0, 1))
-            given = _adjusted(block, nodes, item)
+            faces = edges.ends[surfaces.keys[slave.upper()]]
+            given = _adjusted(block, nodes, item, distinct(faces[faces >= 0]))
             if (slave, master) in clearances:
                 given = {"gap": clearances[slave, master]}
             contact = Contact(
@@ -117,14 +121,17 @@ def _side(item: Placed, row: Row, i: int, surfaces: Surfaces) -> str:
     return name
 
 
-def _adjusted(block: Block, nodes: Sets, item: Placed) -> dict[str, Any]:
+def _adjusted(block: Block, nodes: Sets, item: Placed, slave: IntArray) -> dict[str, Any]:
+    """``ADJUST``: gaps up to a distance are closed; or those of a node set, if it holds all slave nodes."""
     if "ADJUST" not in block.parameters:
         return {}
-    word = block.value("ADJUST", "a distance")
+    word = block.value("ADJUST", "a distance or a node set")
     distance = to_number(word)
     if distance is None:
-        nodes.find(word, item.scope, block)
-        raise block.error("ADJUST= and a node set is not supported; expected a distance")
+        name, members = nodes.find(word, item.scope, block)
+        if not np.isin(slave, members).all():
+            raise block.error(f"ADJUST={name} does not hold all nodes of the slave surface, which is not supported")
+        return {"gap": "zero"}
     if distance < 0.0:
         raise block.error(f"ADJUST is {distance:g}; expected a distance >= 0")
     return {"adjust": distance}

@@ -108,7 +108,7 @@ def _numbers_of_nodes(block: Block) -> IntArray:
 
 def _define(item: Placed, key: str, sets: Sets, elements: Sets, grid: Grid) -> None:
     block = item.block
-    block.refuse_unknown((key, "GENERATE", "INSTANCE", "ELSET", "INPUT"), ("INTERNAL", "UNSORTED"))
+    block.refuse_unknown((key, "GENERATE", "INSTANCE", "ELSET", "INPUT"), ("INTERNAL", "UNSORTED", "FREQUENCY"))
     name = item.scope.prefixed(block.value(key))
     inside = Scope(name=block.parameters["INSTANCE"].upper()) if block.parameters.get("INSTANCE") else item.scope
     if key == "NSET" and block.parameters.get("ELSET"):
