@@ -36,7 +36,7 @@ def verify(options: argparse.Namespace) -> int:
     from signorini.verify.suite import run
 
     cases = run(slow=options.all)
-    _print(cases, _VERIFY)
+    _print([case | {"reference": _bound(case)} for case in cases], _VERIFY)
     _write(cases, file)
     failed = sum(not case["passed"] for case in cases)
     print(f"{len(cases)} quantities, {failed} failed" if failed else f"{len(cases)} quantities, all passed")
@@ -91,6 +91,11 @@ def _print(results: Sequence[Mapping[str, Any]], columns: Sequence[str]) -> None
     if not console.is_terminal:
         console.width = 200  # a file has no width
     console.print(table)
+
+
+def _bound(case: Mapping[str, Any]) -> Any:
+    """The reference, marked where it is a lower bound."""
+    return f">= {_word(case['reference'])}" if case.get("at_least") else case["reference"]
 
 
 def _word(value: Any) -> str:

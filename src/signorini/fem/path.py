@@ -18,6 +18,7 @@ from signorini.model.model import Model
 
 _OUTSIDE = 1e-6  # of a cell: how far a point may lie beside its body, and is taken to its edge
 _NEWTON = 20
+_SETTLED = 1e-14  # of a cell: a last step
 _BENT = 1.3  # of the distance of the farthest node: how far a bent edge may reach
 
 
@@ -133,7 +134,9 @@ def _inverse(block: Block, corners: Array, points: Array) -> tuple[Array, Array]
         values, gradients = shape_functions(block.family, at.T)
         miss = points - np.einsum("nk,nki->ni", values, corners)
         J = np.einsum("nki,nkj->nij", corners, gradients)
-        at = np.clip(at + np.einsum("nij,nj->ni", np.linalg.pinv(J), miss), -2.0, 3.0)
+        last, at = at, np.clip(at + np.einsum("nij,nj->ni", np.linalg.pinv(J), miss), -2.0, 3.0)
+        if np.abs(at - last).max(initial=0.0) < _SETTLED:
+            break
     edges = [-at[:, 0], -at[:, 1], at.sum(axis=1) - 1.0] if triangle else [-at, at - 1.0]
     outside = np.column_stack(edges).max(axis=1)
     values, _ = shape_functions(block.family, at.T)

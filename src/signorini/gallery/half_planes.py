@@ -9,13 +9,13 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.fem.generators import rectangle
+from signorini.fem.generators import Cells, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
 from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh, join
-from signorini.model.model import Model
+from signorini.model.model import Kind, Model
 from signorini.model.obstacle import Plane
 from signorini.model.step import Step
 from signorini.reference.cattaneo import CattaneoMindlin
@@ -80,17 +80,27 @@ def equal_half_planes(
     )
 
 
-def punch(*, curved: bool, friction: float, spacing: float = 0.01, size: float = 20.0, closed: float = 1.0) -> Model:
-    """Half of an elastic block pressed on a rigid punch of half-width 1, flat or round (Spence).
+def punch(
+    *,
+    curved: bool,
+    friction: float,
+    spacing: float = 0.01,
+    size: float = 20.0,
+    closed: float = 1.0,
+    kind: Kind = "plane strain",
+    cells: Cells = "quad",
+) -> Model:
+    """Half of an elastic block pressed on a rigid punch of half-width 1, flat or round (Spence); flat by a force of 1.
 
     Parameters
     ----------
     curved : the punch is round, and the force is such that the half-width of contact is about ``closed``
     spacing : of the nodes on the punch
     size : of the block
+    kind : "axisymmetric": the block and the flat punch are round
     """
     x = graded(1.0, spacing, size, 1.2)
-    mesh = rectangle(x=x, y=graded(0.2, spacing, size, 1.25))
+    mesh = rectangle(x=x, y=graded(0.2, spacing, size, 1.25), cells=cells)
     radius = 20.0
     force = 1.0
     if curved:
@@ -98,9 +108,10 @@ def punch(*, curved: bool, friction: float, spacing: float = 0.01, size: float =
         force = float(np.pi * closed**2 * contact_modulus((E, NU)) / (4.0 * radius)) / 2.0
     return Model(
         _with_seat(mesh, "bottom", 1.0),
+        kind=kind,
         title="Elastic block on a rigid punch",
         bodies=[Body("block", Elastic(E=E, nu=NU))],
-        supports=[Support("left", u=(0.0, None))],
+        supports=[] if kind == "axisymmetric" else [Support("left", u=(0.0, None))],
         loads=[Load("top", force=(None, -force), spread="displacement", name="press")],
         contacts=[Contact("seat", Plane(point=(0.0, 0.0), normal=(0.0, 1.0)), friction=friction, name="punch")],
         steps=[Step(name="press")],

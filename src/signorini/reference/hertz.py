@@ -54,6 +54,15 @@ class HertzLine:
         pressure: Array = self.peak_pressure * np.sqrt(np.maximum(inside, 0.0))
         return pressure
 
+    def axis_stress(self, z: ArrayLike) -> tuple[Array, Array]:
+        """Stresses along and across the surface, (sigma_x, sigma_z), at the depth z >= 0 below the centre; tension > 0.
+
+        ``sigma_x = -p_0 [(1 + 2 s^2) / sqrt(1 + s^2) - 2 s]``, ``sigma_z = -p_0 / sqrt(1 + s^2)``, ``s = z / a``.
+        """
+        s = np.asarray(z, float) / self.half_width
+        root = np.sqrt(1.0 + s**2)
+        return -self.peak_pressure * ((1.0 + 2.0 * s**2) / root - 2.0 * s), -self.peak_pressure / root
+
 
 @dataclass(frozen=True, kw_only=True)
 class HertzPoint:
@@ -97,6 +106,17 @@ class HertzPoint:
         inside = 1.0 - (np.asarray(r, float) / self.contact_radius) ** 2
         pressure: Array = self.peak_pressure * np.sqrt(np.maximum(inside, 0.0))
         return pressure
+
+    def axis_stress(self, z: ArrayLike, nu: float) -> tuple[Array, Array]:
+        """Radial (and hoop) and axial stress at the depth z >= 0 below the centre in a body with nu; tension positive.
+
+        ``sigma_r = -p_0 [(1 + nu) (1 - s atan(1/s)) - 1 / (2 (1 + s^2))]``, ``sigma_z = -p_0 / (1 + s^2)``,
+        ``s = z / a``.
+        """
+        s = np.asarray(z, float) / self.contact_radius
+        fading = 1.0 / (1.0 + s**2)
+        radial: Array = (1.0 + nu) * (1.0 - s * np.arctan2(1.0, s)) - 0.5 * fading
+        return -self.peak_pressure * radial, -self.peak_pressure * fading
 
 
 def contact_modulus(*bodies: tuple[float, float]) -> float:

@@ -16,6 +16,7 @@ class Check:
     computed, reference : in the units of the case
     tolerance : of the error, relative where the reference is not 0
     source : of the reference
+    least : the reference is a lower bound: more is no error
 
     Examples
     --------
@@ -29,10 +30,13 @@ class Check:
     reference: float
     tolerance: float
     source: str
+    least: bool = False
 
     @property
     def error(self) -> float:
         """Relative to the reference, absolute where that is 0."""
+        if self.least and self.computed > self.reference:
+            return 0.0
         return abs(self.computed - self.reference) / (abs(self.reference) or 1.0)
 
     @property
@@ -51,4 +55,5 @@ class Check:
             "tolerance": self.tolerance,
             "source": self.source,
             "passed": self.passed,
+            "at_least": self.least,
         }

@@ -94,7 +94,7 @@ def increments_at_events() -> Iterator[Check]:
     size = float(contact.pressure.max())
     for quantity, found, tolerance in (
         ("increments that end at the events", aligned.contact("foundation"), 1e-11),
-        ("1000 equal increments", solve(zhu_cylinder(friction=0.4, refine=2, increments=1000)).last.contacts[0], 1e-3),
+        ("500 equal increments", solve(zhu_cylinder(friction=0.4, refine=2, increments=500)).last.contacts[0], 1e-3),
     ):
         error = max(np.abs(found.pressure - contact.pressure).max(), np.abs(found.traction - contact.traction).max())
         yield Check(

@@ -5,19 +5,46 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from signorini.verify import blocks, cylinder, elements, half_planes, rings, space
+from signorini.verify import (
+    cylinder,
+    elements,
+    fenet,
+    half_planes,
+    hertz,
+    one_node,
+    patches,
+    punches,
+    rates,
+    rings,
+    scalar,
+    space,
+)
 from signorini.verify.check import Check
 
 Case = Callable[[], Iterator[Check]]
 
 QUICK: tuple[Case, ...] = (
-    blocks.patch_p1,
-    blocks.patch_p2,
-    blocks.patch_p4,
-    blocks.one_node,
-    blocks.one_node_path,
+    patches.patch_p1,
+    patches.patch_p2,
+    patches.patch_turned,
+    patches.patch_p4,
+    patches.patch_p5,
+    patches.patch_p6,
+    patches.patch_discs,
+    hertz.line_contact,
+    hertz.point_contact,
+    hertz.below_the_contact,
+    hertz.equal_spheres,
+    fenet.cylinder,
+    punches.flat_punches,
+    punches.corner_exponents,
     rings.press_fit_plane_stress,
     rings.press_fit_plane_strain,
+    rings.shrink_fits,
+    rings.hollow_bodies,
+    scalar.scalar_signorini,
+    one_node.one_node,
+    one_node.one_node_path,
     cylinder.paper_mesh,
     cylinder.refined,
     cylinder.literal_equals_compliance,
@@ -32,6 +59,7 @@ QUICK: tuple[Case, ...] = (
     space.ball_on_block,
     space.mindlin,
     space.press_fit,
+    rates.smooth_contact,
 )
 SLOW: tuple[Case, ...] = (
     cylinder.small_load,
@@ -41,6 +69,8 @@ SLOW: tuple[Case, ...] = (
     space.balls_refined,
     space.punch,
     space.mindlin_refined,
+    rates.smooth_contact_refined,
+    rates.corners,
 )
 
 
@@ -49,6 +79,7 @@ def run(slow: bool = False) -> list[dict[str, str | float | bool]]:
 
     Returns
     -------
-    rows with case, quantity, computed, reference, error, tolerance, source, passed
+    rows with case, quantity, computed, reference, error, tolerance, source, passed, and at_least: the reference is a
+    lower bound
     """
     return [check.row() for case in (QUICK + SLOW if slow else QUICK) for check in case()]

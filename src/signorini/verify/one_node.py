@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Patch tests on meshes that match or not, and the one-node Coulomb problem."""
+"""The one-node Coulomb problem: one solution, three, and a path that must jump."""
 
 from __future__ import annotations
 
@@ -7,61 +7,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from signorini.arrays import Array
-from signorini.engine.solve import solve
-from signorini.fem.generators import Cells
-from signorini.fem.space import make_space
-from signorini.fem.stress import body_stresses
 from signorini.friction.exact import follow, initial_state, land
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.solve import solve_coulomb
-from signorini.gallery.blocks import block_on_foundation, four_blocks, stacked_blocks
-from signorini.model.model import Model
-from signorini.solution.history import History
 from signorini.verify.check import Check
-
-PATCHES: tuple[tuple[Cells, tuple[int, int]], ...] = (
-    ("quad", (4, 4)),
-    ("triangle", (4, 4)),
-    ("quad", (4, 7)),
-    ("quad8", (5, 3)),
-)
-"""Cells, and how many of either side are along the interface."""
-
-
-def patch_p1() -> Iterator[Check]:
-    """P1: two blocks pressed together."""
-    for cells, across in PATCHES:
-        history = solve(stacked_blocks(friction=0.3, cells=cells, across=across))
-        contact = history.contact("interface")
-        case = f"P1 two blocks, {_say(cells, across)}"
-        yield _farthest(case, "contact pressure", contact.pressure, 1e5, "exact")
-        yield _farthest(case, "u_y on the interface", history.last.displacement[contact.node, 1], -0.05, "exact")
-
-
-def patch_p2() -> Iterator[Check]:
-    """P2: block on a foundation under one pressure."""
-    for cells, across in PATCHES:
-        history = solve(block_on_foundation(friction=0.3, cells=cells, across=across))
-        case, source = f"P2 block on foundation, {_say(cells, across)}", "Taylor, Papadopoulos (1991)"
-        yield _farthest(case, "contact pressure", history.contact("interface").pressure, 25.0, source)
-        yield _farthest(case, "sigma_yy", _stress(history)[:, 1], -25.0, source)
-        yield Check(
-            case=case,
-            quantity="largest gap",
-            computed=float(np.abs(history.contact("interface").gap).max()),
-            reference=0.0,
-            tolerance=1e-12,
-            source=source,
-        )
-
-
-def patch_p4() -> Iterator[Check]:
-    """P4: four blocks under biaxial compression."""
-    for case, across in (("P4 four blocks", (3, 3, 3, 3)), ("P4 four blocks, 2 : 3 : 4 : 5", (2, 3, 4, 5))):
-        stress = _stress(solve(four_blocks(across=across)))
-        for quantity, values, exact in (("sigma_xx", stress[:, 0], -10.0), ("sigma_yy", stress[:, 1], -20.0)):
-            yield _farthest(case, quantity, values, exact, "exact")
 
 
 def one_node() -> Iterator[Check]:
@@ -82,10 +31,6 @@ def one_node() -> Iterator[Check]:
         tolerance=1e-10,
         source=source,
     )
-
-
-def _say(cells: Cells, across: tuple[int, int]) -> str:
-    return cells if across[0] == across[1] else f"{cells} {across[0]} : {across[1]}"
 
 
 def one_node_path() -> Iterator[Check]:
@@ -130,14 +75,3 @@ def _one_node(*, friction: float, push: float) -> tuple[float, float]:
         )
     )
     return float(result.gap[0]), float(result.slip[0])
-
-
-def _stress(history: History) -> Array:
-    model: Model = history.model
-    return np.vstack([b.stress for b in body_stresses(make_space(model.mesh), model, history.last.displacement)])
-
-
-def _farthest(case: str, quantity: str, values: Array, exact: float, source: str) -> Check:
-    """The value that is farthest from what all should be."""
-    worst = float(values[np.argmax(np.abs(values - exact))])
-    return Check(case=case, quantity=quantity, computed=worst, reference=exact, tolerance=1e-10, source=source)

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""NAFEMS/FENET advanced contact benchmark 1 at small strain."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from signorini.api import solve
+from signorini.gallery.fenet import HERTZ, cylinder_on_block
+from signorini.verify.check import Check
+
+_SMALL_STRAIN = "independent small-strain computation"
+_SUNK = {0.0: -1.28131, 0.1: -1.27425}
+_PEAK = {0.0: 3592.0, 0.1: 3663.0}
+"""Of that computation: displacement of the block's top centre and largest pressure, by mu."""
+
+
+def cylinder() -> Iterator[Check]:
+    """Without friction, and with mu = 0.1 on the exact path."""
+    for friction, across in ((0.0, (40, 40)), (0.0, (40, 60)), (0.1, (40, 40))):
+        case = f"FENET 1 cylinder on block, mu {friction:g}, {across[0]} : {across[1]} cells"
+        solution = solve(cylinder_on_block(friction=friction, across=across))
+        contact = solution.contact("contact")
+        centre = solution.along([(0.0, 0.0)], body="block").displacement[0, 1]
+        peak = float(contact.pressure.max())
+        rows = [
+            ("u_y at the block's top centre", centre, _SUNK[friction], 0.01, _SMALL_STRAIN),
+            ("p_0", peak, _PEAK[friction], 0.01, _SMALL_STRAIN),
+        ]
+        if not friction:
+            half_width = contact.points[contact.closed, 0].max()
+            rows.append(("p_0 against half-planes", peak, HERTZ.peak_pressure, 0.01, "Hertz"))
+            rows.append(("a, to a cell", half_width, HERTZ.half_width, 0.25 / HERTZ.half_width, "Hertz"))
+        for quantity, computed, reference, tolerance, source in rows:
+            yield Check(
+                case=case,
+                quantity=quantity,
+                computed=float(computed),
+                reference=reference,
+                tolerance=tolerance,
+                source=source,
+            )
