@@ -87,7 +87,7 @@ def _begin(prepared: Prepared, start: Checkpoint | None) -> Checkpoint:
 def _follow(prepared: Prepared, begin: Checkpoint) -> History:
     """Step after step, up to the end or to what stops it."""
     state = begin.state
-    if (state.status[~(prepared.condensed.active | prepared.condensed.held)] != OPEN).any():
+    if (state.status[~(prepared.bodies.active | prepared.bodies.held)] != OPEN).any():
         prepared = prepared.widened()
     schedule = list(stages(prepared.model, factors=state.point.factors, inactive=begin.inactive))
     steps: list[StepResult] = []
@@ -184,7 +184,7 @@ def _history(prepared: Prepared, status: str, message: str, steps: list[StepResu
         status=status,
         message=message,
         steps=tuple(steps),
-        backend=prepared.condensed.factorisation.name,
+        backend=prepared.bodies.name,
         timings=dict(prepared.clock.seconds),
         pairs=len(prepared.interface),
         end=end if steps else None,
