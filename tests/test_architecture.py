@@ -14,7 +14,7 @@ ROOT = Path(signorini.__file__).parent
 FILES = sorted(ROOT.rglob("*.py"))
 
 BASE = {"errors", "arrays", "checks", "clock", "memory", "pairstate", "trace", "_version"}
-CORE = {"model", "linalg", "lcp", "fem", "interface", "condense", "friction", "solution"}
+CORE = {"model", "linalg", "lcp", "fem", "interface", "condense", "iterative", "friction", "solution"}
 BELOW_CLI = BASE | CORE | {"engine", "deck", "output", "plot", "reference"}
 
 # folder or file: what it may import besides itself and the base
@@ -25,6 +25,7 @@ ALLOWED = {
     "fem": {"model"},
     "interface": {"fem", "model"},
     "condense": {"linalg", "interface"},
+    "iterative": {"interface"},
     "friction": {"lcp", "condense"},
     "solution": {"model", "fem", "interface"},
     "engine": CORE,

@@ -15,6 +15,7 @@ from signorini.clock import Clock
 from signorini.deck import Deck
 from signorini.engine.solve import INTERRUPTED
 from signorini.errors import InputError, SolveFailed, one_of
+from signorini.iterative.bodies import ITERATIVE
 from signorini.linalg.registry import BACKENDS
 from signorini.output.archive import read_archive
 from signorini.output.checkpoint import read_checkpoint
@@ -37,8 +38,9 @@ def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: f
     -------
     The exit code: 0, 3, or 130 where it was interrupted: what was finished before is written
     """
-    if options.backend not in ("auto", *BACKENDS):
-        raise InputError(one_of(options.backend, ["auto", *BACKENDS], "back end"), where=("--backend",))
+    known = ["auto", *BACKENDS, ITERATIVE]
+    if options.backend not in known:
+        raise InputError(one_of(options.backend, known, "back end"), where=("--backend",))
     start = _start(options.start)
     folder = open_folder(Path(options.folder) if options.folder else Path("out", deck.path.stem))
     with progress(quiet=options.quiet or options.json, seconds=clock.seconds) as clock:

@@ -58,6 +58,11 @@ class Condensed:
     _springs: Springs
 
     @property
+    def name(self) -> str:
+        """Of the back end, for reports."""
+        return self.factorisation.name
+
+    @property
     def active_rows(self) -> IntArray:
         """Rows of B that belong to active pairs: normals, then tangents."""
         return np.nonzero(np.tile(self.active, self.directions))[0]

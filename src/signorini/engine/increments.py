@@ -18,6 +18,8 @@ from signorini.friction.problem import CoulombProblem
 from signorini.friction.result import CoulombResult
 from signorini.friction.solve import solve_coulomb
 from signorini.friction.spatial import SpatialProblem, SpatialResult, solve_spatial
+from signorini.iterative.bodies import Bodies
+from signorini.iterative.solve import Answer, Load, solve_iteratively
 from signorini.solution.certificate import Certificate, certify
 from signorini.solution.state import LoadPoint, State, next_state
 
@@ -61,15 +63,19 @@ def follow_increments(prepared: Prepared, number: int, where: str, span: Span, s
 
 def advance(
     prepared: Prepared, state: State, point: LoadPoint, where: str
-) -> tuple[State, Certificate, CoulombResult | SpatialResult]:
+) -> tuple[State, Certificate, CoulombResult | SpatialResult | Answer]:
     """One increment: from a state to the next point of the load history."""
-    condensed, constraints, interface = prepared.condensed, prepared.constraints, prepared.interface
-    n, active = len(interface), condensed.active
+    constraints, interface = prepared.constraints, prepared.interface
+    n, active = len(interface), prepared.bodies.active
     loads, imposed = applied(prepared, point)
     offset = np.concatenate([point.gap, -state.tangential]) + interface.B @ imposed
     refuse_overlap(prepared, offset[:n], where)
     f = free_load(prepared, point)
-    result, forces, moved, free = _balanced(prepared, f, offset, state)
+    result: CoulombResult | SpatialResult | Answer
+    if isinstance(prepared.bodies, Bodies):
+        result, forces, moved, free = _iterated(prepared, prepared.bodies, f, offset, state)
+    else:
+        result, forces, moved, free = _balanced(prepared, f, offset, state)
     if not result.solved:
         raise _failure(prepared, result, where)
     with prepared.clock.phase("recovery"):
@@ -184,6 +190,27 @@ def _balanced(
     return result, forces, moved, free
 
 
+def _iterated(
+    prepared: Prepared, bodies: Bodies, f: Array, offset: Array, state: State
+) -> tuple[Answer, Array, Array, Array]:
+    """The same on the bodies as they are, from where the state is."""
+    d, rows = bodies.directions, bodies.rows
+    load = Load(
+        f=bodies.blocks.spread(f),
+        offset=offset[rows].reshape(d, -1),
+        friction=prepared.interface.friction[bodies.pairs],
+        force=prepared.scale.force,
+        length=prepared.scale.length,
+        floating=bool(prepared.floating.shape[1]),
+    )
+    start = bodies.blocks.spread(state.displacement[prepared.constraints.leaders])
+    with prepared.clock.phase("complementarity"):
+        result = solve_iteratively(bodies, load, start, state.forces[rows].reshape(d, -1))
+    forces, moved = np.zeros(len(offset)), np.zeros(len(offset))
+    forces[rows], moved[rows] = result.forces, result.moved
+    return result, forces, moved, result.free
+
+
 def _start(prepared: Prepared, state: State) -> Array | IntArray | None:
     """What the law's solver starts from: the states of the pairs, in space their ``y = r - h``; None at rest."""
     condensed, rows = prepared.condensed, prepared.condensed.active_rows
@@ -206,7 +233,7 @@ def _solve(
 
 def refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
     """Supports that hold both sides of a pair decide its gap; no force can mend an overlap there."""
-    held = np.nonzero(prepared.condensed.held & ~prepared.absent & (gap < -1e-12 * prepared.scale.length))[0]
+    held = np.nonzero(prepared.bodies.held & ~prepared.absent & (gap < -1e-12 * prepared.scale.length))[0]
     if len(held):
         pair = held[np.argmin(gap[held])]
         contact = prepared.model.contacts[prepared.interface.contact[pair]]
@@ -218,9 +245,9 @@ def refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
         )
 
 
-def _failure(prepared: Prepared, result: CoulombResult | SpatialResult, where: str) -> SolveFailed:
+def _failure(prepared: Prepared, result: CoulombResult | SpatialResult | Answer, where: str) -> SolveFailed:
     """The reason, and the bodies that leave by name, with their motion."""
-    if result.escape is None or not prepared.law.floating:
+    if isinstance(result, Answer) or result.escape is None or not prepared.law.floating:
         return SolveFailed(f"{where}: {result.message}", status=result.outcome)
     coefficients, *_ = np.linalg.lstsq(prepared.law.motions, result.escape, rcond=None)
     rigid = prepared.floating @ coefficients

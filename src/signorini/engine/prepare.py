@@ -13,6 +13,7 @@ from signorini.arrays import Array, BoolArray, frozen
 from signorini.checks import number
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
+from signorini.condense.size import condensing_bytes
 from signorini.condense.ties import Ties
 from signorini.errors import InputError, one_of
 from signorini.fem.loads import nodal_loads
@@ -25,12 +26,18 @@ from signorini.friction.problem import CoulombProblem
 from signorini.friction.spatial import SpatialProblem
 from signorini.interface.candidates import candidates
 from signorini.interface.interface import Interface, friction_of, make_interface
+from signorini.iterative.bodies import ITERATIVE, Bodies, make_bodies
 from signorini.linalg.protocol import NotPositiveDefinite
+from signorini.memory import available_memory
 from signorini.model.conditions import Load, Temperature
 from signorini.model.model import Model
 from signorini.solution.scale import Scale, data_scale
 
 _ROUNDING = 1e-4  # of the largest gap: times the tolerance of the law's solver, 1e-10, a few roundings of it
+_UNCONDENSED = (
+    "an exact path needs the condensed interface, and this model is solved by iteration, because its factor does not "
+    "fit or because it was asked for; expected path = 'increments'"
+)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -63,19 +70,45 @@ class Prepared(Examined):
     Attributes
     ----------
     K : (dofs, dofs) stiffness of bodies and elastic foundations, supports not applied
-    condensed : the interface as the bodies feel it
-    law : the contact law on it, without load; ``dataclasses.replace(law, b=...)`` shares what it has computed
+    bodies : the interface as the bodies feel it, condensed; or, where that does not fit, the bodies as they are
+    law_or_none : the contact law on the condensed interface, see `law`
     clock : seconds spent so far
-    backend : of the factorisation, as asked for
+    backend : of the factorisation, or "iterative", as asked for
     absent : (n,) pairs whose contact is switched off
     """
 
     K: sp.csr_array
-    condensed: Condensed
-    law: CoulombProblem | SpatialProblem
+    bodies: Condensed | Bodies
+    law_or_none: CoulombProblem | SpatialProblem | None
     clock: Clock
     backend: str
     absent: BoolArray
+
+    @property
+    def condensed(self) -> Condensed:
+        """The condensed interface.
+
+        Raises
+        ------
+        InputError
+            Where contact is solved on the bodies as they are.
+        """
+        if isinstance(self.bodies, Bodies):
+            raise InputError(_UNCONDENSED, where=("step",))
+        return self.bodies
+
+    @property
+    def law(self) -> CoulombProblem | SpatialProblem:
+        """The contact law, without load; ``dataclasses.replace(law, b=...)`` shares what it has computed.
+
+        Raises
+        ------
+        InputError
+            Where there is no condensed interface.
+        """
+        if self.law_or_none is None:
+            raise InputError(_UNCONDENSED, where=("step",))
+        return self.law_or_none
 
     @property
     def plane_law(self) -> CoulombProblem:
@@ -93,12 +126,19 @@ class Prepared(Examined):
     @property
     def limited(self) -> bool:
         """Whether pairs that seemed too far apart were left out."""
-        return not (self.condensed.active | self.condensed.settled).all()
+        return not (self.bodies.active | self.bodies.settled).all()
 
     def widened(self) -> Prepared:
         """The same with every pair in the law, factorised anew."""
         everything = np.ones(len(self.interface), bool)
-        return _condensed(self, self.K, everything, self.backend, self.clock)
+        return _made(self, self.K, everything, self.backend, self.clock)
+
+    def law_under(self, interface: Interface, scale: Scale) -> CoulombProblem | SpatialProblem | None:
+        """The law of the same pairs with other friction, gaps or sizes of the data."""
+        if isinstance(self.bodies, Bodies):
+            return None
+        size = _size(interface, self.bodies, scale)
+        return replace(self.law, friction=interface.friction[self.bodies.active], scale=size)
 
     def changed(
         self,
@@ -153,11 +193,7 @@ class Prepared(Examined):
             constraints=constraints,
             loads=forces,
             scale=scale,
-            law=replace(
-                self.law,
-                friction=interface.friction[self.condensed.active],
-                scale=_size(interface, self.condensed, scale),
-            ),
+            law_or_none=self.law_under(interface, scale),
             clock=Clock(),
         )
 
@@ -205,7 +241,7 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
         K = stiffness(examined.space, model)
         for springs in examined.constraints.springs.values():
             K = sp.csr_array(K + springs.T @ springs)
-    return _condensed(examined, K, _near(examined), backend, clock)
+    return _made(examined, K, _near(examined), backend, clock)
 
 
 def _near(examined: Examined) -> BoolArray:
@@ -217,14 +253,56 @@ def _near(examined: Examined) -> BoolArray:
     return near
 
 
-def _condensed(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, clock: Clock) -> Prepared:
-    """Factorise the bodies with the nodes of the candidates last, and put the law on them."""
-    interface, T = examined.interface, examined.constraints.transform
+def _made(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, clock: Clock) -> Prepared:
+    """Factorise the bodies with the nodes of the candidates last and put the law on them, or leave them as they are."""
+    interface, T, nodes = examined.interface, examined.constraints.transform, examined.constraints.nodes
     with clock.phase("assembly"):
         reduced, relative = sp.csr_array(T.T @ K @ T), sp.csr_array(interface.B @ T)
+        whole = backend == ITERATIVE
+        if backend == "auto":
+            whole = condensing_bytes(reduced, relative, interface, nodes, candidates=near) > available_memory()
+        law: CoulombProblem | SpatialProblem | None = None
+        bodies: Condensed | Bodies
+        if whole:
+            bodies = _whole(examined, reduced, relative, near)
+    if not whole:
+        bodies = _condensed(examined, reduced, relative, near, backend, clock)
+        seen = interface.B @ examined.motions @ examined.floating
+        law = contact_law(interface, bodies, seen, examined.scale)
+        examined = replace(examined, constraints=_with_ties(examined, bodies.ties))
+    return Prepared(
+        **{field.name: getattr(examined, field.name) for field in fields(Examined)},
+        K=K,
+        bodies=bodies,
+        law_or_none=law,
+        clock=clock,
+        backend=backend,
+        absent=np.zeros(len(interface), bool),
+    )
+
+
+def _whole(examined: Examined, K: sp.csr_array, B: sp.csr_array, near: BoolArray) -> Bodies:
+    """The bodies as they are."""
+    T, d = examined.constraints.transform, examined.space.dimension
+    return make_bodies(
+        K,
+        B,
+        examined.interface,
+        examined.constraints.nodes,
+        examined.constraints.leaders % d,
+        points=examined.space.mesh.points,
+        rigid=sp.csr_array(T.T @ examined.motions),
+        candidates=near,
+    )
+
+
+def _condensed(
+    examined: Examined, K: sp.csr_array, B: sp.csr_array, near: BoolArray, backend: str, clock: Clock
+) -> Condensed:
+    """Factorise the bodies with the nodes of the candidates last."""
     try:
-        condensed = condense(
-            reduced, relative, interface, examined.constraints.nodes, candidates=near, backend=backend, clock=clock
+        return condense(
+            K, B, examined.interface, examined.constraints.nodes, candidates=near, backend=backend, clock=clock
         )
     except NotPositiveDefinite as error:
         raise _singular(examined, error) from error
@@ -234,17 +312,6 @@ def _condensed(examined: Examined, K: sp.csr_array, near: BoolArray, backend: st
             "body; expected smaller compliances, or supports",
             where=("contact",),
         ) from error
-    seen = interface.B @ examined.motions @ examined.floating
-    examined = replace(examined, constraints=_with_ties(examined, condensed.ties))
-    return Prepared(
-        **{field.name: getattr(examined, field.name) for field in fields(Examined)},
-        K=K,
-        condensed=condensed,
-        law=contact_law(interface, condensed, seen, examined.scale),
-        clock=clock,
-        backend=backend,
-        absent=np.zeros(len(interface), bool),
-    )
 
 
 def _with_ties(examined: Examined, ties: Ties) -> Constraints:

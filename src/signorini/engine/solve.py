@@ -98,7 +98,7 @@ def _begin(prepared: Prepared, start: Checkpoint | None) -> Checkpoint:
 def _follow(prepared: Prepared, begin: Checkpoint, wellposed: bool) -> History:
     """Step after step, up to the end or to what stops it."""
     state = begin.state
-    seen = prepared.condensed.active | prepared.condensed.held | prepared.interface.tied
+    seen = prepared.bodies.active | prepared.bodies.held | prepared.interface.tied
     if (state.status[~seen] != OPEN).any():
         prepared = prepared.widened()
     schedule = list(stages(prepared.model, factors=state.point.factors, inactive=begin.inactive))
@@ -212,7 +212,7 @@ def _history(prepared: Prepared, status: str, message: str, steps: list[StepResu
         status=status,
         message=message,
         steps=tuple(steps),
-        backend=prepared.condensed.factorisation.name,
+        backend=prepared.bodies.name,
         timings=dict(prepared.clock.seconds),
         pairs=len(prepared.interface),
         end=end if steps else None,

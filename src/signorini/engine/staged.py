@@ -12,6 +12,7 @@ from signorini.arrays import Array, BoolArray
 from signorini.engine.prepare import Prepared, contact_law, refuse_free_motions
 from signorini.errors import InputError
 from signorini.interface.interface import Interface
+from signorini.iterative.bodies import Bodies
 from signorini.model.stage import Stage
 
 
@@ -36,18 +37,19 @@ def staged(prepared: Prepared, stage: Stage) -> Prepared:
     if not absent.any():
         if not stage.friction:
             return prepared
-        law = replace(prepared.law, friction=mu[prepared.condensed.active])
-        return replace(prepared, interface=interface, law=law)
+        return replace(prepared, interface=interface, law_or_none=prepared.law_under(interface, prepared.scale))
     left = _select(interface, ~absent)
     try:
         refuse_free_motions(prepared.space, prepared.constraints, left, prepared.parts, prepared.motions)
-        condensed = prepared.condensed.among(~absent)
+        bodies = prepared.bodies.among(~absent)
     except InputError as error:
         words = f"without {', '.join(sorted(stage.inactive))}, {error.message}"
         raise InputError(words, where=("step", stage.number - 1, "inactive")) from error
+    if isinstance(bodies, Bodies):
+        return replace(prepared, interface=interface, bodies=bodies, absent=absent)
     seen = interface.B @ prepared.motions @ prepared.floating
-    law = contact_law(interface, condensed, seen, prepared.scale)
-    return replace(prepared, interface=interface, condensed=condensed, law=law, absent=absent)
+    law = contact_law(interface, bodies, seen, prepared.scale)
+    return replace(prepared, interface=interface, bodies=bodies, law_or_none=law, absent=absent)
 
 
 def absent_pairs(prepared: Prepared, inactive: frozenset[str]) -> BoolArray:

@@ -40,6 +40,12 @@ class Constraints:
     owner: IntArray
     nodes: IntArray
 
+    @property
+    def leaders(self) -> IntArray:
+        """(z,) The first dof of each free displacement."""
+        held = int((self.free < 0).any())
+        return np.asarray(np.unique(self.free, return_index=True)[1][held:], dtype=np.int64)
+
     def foundation_forces(self, displacement: Array) -> Array:
         """Forces of all elastic foundations on the bodies, (dofs,)."""
         return sum((-(S.T @ (S @ displacement)) for S in self.springs.values()), np.zeros(len(self.free)))

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contact without a factor: multipliers, semismooth Newton, conjugate gradients and multigrid."""

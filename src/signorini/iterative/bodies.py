@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bodies and the pairs of their contacts as they are, nothing factorised or condensed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.interface.interface import Interface
+from signorini.iterative.blocks import Blocks, make_blocks
+from signorini.iterative.multigrid import Preconditioner
+
+ITERATIVE = "iterative"
+"""The name of this way among the back ends."""
+
+_HELD = 1e-12  # of the size of a row of B: below it supports hold what the row sees
+_STIFF = 4.0  # springs of closed pairs, of what their nodes feel: multipliers then converge by as much a round
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Bodies:
+    """Stiffness and pairs in blocks of nodes.
+
+    Attributes
+    ----------
+    K : (b, b) stiffness, padded to whole blocks
+    B : (d a, b) relative displacements of the pairs that the law is asked of
+    pairs : (a,) their numbers
+    tied : (a,) those that neither slip nor open
+    active, held : (n,) pairs that the law is asked of; pairs that supports hold
+    stiffness : (d a,) D of the springs that trial forces are made with, force per length
+    compliance : (d a,) of the interface, length per force
+    rigid : (b, k) rigid motions of all parts
+    blocks : of the unknowns
+    preconditioner : shared by all loads
+    name : for reports
+    """
+
+    K: sp.bsr_array
+    B: sp.csr_array
+    pairs: IntArray
+    tied: BoolArray
+    active: BoolArray
+    held: BoolArray
+    stiffness: Array
+    compliance: Array
+    rigid: sp.csr_array
+    blocks: Blocks
+    preconditioner: Preconditioner
+    name: str = ITERATIVE
+
+    @property
+    def directions(self) -> int:
+        """Rows a pair, d."""
+        return self.blocks.size
+
+    @property
+    def rows(self) -> IntArray:
+        """(d a,) Rows of the interface's B that the pairs have."""
+        return np.concatenate([self.pairs + k * len(self.active) for k in range(self.directions)])
+
+    @property
+    def settled(self) -> BoolArray:
+        """(n,) Pairs that the law need not be asked of, because supports or ties hold them."""
+        settled = self.held.copy()
+        settled[self.pairs[self.tied]] = True
+        return settled
+
+    def among(self, kept: BoolArray) -> Bodies:
+        """The same bodies with fewer pairs.
+
+        Parameters
+        ----------
+        kept : (n,) pairs that stay
+        """
+        own = kept[self.pairs]
+        rows = np.tile(own, self.directions)
+        return replace(
+            self,
+            B=self.B[np.flatnonzero(rows)],
+            pairs=self.pairs[own],
+            tied=self.tied[own],
+            active=self.active & kept,
+            stiffness=self.stiffness[rows],
+            compliance=self.compliance[rows],
+        )
+
+
+def make_bodies(
+    K: sp.csr_array,
+    B: sp.csr_array,
+    interface: Interface,
+    nodes: IntArray,
+    axis: IntArray,
+    *,
+    points: Array,
+    rigid: sp.csr_array,
+    candidates: BoolArray,
+) -> Bodies:
+    """Put bodies and pairs into blocks.
+
+    Parameters
+    ----------
+    K : (z, z) stiffness of the free displacements
+    B : (d n, z) relative displacements of the pairs in terms of them
+    interface : the pairs
+    nodes, axis : (z,) node and direction of each free displacement
+    points : (nodes, d) of the mesh; rigid obstacles have none
+    rigid : (z, k) rigid motions of all parts
+    candidates : (n,) pairs that may touch
+    """
+    n, d = len(interface), interface.directions
+    size = np.sqrt(np.asarray(B.multiply(B).sum(axis=1)).ravel())
+    held = size[:n] <= _HELD
+    moving = (size.reshape(d, n) > _HELD).any(axis=0)
+    active = candidates & ~held & ~interface.tied
+    pairs = np.flatnonzero(active | (interface.tied & moving))
+    rows = np.concatenate([pairs + k * n for k in range(d)])
+    own = sp.csr_array(sp.diags_array(np.where(size > _HELD, 1.0, 0.0)) @ B)[rows]
+    own.eliminate_zeros()
+    blocks = make_blocks(nodes, axis, d)
+    matrix = blocks.matrix(K)
+    felt = np.asarray((own @ K).multiply(own).sum(axis=1)).ravel().reshape(d, -1).max(axis=0, initial=0.0)
+    near_null = blocks.spread(_near_null(points, nodes, axis, d))
+    return Bodies(
+        K=matrix,
+        B=blocks.columns(own),
+        pairs=pairs,
+        tied=interface.tied[pairs],
+        active=active,
+        held=held,
+        stiffness=np.tile(_STIFF * felt, d),
+        compliance=(interface.compliance / interface.areas)[rows],
+        rigid=sp.csr_array(blocks.columns(sp.csr_array(rigid.T)).T),
+        blocks=blocks,
+        preconditioner=Preconditioner(matrix, near_null),
+    )
+
+
+def _near_null(points: Array, nodes: IntArray, axis: IntArray, d: int) -> Array:
+    """(z, k) Translations and small rotations of everything together; what has no place only moves along."""
+    on_mesh = (nodes < len(points))[:, None]
+    centre = points.mean(axis=0)
+    arm = np.where(on_mesh, points[np.minimum(nodes, len(points) - 1)] - centre, 0.0)
+    arm /= np.abs(arm).max(initial=0.0) or 1.0
+    modes = [axis == j for j in range(d)]
+    rows = np.arange(len(axis))
+    for j in range(d):
+        for k in range(j):
+            turned = np.zeros((len(axis), d))
+            turned[:, j], turned[:, k] = arm[:, k], -arm[:, j]
+            modes.append(turned[rows, axis])
+    return np.column_stack(modes).astype(np.float64)

@@ -1,0 +1,267 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The method of multipliers with a semismooth Newton inside: contact on the bodies as they are.
+
+Trial forces ``y = E (r - D (B z + h_0))`` are projected on the law, Pi, with the friction bounds of the round before.
+With ``E = (1 + D C)^-1`` a compliance C in series is exact. Rounds repeat
+
+    K z = f + B' Pi(y(z)),    r <- Pi(y),    bound <- mu r_n
+
+where the first, the minimum of a convex energy, is approached by Newton steps, symmetric positive definite systems
+that conjugate gradients solve no further than the rest of the round deserves. A fixed point is a solution of the
+contact problem as posed, whatever D. Only the bound's lag is not a minimisation: for friction far above the usual it
+need not converge.
+
+References
+----------
+Alart, Curnier (1991), A mixed formulation for frictional contact problems, CMAME 92:353-375.
+Rockafellar (1976), Augmented Lagrangians and applications of the proximal point algorithm, Math. Oper. Res. 1:97-116.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array, IntArray
+from signorini.iterative.bodies import Bodies
+from signorini.iterative.law import Slope, project, slope, states
+from signorini.pairstate import OPEN, STICK
+from signorini.trace import Attempt
+
+TOLERANCE = 1e-10
+"""Of the sizes of the data: equilibrium, gaps that should be closed, forces that should have settled."""
+
+Outcome = Literal["solved", "not_found"]
+
+_ROUNDS = 200
+_NEWTON = 20  # steps a round
+_ENOUGH = 0.3  # of what the multipliers change by: equilibrium a round is solved to
+_INEXACT = 0.1  # residual of a Newton step, of the one before it
+_FLOOR = 1e-4  # of their stiffness: what pairs that resist nothing keep while bodies are held by contact alone
+_FAR = 1e12
+_STICKY = 1e6  # friction that stands for infinity
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Answer:
+    """What the iteration found, in the units of the problem.
+
+    Attributes
+    ----------
+    solved : whether it converged
+    free : (z,) free displacements
+    forces, moved : (d a,) forces of the pairs; gaps and slip increments
+    state : codes of :mod:`signorini.pairstate`, of the pairs that are not tied
+    trace : one entry
+    residual : largest residual, of the sizes of the data
+    """
+
+    solved: bool
+    free: Array
+    forces: Array
+    moved: Array
+    state: IntArray
+    trace: tuple[Attempt, ...]
+    residual: float
+
+    @property
+    def outcome(self) -> Outcome:
+        """In one word."""
+        return "solved" if self.solved else "not_found"
+
+    @property
+    def message(self) -> str:
+        """In words."""
+        rounds = self.trace[0].iterations
+        if self.solved:
+            return f"solved by {self.trace[0].method}, {rounds} rounds"
+        return (
+            f"no certified equilibrium, and no proof that there is none: multipliers did not settle in {rounds} rounds "
+            f"(residual {self.residual:.1e}); expected smaller increments or less friction, or a model small enough "
+            "to be condensed"
+        )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Load:
+    """What an increment asks.
+
+    Attributes
+    ----------
+    f : (b,) forces
+    offset : (d, a) relative displacements without z, length
+    friction : (a,)
+    force, length : sizes of the data
+    floating : whether contact alone holds a body
+    """
+
+    f: Array
+    offset: Array
+    friction: Array
+    force: float
+    length: float
+    floating: bool
+
+
+def solve_iteratively(bodies: Bodies, load: Load, z: Array, forces: Array) -> Answer:
+    """Solve one increment.
+
+    Parameters
+    ----------
+    z : (b,) displacements to start from
+    forces : (d, a) of the pairs, to start from
+    """
+    rounds = _Rounds(bodies, load, z, forces)
+    worst = np.inf
+    for _ in range(_ROUNDS):
+        rounds.newton()
+        worst = rounds.update()
+        if worst <= TOLERANCE or not np.isfinite(worst):
+            break
+    return rounds.answer(worst)
+
+
+class _Rounds:
+    """The iterates."""
+
+    def __init__(self, bodies: Bodies, load: Load, z: Array, forces: Array) -> None:
+        d, a = load.offset.shape
+        self.bodies, self.load = bodies, load
+        self.z, self.multiplier = z.copy(), forces.copy()
+        self.D = bodies.stiffness.reshape(d, a)
+        self.C = bodies.compliance.reshape(d, a)
+        self.E = 1.0 / (1.0 + self.D * self.C)
+        self.softened = self.E * self.D
+        self.transposed = bodies.B.T.tocsr()
+        self.friction = np.minimum(load.friction, _STICKY)
+        self.moves = np.diff(bodies.B.indptr).reshape(d, a) > 0
+        self.internal = bodies.K @ self.z
+        self.relative = self._seen(self.z) + load.offset
+        self.y = self._trial()
+        touching = self.y[0] >= 0
+        self.bound = self._bound(forces[0]) if forces.any() else np.where((self.friction > 0) & touching, np.inf, 0.0)
+        self.iterations: list[int] = []
+        self.changes: list[int] = []
+
+    def newton(self) -> None:
+        """Approach equilibrium under the multipliers and bounds of this round."""
+        bodies, load = self.bodies, self.load
+        for _ in range(_NEWTON):
+            forces = self._project(self.y)
+            g = load.f + self.transposed @ forces.ravel() - self.internal
+            lag = self.transposed @ (forces - self.multiplier).ravel()
+            left = float(np.linalg.norm(g))
+            if left <= _ENOUGH * float(np.linalg.norm(lag)) or left <= 0.1 * TOLERANCE * load.force:
+                return
+            law = slope(self.y, self.bound, bodies.tied, self.softened, _FLOOR if load.floating else 0.0)
+            step, count = self._step(law, g)
+            self._go(step, forces)
+            self.iterations.append(count)
+
+    def update(self) -> float:
+        """Take over forces and bounds; the largest residual of what is left."""
+        bodies, load = self.bodies, self.load
+        forces = self._project(self.y)
+        g = load.f + self.transposed @ forces.ravel() - self.internal
+        balance = np.abs(np.concatenate([g, bodies.rigid.T @ g])).max(initial=0.0)
+        change = np.abs(forces - self.multiplier)
+        motion = np.where(self.moves, change / np.maximum(self.D, 1e-300), 0.0).max(initial=0.0)
+        before = self.state
+        self.multiplier, self.bound = forces, self._bound(forces[0])
+        self.y = self._trial()
+        moved = int(np.count_nonzero(self.state != before))
+        self.changes.append(moved)
+        if moved:
+            bodies.preconditioner.changed()
+        return float(max(balance / load.force, change.max(initial=0.0) / load.force, motion / load.length))
+
+    @property
+    def state(self) -> IntArray:
+        return states(self.y, self.bound, self.bodies.tied)
+
+    def answer(self, worst: float) -> Answer:
+        bodies = self.bodies
+        state, r = self.state, self.multiplier
+        moved = self.relative + self.C * r
+        closed = state != OPEN
+        moved[0] = np.where(closed, 0.0, np.maximum(moved[0], 0.0))
+        moved[1:] = np.where(state == STICK, 0.0, moved[1:])
+        solved = worst <= TOLERANCE
+        end = f"{sum(self.iterations)} conjugate gradients, residual {worst:.0e}"
+        attempt = Attempt(method="multipliers", iterations=len(self.changes), changes=tuple(self.changes), end=end)
+        return Answer(
+            solved=solved,
+            free=self.z[bodies.blocks.place],
+            forces=r.ravel(),
+            moved=moved.ravel(),
+            state=state[~bodies.tied],
+            trace=(attempt,),
+            residual=worst,
+        )
+
+    def _seen(self, z: Array) -> Array:
+        return (self.bodies.B @ z).reshape(self.load.offset.shape)
+
+    def _bound(self, normal: Array) -> Array:
+        return np.where(self.friction > 0, self.friction * np.maximum(normal, 0.0), 0.0)
+
+    def _trial(self) -> Array:
+        y = self.E * (self.multiplier - self.D * self.relative)
+        # what supports drag along slips as they say, whatever acts on it
+        dragged = ~self.moves[1:].any(axis=0) & ~self.bodies.tied
+        y[1:, dragged] = -_FAR * self.load.offset[1:, dragged]
+        return y
+
+    def _project(self, y: Array) -> Array:
+        return project(y, self.bound, self.bodies.tied)
+
+    def _step(self, law: Slope, g: Array) -> tuple[Array, int]:
+        bodies, B, transposed = self.bodies, self.bodies.B, self.transposed
+        shape = self.load.offset.shape
+
+        def apply(v: Array) -> Array:
+            return bodies.K @ v + transposed @ law.apply((B @ v).reshape(shape)).ravel()
+
+        def springs() -> sp.csr_array:
+            return transposed @ law.matrix() @ B
+
+        return bodies.preconditioner.solve(springs, apply, g, tolerance=_INEXACT)
+
+    def _go(self, step: Array, forces: Array) -> None:
+        """Along a step to where the energy is least: a convex function whose slope is found from the pairs alone."""
+        bodies, load = self.bodies, self.load
+        internal, across = bodies.K @ step, self._seen(step)
+        stiff, rest = float(step @ internal), float(step @ (load.f - self.internal))
+
+        def downhill(t: float) -> float:
+            y = self.y - t * self.softened * across
+            return rest - t * stiff + float((across * self._project(y)).sum())
+
+        t = _root(downhill, rest + float((across * forces).sum()))
+        self.z += t * step
+        self.internal = self.internal + t * internal
+        self.relative = self.relative + t * across
+        self.y = self._trial()
+
+
+def _root(downhill: Callable[[float], float], start: float) -> float:
+    """Where a decreasing function that is positive at 0 vanishes, near enough."""
+    if start <= 0:
+        return 1.0
+    low, high, value = 0.0, 1.0, downhill(1.0)
+    if abs(value) <= 0.3 * start:
+        return 1.0
+    while value > 0 and high < 1e6:
+        low, high = high, 2.0 * high
+        value = downhill(high)
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        value = downhill(middle)
+        if abs(value) <= 0.1 * start:
+            return middle
+        low, high = (middle, high) if value > 0 else (low, middle)
+    return 0.5 * (low + high)

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contact by multipliers and multigrid gives the answers of the condensed interface."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.fem.solids import box
+from signorini.gallery.blocks import block_on_foundation, dragged_block, four_blocks, stacked_blocks
+from signorini.model.mesh import join
+
+
+def cubes(friction, *, floating):
+    """A cube on a larger block that its mesh does not match, pressed and pushed by its top or held by contact alone."""
+    fine, coarse = np.linspace(0, 1, 5), np.linspace(-0.5, 1.5, 4)
+    low, up = box(x=coarse, y=coarse, z=[-1, 0]), box(x=fine, y=fine, z=fine)
+    supports = [sg.Support("low.bottom", u=(0, 0, 0))]
+    if not floating:
+        supports.append(sg.Support("up.top", u=(1e-4, 5e-5, -5e-4)))
+    return sg.Model(
+        join({"low": low, "up": up}),
+        bodies=[sg.Body(name, sg.Elastic(E=2e5, nu=0.3)) for name in ("low", "up")],
+        supports=supports,
+        loads=[sg.Load("up.top", traction=(5.0, 2.0, -50.0))] if floating else [],
+        contacts=[sg.Contact("up.bottom", "low.top", friction=friction)],
+        steps=[sg.Step(increments=1)],
+    )
+
+
+MODELS = {
+    "space, frictionless": cubes(0.0, floating=False),
+    "space, friction": cubes(0.3, floating=False),
+    "space, held by contact alone": cubes(0.3, floating=True),
+    "space, stick": cubes("stick", floating=True),
+    "plane, four contacts": four_blocks(),
+    "plane, meshes that do not match": stacked_blocks(friction=0.3, across=(4, 6)),
+    "plane, load beside the contact": block_on_foundation(friction=0.3, across=(3, 5)),
+    "plane, a history": dragged_block(),
+}
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_same_answers(name):
+    model = MODELS[name]
+    model = replace(model, steps=[replace(step, increments=step.increments or 1) for step in model.steps])
+    one, two = sg.solve(model), sg.solve(model, backend="iterative")
+    assert (one.backend, two.backend) == ("multifrontal", "iterative")
+    for a, b in zip(one.steps, two.steps, strict=True):
+        assert b.certificate.passed
+        np.testing.assert_allclose(b.displacement, a.displacement, atol=1e-7 * np.abs(a.displacement).max())
+        for here, there in zip(a.contacts, b.contacts, strict=True):
+            size = np.abs(here.pressure).max()
+            np.testing.assert_allclose(there.pressure, here.pressure, atol=1e-7 * size)
+            np.testing.assert_allclose(there.traction, here.traction, atol=1e-7 * size)
+
+
+def test_what_does_not_fit_is_iterated(monkeypatch):
+    monkeypatch.setattr("signorini.condense.size._SMALL", (0, 0))
+    model = cubes(0.3, floating=False)
+    assert sg.solve(model).backend == "multifrontal"
+    monkeypatch.setattr("signorini.engine.prepare.available_memory", lambda: 1)
+    assert sg.solve(model).backend == "iterative"
