@@ -11,13 +11,13 @@ from signorini.interface.interface import Interface
 from signorini.linalg.plan import analyse
 from signorini.linalg.system import check
 
-_SMALL = 40_000, 4_000  # free displacements and contact dofs that always fit
+_GENEROUS = 300.0, 1.0, 60.0, 4.0 / 3.0  # entries of the factor: at most 300 z in the plane, 60 z^(4/3) in space
 _SQUARE = 4, 6  # dense matrices of the size of the contact dofs, and of that of the pairs' rows, held at once
 
 
 def condensing_bytes(
-    K: sp.csr_array, B: sp.csr_array, interface: Interface, nodes: IntArray, *, candidates: BoolArray
-) -> int:
+    K: sp.csr_array, B: sp.csr_array, interface: Interface, nodes: IntArray, *, candidates: BoolArray, plenty: float
+) -> float:
     """Bytes at the worst time of :func:`signorini.condense.condensed.condense` and of the law on its result.
 
     Parameters
@@ -26,14 +26,11 @@ def condensing_bytes(
     B : (d n, z) relative displacements of the pairs in terms of them
     nodes : (z,) node of each free displacement
     candidates : (n,) pairs that may touch
-
-    Returns
-    -------
-    0 for a model so small that it is not worth a look
+    plenty : bytes; where a generous bound stays below, it is returned and the pattern of K is not analysed
     """
     chosen = interface.rows(candidates | interface.tied)
     dofs = np.unique(B[np.flatnonzero(chosen)].indices)
-    if K.shape[0] <= _SMALL[0] and len(dofs) <= _SMALL[1]:
-        return 0
     dense = _SQUARE[0] * len(dofs) ** 2 + _SQUARE[1] * int(np.count_nonzero(chosen)) ** 2
-    return analyse(check(K, dofs, nodes)).peak_bytes + 8 * dense
+    factor, power = _GENEROUS[:2] if interface.directions == 2 else _GENEROUS[2:]
+    bound = 8.0 * (factor * K.shape[0] ** power + dense)
+    return bound if bound <= plenty else analyse(check(K, dofs, nodes)).peak_bytes + 8.0 * dense

@@ -260,7 +260,9 @@ def _made(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, cl
         reduced, relative = sp.csr_array(T.T @ K @ T), sp.csr_array(interface.B @ T)
         whole = backend == ITERATIVE
         if backend == "auto":
-            whole = condensing_bytes(reduced, relative, interface, nodes, candidates=near) > available_memory()
+            room = available_memory()
+            asked = condensing_bytes(reduced, relative, interface, nodes, candidates=near, plenty=0.5 * room)
+            whole = asked > room
         law: CoulombProblem | SpatialProblem | None = None
         bodies: Condensed | Bodies
         if whole:
