@@ -57,7 +57,6 @@ def test_same_answers(name):
 
 
 def test_what_does_not_fit_is_iterated(monkeypatch):
-    monkeypatch.setattr("signorini.condense.size._SMALL", (0, 0))
     model = cubes(0.3, floating=False)
     assert sg.solve(model).backend == "multifrontal"
     monkeypatch.setattr("signorini.engine.prepare.available_memory", lambda: 1)
