@@ -92,13 +92,13 @@ def _cpu(process: int) -> float:
 def _pressures(file: Path, nodes: IntArray) -> Array:
     """The contact pressures of the last increment at some nodes, 0 where none is written."""
     found: dict[int, float] = {}
-    for name, node, values in _records(file):
+    for name, node, values in records(file):
         if name == "CONTACT":
             found[node] = values[3]
     return np.array([found.get(node + 1, 0.0) for node in nodes.tolist()])
 
 
-def _records(file: Path) -> Iterator[tuple[str, int, list[float]]]:
+def records(file: Path) -> Iterator[tuple[str, int, list[float]]]:
     """Name of the block, node and values of every nodal result: format of the .frd file, 12 columns a value."""
     name = ""
     with file.open() as lines:

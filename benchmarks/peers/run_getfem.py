@@ -22,7 +22,7 @@ SCRIPT = Path(__file__).parent / "getfem_cylinder.py"
 def missing() -> str | None:
     """Why GetFEM cannot be run here."""
     try:
-        found = subprocess.run([PYTHON, "-c", "import getfem"], capture_output=True, env=_environment(), check=False)
+        found = subprocess.run([PYTHON, "-c", "import getfem"], capture_output=True, env=environment(), check=False)
     except OSError:
         return f"GetFEM skipped: there is no {PYTHON}"
     return None if found.returncode == 0 else f"GetFEM skipped: {PYTHON} cannot import it (Debian: python3-getfem)"
@@ -40,7 +40,7 @@ def _run(case: Case, friction: float, folder: Path) -> Result:
         [PYTHON, str(SCRIPT), str(folder / "cylinder.npz"), str(friction)],
         capture_output=True,
         text=True,
-        env=_environment(),
+        env=environment(),
         check=False,
     )
     if done.returncode:
@@ -57,7 +57,7 @@ def _run(case: Case, friction: float, folder: Path) -> Result:
     )
 
 
-def _environment() -> dict[str, str]:
+def environment() -> dict[str, str]:
     """One thread, and none of this Python's packages."""
     kept = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
     return kept | ONE_THREAD | KEEP_MEMORY

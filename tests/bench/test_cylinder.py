@@ -25,6 +25,7 @@ KEYS = {
     "cpu_seconds",
     "peak_memory_bytes",
     "iterations",
+    "phases",
 }
 
 
@@ -38,6 +39,15 @@ def test_rows_of_the_contract() -> None:
         assert 0.7 * 600 < row["dofs"] < 1.3 * 600
         assert math.isclose(row["ratio"], row["contact_seconds"] / row["linear_seconds"])
         assert row["assembly_seconds"] > 0
+
+
+def test_cubes_in_space() -> None:
+    rows = run(["cubes"], 1500)
+    assert [row["name"] for row in rows] == ["cubes", "cubes, not matching"]
+    for row in rows:
+        assert set(row) == KEYS
+        assert 0.6 * 1500 < row["dofs"] < 1.2 * 1500
+        assert set(row["phases"]) == {"factorisation", "condensation", "complementarity", "recovery"}
 
 
 def test_contact_seconds_leave_nothing_out(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,11 +6,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from signorini.bench.cubes import blocks
 from signorini.bench.cylinder import cylinder
 from signorini.bench.hard import hard
 from signorini.errors import InputError, one_of
 
-NAMES = ("cylinder", "hard")
+NAMES = ("cylinder", "cubes", "hard")
 DOFS = (5_000, 50_000)
 """Sizes where none is asked for."""
 
@@ -41,5 +42,5 @@ def run(names: Sequence[str], dofs: int | None) -> list[dict[str, Any]]:
                 rows.append({"name": "hard", "bodies": bodies, "counts": counts})
         else:
             for size in DOFS if dofs is None else (dofs,):
-                rows.extend(cylinder(size))
+                rows.extend(blocks(size) if name == "cubes" else cylinder(size))
     return rows

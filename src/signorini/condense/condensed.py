@@ -211,7 +211,7 @@ def _image(
     softening = 1.0 / (1.0 + stiffness * compliance)
     stiff = factorisation.schur() + (B_c.T @ sp.diags_array(stiffness * softening) @ B_c).toarray()
     springs = make_springs(stiff, ties.B[:, dofs].toarray())
-    A = B_c @ springs.solve(B_c.T.toarray()) if len(dofs) else np.zeros((0, 0))
+    A = springs.compliance(B_c) if len(dofs) else np.zeros((0, 0))
     root = np.sqrt(stiffness)
     W = (root * softening)[:, None] * A * (root * softening)
     W[np.diag_indices_from(W)] += stiffness * softening * compliance

@@ -92,6 +92,18 @@ class Springs:
             moved -= self.across @ scipy.linalg.cho_solve((self.gram, True), self.across.T @ load, check_finite=False)
         return moved
 
+    def compliance(self, B: sp.csr_array) -> Array:
+        """``B M^-1 B^T`` of the matrix M with its ties, (k, k), symmetric to the last digit; B (k, m).
+
+        With ``M = L L^T`` it is ``Y^T Y``, ``Y = L^-1 B^T``: half the substitutions, and a product that knows it.
+        """
+        half = scipy.linalg.solve_triangular(self.cholesky, B.T.toarray(), lower=True, check_finite=False)
+        result: Array = half.T @ half
+        if self.across.shape[1]:
+            moved = scipy.linalg.solve_triangular(self.gram, (B @ self.across).T, lower=True, check_finite=False)
+            result -= moved.T @ moved
+        return result
+
 
 def make_springs(matrix: Array, ties: Array) -> Springs:
     """Factorise.

@@ -286,6 +286,11 @@ class Model:
                     raise InputError(one_of(name, names, "load or moving support"), where=("step", i, "scale"))
             used |= set(names if step.scale is None else step.scale)
             self._check_contact_names(i, step)
+            if step.path == "exact" and self.kind == "3d":
+                raise InputError(
+                    'is "exact", which is for plane models; in space expected increments, a number or "auto"',
+                    where=("step", i, "path"),
+                )
         unused = [name for name in names if name not in used]
         if unused:
             raise InputError(

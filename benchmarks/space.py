@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The price of contact in space: a cube on a cube, matching and not, over sizes; a table of docs/performance.md.
+
+python -m benchmarks.space [--dofs 30000 100000 300000] [--dry]
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import time
+from typing import Any
+
+import numpy as np
+
+from benchmarks import page
+from signorini.bench.cubes import blocks
+
+LARGE = 200_000
+"""Unknowns from which one run has to do."""
+PHASES = ("factorisation", "condensation", "complementarity", "recovery")
+HEAD = (
+    "problem",
+    "unknowns",
+    "contact pairs",
+    "iterations",
+    "assembly s",
+    *(f"{name} s" for name in PHASES),
+    "contact s",
+    "linear s",
+    "contact / linear",
+    "memory GB",
+)
+
+
+def measure(dofs: int) -> list[dict[str, Any]]:
+    """The rows of one size, from a process of its own."""
+    command = [sys.executable, "-m", "benchmarks.space", "--one", "--dofs", str(dofs)]
+    environment = {**os.environ, **page.ONE_THREAD, **page.KEEP_MEMORY}
+    done = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=environment)
+    rows: list[dict[str, Any]] = json.loads(done.stdout)
+    for row in rows:
+        print(f"{row['name']}, {row['dofs']} unknowns: {row['ratio']:.2f}", flush=True)
+    return rows
+
+
+def row(found: dict[str, Any]) -> list[object]:
+    """A line of the table."""
+    seconds = [found["assembly_seconds"], *(found["phases"][name] for name in PHASES)]
+    return [
+        found["name"],
+        found["dofs"],
+        found["contact_pairs"],
+        found["iterations"],
+        *(page.seconds(value) for value in (*seconds, found["contact_seconds"], found["linear_seconds"])),
+        f"{found['ratio']:.2f}",
+        page.gigabytes(found["peak_memory_bytes"]),
+    ]
+
+
+def growth(found: list[dict[str, Any]]) -> str:
+    """Exponents of the power laws in the unknowns that fit best."""
+    said = []
+    for name in dict.fromkeys(each["name"] for each in found):
+        own = [each for each in found if each["name"] == name]
+        sizes = np.log([each["dofs"] for each in own])
+        fits = [
+            np.polyfit(sizes, np.log([each[f"{key}_seconds"] for each in own]), 1)[0] for key in ("contact", "linear")
+        ]
+        said.append(f"{name} {fits[0]:.2f} and {fits[1]:.2f}")
+    return f"Exponents of contact and linear in the unknowns: {'; '.join(said)}."
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--dofs", type=int, nargs="+", default=[30_000, 100_000, 300_000])
+    parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
+    parser.add_argument("--one", action="store_true", help="measure in this process")
+    options = parser.parse_args()
+    if options.one:
+        (dofs,) = options.dofs
+        print(json.dumps(list(blocks(dofs, timer=time.process_time, repeats=1 if dofs > LARGE else 3))))
+        return
+    found = [row for dofs in options.dofs for row in measure(dofs)]
+    backends = ", ".join(dict.fromkeys(row["backend"] for row in found))
+    lines = [page.table(HEAD, [row(each) for each in found])]
+    if len(options.dofs) > 1:
+        lines.append(growth(found))
+    lines.append(f"mu = 0.3, one increment; CPU seconds, one thread, {backends}, {page.machine()}.")
+    text = "\n\n".join(lines)
+    print(text)
+    if not options.dry:
+        page.write("space", text)
+
+
+if __name__ == "__main__":
+    main()

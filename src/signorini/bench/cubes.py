@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The price of contact in space: a cube pressed and pushed on another, on meshes that match and do not."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from signorini.bench.price import REPEATS, Timer, price, warm_up
+from signorini.gallery.cubes import cubes
+
+
+def blocks(dofs: int, *, timer: Timer = time.perf_counter, repeats: int = REPEATS) -> Iterator[dict[str, Any]]:
+    """Time two cubes with about ``dofs`` unknowns, mu = 0.3, one increment; by default on the wall.
+
+    Yields
+    ------
+    rows of the contract, see :func:`signorini.bench.price.price`: "cubes" and "cubes, not matching"
+    """
+    n = max(2, round(np.cbrt(dofs / 6.0)) - 1)
+    upper = max(1, round(0.92 * n))  # the coarser side carries the pairs
+    lower = max(2, round(np.cbrt(dofs / 3.0 - (upper + 1) ** 3)) - 1)
+    for name, model in (("cubes", cubes(n)), ("cubes, not matching", cubes(lower, upper))):
+        if repeats > 1:
+            warm_up(model, timer)
+        else:  # of long runs only the compiled code
+            warm_up(cubes(2, 2 if name == "cubes" else 3), timer)
+        yield price(name, model, timer, repeats=repeats)

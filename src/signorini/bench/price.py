@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The price of contact: a contact solve against one plain linear solve of the same matrix."""
+
+from __future__ import annotations
+
+import statistics
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array, IntArray
+from signorini.clock import Clock
+from signorini.engine.increments import free_load
+from signorini.engine.prepare import Prepared, prepare
+from signorini.engine.solve import solve_prepared
+from signorini.linalg.registry import factorise
+from signorini.memory import peak_memory
+from signorini.model.model import Model
+from signorini.solution.state import LoadPoint
+
+Timer = Callable[[], float]
+
+REPEATS = 5
+_LONG, _LEAST = 20.0, 3  # seconds, and how many repeats have to do where they take longer
+
+
+class TimerClock(Clock):
+    """A clock that reads another timer, such as ``time.process_time``: on a busy machine CPU seconds say more."""
+
+    def __init__(self, timer: Timer) -> None:
+        super().__init__()
+        self._timer = timer
+
+    @contextmanager
+    def phase(self, name: str) -> Iterator[None]:
+        """Time a block under a name."""
+        start = self._timer()
+        try:
+            yield
+        finally:
+            self.seconds[name] = self.seconds.get(name, 0.0) + self._timer() - start
+
+
+def warm_up(model: Model, timer: Timer) -> None:
+    """Compiled code and pages of memory: both solves find them."""
+    prepared = prepare(model)
+    _linear(*_fixed(prepared), solve_prepared(prepared).backend, timer)
+
+
+def price(name: str, model: Model, timer: Timer, *, repeats: int = REPEATS) -> dict[str, Any]:
+    """Time a model of one contact: a row of the contract; contact and linear solves interleaved, medians of repeats.
+
+    contact_seconds : all after assembly, up to tractions, displacements and the certificate
+    linear_seconds : analyse, factorise and solve the same matrix with the contact nodes fixed, same back end
+    ratio : of the two
+    """
+    contact: list[float] = []
+    linear: list[float] = []
+    assembly: list[float] = []
+    cpu: list[float] = []
+    phases: list[dict[str, float]] = []
+    while len(contact) < min(_LEAST, repeats) or (len(contact) < repeats and sum(contact) + sum(linear) < _LONG):
+        clock, began, cpu_began = TimerClock(timer), timer(), time.process_time()
+        prepared = prepare(model, clock=clock)
+        history = solve_prepared(prepared)
+        cpu.append(time.process_time() - cpu_began)
+        assembly.append(clock.seconds["assembly"])
+        contact.append(timer() - began - assembly[-1])
+        phases.append({phase: seconds for phase, seconds in clock.seconds.items() if phase != "assembly"})
+        found = {
+            "dofs": len(prepared.constraints.nodes),
+            "contact_pairs": history.pairs,
+            "path": history.last.path,
+            "iterations": sum(history.last.iterations),
+        }
+        fixed, backend = _fixed(prepared), history.backend
+        del prepared, history  # both solves find as much free memory: touching new pages costs as much as computing
+        linear.append(_linear(*fixed, backend, timer))
+    return {
+        "name": name,
+        "friction": model.contacts[0].coefficient,
+        "backend": backend,
+        "default": True,
+        "assembly_seconds": statistics.median(assembly),
+        "contact_seconds": statistics.median(contact),
+        "linear_seconds": statistics.median(linear),
+        "phases": {phase: statistics.median(each[phase] for each in phases) for phase in phases[0]},
+        "ratio": statistics.median(contact) / statistics.median(linear),
+        "cpu_seconds": statistics.median(cpu),
+        "peak_memory_bytes": peak_memory(),
+        **found,
+    }
+
+
+def _fixed(prepared: Prepared) -> tuple[sp.csr_array, IntArray, Array]:
+    """Matrix, node of each unknown and load of the same bodies with the contact nodes fixed."""
+    T = prepared.constraints.transform
+    keep = np.setdiff1d(np.arange(T.shape[1]), prepared.condensed.dofs)
+    K = sp.csr_array((T.T @ prepared.K @ T)[keep][:, keep])
+    full = LoadPoint(
+        factors=dict.fromkeys(prepared.model.scaled_names, 1.0),
+        gap=prepared.interface.gap,
+        given=np.zeros(prepared.interface.B.shape[0]),
+    )
+    return K, prepared.constraints.nodes[keep], free_load(prepared, full)[keep]
+
+
+def _linear(K: sp.csr_array, nodes: IntArray, f: Array, backend: str, timer: Timer) -> float:
+    """Seconds of one plain solve: analyse, factorise, solve."""
+    began = timer()
+    factorise(K, np.empty(0, int), nodes=nodes, backend=backend).reduce(f).expand(np.empty(0))
+    return timer() - began

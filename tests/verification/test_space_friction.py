@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Coulomb's cone on finite elements in space: facets approach it, and it has no directions of its own."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from signorini.engine.increments import free_load
+from signorini.engine.prepare import prepare
+from signorini.engine.solve import solve
+from signorini.errors import InputError
+from signorini.friction.spatial import solve_spatial
+from signorini.gallery.cubes import cube_on_block, cubes
+from signorini.model.conditions import Support
+from signorini.model.step import Step
+from signorini.solution.state import LoadPoint
+
+
+def condensed(model):
+    """The model's first increment as a problem of the law alone."""
+    prepared = prepare(model)
+    interface, rows = prepared.interface, prepared.condensed.active_rows
+    factors = dict.fromkeys(model.scaled_names, 1.0)
+    point = LoadPoint(factors=factors, gap=interface.gap, given=np.zeros(3 * len(interface)))
+    imposed = sum(prepared.constraints.prescribed.values())
+    offset = np.concatenate([interface.gap, np.zeros(2 * len(interface))]) + interface.B @ imposed
+    load = prepared.condensed.reduce(free_load(prepared, point)).load
+    return replace(prepared.law, b=prepared.condensed.right_hand_side(load, offset[rows], prepared.law.motions))
+
+
+@pytest.mark.parametrize("upper", [4, 5])
+def test_facets_approach_the_cone(upper):
+    """Inside a polygon of 2m corners a force is at most ``2 sin(pi / 2m)`` of the bound away from the circle's."""
+    law = condensed(cubes(4, upper))
+    exact = solve_spatial(law)
+    bound = 0.3 * exact.normal_force.max()
+    errors = []
+    for facets in (4, 8, 16, 32, 64):
+        found = solve_spatial(replace(law, facets=facets))
+        assert found.solved
+        errors.append(np.linalg.norm(found.tangential_force - exact.tangential_force, axis=1).max() / bound)
+    assert all(fine < coarse for coarse, fine in pairwise(errors)), errors
+    assert errors[-1] < 0.1 * errors[0]
+
+
+@pytest.mark.parametrize("turn", [0.4, 1.1, 2.5])
+@pytest.mark.parametrize("model", [cubes(4), cubes(3, 4), cube_on_block(3, 5, 2)], ids=["match", "mortar", "block"])
+def test_a_turn_about_the_normal_changes_nothing(model, turn):
+    """Pairs have their tangents along coordinate axes: a cone with directions of its own would show."""
+    Q = Rotation.from_rotvec([0.0, 0.0, turn]).as_matrix()
+    turned = replace(
+        model,
+        mesh=replace(model.mesh, points=model.mesh.points @ Q.T),
+        supports=[Support(held.on, u=tuple(Q @ np.array(held.u))) for held in model.supports],
+    )
+    one, two = (solve(each).last.contacts[0] for each in (model, turned))
+    assert {"stick", "slip"} <= set(one.status)
+    size = one.pressure.max()
+    np.testing.assert_allclose(two.pressure, one.pressure, atol=1e-8 * size)
+    np.testing.assert_allclose(two.shear, one.shear @ Q.T, atol=1e-8 * size)
+    assert (two.status == one.status).all()
+
+
+def test_an_exact_path_in_space_is_refused():
+    with pytest.raises(InputError, match=r"step\[0\].path: is \"exact\", which is for plane models"):
+        replace(cubes(1), steps=[Step(path="exact")])
