@@ -76,6 +76,14 @@ def test_rows_sum_to_the_forces_of_the_summary(results):
     assert set(closed) <= {"stick", "slip"}
 
 
+def test_the_way_and_the_summary_speak_of_one_slip(results):
+    (contact,) = ResultFolder(path=results).summary["steps"][0]["contacts"]
+    with (results / "history.csv").open(newline="") as file:
+        *_, last = csv.DictReader(file)
+    assert contact["max_slip"] > 0
+    assert float(last["max_slip"]) == contact["max_slip"]
+
+
 def test_the_surface_file_holds_vectors(results):
     found = meshio.read(results / "contact.vtu")
     data = found.point_data

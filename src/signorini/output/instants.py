@@ -47,7 +47,7 @@ def write_history(history: History, path: Path) -> None:
 def _row(number: int, instant: Instant, contact: ContactResult) -> tuple[str, ...]:
     forces = (contact.normal_force, contact.tangential_force)
     values = [part for force in forces for part in (*force, 0.0, 0.0)[:3]] + [contact.pressure.max(initial=0.0)]
-    slid = (abs(contact.slip).max(initial=0.0), contact.sliding.max(initial=0.0), contact.dissipation)
+    slid = (contact.slipped.max(initial=0.0), contact.sliding.max(initial=0.0), contact.dissipation)
     return (
         str(number),
         repr(instant.load_factor),
