@@ -3,22 +3,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray, IntArray, frozen
-from signorini.errors import InputError
-from signorini.friction.interface import Interface
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.friction.law import closed_states
-
-STICKY = 1e6
-"""Friction that stands for ``inf``: without bound the law is not continuous, and need not have a solution."""
+from signorini.friction.posed import STICKY, PosedContact
 
 
 @dataclass(frozen=True, kw_only=True)
-class CoulombProblem:
+class CoulombProblem(PosedContact):
     """Find h = (gap, slip increment) and r = (normal force, tangential force) of n pairs in Coulomb's law with::
 
         G h - W r = b,    G = I - W
@@ -54,32 +50,6 @@ class CoulombProblem:
     (1, False)
     """
 
-    W: Array
-    b: Array
-    friction: Array
-    motions: Array
-    scale: float
-    interface: Interface = field(default_factory=Interface.none, repr=False, compare=False)
-
-    def __post_init__(self) -> None:
-        for name in ("W", "b", "friction", "motions"):
-            object.__setattr__(self, name, _read_only(getattr(self, name)))
-        _check(self)
-        if self.interface.W is not self.W or self.interface.motions is not self.motions:
-            interface = Interface.exact(self.W, self.motions)
-            object.__setattr__(self, "W", interface.W)
-            object.__setattr__(self, "interface", interface)
-
-    @property
-    def pairs(self) -> int:
-        """Number of pairs n."""
-        return len(self.friction)
-
-    @property
-    def floating(self) -> bool:
-        """Whether some body is held by contact alone."""
-        return bool(self.motions.shape[1])
-
     @cached_property
     def locked(self) -> BoolArray:
         """(n,) Pairs whose tangential motion is that of their supports."""
@@ -103,32 +73,7 @@ class CoulombProblem:
         """(2n,) Motion of the pairs under a load alone, without its rigid part; that of the problem's b is kept."""
         return self._free if b is self.b else self.interface.free_motion(b)
 
-    def misfit(self, h: Array, r: Array) -> Array:
-        """(2n,) ``b - (G h - W r)``, the motion that equilibrium lacks."""
-        return self.b + self.W @ (h + r) - h
-
-
-def _read_only(values: Array) -> Array:
-    """The array itself where nobody can edit it: W is large and shared by every step."""
-    array = np.asarray(values, dtype=np.float64)
-    return array if not array.flags.writeable and array.base is None else frozen(array)
-
-
-def _check(problem: CoulombProblem) -> None:
-    n = len(problem.friction)
-    shapes = {"W": (2 * n, 2 * n), "b": (2 * n,), "friction": (n,), "motions": (2 * n, problem.motions.shape[-1])}
-    for name, expected in shapes.items():
-        found = getattr(problem, name)
-        if found.shape != expected:
-            raise InputError(f"has shape {found.shape}; expected {expected} for {n} pairs", where=(name,))
-        if not np.isfinite(found).all() and name != "friction":
-            raise InputError("has entries that are not finite", where=(name,))
-    if not (problem.friction >= 0).all():
-        raise InputError("has negative entries or NaN; expected mu >= 0, inf for pairs that stick", where=("friction",))
-    if not (np.isfinite(problem.scale) and problem.scale >= 0):
-        raise InputError(f"is {problem.scale}; expected a finite number >= 0", where=("scale",))
-    if np.any(problem.locked & np.isinf(problem.friction) & (problem.b[n:] != 0)):
-        raise InputError(
-            "is infinite at a pair whose supports drag it along: it can neither slip nor stick; give a finite mu",
-            where=("friction",),
-        )
+    def _check(self) -> None:
+        n = self.pairs
+        self._check_data(2 * n, [(n,)])
+        self._check_dragged(np.asarray(self.locked & (self.b[n:] != 0)))

@@ -13,7 +13,44 @@ Outcome = Literal["solved", "no_equilibrium", "not_found"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class CoulombResult:
+class ContactAnswer:
+    """What the solvers of the plane and of the spatial problem answer alike, in the scaled units of the problem.
+
+    Attributes
+    ----------
+    outcome : ``"solved"`` (certified), ``"no_equilibrium"`` (proved) or ``"not_found"``
+    gap, slip, normal_force, tangential_force : of the pairs; NaN unless solved
+    state : (n,) codes of :mod:`signorini.pairstate`; UNDECIDED (-1) unless solved
+    trace : the methods tried, in order
+    residual : largest violation of equilibrium and resultants relative to scale, see `certify`
+    escape : motion of the pairs, largest entry 1, along which the loads carry the bodies away, or None
+    message : the same in words
+    """
+
+    outcome: Outcome
+    gap: Array
+    slip: Array
+    normal_force: Array
+    tangential_force: Array
+    state: IntArray
+    trace: tuple[Attempt, ...]
+    residual: float
+    escape: Array | None = None
+    message: str
+
+    @property
+    def solved(self) -> bool:
+        """Whether a certified solution was found."""
+        return self.outcome == "solved"
+
+    @property
+    def method(self) -> str:
+        """The method that gave the answer, ``"none"`` where nothing was tried."""
+        return self.trace[-1].method if self.trace else "none"
+
+
+@dataclass(frozen=True, kw_only=True)
+class CoulombResult(ContactAnswer):
     """The answer, in the scaled units of the problem.
 
     Attributes
@@ -30,24 +67,4 @@ class CoulombResult:
     message : the same in words
     """
 
-    outcome: Outcome
-    gap: Array
-    slip: Array
-    normal_force: Array
-    tangential_force: Array
-    state: IntArray
-    trace: tuple[Attempt, ...]
-    residual: float
-    escape: Array | None = None
     index: int | None = None
-    message: str
-
-    @property
-    def solved(self) -> bool:
-        """Whether a certified solution was found."""
-        return self.outcome == "solved"
-
-    @property
-    def method(self) -> str:
-        """The method that gave the answer, ``"none"`` where nothing was tried."""
-        return self.trace[-1].method if self.trace else "none"

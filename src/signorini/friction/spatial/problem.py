@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -11,12 +11,11 @@ from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, BoolArray, frozen
 from signorini.errors import InputError
-from signorini.friction.interface import Interface
-from signorini.friction.problem import STICKY
+from signorini.friction.posed import STICKY, PosedContact
 
 
 @dataclass(frozen=True, kw_only=True)
-class SpatialProblem:
+class SpatialProblem(PosedContact):
     """Find h = (gap, slip increment) and r = (normal force, tangential force) of n pairs in Coulomb's law with::
 
         G h - W r = b,    G = I - W
@@ -65,36 +64,13 @@ class SpatialProblem:
     for Nonsmooth Dynamical Systems, section 3.9 (the cone and its facets).
     """
 
-    W: Array
-    b: Array
-    friction: Array
-    motions: Array
-    scale: float
     tresca: BoolArray | None = None
     facets: int = 0
-    interface: Interface = field(default_factory=Interface.none, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        for name in ("W", "b", "friction", "motions"):
-            object.__setattr__(self, name, _read_only(getattr(self, name)))
-        n = len(self.friction)
-        bounded = np.zeros(n, np.bool_) if self.tresca is None else self.tresca
+        bounded = np.zeros(len(self.friction), np.bool_) if self.tresca is None else self.tresca
         object.__setattr__(self, "tresca", frozen(bounded, dtype=np.bool_))
-        _check(self)
-        if self.interface.W is not self.W or self.interface.motions is not self.motions:
-            interface = Interface.exact(self.W, self.motions)
-            object.__setattr__(self, "W", interface.W)
-            object.__setattr__(self, "interface", interface)
-
-    @property
-    def pairs(self) -> int:
-        """Number of pairs n."""
-        return len(self.friction)
-
-    @property
-    def floating(self) -> bool:
-        """Whether some body is held by contact alone."""
-        return bool(self.motions.shape[1])
+        super().__post_init__()
 
     @cached_property
     def bounded(self) -> BoolArray:
@@ -133,9 +109,16 @@ class SpatialProblem:
         """(3n,) Motion of the pairs under the load alone, without its rigid part."""
         return self.interface.free_motion(self.b)
 
-    def misfit(self, h: Array, r: Array) -> Array:
-        """(3n,) ``b - (G h - W r)``, the motion that equilibrium lacks."""
-        return self.b + self.W @ (h + r) - h
+    def _check(self) -> None:
+        n = self.pairs
+        self._check_data(3 * n, [(n,), (n, 2)])
+        if self.bounded.shape != (n,):
+            raise InputError(f"has shape {self.bounded.shape}; expected {(n,)}", where=("tresca",))
+        if not np.isfinite(self.friction[self.bounded]).all():
+            raise InputError("is infinite at a pair in Tresca's law; expected a force", where=("friction",))
+        if self.facets < 0 or self.facets % 4:
+            raise InputError(f"is {self.facets}; expected 0 or a multiple of 4", where=("facets",))
+        self._check_dragged(np.asarray(self.locked & (self.b[n:].reshape(2, n).T != 0)))
 
 
 def from_compliance(
@@ -181,43 +164,3 @@ def from_compliance(
         facets=facets,
     )
     return problem, root
-
-
-def _read_only(values: Array) -> Array:
-    """The array itself where nobody can edit it: W is large and shared by every step."""
-    array = np.asarray(values, dtype=np.float64)
-    return array if not array.flags.writeable and array.base is None else frozen(array)
-
-
-def _check(problem: SpatialProblem) -> None:
-    n = len(problem.friction)
-    columns = problem.motions.shape[-1]
-    shapes: dict[str, list[tuple[int, ...]]] = {
-        "W": [(3 * n, 3 * n)],
-        "b": [(3 * n,)],
-        "friction": [(n,), (n, 2)],
-        "motions": [(3 * n, columns)],
-    }
-    for name, expected in shapes.items():
-        found = getattr(problem, name)
-        if found.shape not in expected:
-            said = " or ".join(map(str, expected))
-            raise InputError(f"has shape {found.shape}; expected {said} for {n} pairs", where=(name,))
-        if not np.isfinite(found).all() and name != "friction":
-            raise InputError("has entries that are not finite", where=(name,))
-    if problem.bounded.shape != (n,):
-        raise InputError(f"has shape {problem.bounded.shape}; expected {(n,)}", where=("tresca",))
-    if not (problem.friction >= 0).all():
-        raise InputError("has negative entries or NaN; expected mu >= 0, inf for pairs that stick", where=("friction",))
-    if not np.isfinite(problem.friction[problem.bounded]).all():
-        raise InputError("is infinite at a pair in Tresca's law; expected a force", where=("friction",))
-    if not (np.isfinite(problem.scale) and problem.scale >= 0):
-        raise InputError(f"is {problem.scale}; expected a finite number >= 0", where=("scale",))
-    if problem.facets < 0 or problem.facets % 4:
-        raise InputError(f"is {problem.facets}; expected 0 or a multiple of 4", where=("facets",))
-    pulled = problem.locked & (problem.b[n:].reshape(2, n).T != 0)
-    if np.any(pulled & np.isinf(problem.friction.reshape(n, -1 if n else 1))):
-        raise InputError(
-            "is infinite at a pair whose supports drag it along: it can neither slip nor stick; give a finite mu",
-            where=("friction",),
-        )

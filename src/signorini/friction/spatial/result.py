@@ -5,13 +5,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from signorini.arrays import Array, IntArray
-from signorini.friction.result import Outcome
-from signorini.trace import Attempt
+from signorini.arrays import Array
+from signorini.friction.result import ContactAnswer
 
 
 @dataclass(frozen=True, kw_only=True)
-class SpatialResult:
+class SpatialResult(ContactAnswer):
     """The answer, in the scaled units of the problem.
 
     Attributes
@@ -30,27 +29,7 @@ class SpatialResult:
     message : the same in words
     """
 
-    outcome: Outcome
-    gap: Array
-    slip: Array
-    normal_force: Array
-    tangential_force: Array
-    state: IntArray
     y: Array
-    trace: tuple[Attempt, ...]
-    residual: float
-    escape: Array | None = None
-    message: str
-
-    @property
-    def solved(self) -> bool:
-        """Whether a certified solution was found."""
-        return self.outcome == "solved"
-
-    @property
-    def method(self) -> str:
-        """The method that gave the answer, ``"none"`` where nothing was tried."""
-        return self.trace[-1].method if self.trace else "none"
 
 
 @dataclass(frozen=True, kw_only=True)

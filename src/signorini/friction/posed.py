@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the condensed contact problems of the plane and of space share, whatever the law of friction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray, frozen
+from signorini.errors import InputError
+from signorini.friction.interface import Interface
+
+STICKY = 1e6
+"""Friction that stands for ``inf``: without bound the law is not continuous, and need not have a solution."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PosedContact:
+    """``G h - W r = b``, ``G = I - W``, of n pairs with d rows each: n normals, then n of every tangent.
+
+    Parameters
+    ----------
+    W : (d n, d n)
+    b : (d n,)
+    friction : (n,) or (n, d - 1)
+    motions : (d n, k)
+    scale : size of b's entries
+    interface : what does not depend on the load. ``dataclasses.replace(problem, b=...)`` shares it, with its
+        factorisation; made from W and motions where not given or not theirs
+    """
+
+    W: Array
+    b: Array
+    friction: Array
+    motions: Array
+    scale: float
+    interface: Interface = field(default_factory=Interface.none, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        for name in ("W", "b", "friction", "motions"):
+            object.__setattr__(self, name, _read_only(getattr(self, name)))
+        self._check()
+        if self.interface.W is not self.W or self.interface.motions is not self.motions:
+            interface = Interface.exact(self.W, self.motions)
+            object.__setattr__(self, "W", interface.W)
+            object.__setattr__(self, "interface", interface)
+
+    @property
+    def pairs(self) -> int:
+        """Number of pairs n."""
+        return len(self.friction)
+
+    @property
+    def floating(self) -> bool:
+        """Whether some body is held by contact alone."""
+        return bool(self.motions.shape[1])
+
+    def misfit(self, h: Array, r: Array) -> Array:
+        """(d n,) ``b - (G h - W r)``, the motion that equilibrium lacks."""
+        return self.b + self.W @ (h + r) - h
+
+    def _check(self) -> None:
+        raise NotImplementedError
+
+    def _check_data(self, rows: int, frictions: list[tuple[int, ...]]) -> None:
+        """Refuse wrong shapes and numbers.
+
+        Parameters
+        ----------
+        rows : d n
+        frictions : shapes that friction may have
+        """
+        shapes: dict[str, list[tuple[int, ...]]] = {
+            "W": [(rows, rows)],
+            "b": [(rows,)],
+            "friction": frictions,
+            "motions": [(rows, self.motions.shape[-1])],
+        }
+        for name, expected in shapes.items():
+            found = getattr(self, name)
+            if found.shape not in expected:
+                said = " or ".join(map(str, expected))
+                raise InputError(f"has shape {found.shape}; expected {said} for {self.pairs} pairs", where=(name,))
+            if not np.isfinite(found).all() and name != "friction":
+                raise InputError("has entries that are not finite", where=(name,))
+        if not (self.friction >= 0).all():
+            raise InputError(
+                "has negative entries or NaN; expected mu >= 0, inf for pairs that stick", where=("friction",)
+            )
+        if not (np.isfinite(self.scale) and self.scale >= 0):
+            raise InputError(f"is {self.scale}; expected a finite number >= 0", where=("scale",))
+
+    def _check_dragged(self, pulled: BoolArray) -> None:
+        """Refuse pairs without bound on their friction, (n,) or (n, d - 1), that supports pull along."""
+        n = self.pairs
+        if np.any(pulled.reshape(n, -1 if n else 1) & np.isinf(self.friction.reshape(n, -1 if n else 1))):
+            raise InputError(
+                "is infinite at a pair whose supports drag it along: it can neither slip nor stick; give a finite mu",
+                where=("friction",),
+            )
+
+
+def _read_only(values: Array) -> Array:
+    """The array itself where nobody can edit it: W is large and shared by every step."""
+    array = np.asarray(values, dtype=np.float64)
+    return array if not array.flags.writeable and array.base is None else frozen(array)
