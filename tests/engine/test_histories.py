@@ -153,7 +153,7 @@ def test_a_body_without_its_last_contact_is_named():
 
 
 def test_lower_friction_lets_go_at_once():
-    """At the same loads as if friction had been low, in increments; what slips sets energy free."""
+    """At the same loads as if friction had been low, in increments; friction takes all that slip sets free."""
     steps = [PRESS, sg.Step(scale={"pull": 1.0}), sg.Step(name="oil", scale={}, friction={"floor": 0.05})]
     solution = sg.solve(block(steps, friction=0.6))
     oil = solution.last
@@ -161,7 +161,7 @@ def test_lower_friction_lets_go_at_once():
     assert oil.instants[0].what == "change"
     assert (np.abs(floor.traction) <= 0.05 * floor.pressure * (1 + 1e-9)).all()
     assert oil.dissipation > 0.0
-    assert oil.released > 0.0
+    assert abs(oil.released) <= 1e-12 * oil.dissipation
     assert balance(solution) < 1e-9
     higher = [*steps[:2], sg.Step(scale={"pull": -1.0}, friction={"floor": 2.0})]
     rough = sg.solve(block(higher, friction=0.6))

@@ -28,7 +28,7 @@ def condensed(model):
     imposed = sum(prepared.constraints.prescribed.values())
     offset = np.concatenate([interface.gap, np.zeros(2 * len(interface))]) + interface.B @ imposed
     load = prepared.condensed.reduce(free_load(prepared, point)).load
-    return replace(prepared.law, b=prepared.condensed.right_hand_side(load, offset[rows], prepared.law.motions))
+    return replace(prepared.law, b=prepared.condensed.right_hand_side(load, offset[rows]))
 
 
 @pytest.mark.parametrize("upper", [4, 5])

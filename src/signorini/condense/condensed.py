@@ -3,40 +3,52 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+import scipy.linalg
 import scipy.sparse as sp
+from scipy.linalg import lapack
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.clock import Clock
-from signorini.condense.ties import Springs, Ties, make_springs, make_ties
+from signorini.condense.basis import Basis, make_basis
+from signorini.condense.parts import Parts, make_parts, mirror
+from signorini.condense.ties import Ties, make_ties
 from signorini.interface.interface import Interface
 from signorini.linalg.protocol import Factorisation, Reduced
 from signorini.linalg.registry import factorise
 
 # of the size of a row of B: below it supports hold what the row sees
 _HELD = 1e-12
+_HARDLY = 1e14  # of 1 / D: a compliance from which bodies held by contact alone are as good as free
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Condensed:
     """The bodies as their contact pairs feel them.
 
-    With S the condensed stiffness on the contact dofs, ``u_c = B_c z_c`` the relative displacement, r the forces of
-    the pairs and D a positive interface stiffness (any: it changes nothing but the conditioning),
-    ``S z_c = f_c + B_c^T r`` becomes ``(I - A D^) u_c - A r = B_c (S + B_c^T D^ B_c)^-1 f_c`` with
-    ``A = B_c (S + B_c^T D^ B_c)^-1 B_c^T``, which is regular where S is not. The interface compliance
-    C = diag(c / area) is in series: h = u_c + C r + h_0 obeys the exact law, and
+    With S the condensed stiffness on the contact dofs, ``u_c = B_c z_c`` the relative displacement and r the forces of
+    the pairs, ``S z_c = f_c + B_c^T r``. The interface compliance C = diag(c / area) is in series: h = u_c + C r + h_0
+    obeys the exact law. With Z the rigid motions that nothing but contact resists and S~ = S held by springs on Z (see
+    :mod:`signorini.condense.parts`)
 
-        G h - W r = b,    W = E A E + E C,   G = I - W D,   E = (I + D C)^-1,   D^ = D E,
+        h = X r + B_c S~^-1 f_c + h_0 + B_c Z a,    X = B_c S~^-1 B_c^T + C,    Z^T (f_c + B_c^T r) = 0.
 
-    so that C = 0 (exact) and C -> infinity are both harmless. Everything here is scaled by the roots of D.
+    Scaled by the roots of an interface stiffness D (any: it changes nothing but the conditioning) and with R an
+    orthonormal basis of B_c Z, P = I - R R^T, this is ``G h - W r = b`` with
+
+        A = P X P,    G = I - W = (I + A)^-1 - R R^T,    R^T b = the resultants of f_c,
+
+    so that C = 0 (exact), C -> infinity and bodies held by contact alone are all harmless.
 
     Attributes
     ----------
     factorisation : of the bodies, with the contact dofs last
-    W : (d a, 2 a) for the a active pairs, symmetric, spectrum in [0, 1]
+    A : (d a, d a) compliance of the a active pairs, without their rigid motion
+    W : (d a, d a) symmetric, spectrum in [0, 1]
+    motions : (d a, k) the rigid motions as the pairs see them, B_c Z, scaled
     active : (n,) pairs that the law is asked of: candidates that can move along their normal
     held : (n,) pairs that cannot, because supports hold them
     root : (d a,) square roots of D, force per length to the 1/2
@@ -44,10 +56,13 @@ class Condensed:
     compliance : (d a,) of the interface, C, length per force
     ties : tied pairs, which are no unknowns of the law: all displacements here leave them at rest
     B : (d a, m) relative displacements of the active pairs in terms of them, B_c
+    rigid : (m, k) rigid motions of the contact dofs, Z
     """
 
     factorisation: Factorisation
+    A: Array
     W: Array
+    motions: Array
     active: BoolArray
     held: BoolArray
     root: Array
@@ -55,7 +70,10 @@ class Condensed:
     B: sp.csr_array
     compliance: Array
     ties: Ties
-    _springs: Springs
+    rigid: Array
+    _parts: Parts
+    _basis: Basis
+    _leaning: Array
 
     @property
     def name(self) -> str:
@@ -76,31 +94,31 @@ class Condensed:
         """Loads (z,) on the free displacements, condensed onto the contact dofs."""
         return self.factorisation.reduce(f)
 
-    def right_hand_side(self, f_c: Array, offset: Array, motions: Array) -> Array:
-        """``b = E B_c (S + B_c^T D^ B_c)^-1 f_c + G h_0``, scaled.
+    def right_hand_side(self, f_c: Array, offset: Array) -> Array:
+        """b of ``G h - W r = b``, scaled.
 
         Parameters
         ----------
         f_c : (m,) condensed load
         offset : (d a,) h_0, length: initial gaps and minus the tangential displacements of the step before, each plus
             the relative displacement that supports prescribe
-        motions : (d a, k) what the pairs see of the rigid motions that supports leave free, scaled: ``W R = R``
         """
-        response = self._softening * (self.B @ self._solve(f_c))
-        scaled = self.root * offset
-        strain = scaled - self.W @ scaled
-        # no gap loads a rigid motion, R' G = 0; rounding would, where gaps are large beside what the loads move
-        strain -= motions @ np.linalg.lstsq(motions, strain)[0]
-        result: Array = self.root * response + strain
-        return result
+        basis = self._basis
+        resultant = basis.coefficients(self.rigid.T @ f_c)
+        free = self.root * (self.B @ self._parts.solve(f_c) + offset) - self._leaning @ resultant
+        free -= basis.R @ (basis.R.T @ free)
+        b: Array = free - self.W @ free + basis.R @ resultant
+        return b
 
     def displacement(self, reduced: Reduced, h: Array, r: Array, offset: Array) -> Array:
         """Free displacements (z,) under a load and the solution h, r (d a,), in the units of the problem."""
         if not len(self.dofs):
             return reduced.expand(reduced.load)
-        moved = h - self.compliance * r - offset
-        springs = self.root**2 * self._softening
-        return reduced.expand(self._solve(reduced.load + self.B.T @ (r + springs * moved)))
+        moved = self._parts.solve(reduced.load + self.B.T @ r)
+        if self.rigid.shape[1]:
+            left = self.root * (h - self.compliance * r - offset - self.B @ moved)
+            moved += self.rigid @ scipy.linalg.solve_triangular(self._basis.triangle, self._basis.R.T @ left)
+        return reduced.expand(moved)
 
     def among(self, kept: BoolArray) -> Condensed:
         """The same bodies with fewer pairs; no sparse matrix is factorised again.
@@ -115,15 +133,14 @@ class Condensed:
             If they do not.
         """
         rows = np.tile(kept[self.active], self.directions)
-        return _image(
-            self.factorisation,
-            self.B[rows],
-            self.root[rows] ** 2,
-            self.compliance[rows],
+        root, compliance, B = self.root[rows], self.compliance[rows], self.B[rows]
+        return replace(
+            self,
             active=self.active & kept,
-            held=self.held,
-            dofs=self.dofs,
-            ties=self.ties,
+            root=root,
+            B=B,
+            compliance=compliance,
+            **_image(self._parts, self.rigid, B, root, compliance),
         )
 
     @property
@@ -133,13 +150,6 @@ class Condensed:
         settled[self.ties.rows % len(settled)] = True
         return settled
 
-    @property
-    def _softening(self) -> Array:
-        return 1.0 / (1.0 + self.root**2 * self.compliance)
-
-    def _solve(self, f_c: Array) -> Array:
-        return self._springs.solve(f_c)
-
 
 def condense(
     K: sp.csr_array,
@@ -148,6 +158,7 @@ def condense(
     nodes: IntArray,
     *,
     candidates: BoolArray,
+    rigid: Array,
     backend: str,
     clock: Clock,
 ) -> Condensed:
@@ -160,6 +171,7 @@ def condense(
     interface : the pairs
     nodes : (z,) node of each free displacement
     candidates : (n,) pairs that may touch; the nodes of the others are eliminated like any other
+    rigid : (z, k) rigid motions that neither supports nor ties resist
     backend : of the factorisation, "auto" or a name
     clock : counts the factorisation and the condensation apart
 
@@ -167,6 +179,8 @@ def condense(
     ------
     NotPositiveDefinite
         If a part of a body can move without moving a contact node.
+    LinAlgError
+        If contact hardly holds a body that nothing else holds.
     """
     n = len(interface)
     size = np.sqrt(np.asarray(B.multiply(B).sum(axis=1)).ravel())
@@ -180,58 +194,64 @@ def condense(
     with clock.phase("factorisation"):
         factorisation = factorise(K, dofs, nodes=nodes, backend=backend)
     with clock.phase("condensation"):
-        K_c = sp.csr_array(K[dofs][:, dofs])
-        return _condense(factorisation, K_c, sp.csr_array(B[:, dofs]), interface, active, held, dofs, ties)
+        B_c, K_c = sp.csr_array(B[:, dofs]), sp.csr_array(K[dofs][:, dofs])
+        root = np.sqrt(_interface_stiffness(K_c, B_c, interface, np.flatnonzero(active)))
+        compliance = (interface.compliance / interface.areas)[interface.rows(active)]
+        size = float(K_c.diagonal().mean()) if len(dofs) else 1.0
+        parts = make_parts(factorisation.schur(), ties.B[:, dofs].toarray(), rigid[dofs], size=size)
+        return Condensed(
+            factorisation=factorisation,
+            active=active,
+            held=held,
+            root=root,
+            dofs=dofs,
+            B=B_c,
+            compliance=compliance,
+            ties=ties,
+            rigid=rigid[dofs],
+            _parts=parts,
+            **_image(parts, rigid[dofs], B_c, root, compliance),
+        )
 
 
-def _condense(
-    factorisation: Factorisation,
-    K_c: sp.csr_array,
-    B_c: sp.csr_array,
-    interface: Interface,
-    active: BoolArray,
-    held: BoolArray,
-    dofs: IntArray,
-    ties: Ties,
-) -> Condensed:
-    """From the contact dofs to the pairs."""
-    pairs = np.nonzero(active)[0]
-    stiffness = _interface_stiffness(K_c, B_c, interface, pairs)
-    compliance = (interface.compliance / interface.areas)[interface.rows(active)]
-    return _image(factorisation, B_c, stiffness, compliance, active=active, held=held, dofs=dofs, ties=ties)
+def _image(parts: Parts, rigid: Array, B_c: sp.csr_array, root: Array, compliance: Array) -> dict[str, Any]:
+    """A, W and the rigid motions that go with them, scaled by the roots of D."""
+    motions = root[:, None] * (B_c @ rigid)
+    basis = make_basis(motions)
+    A = parts.compliance(B_c)
+    A *= root
+    A *= root[:, None]
+    A[np.diag_indices_from(A)] += root**2 * compliance
+    leaning = A @ basis.R
+    if basis.R.size:
+        if A.diagonal().max(initial=0.0) > _HARDLY:
+            raise np.linalg.LinAlgError("contact hardly resists a rigid motion")
+        leaning -= basis.R @ (basis.R.T @ leaning)
+        _project(A, basis.R)
+    W = _stiffened(A, basis.R)
+    A.flags.writeable = W.flags.writeable = motions.flags.writeable = False
+    return {"A": A, "W": W, "motions": motions, "_basis": basis, "_leaning": leaning}
 
 
-def _image(
-    factorisation: Factorisation,
-    B_c: sp.csr_array,
-    stiffness: Array,
-    compliance: Array,
-    *,
-    active: BoolArray,
-    held: BoolArray,
-    dofs: IntArray,
-    ties: Ties,
-) -> Condensed:
-    """The image form for a stiffness D and a compliance C of the interface, each (d a,)."""
-    softening = 1.0 / (1.0 + stiffness * compliance)
-    stiff = factorisation.schur() + (B_c.T @ sp.diags_array(stiffness * softening) @ B_c).toarray()
-    springs = make_springs(stiff, ties.B[:, dofs].toarray())
-    A = springs.compliance(B_c) if len(dofs) else np.zeros((0, 0))
-    root = np.sqrt(stiffness)
-    W = (root * softening)[:, None] * A * (root * softening)
-    W[np.diag_indices_from(W)] += stiffness * softening * compliance
-    return Condensed(
-        factorisation=factorisation,
-        W=0.5 * (W + W.T),
-        active=active,
-        held=held,
-        root=root,
-        dofs=dofs,
-        B=B_c,
-        compliance=compliance,
-        ties=ties,
-        _springs=springs,
-    )
+def _project(A: Array, R: Array) -> None:
+    """Overwrite a symmetric A by ``P A P``, P = I - R R^T; twice, for bodies may travel far along R."""
+    for _ in range(2):
+        A -= R @ (R.T @ A)
+        A -= (A @ R) @ R.T
+    mirror(A)
+
+
+def _stiffened(A: Array, R: Array) -> Array:
+    """``W = I + R R^T - (I + A)^-1``."""
+    factor = np.array(A.T, order="F")
+    factor[np.diag_indices_from(factor)] += 1.0
+    if len(factor):
+        factor = scipy.linalg.cho_factor(factor, lower=True, overwrite_a=True, check_finite=False)[0]
+        factor, _ = lapack.dpotri(factor, lower=1, overwrite_c=1)
+    mirror(factor)
+    W = R @ R.T - factor.T
+    W[np.diag_indices_from(W)] += 1.0
+    return np.asarray(W, dtype=np.float64)
 
 
 def _interface_stiffness(K_c: sp.csr_array, B_c: sp.csr_array, interface: Interface, pairs: IntArray) -> Array:

@@ -163,9 +163,7 @@ def _right_hand_side(prepared: Prepared, point: LoadPoint) -> Array:
     """b of the law at a point of the load history."""
     condensed = prepared.condensed
     reduced = condensed.reduce(free_load(prepared, point))
-    return condensed.right_hand_side(
-        reduced.load, _offset(prepared, point)[condensed.active_rows], prepared.plane_law.motions
-    )
+    return condensed.right_hand_side(reduced.load, _offset(prepared, point)[condensed.active_rows])
 
 
 def _start(prepared: Prepared, state: State) -> PathState:

@@ -167,7 +167,7 @@ def _balanced(
     for _ in range(_REFINEMENTS + 1):
         with prepared.clock.phase("complementarity"):
             reduced = condensed.reduce(load)
-            b = condensed.right_hand_side(reduced.load, offset[rows], law.motions) + condensed.root * lacking
+            b = condensed.right_hand_side(reduced.load, offset[rows] + lacking)
             result = _solve(law, b, start)
         if not result.solved:
             break

@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, frozen
+from signorini.arrays import Array, BoolArray
 from signorini.checks import number
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
@@ -22,6 +22,7 @@ from signorini.fem.rigid import Part, describe_motion, free_motions, make_parts,
 from signorini.fem.space import Space, make_space
 from signorini.fem.stiffness import stiffness
 from signorini.fem.supports import Constraints, make_constraints
+from signorini.friction.interface import Interface as LawInterface
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.spatial import SpatialProblem
 from signorini.interface.candidates import candidates
@@ -269,8 +270,7 @@ def _made(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, cl
             bodies = _whole(examined, reduced, relative, near)
     if not whole:
         bodies = _condensed(examined, reduced, relative, near, backend, clock)
-        seen = interface.B @ examined.motions @ examined.floating
-        law = contact_law(interface, bodies, seen, examined.scale)
+        law = contact_law(interface, bodies, examined.scale)
         examined = replace(examined, constraints=_with_ties(examined, bodies.ties))
     return Prepared(
         **{field.name: getattr(examined, field.name) for field in fields(Examined)},
@@ -302,9 +302,17 @@ def _condensed(
     examined: Examined, K: sp.csr_array, B: sp.csr_array, near: BoolArray, backend: str, clock: Clock
 ) -> Condensed:
     """Factorise the bodies with the nodes of the candidates last."""
+    rigid = (examined.motions @ examined.floating)[examined.constraints.leaders]
     try:
         return condense(
-            K, B, examined.interface, examined.constraints.nodes, candidates=near, backend=backend, clock=clock
+            K,
+            B,
+            examined.interface,
+            examined.constraints.nodes,
+            candidates=near,
+            rigid=rigid,
+            backend=backend,
+            clock=clock,
         )
     except NotPositiveDefinite as error:
         raise _singular(examined, error) from error
@@ -323,19 +331,16 @@ def _with_ties(examined: Examined, ties: Ties) -> Constraints:
     return replace(constraints, prescribed=prescribed)
 
 
-def contact_law(
-    interface: Interface, condensed: Condensed, floating: Array, scale: Scale
-) -> CoulombProblem | SpatialProblem:
-    """The contact law of the active pairs, with no load yet; floating (d n, k) rigid motions as the pairs see them."""
-    rows = condensed.active_rows
-    seen = np.where(np.any(condensed.W, axis=1, keepdims=True), floating[rows], 0.0)
+def contact_law(interface: Interface, condensed: Condensed, scale: Scale) -> CoulombProblem | SpatialProblem:
+    """The contact law of the active pairs, with no load yet."""
     kind = CoulombProblem if interface.directions == 2 else SpatialProblem
     return kind(
-        W=frozen(condensed.W),
-        b=np.zeros(len(rows)),
+        W=condensed.W,
+        b=np.zeros(len(condensed.root)),
         friction=interface.friction[condensed.active],
-        motions=condensed.root[:, None] * seen,
+        motions=condensed.motions,
         scale=_size(interface, condensed, scale),
+        interface=LawInterface.known(condensed.W, condensed.motions, condensed.A),
     )
 
 

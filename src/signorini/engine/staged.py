@@ -47,8 +47,7 @@ def staged(prepared: Prepared, stage: Stage) -> Prepared:
         raise InputError(words, where=("step", stage.number - 1, "inactive")) from error
     if isinstance(bodies, Bodies):
         return replace(prepared, interface=interface, bodies=bodies, absent=absent)
-    seen = interface.B @ prepared.motions @ prepared.floating
-    law = contact_law(interface, bodies, seen, prepared.scale)
+    law = contact_law(interface, bodies, prepared.scale)
     return replace(prepared, interface=interface, bodies=bodies, law_or_none=law, absent=absent)
 
 

@@ -94,5 +94,5 @@ def _posed(prepared: Prepared, law: CoulombProblem, state: State) -> CoulombProb
     _, imposed = applied(prepared, state.point)
     offset = np.concatenate([state.point.gap, -state.tangential]) + interface.B @ imposed
     load: Array = condensed.reduce(free_load(prepared, state.point)).load
-    b = condensed.right_hand_side(load, offset[condensed.active_rows], law.motions)
+    b = condensed.right_hand_side(load, offset[condensed.active_rows])
     return replace(law, b=b)

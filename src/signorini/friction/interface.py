@@ -70,6 +70,13 @@ class Interface:
         elastic -= (elastic @ R) @ R.T
         return cls(W=frozen((elastic + elastic.T) / 2 + R @ R.T), motions=motions)
 
+    @classmethod
+    def known(cls, W: Array, motions: Array, A: Array) -> Interface:
+        """The interface where A is known and ``W R = R`` to rounding; all read-only."""
+        result = cls(W=W, motions=motions)
+        result.__dict__["A"] = A  # where the cached property keeps its value
+        return result
+
     @cached_property
     def R(self) -> Array:
         """(2n, k) Orthonormal rigid motions."""

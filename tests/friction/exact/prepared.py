@@ -26,7 +26,7 @@ class PreparedPath:
         """b under the loads."""
         condensed = self.prepared.condensed
         f = self.prepared.constraints.transform.T @ self.forces(factors)
-        return condensed.right_hand_side(condensed.reduce(f).load, self.offset, self.problem.motions)
+        return condensed.right_hand_side(condensed.reduce(f).load, self.offset)
 
     def start(self):
         """Nothing acts yet."""

@@ -124,7 +124,7 @@ class LinearSystem:
             dx = self._back(-np.concatenate([self.motions.T @ response, push]))
             dr, da = self.forces @ dx[: len(dx) - len(a)], dx[len(dx) - len(a) :]
             A, R = problem.interface.A, problem.interface.R
-            r, a, h = r + dr, a + da, self._exact(h + A @ dr + response + R @ da)
+            r, a, h = r + dr, a + da, prescribed(self.law, h + A @ dr + response + R @ da)
         return r, a, h
 
     def _back(self, rhs: Array) -> Array:
@@ -146,16 +146,17 @@ class LinearSystem:
         size = self.forces.shape[1]
         r, a = self.forces @ x[:size] + fixed, x[size:]
         h = self.equilibrium.moved(r, a)
-        return r, a, h if self.singular else self._exact(h)
+        return r, a, h if self.singular else prescribed(self.law, h)
 
-    def _exact(self, h: Array) -> Array:
-        """Motions with the zeros that the law prescribes, free of rounding."""
-        n = self.equilibrium.problem.pairs
-        stick = self.law.left == 2
-        h = h.copy()
-        h[:n][self.law.closed] = 0.0
-        h[n : 2 * n][stick], h[2 * n :][stick] = 0.0, 0.0
-        return h
+
+def prescribed(law: Tangent, h: Array) -> Array:
+    """Motions (3n,) with the zeros that the law prescribes, free of rounding."""
+    n = len(law.closed)
+    stick = law.left == 2
+    h = h.copy()
+    h[:n][law.closed] = 0.0
+    h[n : 2 * n][stick], h[2 * n :][stick] = 0.0, 0.0
+    return h
 
 
 def linear_system(equilibrium: Equilibrium, law: Tangent) -> LinearSystem:
@@ -177,7 +178,7 @@ def linear_system(equilibrium: Equilibrium, law: Tangent) -> LinearSystem:
     ([2.0, -0.4, -0.2], [0.0, 0.0, 0.0])
     """
     problem, alpha = equilibrium.problem, equilibrium.alpha
-    forces, motions, resisting = _directions(problem.pairs, law)
+    forces, motions, resisting = directions(problem.pairs, law)
     taking = np.flatnonzero(np.asarray(abs(forces).sum(axis=1)).ravel() + np.asarray(abs(motions).sum(axis=1)).ravel())
     A, R = problem.interface.A[np.ix_(taking, taking)], problem.interface.R[taking]
     if alpha:
@@ -207,7 +208,7 @@ def linear_system(equilibrium: Equilibrium, law: Tangent) -> LinearSystem:
     )
 
 
-def _directions(n: int, law: Tangent) -> tuple[sp.csc_array, sp.csc_array, Array]:
+def directions(n: int, law: Tangent) -> tuple[sp.csc_array, sp.csc_array, Array]:
     """Forces Z and motions Y (3n, size) of the unknowns, and kappa on the diagonal.
 
     Rows across a slip are divided by 1 + kappa: far from sticking they say q = 0, and not that kappa is huge.

@@ -15,6 +15,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.friction.spatial.certificate import certify
 from signorini.friction.spatial.equilibrium import Equilibrium, linear_system
+from signorini.friction.spatial.iterated import LARGE, iterate
 from signorini.friction.spatial.law import Tangent, split, tangent
 from signorini.trace import Attempt
 
@@ -91,7 +92,7 @@ def newton(
     h, history, changes = r, [np.inf], []
     best, end, converged = (np.inf, r, a, r - h), "limit reached", False
     for _ in range(limit):
-        found = linear_system(equilibrium, law).solve(r, a)
+        found = _balanced(equilibrium, law, r, a)
         if found is None:
             end = "singular system"
             break
@@ -115,6 +116,15 @@ def newton(
     attempt = Attempt(method=method, iterations=len(changes), changes=tuple(changes), end=end)
     residual = certify(problem, y) if np.isfinite(best[0]) else np.inf
     return NewtonEnd(force=r, rigid=a, y=y, residual=residual, attempt=attempt, converged=converged)
+
+
+def _balanced(equilibrium: Equilibrium, law: Tangent, r: Array, a: Array) -> tuple[Array, Array, Array] | None:
+    """Forces, rigid motion and motions that balance under the linearised law; None where nothing does."""
+    if equilibrium.as_posed and np.count_nonzero(law.closed) + law.left.sum() >= LARGE:
+        found = iterate(equilibrium, law, r, a)
+        if found is not None:
+            return found
+    return linear_system(equilibrium, law).solve(r, a)
 
 
 def _searched(

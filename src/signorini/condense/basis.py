@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""An orthonormal basis of the rigid motions that the pairs see."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+
+from signorini.arrays import Array
+
+_DEPENDENT = 1e-10  # of the largest: what is left of a motion that follows from the others
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Basis:
+    """``N = R T`` of rigid motions N.
+
+    Attributes
+    ----------
+    R : (n, k) orthonormal
+    triangle : (k, k) T, upper
+    """
+
+    R: Array
+    triangle: Array
+
+    def coefficients(self, resultant: Array) -> Array:
+        """``R^T b`` of any b with the resultants ``N^T b``, both (k,)."""
+        solved: Array = scipy.linalg.solve_triangular(self.triangle, resultant, trans=1)
+        return solved
+
+
+def make_basis(motions: Array) -> Basis:
+    """Factorise.
+
+    Parameters
+    ----------
+    motions : (n, k) N
+
+    Raises
+    ------
+    LinAlgError
+        If they are dependent: the pairs do not see a motion.
+
+    Examples
+    --------
+    >>> basis = make_basis(np.array([[3.0], [4.0]]))
+    >>> np.abs(basis.R).round(12).tolist(), np.abs(basis.coefficients(np.array([10.0]))).round(12).tolist()
+    ([[0.6], [0.8]], [2.0])
+    """
+    R, triangle = scipy.linalg.qr(motions, mode="economic") if motions.size else (motions, np.zeros((0, 0)))
+    size = np.abs(np.diag(triangle))
+    if len(size) < motions.shape[1] or size.min(initial=1.0) <= _DEPENDENT * size.max(initial=0.0):
+        raise np.linalg.LinAlgError("the pairs do not see a rigid motion")
+    R[~motions.any(axis=1)] = 0.0
+    return Basis(R=R, triangle=triangle)

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The condensed bodies part by part: what they resist with on their contact dofs, and how they yield to forces there.
+
+The condensed stiffness is block diagonal, for bodies feel each other through their contacts alone: parts are factorised
+one by one. Where nothing but contact holds a part its block is singular; springs on its rigid motions Z hold it then,
+``S + rho Z Z^T`` with Z orthonormal. They carry nothing under balanced forces, ``Z^T f = 0``, so that what the part
+yields to those is right but for a rigid motion, which is for the contact to find.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse as sp
+from scipy.linalg import lapack
+
+from signorini.arrays import Array, IntArray
+
+_VANISHES = 1e-10  # of the largest: size of what is left of a motion that follows from the others
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Part:
+    """One block.
+
+    Attributes
+    ----------
+    dofs : (p,) its contact dofs, ascending
+    cholesky : (p, p) of its stiffness with the springs, lower; above the diagonal anything
+    """
+
+    dofs: IntArray
+    cholesky: Array
+
+    def solve(self, load: Array) -> Array:
+        """Displacements (p, ...) under a load (p, ...)."""
+        moved: Array = scipy.linalg.cho_solve((self.cholesky, True), load, check_finite=False)
+        return moved
+
+    def inverse(self) -> Array:
+        """Of the stiffness, (p, p), symmetric to the last digit."""
+        inverse, _ = lapack.dpotri(self.cholesky, lower=1)
+        mirror(inverse)
+        return np.asarray(inverse, dtype=np.float64)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Parts:
+    """All blocks, and the ties between them.
+
+    Attributes
+    ----------
+    blocks : parts that no tie and no stiffness joins
+    across : (m, t) what forces of the ties move
+    gram : Cholesky factor of what they move of themselves, (t, t)
+    """
+
+    blocks: tuple[Part, ...]
+    across: Array
+    gram: Array
+
+    def solve(self, load: Array) -> Array:
+        """Displacements (m, ...) under a load (m, ...) that leave the ties at rest."""
+        moved = np.zeros_like(load)
+        for part in self.blocks:
+            moved[part.dofs] = part.solve(load[part.dofs])
+        if self.across.shape[1]:
+            moved -= self.across @ scipy.linalg.cho_solve((self.gram, True), self.across.T @ load, check_finite=False)
+        return moved
+
+    def compliance(self, B: sp.csr_array) -> Array:
+        """``B M^-1 B^T`` of the stiffness M with its ties, (k, k), symmetric to the last digit; B (k, m)."""
+        result = np.zeros((B.shape[0],) * 2)
+        for part in self.blocks:
+            own = sp.csr_array(B[:, part.dofs])
+            seen = np.flatnonzero(np.diff(own.indptr))
+            own = own[seen]
+            moved = own @ np.ascontiguousarray((own @ part.inverse().T).T)
+            if len(seen) == len(result):
+                result += moved
+            else:
+                result[np.ix_(seen, seen)] += moved
+        if self.across.shape[1]:
+            moved = scipy.linalg.solve_triangular(self.gram, (B @ self.across).T, lower=True, check_finite=False)
+            result -= moved.T @ moved
+        mirror(result)
+        return result
+
+
+def make_parts(stiffness: Array, ties: Array, rigid: Array, *, size: float) -> Parts:
+    """Factorise.
+
+    Parameters
+    ----------
+    stiffness : (m, m) S, symmetric
+    ties : (t, m) B_t on the contact dofs, independent rows
+    rigid : (m, k) rigid motions that neither supports nor ties resist
+    size : of a stiffness, for springs and ties
+
+    Raises
+    ------
+    LinAlgError
+        If anything else moves without resistance.
+
+    Examples
+    --------
+    Two nodes, one on a spring of stiffness 2, the other free; each is a part:
+
+    >>> parts = make_parts(np.diag([2.0, 0.0]), np.zeros((0, 2)), np.array([[0.0], [1.0]]), size=1.0)
+    >>> [part.dofs.tolist() for part in parts.blocks], parts.solve(np.array([1.0, 0.0])).tolist()
+    ([[0], [1]], [0.5, 0.0])
+    """
+    if len(ties):
+        stiffness = stiffness + size * (ties.T @ ties)
+    blocks = tuple(_part(stiffness, dofs, rigid[dofs], size) for dofs in independent(stiffness))
+    untied = Parts(blocks=blocks, across=np.zeros((len(stiffness), 0)), gram=np.zeros((0, 0)))
+    if not len(ties):
+        return untied
+    across = untied.solve(ties.T)
+    gram = np.asarray(np.linalg.cholesky(ties @ across), dtype=np.float64)
+    return Parts(blocks=blocks, across=across, gram=gram)
+
+
+def independent(matrix: Array) -> list[IntArray]:
+    """Rows of the diagonal blocks of a symmetric matrix, each ascending.
+
+    >>> [rows.tolist() for rows in independent(np.array([[1.0, 0.0, 2.0], [0.0, 3.0, 0.0], [2.0, 0.0, 4.0]]))]
+    [[0, 2], [1]]
+    """
+    blocks: list[IntArray] = []
+    left = np.ones(len(matrix), dtype=np.bool_)
+    while left.any():
+        block = np.zeros_like(left)
+        new = np.array([int(np.argmax(left))])
+        while len(new):
+            block[new] = True
+            new = np.flatnonzero((matrix[new] != 0.0).any(axis=0) & ~block)
+        blocks.append(np.flatnonzero(block))
+        left &= ~block
+    return blocks
+
+
+def _part(stiffness: Array, dofs: IntArray, rigid: Array, size: float) -> Part:
+    """One block, held by springs where it floats."""
+    first, last = dofs[0], dofs[-1] + 1
+    together = last - first == len(dofs)
+    matrix = np.array((stiffness[first:last, first:last] if together else stiffness[np.ix_(dofs, dofs)]).T, order="F")
+    if rigid.any():
+        Q, triangle, _ = scipy.linalg.qr(rigid, mode="economic", pivoting=True)
+        left = np.abs(np.diag(triangle))
+        Q = Q[:, : np.count_nonzero(left > _VANISHES * left[0])]
+        matrix += size * (Q @ Q.T)
+    cholesky, _ = scipy.linalg.cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)
+    return Part(dofs=dofs, cholesky=cholesky)
+
+
+def mirror(matrix: Array) -> None:
+    """Overwrite the upper triangle by the lower, in tiles that fit the cache."""
+    tile = 256
+    for i in range(0, len(matrix), tile):
+        own = matrix[i : i + tile, i : i + tile]
+        own[...] = np.tril(own) + np.tril(own, -1).T
+        matrix[i : i + tile, i + tile :] = matrix[i + tile :, i : i + tile].T

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The iterated system against the factorised one: sticking, slipping and open pairs, held and floating bodies."""
+
+import numpy as np
+import pytest
+from spatial_samples import block_on_floor, pressed_punch, random_problem
+
+from signorini.friction.spatial import solve_spatial
+from signorini.friction.spatial.equilibrium import Equilibrium, linear_system
+from signorini.friction.spatial.iterated import gmres, iterate
+from signorini.friction.spatial.law import sticking, tangent
+
+PROBLEMS = {
+    "punch": pressed_punch(49, 0.4)[2],
+    "floating": block_on_floor((-3.0, 0.4, 0.2, 0.3, 0.1, 0.2), 0.4, side=4)[0],
+    "bounded": random_problem(5, 12, 0.3, tresca=np.arange(12) % 2 == 0),
+}
+
+
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_a_linearised_law_is_solved_as_by_a_factorisation(name):
+    """The law at the solution, where some pairs slip and some are open, and that where all stick."""
+    problem = PROBLEMS[name]
+    form = Equilibrium.of(problem)
+    y = solve_spatial(problem).y
+    for law in (sticking(problem), tangent(problem, y)):
+        expected = linear_system(form, law).solve(np.zeros(3 * problem.pairs), np.zeros(problem.motions.shape[1]))
+        r, a = np.zeros(3 * problem.pairs), np.zeros(problem.motions.shape[1])
+        for _ in range(8):  # each time a hundredth of what is lacking is left
+            r, a, h = iterate(form, law, r, a)
+        for found, known in zip((r, a, h), expected, strict=True):
+            np.testing.assert_allclose(found, known, rtol=0, atol=1e-10 * np.abs(expected[0]).max())
+
+
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_newton_ends_where_it_does_with_factorisations(name, monkeypatch):
+    problem = PROBLEMS[name]
+    expected = solve_spatial(problem)
+    monkeypatch.setattr("signorini.friction.spatial.newton.LARGE", 1)
+    found = solve_spatial(problem)
+    assert found.trace[0].iterations <= expected.trace[0].iterations + 4
+    np.testing.assert_array_equal(found.state, expected.state)
+    np.testing.assert_allclose(found.y, expected.y, rtol=0, atol=1e-9 * np.abs(expected.y).max())
+
+
+def test_what_gmres_cannot_solve_is_said():
+    assert gmres(lambda x: 0.0 * x, lambda y: y, np.ones(3), 1e-12) is None
