@@ -7,7 +7,9 @@ from signorini.verify import fenet, hertz, patches, punches, rings, scalar
 from signorini.verify.check import Check
 
 CASES = (
-    patches.patch_turned,
+    patches.patch_p1,
+    patches.patch_p2,
+    patches.patch_p4,
     patches.patch_p5,
     patches.patch_p6,
     patches.patch_discs,

@@ -26,7 +26,6 @@ Case = Callable[[], Iterator[Check]]
 QUICK: tuple[Case, ...] = (
     patches.patch_p1,
     patches.patch_p2,
-    patches.patch_turned,
     patches.patch_p4,
     patches.patch_p5,
     patches.patch_p6,
