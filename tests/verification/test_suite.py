@@ -16,6 +16,7 @@ CASES = (
     hertz.line_contact,
     hertz.point_contact,
     hertz.equal_spheres,
+    hertz.small_equal_spheres,
     fenet.cylinder,
     punches.corner_exponents,
     rings.shrink_fits,

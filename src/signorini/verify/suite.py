@@ -34,6 +34,7 @@ QUICK: tuple[Case, ...] = (
     hertz.point_contact,
     hertz.below_the_contact,
     hertz.equal_spheres,
+    hertz.small_equal_spheres,
     fenet.cylinder,
     punches.flat_punches,
     punches.corner_exponents,
