@@ -6,26 +6,24 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.fem.boundary import Boundary
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
+from signorini.interface.coupling import Coupling
 from signorini.interface.spatial.frames import frames
 
 _SAME = 1e-9  # of the size of the mesh: two nodes on one plane across an axis
 
 
-def side_normals(space: Space, constraints: Constraints, side: Boundary, nodes: IntArray) -> Array:
-    """Minus the averaged outward normals at nodes of a side, (k, d); in the plane of symmetry where one holds a node.
+def in_symmetry_planes(space: Space, constraints: Constraints, coupling: Coupling) -> Array:
+    """Normal areas of the pairs (k, d), in the plane of symmetry where one holds a node.
 
-    The average at the last node of a half model misses the other half: its component along the supported direction is
+    The integral at the last node of a half model misses the other half: its component along the supported direction is
     what the mirror image takes away.
     """
-    normals = -side.nodal_normals[np.searchsorted(side.nodes, nodes)]
-    inside = np.where(_held(space, constraints, nodes), 0.0, normals)
-    size = np.linalg.norm(inside, axis=1)
-    mirrored = size > 0.5
-    normals[mirrored] = inside[mirrored] / size[mirrored, None]
-    return normals
+    whole = coupling.normal_areas
+    inside = np.where(_held(space, constraints, coupling.nodes), 0.0, whole)
+    mirrored = np.linalg.norm(inside, axis=1) > 0.5 * coupling.area
+    return np.where(mirrored[:, None], inside, whole)
 
 
 def symmetric_partners(
@@ -62,7 +60,7 @@ def _held(space: Space, constraints: Constraints, nodes: IntArray) -> BoolArray:
     return np.asarray(constraints.free[space.dofs(nodes)] < 0)
 
 
-def tangents(normals: Array, mirrored: BoolArray) -> tuple[Array, BoolArray]:
+def tangents(normals: Array, mirrored: BoolArray, fibres: Array) -> tuple[Array, BoolArray]:
     """Unit vectors across the normals, (k, d - 1, d), and which of them (k, d - 1) nothing slides along.
 
     In the plane ``t = (n_y, -n_x)``. In space ``t1 x t2 = n``; t1 goes across the plane of symmetry of a pair on one.
@@ -71,13 +69,40 @@ def tangents(normals: Array, mirrored: BoolArray) -> tuple[Array, BoolArray]:
     ----------
     normals : (k, d)
     mirrored : (k, d) whether a pair lies on a plane of symmetry across a coordinate axis, in space
+    fibres : (k, 3) in space, direction of the first tangent; 0 leaves it to a coordinate axis
     """
     if normals.shape[1] == 2:
         return np.stack([normals[:, 1], -normals[:, 0]], axis=1)[:, None], np.zeros((len(normals), 1), bool)
     axes = frames(normals)[:, 1:]
+    for axis in np.unique(fibres[fibres.any(axis=1)], axis=0):
+        own = (fibres == axis).all(axis=1)
+        axes[own] = frames(normals[own], axis)[:, 1:]
     on = mirrored.any(axis=1)
     across = np.eye(3)[np.argmax(mirrored[on], axis=1)]
     axes[on] = np.stack([across, np.cross(normals[on], across)], axis=1)
     still = np.zeros((len(normals), 2), bool)
     still[on] = np.einsum("kji,ki->kj", np.abs(axes[on]), mirrored[on]) > 1.0 - 1e-9
     return axes + 0.0, still
+
+
+def along_tangents(ratio: tuple[float, float], axis: tuple[float, float, float] | None, axes: Array) -> Array:
+    """What belongs to the direction of an axis and across it as it belongs to the tangents, (k, d - 1).
+
+    On a plane of symmetry the first tangent goes across the plane, which the axis may lie in.
+
+    Parameters
+    ----------
+    ratio : along the axis and across it
+    axis : (3,); None where both are the same
+    axes : (k, d - 1, d) tangents
+
+    Examples
+    --------
+    >>> along_tangents((0.5, 1.0), (1, 0, 0), np.array([np.eye(3)[:2], np.eye(3)[[1, 0]]])).tolist()
+    [[0.5, 1.0], [1.0, 0.5]]
+    """
+    if axis is None:
+        return np.full(axes.shape[:2], ratio[0])
+    along = np.abs(axes @ np.array(axis, float))
+    first: Array = (along[:, 0] >= along[:, 1])[:, None]
+    return np.where(first, ratio, ratio[::-1])
