@@ -12,13 +12,13 @@ from signorini.gallery.blocks import block_on_foundation, dragged_block, four_bl
 from signorini.model.mesh import join
 
 
-def cubes(friction, *, floating):
+def cubes(friction, *, floating, push=1e-4):
     """A cube on a larger block that its mesh does not match, pressed and pushed by its top or held by contact alone."""
     fine, coarse = np.linspace(0, 1, 5), np.linspace(-0.5, 1.5, 4)
     low, up = box(x=coarse, y=coarse, z=[-1, 0]), box(x=fine, y=fine, z=fine)
     supports = [sg.Support("low.bottom", u=(0, 0, 0))]
     if not floating:
-        supports.append(sg.Support("up.top", u=(1e-4, 5e-5, -5e-4)))
+        supports.append(sg.Support("up.top", u=(push, 5e-5, -5e-4)))
     return sg.Model(
         join({"low": low, "up": up}),
         bodies=[sg.Body(name, sg.Elastic(E=2e5, nu=0.3)) for name in ("low", "up")],
@@ -32,6 +32,7 @@ def cubes(friction, *, floating):
 MODELS = {
     "space, frictionless": cubes(0.0, floating=False),
     "space, friction": cubes(0.3, floating=False),
+    "space, everything slips": cubes(0.3, floating=False, push=5e-3),
     "space, held by contact alone": cubes(0.3, floating=True),
     "space, stick": cubes("stick", floating=True),
     "plane, four contacts": four_blocks(),
@@ -54,6 +55,7 @@ def test_same_answers(name):
             size = np.abs(here.pressure).max()
             np.testing.assert_allclose(there.pressure, here.pressure, atol=1e-7 * size)
             np.testing.assert_allclose(there.traction, here.traction, atol=1e-7 * size)
+            np.testing.assert_array_equal(there.status, here.status)
 
 
 def test_what_does_not_fit_is_iterated(monkeypatch):

@@ -45,12 +45,19 @@ class Blocks:
         return sp.csr_array((B.data, self.place[B.indices], B.indptr), shape=shape)
 
     def matrix(self, K: sp.csr_array) -> sp.bsr_array:
-        """A symmetric matrix (z, z) in blocks, ones on the diagonal of the padding."""
-        own, across = sp.coo_array(K), np.flatnonzero(self.padding)
-        row, column = np.append(self.place[own.row], across), np.append(self.place[own.col], across)
-        data = np.append(own.data, np.full(len(across), K.diagonal().mean()))
-        whole = sp.csr_array((data, (row, column)), shape=(self.size * self.count,) * 2)
-        return sp.bsr_array(whole, blocksize=(self.size, self.size))
+        """A symmetric matrix (z, z) in blocks, ones of its size on the diagonal of the padding."""
+        d, n = self.size, self.size * self.count
+        order = np.argsort(self.place)
+        K = K if (np.diff(order) == 1).all() else sp.csr_array(K[order])
+        counts = np.zeros(n + 1, dtype=np.int64)
+        counts[self.place[order] + 1] = np.diff(K.indptr)
+        whole = sp.csr_array((K.data, self.place[K.indices], np.cumsum(counts)), shape=(n, n))
+        blocks = sp.bsr_array(whole, blocksize=(d, d))
+        rows = np.repeat(np.arange(self.count), np.diff(blocks.indptr))
+        own = np.flatnonzero(blocks.indices == rows)  # one a row, in order
+        across = np.flatnonzero(self.padding)
+        blocks.data[own[across // d], across % d, across % d] = whole.diagonal().sum() / len(self.place)
+        return blocks
 
 
 def make_blocks(nodes: IntArray, axis: IntArray, size: int) -> Blocks:

@@ -185,7 +185,11 @@ class _Rounds:
 
     def answer(self, worst: float) -> Answer:
         bodies = self.bodies
-        state, r = self.state, self.multiplier
+        state, r = self.state, self.multiplier.copy()
+        # bounds lag by what the last round changed: what slips carries exactly what friction bears
+        slips = (state != OPEN) & (state != STICK)
+        size = np.linalg.norm(r[1:], axis=0)
+        r[1:, slips] *= np.divide(self.bound, size, out=np.ones_like(size), where=size > 0)[slips]
         moved = self.relative + self.C * r
         closed = state != OPEN
         moved[0] = np.where(closed, 0.0, np.maximum(moved[0], 0.0))

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Large contacts in space, condensed and iterated: growth with unknowns and with pairs; tables of docs/performance.md.
+
+python -m benchmarks.size [unknowns] [pairs] [--small] [--dry]
+
+Seconds on the wall, all cores, of everything from the model to the certified solution; code warm, every run in a
+process of its own.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import sys
+import time
+from typing import Any
+
+import numpy as np
+
+from benchmarks import page
+from signorini.engine.prepare import prepare
+from signorini.engine.solve import solve_prepared
+from signorini.fem.solids import box
+from signorini.gallery.cubes import cubes
+from signorini.model.body import Body
+from signorini.model.conditions import Support
+from signorini.model.contact import Contact
+from signorini.model.material import Elastic
+from signorini.model.mesh import join
+from signorini.model.model import Model
+
+WAYS = ("multifrontal", "iterative")
+CONDENSED_UP_TO = 310_000
+SIZES, SMALL_SIZES = (30_000, 100_000, 300_000, 1_000_000), (3_000, 10_000)
+SIDES, SMALL_SIDES = (14, 19, 29, 39, 49), (4, 8)
+FIXED, SMALL_FIXED = 100_000, 3_000
+HEAD = ("problem", "way", "unknowns", "contact pairs", "open", "stick", "slip", "iterations", "seconds", "memory GB")
+
+
+def columns(side: int, dofs: int) -> Model:
+    """Two equal columns of cubic cells end on end, ``side`` cells across, one pressed and pushed on the other."""
+    layers = max(1, round(dofs / (6.0 * (side + 1) ** 2)) - 1)
+    height, x = layers / side, np.linspace(0.0, 1.0, side + 1)
+    z = np.linspace(0.0, height, layers + 1)
+    parts = {"lower": box(x=x, y=x, z=z - height), "upper": box(x=x, y=x, z=z)}
+    return Model(
+        join(parts),
+        bodies=[Body(name, Elastic(E=1.0, nu=0.3)) for name in parts],
+        supports=[
+            Support("lower.bottom", u=(0.0, 0.0, 0.0)),
+            Support("upper.top", u=(0.018 * height, 0.006 * height, -0.01 * height)),
+        ],
+        contacts=[Contact("upper.bottom", "lower.top", friction=0.3, name="contact")],
+    )
+
+
+def model_of(problem: str, dofs: int) -> Model:
+    """Cubes of about so many unknowns, matching or not; columns of "side" cells across."""
+    if problem.isdigit():
+        return columns(int(problem), dofs)
+    n = max(2, round(np.cbrt(dofs / 6.0)) - 1)
+    if problem == "cubes":
+        return cubes(n)
+    upper = max(1, round(0.92 * n))
+    return cubes(max(2, round(np.cbrt(dofs / 3.0 - (upper + 1) ** 3)) - 1), upper)
+
+
+def measure(problem: str, way: str, dofs: int) -> dict[str, Any]:
+    """One solve in this process."""
+    solve_prepared(prepare(cubes(3, 2), backend=way))
+    model = model_of(problem, dofs)
+    began = time.perf_counter()
+    history = solve_prepared(prepare(model, backend=way))
+    wall = time.perf_counter() - began
+    contact, last = history.last.contacts[0], history.last
+    return {
+        "unknowns": 3 * len(model.mesh.points),
+        "pairs": history.pairs,
+        "states": [contact.count(state) for state in ("open", "stick", "slip")],
+        "iterations": sum(last.iterations),
+        "end": last.trace[0][-1].end,
+        "wall": wall,
+        "memory": page.peak_memory(),
+        "worst": last.certificate.worst,
+    }
+
+
+def in_process(problem: str, way: str, dofs: int) -> dict[str, Any]:
+    """Measure in a process of its own."""
+    command = [sys.executable, "-m", "benchmarks.size", "--one", problem, way, str(dofs)]
+    found: dict[str, Any] = json.loads(subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout)
+    print(f"{problem}, {way}: {found['unknowns']} unknowns, {found['pairs']} pairs: {found['wall']:.1f} s", flush=True)
+    return found
+
+
+def row(problem: str, way: str, found: dict[str, Any]) -> list[object]:
+    """A line of a table."""
+    steps = str(found["iterations"])
+    if way == "iterative":  # rounds of the multipliers, and all conjugate gradients
+        steps += f" / {found['end'].split()[0]}"
+    return [
+        f"{problem} cells across" if problem.isdigit() else problem,
+        way,
+        found["unknowns"],
+        found["pairs"],
+        *found["states"],
+        steps,
+        page.seconds(found["wall"]),
+        page.gigabytes(found["memory"]),
+    ]
+
+
+def growth(rows: list[tuple[str, dict[str, Any]]], key: str) -> str:
+    """Exponents of the power laws in unknowns or pairs that fit best, way by way."""
+    said = []
+    for way in WAYS:
+        own = [found for name, found in rows if name == way]
+        if len({found[key] for found in own}) > 1:
+            sizes = np.log([found[key] for found in own])
+            fit = np.polyfit(sizes, np.log([found["wall"] for found in own]), 1)[0]
+            said.append(f"{way} {fit:.2f}")
+    return f"Exponents of the seconds in the {key}: {', '.join(said)}."
+
+
+def table(cases: list[tuple[str, str, int]], key: str) -> str:
+    """Measure cases of (problem, way, dofs)."""
+    found = [(problem, way, in_process(problem, way, dofs)) for problem, way, dofs in cases]
+    lines = [
+        row(f"{problem} cells across" if problem.isdigit() else problem, way, each) for problem, way, each in found
+    ]
+    worst = max(each["worst"] for _, _, each in found)
+    words = (
+        "mu = 0.3, one increment. Iterations: Newton's systems, or rounds / conjugate gradients. The worst certificate "
+        f"is {worst:.0e}. Seconds on the wall, one run each, {page.machine()}."
+    )
+    return "\n\n".join([page.table(HEAD, lines), growth([(way, each) for _, way, each in found], key), words])
+
+
+def unknowns(small: bool) -> str:
+    """Cubes, matching and not, condensed and iterated."""
+    sizes = SMALL_SIZES if small else SIZES
+    cases = [
+        (problem, way, dofs)
+        for problem in ("cubes", "cubes, not matching")
+        for way in WAYS
+        for dofs in sizes
+        if way == "iterative" or dofs <= CONDENSED_UP_TO
+    ]
+    return table(cases, "unknowns")
+
+
+def pairs(small: bool) -> str:
+    """Columns of a fixed number of unknowns, ever wider."""
+    sides, dofs = (SMALL_SIDES, SMALL_FIXED) if small else (SIDES, FIXED)
+    return table([(str(side), way, dofs) for way in WAYS for side in sides], "pairs")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("tables", nargs="*", help="unknowns, pairs")
+    parser.add_argument("--small", action="store_true", help="sizes that take seconds")
+    parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
+    parser.add_argument("--one", action="store_true", help="measure in this process")
+    options = parser.parse_args()
+    if options.one:
+        problem, way, dofs = options.tables
+        print(json.dumps(measure(problem, way, int(dofs))))
+        return
+    for name in options.tables or ("unknowns", "pairs"):
+        text = {"unknowns": unknowns, "pairs": pairs}[name](options.small)
+        print(text)
+        if not options.dry:
+            page.write(f"size, {name}", text)
+
+
+if __name__ == "__main__":
+    main()
