@@ -67,7 +67,8 @@ def factorise_fronts(
         _add_matrix(indptr, indices, data, order, place, a, k, local, factor[panel:], ld)
         leaf = count == 0 or fronts.parent[waiting[count - 1]] != t
         if not leaf:
-            work[: r * r] = 0.0
+            for c in range(r):
+                work[c * r + c : (c + 1) * r] = 0.0
         while count > 0 and fronts.parent[waiting[count - 1]] == t:
             count -= 1
             child = waiting[count]
