@@ -16,6 +16,7 @@ from signorini.condense.condensed import Condensed, condense
 from signorini.condense.size import condensing_bytes
 from signorini.condense.ties import Ties
 from signorini.errors import InputError, one_of
+from signorini.fem.links import linked_nodes
 from signorini.fem.loads import nodal_loads
 from signorini.fem.locking import refuse_locking
 from signorini.fem.rigid import Part, describe_motion, free_motions, make_parts, rigid_motions
@@ -47,7 +48,7 @@ class Examined:
     Attributes
     ----------
     loads : name to nodal forces at factor 1, each (dofs,)
-    parts, motions : connected pieces and their rigid motions, (dofs, 3 parts) or axisymmetric (dofs, parts)
+    parts, motions : connected pieces and their rigid motions, (dofs, motions of all parts)
     floating : (motions, k) rigid motions that supports leave free and contact must hold
     scale : sizes from the data
     """
@@ -207,12 +208,13 @@ def examine(model: Model) -> Examined:
         If something in the model does not fit the mesh, or a body can move freely: it is named, with its motion.
     """
     refuse_locking(model)
-    space = make_space(model.mesh, axisymmetric=model.axisymmetric, obstacles=len(model.obstacles))
+    carriers = len(model.obstacles) + len(model.rigid_bodies)
+    space = make_space(model.mesh, axisymmetric=model.axisymmetric, obstacles=carriers, linked=linked_nodes(model))
     constraints = make_constraints(space, model)
     loads = nodal_loads(space, model)
     interface = make_interface(space, model, constraints)
     parts = make_parts(space, model)
-    motions = rigid_motions(space, parts, axisymmetric=model.axisymmetric)
+    motions = rigid_motions(space, parts)
     refuse_free_motions(space, constraints, interface, parts, motions)
     return Examined(
         model=model,
@@ -385,7 +387,11 @@ def _say(parts: tuple[Part, ...], motions: Array) -> str:
 
 def _singular(examined: Examined, error: NotPositiveDefinite) -> InputError:
     node = examined.constraints.nodes[error.dof]
-    label = next(part.label for part in examined.parts if node in part.nodes)
+    label = next((part.label for part in examined.parts if node in part.nodes), "")
+    if not label:
+        return InputError(
+            "a rigid body or obstacle has no stiffness against some motion; expected a support or contact"
+        )
     at = tuple(float(x) for x in examined.model.mesh.points[node].round(6))
     number = examined.model.mesh.labels[node]
     return InputError(

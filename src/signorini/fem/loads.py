@@ -8,8 +8,9 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import boundary
+from signorini.fem.links import place_dofs
 from signorini.fem.measure import facet_areas, measure
-from signorini.fem.obstacles import obstacle_loads
+from signorini.fem.obstacles import arm, obstacle_loads
 from signorini.fem.places import nodes_at
 from signorini.fem.space import ON_AXIS, Space
 from signorini.fem.thermal import thermal_forces
@@ -19,12 +20,23 @@ from signorini.model.model import Model
 
 def nodal_loads(space: Space, model: Model) -> dict[str, Array]:
     """Consistent nodal forces of every load, and of loaded obstacles, at factor 1, by name, each (dofs,)."""
-    beyond = np.zeros(space.number_of_dofs - space.mesh.points.size)
     nodal = {load.label: _forces(space, model, load, ("load", i)) for i, load in enumerate(model.loads)}
-    return {label: np.concatenate([f, beyond]) for label, f in nodal.items()} | obstacle_loads(space, model)
+    return nodal | obstacle_loads(space, model)
 
 
 def _forces(space: Space, model: Model, load: Load, where: Where) -> Array:
+    """(dofs,)"""
+    forces = np.zeros(space.number_of_dofs)
+    if load.force is not None and any(load.on == body.name for body in model.rigid_bodies):
+        dofs = place_dofs(space, model, load.on, (*where, "on"))[0]
+        size = np.where(np.arange(len(dofs)) < space.dimension, 1.0, arm(model))  # dofs of rotations are lengths
+        forces[dofs] = _given(load.force) / size
+    else:
+        forces[: space.mesh.points.size] = _on_mesh(space, model, load, where)
+    return forces
+
+
+def _on_mesh(space: Space, model: Model, load: Load, where: Where) -> Array:
     if load.temperature is not None:
         return thermal_forces(space, model, load)
     if load.kind in BODY_LOADS:

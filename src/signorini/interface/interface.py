@@ -178,7 +178,8 @@ def _carried(model: Model, carrier: IntArray, position: Array, axes: Array) -> s
     values = np.zeros((len(axes), width))
     for j in range(len(model.obstacles)):
         own = carrier == j
-        values[own] = -np.einsum("ki,kil->kl", axes[own], carried(model, j, position[own]))
+        about = np.array(model.obstacles[j].about)
+        values[own] = -np.einsum("ki,kil->kl", axes[own], carried(model, position[own], about))
     rows, columns = np.nonzero(values)
-    shape = (len(axes), width * len(model.obstacles))
+    shape = (len(axes), width * (len(model.obstacles) + len(model.rigid_bodies)))
     return sp.csr_array((values[rows, columns], (rows, width * carrier[rows] + columns)), shape=shape)

@@ -47,8 +47,10 @@ class Checkpoint:
             What differs: the mesh, the contacts, or a load that the model lacks.
         """
         dofs = len(self.state.displacement)
-        if dofs != model.mesh.points.size or self.mesh != digest(model.mesh):
-            found = f"was computed on another mesh ({dofs} dofs; the model has {model.mesh.points.size})"
+        rigid = len(model.obstacles) + len(model.rigid_bodies)
+        expected_dofs = model.mesh.points.size + 2 * model.dimension * rigid
+        if dofs != expected_dofs or self.mesh != digest(model.mesh):
+            found = f"was computed on another mesh ({dofs} dofs; the model has {expected_dofs})"
             raise InputError(f"{found}; expected the same mesh", where=_WHERE)
         labels = tuple(contact.label for contact in model.contacts)
         if self.contacts != labels:

@@ -51,7 +51,7 @@ class State:
     ----------
     point : of the load history
     displacement : (dofs,) length
-    external : (dofs,) loads, reactions of supports and forces inside rigid boundaries
+    external : (dofs,) loads, reactions of supports and forces inside rigid boundaries, rigid bodies and equations
     forces : (d n,) of the pairs on the nonmortar body: normal (pressing > 0), then tangential
     gap : (n,) of the contact law, 0 where closed
     tangential : ((d - 1) n,) tangential displacement of the contact law, length: where the next slip increment starts
@@ -126,10 +126,8 @@ def next_state(
     """
     n = len(interface)
     inner = K @ displacement - interface.B.T @ forces
-    # the loads where a displacement is free on its own, whatever equilibrium takes where it is held or tied
-    shared = np.bincount(constraints.free[constraints.free >= 0], minlength=1)
-    own = (constraints.free >= 0) & (shared[constraints.free] == 1)
-    external = np.where(own, loads, inner)
+    # the loads where a displacement is free on its own, whatever equilibrium takes where it is held, tied or linked
+    external = np.where(constraints.alone, loads, inner)
     increment = moved[n:]
     work = 0.5 * (state.external + external) @ (displacement - state.displacement)
     work -= 0.5 * (state.forces + forces)[:n] @ (point.gap - state.point.gap)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -14,11 +14,13 @@ from signorini.arrays import Array, IntArray, distinct
 from signorini.deck.error import DeckError
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.course import Course, Pattern, unique_label
-from signorini.deck.inp.loading import STRIDE, Courses, Known
+from signorini.deck.inp.links import STRIDE, DeckRigid, component
+from signorini.deck.inp.loading import Courses, Known
 from signorini.deck.inp.materials import Section
 from signorini.deck.inp.places import Places
 from signorini.deck.inp.steps import DeckStep
 from signorini.model.conditions import Load, Support
+from signorini.model.links import directions
 
 _MOST = 1000  # loads of one kind: more would be a field, which takes memory for each
 
@@ -83,8 +85,8 @@ def make_conditions(courses: Courses, places: Places, steps: Sequence[DeckStep],
     _refuse_changes(courses.displacement, steps)
     conditions, sections, dimension = Conditions(), known.sections, known.dimension
     number_of_nodes = len(known.nodes.numbering.labels)
-    _supports(courses.displacement, places, conditions, dimension)
-    _forces(courses.force, places, conditions, dimension)
+    _supports(courses.displacement, places, conditions, known)
+    _forces(courses.force, places, conditions, known)
     for pattern in courses.pressure.patterns():
         for value, keys in _by_value(pattern):
             if value:
@@ -131,10 +133,31 @@ def _refuse_changes(course: Course, steps: Sequence[DeckStep]) -> None:
                 )
 
 
-def _supports(course: Course, places: Places, conditions: Conditions, dimension: int) -> None:
+def _apart(pattern: Pattern, known: Known) -> tuple[Pattern, list[tuple[DeckRigid, int, float]]]:
+    """What a pattern has on nodes, and component and value of what it has on rigid bodies."""
+    found = []
+    rest = np.ones(len(pattern.slots), bool)
+    for item in known.rigid:
+        own = pattern.slots // STRIDE == item.reference
+        rest &= ~own
+        for slot, value in zip(pattern.slots[own].tolist(), pattern.values[own].tolist(), strict=True):
+            index = component(slot, known.dimension)
+            if index is not None:
+                found.append((item, index, value))
+    return (replace(pattern, slots=pattern.slots[rest], values=pattern.values[rest]) if found else pattern), found
+
+
+def _supports(course: Course, places: Places, conditions: Conditions, known: Known) -> None:
     """Supports at rest hold all directions of a place at once; those that move are one a direction."""
+    dimension = known.dimension
     resting: dict[str, list[Pattern]] = {}
-    for pattern in course.patterns():
+    for whole in course.patterns():
+        pattern, rigid = _apart(whole, known)
+        for item, index, value in rigid:
+            words = directions(dimension)
+            u = tuple(value if i == index else None for i in range(len(words)))
+            name = item.body.name
+            conditions.add_support(pattern, on=name, u=u, name=f"{name} {words[index]}")
         if not any(pattern.shares):
             resting.setdefault(pattern.label, []).append(pattern)
             continue
@@ -156,8 +179,15 @@ def _supports(course: Course, places: Places, conditions: Conditions, dimension:
             conditions.add_support(patterns[0], on=places.at_nodes(own, label), u=u, name=label)
 
 
-def _forces(course: Course, places: Places, conditions: Conditions, dimension: int) -> None:
-    for pattern in course.patterns():
+def _forces(course: Course, places: Places, conditions: Conditions, known: Known) -> None:
+    dimension = known.dimension
+    for whole in course.patterns():
+        pattern, rigid = _apart(whole, known)
+        for item, index, value in rigid:
+            if value:
+                size, name = len(directions(dimension)), item.body.name
+                force = tuple(value if i == index else 0.0 for i in range(size))
+                conditions.add_load(pattern, on=name, force=force, name=name)
         nodes, where = np.unique(pattern.slots // STRIDE, return_inverse=True)
         forces: Array = np.zeros((len(nodes), dimension))
         forces[where, pattern.slots % STRIDE] = pattern.values

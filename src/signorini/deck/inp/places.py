@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from signorini.arrays import IntArray
@@ -40,6 +42,10 @@ class Places:
             self.nodes[name] = nodes
             self._by_nodes[key] = name
         return self._by_nodes[key]
+
+    def unused(self, label: str, others: Sequence[str]) -> str:
+        """The label, or with a number behind it where a place or one of the others bears it."""
+        return unique_label(label, self.boundaries | self.nodes | dict.fromkeys(others))
 
     def at_edges(self, keys: IntArray, label: str) -> str:
         """A name for edges: that of the surface ``label`` if it has just these."""
