@@ -50,8 +50,8 @@ MISTAKES = {
         "friction = 0.4",
         "fricton = 0.4",
         ":29: contact[0].fricton: unknown key; did you mean 'friction'? Known: name, between, nonmortar, mortar, "
-        "plane, circle, profile, sphere, cylinder, cone, torus, friction, gap, interference, normal_compliance, "
-        "tangential_compliance, coupling, side, "
+        "plane, circle, profile, sphere, cylinder, cone, torus, surface, friction, gap, interference, "
+        "normal_compliance, tangential_compliance, coupling, side, "
         "search, adjust",
     ),
     "sides named twice": (
@@ -97,7 +97,7 @@ MISTAKES = {
         "plane = { point = [0.0, 0.0], normal = [0.0, 1.0] }\n",
         "",
         ":26: contact[0]: has no other side; expected one of mortar, plane, circle, profile, sphere, cylinder, cone, "
-        "torus",
+        "torus, surface",
     ),
     "plane without direction": (
         "normal = [0.0, 1.0]",

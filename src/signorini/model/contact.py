@@ -28,8 +28,8 @@ class Contact:
     Parameters
     ----------
     nonmortar : boundary whose nodes carry the pairs, the pressures and the results
-    mortar : boundary of the other body; a rigid :class:`Plane`, :class:`Circle` or :class:`Profile` at rest; or the
-        name of a :class:`Rigid` obstacle of the model
+    mortar : boundary of the other body; a rigid :class:`Plane`, :class:`Circle`, :class:`Profile`, :class:`Surface` or
+        other shape at rest; or the name of a :class:`Rigid` obstacle of the model
     friction : Coulomb's coefficient, >= 0; "stick": never slips (it may still open); "tied": neither slips nor
         opens, nor presses initial gaps, which count as filled; or a function of the points (k, d) that gives the
         coefficients (k,), such as :class:`Along`

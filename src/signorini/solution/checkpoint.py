@@ -44,14 +44,14 @@ class Checkpoint:
         Raises
         ------
         InputError
-            What differs: the mesh, the contacts, or a load that the model lacks.
+            What differs: the mesh, the number of moving obstacles, the contacts, or a load that the model lacks.
         """
         dofs = len(self.state.displacement)
         rigid = len(model.obstacles) + len(model.rigid_bodies)
-        expected_dofs = model.mesh.points.size + 2 * model.dimension * rigid
-        if dofs != expected_dofs or self.mesh != digest(model.mesh):
-            found = f"was computed on another mesh ({dofs} dofs; the model has {expected_dofs})"
-            raise InputError(f"{found}; expected the same mesh", where=_WHERE)
+        own = model.mesh.points.size + 2 * model.dimension * rigid
+        if dofs != own or self.mesh != digest(model.mesh):
+            found = f"was computed on another mesh ({dofs} dofs; the model has {own})"
+            raise InputError(f"{found}; expected the same mesh, moving obstacles and rigid bodies", where=_WHERE)
         labels = tuple(contact.label for contact in model.contacts)
         if self.contacts != labels:
             found, expected = (", ".join(names) or "none" for names in (self.contacts, labels))
