@@ -133,6 +133,12 @@ def _contacts(examined: Examined) -> Rows:
         pairing = examined.interface.sides[i]
         sides = f"{pairing.nonmortar} on {pairing.mortar}"
         friction = "tied" if contact.tied else _friction(examined.interface.friction[examined.interface.contact == i])
+        if isinstance(contact.friction, tuple):
+            friction = "friction {:g} along ({:g}, {:g}, {:g}), {:g} across".format(
+                contact.friction[0], *(contact.friction_axis or ()), contact.friction[1]
+            )
+        if contact.facets:
+            friction += f" on {contact.facets} facets"
         initial = f"initial gap {gap.min():.5g} to {gap.max():.5g}"
         rows.append((contact.label, sides, pairing.coupling, friction, f"{len(gap)} pairs", initial))
     return rows

@@ -45,6 +45,8 @@ _CONTACT_KEYS = (
     "side",
     "search",
     "adjust",
+    "friction_axis",
+    "facets",
 )
 _OBSTACLES = {
     "plane": Plane,

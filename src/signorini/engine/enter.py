@@ -55,7 +55,7 @@ def relaxed(prepared: Prepared, state: State, where: str) -> tuple[State, Certif
     after, is counted as released. None where nothing slips.
     """
     n, mu = len(prepared.interface), prepared.interface.friction
-    normal, tangential = state.forces[:n], prepared.interface.across(state.forces[n:])
+    normal, tangential = state.forces[:n], prepared.interface.effort(state.forces[n:])
     bound = np.full(n, np.inf)
     np.multiply(mu, normal, out=bound, where=np.isfinite(mu))
     size = float(np.abs(state.forces).max(initial=0.0))

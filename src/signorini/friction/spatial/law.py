@@ -107,11 +107,11 @@ def _projected(problem: SpatialProblem, y: Array) -> tuple[Array, IntArray, Arra
     """`project`, except that pairs whose supports drag them slip in the direction known beforehand."""
     n, dragged = problem.pairs, np.flatnonzero(problem.dragged)
     if not len(dragged):
-        return project(y, problem.mu, problem.bounded, problem.corners)
+        return project(y, problem.mu, problem.bounded, problem.sides)
     along = np.array(y)
     b = problem.b[n:].reshape(2, n)[:, dragged]
     reach = _FAR * (problem.mu[dragged].max(axis=1) * np.maximum(y[dragged], 1.0)) / np.hypot(*b)
     along[n + dragged], along[2 * n + dragged] = -reach * b
-    r, left, tau, kappa = project(along, problem.mu, problem.bounded, problem.corners)
+    r, left, tau, kappa = project(along, problem.mu, problem.bounded, problem.sides)
     left[dragged] = 0
     return r, left, tau, kappa
