@@ -16,6 +16,7 @@ from signorini.engine.heat import heat_of
 from signorini.engine.increments import applied
 from signorini.engine.leg import Leg
 from signorini.engine.prepare import Prepared
+from signorini.engine.upheld import support_forces
 from signorini.fem.obstacles import arm
 from signorini.friction.law import OPEN, STICK
 from signorini.model.links import directions
@@ -130,10 +131,8 @@ def _reactions(prepared: Prepared, state: State) -> dict[str, Array]:
 
 
 def _held_forces(prepared: Prepared, state: State) -> Array:
-    """(dofs,) Forces of supports: what equilibrium takes beyond the loads, where equations hand it on to."""
-    loads, _ = applied(prepared, state.point)
-    force = prepared.constraints.handed_on(np.where(prepared.constraints.alone, 0.0, state.external - loads))
-    return np.where(prepared.constraints.held, force, 0.0)
+    """(dofs,) Forces of supports."""
+    return support_forces(prepared.constraints, state, applied(prepared, state.point)[0])
 
 
 def _rigid_dofs(prepared: Prepared) -> dict[str, tuple[IntArray, Array]]:

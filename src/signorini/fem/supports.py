@@ -64,6 +64,12 @@ class Constraints:
         count = np.bincount(self.transform.indices, minlength=self.transform.shape[1])
         return np.asarray((self.free >= 0) & (count[self.free] == 1)) if len(count) else self.free >= 0
 
+    def completed(self, displacement: Array) -> Array:
+        """Displacements of all dofs (dofs,), those of dependent ones as they follow from the others."""
+        completed = displacement.copy()
+        completed[self.dependent] = self.shares @ displacement
+        return completed
+
     def handed_on(self, forces: Array) -> Array:
         """Forces on all dofs (dofs,), those on dependent ones given to the dofs that they follow from."""
         if not len(self.dependent):
@@ -129,28 +135,21 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
     dependent, shares = np.flatnonzero(free == -2), found.shares
     if len(dependent):
         shares = shares[np.searchsorted(found.dependent, leader[dependent])]
-        given.values.update({name: _completed(u, dependent, shares) for name, u in given.values.items()})
         spread = sp.csr_array(
             (np.ones(len(dependent)), (dependent, np.arange(len(dependent)))), (total, len(dependent))
         )
         T = sp.csr_array(T + spread @ (shares @ T))
-    return Constraints(
+    made = Constraints(
         free=free,
         transform=T,
-        prescribed=given.values,
+        prescribed={},
         springs=make_springs(space, model),
         owner=given.owner,
         nodes=unknown // space.dimension,
         dependent=dependent,
         shares=shares,
     )
-
-
-def _completed(u: Array, dependent: IntArray, shares: sp.csr_array) -> Array:
-    """What supports prescribe, and with it what equations make of it."""
-    completed = u.copy()
-    completed[dependent] = shares @ u
-    return completed
+    return replace(made, prescribed={name: made.completed(u) for name, u in given.values.items()})
 
 
 def _prescribed(space: Space, model: Model, links: Links, without: Collection[str]) -> _Prescribed:

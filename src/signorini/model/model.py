@@ -329,6 +329,7 @@ class Model:
                     raise InputError(one_of(name, names, "load or moving support"), where=("step", i, "scale"))
             used |= set(names if step.scale is None else step.scale)
             self._check_contact_names(i, step)
+            self._check_support_names(i, step)
             if step.path == "exact" and self.kind == "3d":
                 raise InputError(
                     'is "exact", which is for plane models; in space expected increments, a number or "auto"',
@@ -355,6 +356,13 @@ class Model:
                     "has two coefficients; expected friction_axis in the contact, the direction of the first",
                     where=("step", i, "friction", name),
                 )
+
+    def _check_support_names(self, i: int, step: Step) -> None:
+        known = [support.label for support in self.supports]
+        for key in ("release", "hold", "restore"):
+            for name in getattr(step, key):
+                if name not in known:
+                    raise InputError(one_of(name, known, "support"), where=("step", i, key))
 
     @property
     def scaled_names(self) -> tuple[str, ...]:

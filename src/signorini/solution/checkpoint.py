@@ -26,6 +26,7 @@ class Checkpoint:
     ----------
     state : of all bodies and pairs
     inactive : contacts that are switched off in it
+    released : supports that do not hold in it
     contacts : names of all contacts, in order
     contact, node : (n,) contact and node of every pair
     mesh : digest of points and cells
@@ -33,6 +34,7 @@ class Checkpoint:
 
     state: State
     inactive: frozenset[str]
+    released: frozenset[str]
     contacts: tuple[str, ...]
     contact: IntArray
     node: IntArray
@@ -58,6 +60,9 @@ class Checkpoint:
             raise InputError(f"has the contacts {found}; the model has {expected}, expected the same", where=_WHERE)
         if not np.array_equal(self.node, interface.node) or not np.array_equal(self.contact, interface.contact):
             raise InputError("pairs other nodes than the model; expected the same contact surfaces", where=_WHERE)
+        strange = self.released - {support.label for support in model.supports}
+        if strange:
+            raise InputError(f"has released '{min(strange)}'; expected a support of that name", where=_WHERE)
         for name, factor in self.state.point.factors.items():
             if factor and name not in model.scaled_names:
                 raise InputError(

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import MappingProxyType
 
 import numpy as np
@@ -25,11 +25,15 @@ class LoadPoint:
     factors : load factors by name
     gap : (n,) initial gaps, with the interferences of the moment
     given : (d n,) forces of pairs whose contact is switched off, on their way to zero; 0 elsewhere
+    reaction : (dofs,) forces of supports that let go, on their way to zero; empty where none ever did
+    offset : (dofs,) displacements beyond what supports prescribe, of those that hold again; empty where none ever did
     """
 
     factors: Mapping[str, float]
     gap: Array
     given: Array
+    reaction: Array = field(default_factory=lambda: np.zeros(0))
+    offset: Array = field(default_factory=lambda: np.zeros(0))
 
     def towards(self, end: LoadPoint, t: float) -> LoadPoint:
         """The point at the part t of the way to another."""
@@ -40,6 +44,8 @@ class LoadPoint:
             factors=MappingProxyType(factors),
             gap=(1.0 - t) * self.gap + t * end.gap,
             given=(1.0 - t) * self.given + t * end.given,
+            reaction=(1.0 - t) * self.reaction + t * end.reaction,
+            offset=(1.0 - t) * self.offset + t * end.offset,
         )
 
 

@@ -99,7 +99,6 @@ WRONG = {
         "*SOLID",
         "unknown material 'Stell'; did you mean 'Steel'",
     ),
-    "released": ("*BOUNDARY\nTop, 1, 1, 0.01", "*BOUNDARY, OP=NEW\nBase, 1, 2", "*BOUNDARY", "takes a support away"),
     "not a number": ("2.0D0", "2.0.0", "14, 0.", "has '2.0.0'"),
     "outside": ("*STEP\n", "*CLOAD\n14, 2, 1.\n*STEP\n", "*CLOAD", "is not supported outside a step"),
     "unfinished": ("0.01\n*END STEP", "0.01\n", "*STEP", "is not ended"),

@@ -111,7 +111,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
         dimension=3 if kind == "3d" else 2,
         rigid=tuple(rigid),
     )
-    conditions = make_conditions(follow_steps(outside, steps, known), places, steps, known)
+    conditions = make_conditions(follow_steps(outside, steps, known), places, known)
     changes = [make_changes(step, contacts, interactions, surfaces) for step in steps]
     model_steps = [_step(k, steps, conditions, changes[k], deck_increments) for k in range(len(steps))]
     where = _where(sections, contacts, conditions, steps) | link_places(rigid, equations)
@@ -241,7 +241,7 @@ def _step(
     scale = conditions.scale(k, steps)
     segments = max((len(value) for value in scale.values() if isinstance(value, tuple)), default=1)
     increments = max(1, math.ceil(steps[k].increments / segments)) if deck_increments else None
-    return Step(name=steps[k].name, scale=scale, increments=increments, **changes)
+    return Step(name=steps[k].name, scale=scale, increments=increments, **changes, **conditions.switched(k))
 
 
 def _where(
