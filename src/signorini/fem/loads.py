@@ -91,7 +91,11 @@ def _density(load: Load, mass: float, at: Array, axisymmetric: bool) -> Array:
     """Force per volume at points (m, q, d)."""
     if load.centrifugal is not None:
         arm = at - np.array(load.centre or (0.0,) * at.shape[-1])
-        outward = {2: (1.0, 0.0 if axisymmetric else 1.0), 3: (1.0, 1.0, 0.0)}[arm.shape[-1]]  # in space about z
-        return mass * load.centrifugal**2 * arm * outward
+        along = np.array(load.axis) if load.axis is not None else np.eye(3)[2]
+        if arm.shape[-1] == 2:
+            along = np.array([0.0, 1.0 if axisymmetric else 0.0])
+        along = along / max(float(np.linalg.norm(along)), 1.0e-300)
+        outward: Array = arm - (arm @ along)[..., None] * along
+        return mass * load.centrifugal**2 * outward
     constant = np.array(load.body_force) if load.body_force is not None else mass * np.array(load.gravity)
     return np.broadcast_to(constant, at.shape)

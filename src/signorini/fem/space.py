@@ -14,6 +14,7 @@ from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.fem.edges import Edges, check_conforming, make_edges
 from signorini.fem.faces import HEXAHEDRON, Faces, make_faces
+from signorini.fem.wedge import QuadraticWedge
 from signorini.model.mesh import CORNERS, Mesh
 
 ON_AXIS = 1e-10
@@ -51,6 +52,7 @@ _ELEMENTS: Mapping[str, _Element] = {
     "hexahedron20": _Element(skfem.ElementHexS2, 5, 5, 2, _TRILINEAR),
     "hexahedron27": _Element(skfem.ElementHex2, 5, 5, 2, _TRILINEAR),
     "wedge": _Element(skfem.ElementWedge1, 3, 3, 2, _SOLID),
+    "wedge15": _Element(QuadraticWedge, 5, 5, 2, (*_SOLID, (1, 0, 1), (0, 1, 1))),
 }
 
 

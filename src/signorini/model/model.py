@@ -188,6 +188,10 @@ class Model:
         self._check_dimension(load.force, ("load", i, "force"), on=load.on)
         for kind in ("traction", "body_force", "gravity", "centre"):
             self._check_dimension(getattr(load, kind), ("load", i, kind))
+        if load.axis is not None and len(load.axis) != self.dimension:
+            raise InputError(f"has {len(load.axis)} components; expected 3, in space", where=("load", i, "axis"))
+        if load.axis is not None and self.dimension == 2:
+            raise InputError("is for models in space; expected none", where=("load", i, "axis"))
 
     def _check_body_load(self, i: int, load: Load) -> None:
         """What the loads inside a body need from its material, and from the kind of model."""

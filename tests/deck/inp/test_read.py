@@ -83,7 +83,7 @@ WRONG = {
     "plasticity": ("210000., .3\n", "210000., .3\n*PLASTIC\n300.\n", "*PLASTIC", r"\*PLASTIC: is not supported"),
     "element": ("10, 1, 2, 5, 4", "10, 1, 2, 5, 99", "*ELEMENT", "there is no node 99"),
     "twice": ("20, 2, 3, 6, 5", "10, 2, 3, 6, 5", "*ELEMENT", "element 10 is there twice"),
-    "type": ("TYPE=CPE4", "TYPE=C3D15", "*ELEMENT", "TYPE=C3D15 is not supported"),
+    "type": ("TYPE=CPE4", "TYPE=C3D14", "*ELEMENT", "TYPE=C3D14 is not supported"),
     "beam": ("TYPE=CPE4", "TYPE=B31", "*ELEMENT", "TYPE=B31 is not supported; expected CPE"),
     "set": ("Base, 1, 2", "Basis, 1, 2", "Basis", "unknown node set 'Basis'; did you mean 'Base'"),
     "face": ("Upper, S1", "Upper, S5", "Upper, S5", "these elements have no face 'S5'"),

@@ -98,8 +98,7 @@ def make_conditions(courses: Courses, places: Places, known: Known) -> Condition
     _forces(courses.force, places, conditions, known)
     for pattern in courses.pressure.patterns():
         for value, keys in _by_value(pattern):
-            if value:
-                on = places.at_edges(keys, pattern.label)
+            for on in places.at_edges(keys, pattern.label) if value else ():
                 conditions.add_load(pattern, on=on, pressure=value, name=on)
     for pattern in courses.body.patterns():
         for section in np.unique(pattern.slots // STRIDE):
@@ -111,9 +110,9 @@ def make_conditions(courses: Courses, places: Places, known: Known) -> Condition
     for pattern in courses.rotation.patterns():
         for i, square in zip(pattern.slots.tolist(), pattern.values.tolist(), strict=True):
             if square:
-                on, centre = sections[i].name, courses.centres[pattern.label]
-                velocity = math.sqrt(square)
-                conditions.add_load(pattern, on=on, centrifugal=velocity, centre=centre, name=f"rotation {on}")
+                on, velocity = sections[i].name, math.sqrt(square)
+                given = courses.centres[pattern.label]
+                conditions.add_load(pattern, on=on, centrifugal=velocity, name=f"rotation {on}", **given)
     for pattern in courses.temperature.patterns():
         _heat(pattern, sections, number_of_nodes, conditions)
     return conditions

@@ -57,7 +57,7 @@ class Courses:
     body : slots ``STRIDE * section + axis``, force per volume
     temperature : slots are nodes, above the initial temperature
     rotation : slots are sections, squares of angular velocities
-    centres : of rotation by label, None for axisymmetric bodies
+    centres : of rotation by label, centre and axis as a load has them
     """
 
     displacement: Course
@@ -66,7 +66,7 @@ class Courses:
     body: Course
     temperature: Course
     rotation: Course
-    centres: dict[str, tuple[float, float] | None]
+    centres: dict[str, dict[str, tuple[float, ...]]]
 
 
 def follow_steps(model: list[Placed], steps: list[DeckStep], known: Known) -> Courses:
@@ -207,17 +207,22 @@ def _rotate(
 ) -> None:
     """Square of the angular velocity, a point of the axis and its direction."""
     square = row.number(2, "the square of the angular velocity")
-    if known.dimension == 3:
-        raise row.error("*DLOAD: CENTRIF is not supported in space")
     if square < 0.0:
         raise row.error(f"*DLOAD: the square of the angular velocity is {square:g}; expected a number >= 0")
-    x, y, _, *axis = (row.number(i, "a coordinate or direction", 0.0) for i in range(3, 9))
+    x, y, z, *axis = (row.number(i, "a coordinate or direction", 0.0) for i in range(3, 9))
     along = np.flatnonzero(axis).tolist()
-    if along != ([1] if known.axisymmetric else [2]) or (known.axisymmetric and x):
+    if known.dimension == 3 and not along:
+        raise row.error("*DLOAD: the axis of rotation has no direction")
+    if (known.dimension == 2 and along != ([1] if known.axisymmetric else [2])) or (known.axisymmetric and x):
         expected = "the y axis, of symmetry" if known.axisymmetric else "across the plane, like 0, 0, 1"
         raise row.error(f"*DLOAD: the axis of rotation is along {axis}; expected {expected}")
     label = "rotation" if known.axisymmetric else f"rotation about ({x:g}, {y:g})"
-    courses.centres[label] = None if known.axisymmetric else (x, y)
+    given: dict[str, tuple[float, ...]] = {} if known.axisymmetric else {"centre": (x, y)}
+    if known.dimension == 3:
+        size = float(np.linalg.norm(axis))
+        given = {"centre": (x, y, z), "axis": tuple(part / size for part in axis)}
+        label = f"rotation about {', '.join(f'{part:g}' for key in given for part in given[key])}"
+    courses.centres[label] = given
     for i in sections:
         if known.sections[i].substance.density is None:
             raise row.error(f"*DLOAD: rotation needs *DENSITY in the material of '{known.sections[i].name}'")
