@@ -138,11 +138,10 @@ def table(cases: list[tuple[str, str, int]], key: str) -> str:
 
 
 def unknowns(small: bool) -> str:
-    """Cubes, matching and not, condensed and iterated."""
+    """Cubes that do not match, condensed and iterated."""
     sizes = SMALL_SIZES if small else SIZES
     cases = [
-        (problem, way, dofs)
-        for problem in ("cubes", "cubes, not matching")
+        ("cubes, not matching", way, dofs)
         for way in WAYS
         for dofs in sizes
         if way == "iterative" or dofs <= CONDENSED_UP_TO

@@ -17,6 +17,7 @@ from signorini.verify import (
     rates,
     rings,
     scalar,
+    solids,
     space,
 )
 from signorini.verify.check import Check
@@ -55,6 +56,7 @@ QUICK: tuple[Case, ...] = (
     elements.hollow_spheres,
     elements.cantilever,
     elements.inside_bodies,
+    solids.spheres,
     space.ball_on_plane,
     space.ball_on_block,
     space.mindlin,
@@ -66,6 +68,7 @@ SLOW: tuple[Case, ...] = (
     half_planes.cattaneo_mindlin_refined,
     half_planes.spence,
     half_planes.complete_contact,
+    solids.spheres_refined,
     space.balls_refined,
     space.punch,
     space.mindlin_refined,

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whole spheres in space: B02 and B03 on spheres instead of paraboloids, whose finite size is part of the problem."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from signorini.engine.solve import solve
+from signorini.fem.generators import Cells
+from signorini.gallery.spheres import MATERIAL, RADIUS, equal_spheres
+from signorini.reference.hertz import contact_modulus
+from signorini.reference.hertz_point import HertzPoint
+from signorini.verify.check import Check
+
+_MODULUS = contact_modulus(*[(MATERIAL.E, MATERIAL.nu)] * 2)
+
+
+def spheres() -> Iterator[Check]:
+    """B03, and B02 by spheres that hardly feel their size: 8 cells to the contact radius."""
+    yield from _equal("hexahedra, one on its plane of symmetry", approach=4.0, tolerance=0.05)
+    yield from _equal("hexahedra, one on its plane of symmetry", approach=0.25, tolerance=0.02)
+    yield from _equal("hexahedra, two that do not match", approach=0.25, other=5, tolerance=0.02)
+
+
+def spheres_refined() -> Iterator[Check]:
+    """Finer, quadratic, and two that do not match at a larger approach, where normals tilt."""
+    yield from _equal("hexahedra, finer, one on its plane of symmetry", approach=4.0, n=8, tolerance=0.05)
+    for nodes, cells in _QUADRATIC:
+        words = f"hexahedra of {nodes} nodes, one on its plane of symmetry"
+        yield from _equal(words, approach=4.0, cells=cells, tolerance=0.05)
+    yield from _equal("hexahedra, two that do not match", approach=1.0, other=5, tolerance=0.03)
+
+
+_QUADRATIC: tuple[tuple[str, Cells], ...] = (("20", "quad8"), ("27", "quad9"))
+
+
+def _equal(
+    words: str, *, approach: float, tolerance: float, n: int = 4, other: int | None = None, cells: Cells = "quad"
+) -> Iterator[Check]:
+    """Stress at the centre for the approach and for the force, and all pressures off the edge."""
+    contact = solve(equal_spheres(approach=approach, n=n, other=other, cells=cells)).contact("contact")
+    r = np.hypot(*contact.points.T[:2])
+    radius = float(np.sqrt(0.5 * RADIUS * approach))
+    exact = HertzPoint(force=4.0 * abs(float(contact.normal_force[2])), radius=0.5 * RADIUS, modulus=_MODULUS)
+    error = np.abs(contact.pressure - exact.pressure(r)) / exact.peak_pressure
+    centre = -float(contact.pressure[np.argmin(r)])
+    source = "Hertz; Johnson (1985), section 4.2"
+    for quantity, computed, reference, allowed, origin in (
+        (
+            "sigma_zz at the centre, for the approach",
+            centre,
+            -2.0 * _MODULUS * radius / (np.pi * 0.5 * RADIUS),
+            tolerance,
+            "Hertz; Code_Aster SSNV104 for 4; a finite body is stiffer",
+        ),
+        ("sigma_zz at the centre, for the force it takes", centre, -exact.peak_pressure, 0.01, source),
+        ("largest error of p / p_0, r < 0.9 a", float(error[r < 0.9 * exact.contact_radius].max()), 0.0, 0.03, source),
+    ):
+        yield Check(
+            case=f"equal spheres in space, approach {approach:g}, a/R {radius / RADIUS:.2g}, {words}",
+            quantity=quantity,
+            computed=computed,
+            reference=reference,
+            tolerance=allowed,
+            source=origin,
+        )
