@@ -65,7 +65,7 @@ def loaded(prepared: Prepared, factor: float) -> CoulombProblem:
     imposed = sum(prepared.constraints.prescribed.values(), zero)
     load = T.T @ (factor * sum(prepared.loads.values(), zero) - prepared.K @ imposed)
     offset = np.concatenate([interface.gap, np.zeros(len(interface))]) + interface.B @ imposed
-    b = condensed.right_hand_side(condensed.reduce(load).load, offset[rows], prepared.law.motions)
+    b = condensed.right_hand_side(condensed.reduce(load).load, offset[rows])
     return replace(prepared.law, b=b)
 
 

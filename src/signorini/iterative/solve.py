@@ -158,8 +158,11 @@ class _Rounds:
             if left <= _ENOUGH * float(np.linalg.norm(lag)) or left <= 0.1 * TOLERANCE * load.force:
                 return
             law = slope(self.y, self.bound, bodies.tied, self.softened, _FLOOR if load.floating else 0.0)
+            before = self.state
             step, count = self._step(law, g)
             self._go(step, forces)
+            if (self.state != before).any():
+                bodies.preconditioner.changed()
             self.iterations.append(count)
 
     def update(self) -> float:
