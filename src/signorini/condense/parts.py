@@ -106,11 +106,11 @@ def make_parts(stiffness: Array, ties: Array, rigid: Array, *, size: float) -> P
 
     Examples
     --------
-    Two nodes, one on a spring of stiffness 2, the other free; each is a part:
+    Two nodes, one on a spring of stiffness 4, the other free; each is a part:
 
-    >>> parts = make_parts(np.diag([2.0, 0.0]), np.zeros((0, 2)), np.array([[0.0], [1.0]]), size=1.0)
+    >>> parts = make_parts(np.diag([4.0, 0.0]), np.zeros((0, 2)), np.array([[0.0], [1.0]]), size=1.0)
     >>> [part.dofs.tolist() for part in parts.blocks], parts.solve(np.array([1.0, 0.0])).tolist()
-    ([[0], [1]], [0.5, 0.0])
+    ([[0], [1]], [0.25, 0.0])
     """
     if len(ties):
         stiffness = stiffness + size * (ties.T @ ties)
