@@ -172,7 +172,7 @@ def _with_springs(problem: CoulombProblem, budget: int, seed: int, settings: Cou
     for springs in settings.springs:
         path = follow(problem, "open", budget=budget, seed=seed, springs=springs)
         found = _polished(problem, path, "springs", settings)
-        motion = split(path.y, problem.mu)[0]
+        motion = split(path.y, problem.bound)[0]
         size = float(np.abs(motion).max(initial=0.0))
         grows = path.end == "solution" and size > 10.0 * max(before, problem.scale)
         yield replace(found, escape=motion / size if grows else None)

@@ -22,7 +22,7 @@ SLIDING = f"gross sliding: every closed pair has used up its friction, and {LEAV
 
 
 def explain(
-    problem: CoulombProblem, now: PathState, b_end: Array, factor: float, acting: IntArray, proof: str, width: float
+    problem: CoulombProblem, now: PathState, b_end: Array, factor: float, acting: IntArray, proof: str, width: Array
 ) -> Jump:
     """The jump at a state that no rates continue.
 
@@ -34,10 +34,10 @@ def explain(
     factor : part of the segment behind
     acting : pairs whose event it is; all at their limit where there is none
     proof : what the search for rates found
-    width : of zero for a force
+    width : (n,) of zero for a force
     """
-    n, mu = now.pairs, problem.mu
-    spent = (mu * now.r[:n] - np.abs(now.r[n:])) / weight(mu) <= width
+    n = now.pairs
+    spent = (problem.bound.at(now.r[:n]) - np.abs(now.r[n:])) / weight(problem.mu) <= width
     beyond = now.b + BEYOND * (b_end - now.b)
     leaves = problem.floating and pulled_away(replace(problem, b=frozen(beyond))) is not None
     pressed = now.r[:n] > width
