@@ -5,7 +5,7 @@ Friction mu, adhesion c and shear limit L, all of them forces but mu, bound the 
 
     F(p) = min(mu p + min(S p, c), L)
 
-with the steep slope S = 1e4 of adhesion: the whole of it acts from a normal force of 1e-4 of it on, and nothing is left
+with the steep slope S = 1e3 of adhesion: the whole of it acts from a normal force of 1e-3 of it on, and nothing is left
 where the pair opens. Without that F would drop from c to nothing, and a pair on the verge of opening could be in
 equilibrium neither closed nor open; with it F is continuous, and held bodies have an equilibrium under every load.
 
@@ -25,7 +25,7 @@ from signorini.pairstate import SLIP_PLUS, STICK
 STICKY = 1e6
 """Friction that stands for ``inf``: without bound the law is not continuous, and need not have a solution."""
 
-STEEP = 1e4
+STEEP = 1e3
 """Slope with which adhesion begins; also that of a pair that sticks up to a shear limit."""
 
 SIGN = np.array([0.0, 0.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0])

@@ -33,6 +33,8 @@ _CONTACT_KEYS = (
     "cone",
     "torus",
     "friction",
+    "shear_limit",
+    "adhesion",
     "gap",
     "interference",
     "normal_compliance",

@@ -138,7 +138,8 @@ class Prepared(Examined):
         if isinstance(self.bodies, Bodies):
             return None
         size = _size(interface, self.bodies, scale)
-        return replace(self.law, friction=interface.friction[self.bodies.active], scale=size)
+        friction, adhesion, limit = _rubbing(interface, self.bodies)
+        return replace(self.law, friction=friction, adhesion=adhesion, limit=limit, scale=size)
 
     def changed(
         self,
@@ -330,13 +331,23 @@ def contact_law(
     rows = condensed.active_rows
     seen = np.where(np.any(condensed.W, axis=1, keepdims=True), floating[rows], 0.0)
     kind = CoulombProblem if interface.directions == 2 else SpatialProblem
+    friction, adhesion, limit = _rubbing(interface, condensed)
     return kind(
         W=frozen(condensed.W),
         b=np.zeros(len(rows)),
-        friction=interface.friction[condensed.active],
+        friction=friction,
+        adhesion=adhesion,
+        limit=limit,
         motions=condensed.root[:, None] * seen,
         scale=_size(interface, condensed, scale),
     )
+
+
+def _rubbing(interface: Interface, condensed: Condensed) -> tuple[Array, Array, Array]:
+    """Friction, adhesion and shear limit of the active pairs; forces scaled."""
+    active = condensed.active
+    area = interface.area[active] / condensed.root[: int(active.sum())]
+    return interface.friction[active], interface.adhesion[active] * area, interface.shear_limit[active] * area
 
 
 def _size(interface: Interface, condensed: Condensed, scale: Scale) -> float:
@@ -370,7 +381,7 @@ def refuse_free_motions(
     free = free_motions(motions, constraints, touching)
     if free.shape[1]:
         raise InputError(f"{_say(parts, free)}: no support or contact holds it; add a support")
-    rubbing = np.tile(interface.friction > 0, interface.directions - 1)
+    rubbing = np.tile(interface.rubs, interface.directions - 1)
     resisting = interface.B[np.concatenate([np.ones(len(interface), bool), rubbing])]
     free = free_motions(motions, constraints, resisting)
     if free.shape[1]:

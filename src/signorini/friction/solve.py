@@ -102,8 +102,9 @@ def _check_start(problem: CoulombProblem, start: IntArray | None) -> None:
     if start is None:
         return
     found = np.asarray(start)
-    if found.shape != (problem.pairs,) or not np.isin(found, range(UNDECIDED, SLIP_MINUS + 1)).all():
-        raise InputError(f"expected {problem.pairs} states between {UNDECIDED} and {SLIP_MINUS}", where=("start",))
+    last = SLIP_MINUS + 2 * (problem.bound.branches - 1)
+    if found.shape != (problem.pairs,) or not np.isin(found, range(UNDECIDED, last + 1)).all():
+        raise InputError(f"expected {problem.pairs} states between {UNDECIDED} and {last}", where=("start",))
 
 
 def _candidates(problem: CoulombProblem, start: IntArray | None, settings: CoulombSettings) -> Iterator[Candidate]:

@@ -10,6 +10,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.bound import Bound
 from signorini.errors import InputError
 from signorini.fem.obstacles import carried
 from signorini.fem.space import Space
@@ -39,6 +40,7 @@ class Interface:
     node : (n,) nodes on the nonmortar side
     contact : (n,) index of the contact that a pair belongs to
     friction : (n,) Coulomb's coefficient, infinite where it sticks
+    adhesion, shear_limit : (n,) tractions of :mod:`signorini.bound`, force per area; no limit is infinite
     normal_compliance, tangential_compliance : (n,) length per pressure
     tied : (n,) whether the pair neither slips nor opens
     sides : how every contact was paired
@@ -52,6 +54,8 @@ class Interface:
     node: IntArray
     contact: IntArray
     friction: Array
+    adhesion: Array
+    shear_limit: Array
     normal_compliance: Array
     tangential_compliance: Array
     tied: BoolArray
@@ -78,6 +82,28 @@ class Interface:
     def areas(self) -> Array:
         """(d n,) of every row of B."""
         return np.tile(self.area, self.directions)
+
+    @property
+    def sticks(self) -> BoolArray:
+        """(n,) pairs without any bound on their friction."""
+        return np.asarray(np.isinf(self.friction) & np.isinf(self.shear_limit), dtype=np.bool_)
+
+    @property
+    def rubs(self) -> BoolArray:
+        """(n,) pairs that have friction."""
+        return np.asarray((self.friction > 0) | (self.adhesion > 0), dtype=np.bool_)
+
+    def bound(self, pairs: BoolArray | IntArray) -> Bound:
+        """Of the friction forces of some pairs."""
+        area = self.area[pairs]
+        return Bound.of(
+            self.friction[pairs], adhesion=self.adhesion[pairs] * area, limit=self.shear_limit[pairs] * area
+        )
+
+    def most(self, normal: Array) -> Array:
+        """(n,) Largest friction forces under normal forces (n,); infinite where a pair sticks that is pressed."""
+        bound = self.bound(np.ones(len(self), dtype=np.bool_)).at(np.maximum(normal, 0.0))
+        return np.where(self.sticks & (normal > 0), np.inf, bound)
 
     def across(self, tangential: Array) -> Array:
         """(n,) length of tangential vectors that are given row by row, ((d - 1) n,)."""
@@ -124,6 +150,8 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
         node=joined("nodes").astype(int),
         contact=index,
         friction=friction_of(space, model, joined("nodes").astype(int), index),
+        adhesion=data("adhesion"),
+        shear_limit=data("most_shear"),
         normal_compliance=data("normal_compliance"),
         tangential_compliance=data("tangential_compliance"),
         tied=data("tied").astype(bool),

@@ -120,6 +120,8 @@ def _contact(contact: Contact, result: ContactResult) -> dict[str, Any]:
         "mortar": result.mortar,
         "coupling": result.coupling,
         "friction": "varies" if callable(contact.friction) else contact.friction,
+        "adhesion": contact.adhesion,
+        "shear_limit": contact.shear_limit,
         "normal_force": _list(result.normal_force),
         "tangential_force": _list(result.tangential_force),
         "max_pressure": float(result.pressure[worst]),

@@ -29,7 +29,7 @@ class Certificate:
     equilibrium : largest nodal ``|K u - f - B^T r|`` and largest resultant on a rigid motion of any part
     penetration : largest overlap
     tension : largest pulling normal force
-    cone : largest excess of friction over ``mu p``
+    cone : largest excess of friction over its bound, ``mu p`` in Coulomb's law
     complementarity : largest ``min(gap, normal force)``, ``min(|slip|, mu p - |t|)``, and friction along the slip
     """
 
@@ -93,9 +93,7 @@ def certify(
     sliding = moved[n:] - before / scale.length
     slip = interface.across(sliding)
     gap, tension = np.where(interface.tied, -np.abs(gap), gap), np.where(interface.tied, 0.0, normal)
-    bound = np.where(interface.tied, np.inf, 0.0)
-    np.multiply(interface.friction, normal, out=bound, where=normal > 0)
-    room = bound - tangential
+    room = np.where(interface.tied, np.inf, interface.most(r[:n]) / scale.force) - tangential
     # 0 where friction opposes the slip, 2 where it goes with it
     turned = interface.across(_directions(r[n:], n) + _directions(sliding, n))
     along = 0.5 * turned * np.minimum(tangential, slip)

@@ -19,6 +19,8 @@ from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 COMBINATIONS = 4096
 """Most combinations of states that are tried one by one."""
 
+RAY = "ray termination"
+
 KINKS = 4
 """Most pairs at kinks of their bound whose branches are chosen in all ways before Lemke's method."""
 
@@ -54,13 +56,15 @@ def find_rates(
         found = _newton(responses, law, load, guess)
         if found is not None:
             return found
-    kinks, ending = np.flatnonzero(law.kink), "no way chosen at every kink"
+    kinks, endings = np.flatnonzero(law.kink), [""]
     for ways in itertools.product((False, True), repeat=len(kinks)) if len(kinks) <= KINKS else ():
         upper = np.zeros(len(state), dtype=np.bool_)
         upper[kinks] = ways
         found, ending = _lemke(responses, law, law.onto(upper), load, np.where(upper, law.kind + 2, state))
         if found is not None:
             return found
+        endings.append(ending)
+    ending = max(endings, key=lambda words: (words.endswith(RAY), len(words)))
     return _enumerate(responses, law, load, state, ending)
 
 
@@ -149,7 +153,7 @@ def _enumerate(responses: Responses, law: RateLaw, load: Array, state: IntArray,
     count = int(np.prod([float(len(choice)) for choice in choices]).clip(max=1e9))
     if count > COMBINATIONS:
         words = f"{ending}; {count} combinations of states are too many to try"
-        return NoRates(proof=words, proved=ending.endswith("ray termination"))
+        return NoRates(proof=words, proved=ending.endswith(RAY))
     for combination in itertools.product(*choices):
         tried = state.copy()
         tried[undecided] = combination

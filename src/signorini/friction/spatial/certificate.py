@@ -103,7 +103,7 @@ def violations(
     angle = 2.0 * np.pi * np.arange(facets) / max(facets, 1)
     corners = np.column_stack([np.cos(angle), np.sin(angle)])
     flat = np.concatenate([normal_force, tangential_force.T.ravel()])
-    nearest = project(flat, mu, np.zeros(n, np.bool_), corners)[0][n:].reshape(2, n).T
+    nearest = project(flat, mu, np.maximum(normal_force, 0.0), corners)[0][n:].reshape(2, n).T
     scaled = mu * slip
     reach = (scaled @ corners.T).max(axis=1, initial=0.0) if facets else np.hypot(scaled[:, 0], scaled[:, 1])
     pressing = np.maximum(normal_force, 0.0)
