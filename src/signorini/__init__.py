@@ -19,9 +19,10 @@ if TYPE_CHECKING:
     from signorini.engine import paper
     from signorini.errors import InputError, SignoriniError, SolveFailed
     from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
-    from signorini.fem.profile import mesh_profile
+    from signorini.fem.profile import mesh_profile, read_profile
     from signorini.fem.read import read_mesh
     from signorini.fem.solids import box
+    from signorini.fem.surface import mesh_surface, read_surface
     from signorini.model.body import Body
     from signorini.model.conditions import Foundation, Load, Support
     from signorini.model.contact import Contact
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from signorini.model.revolved import Cone, Cylinder, Torus
     from signorini.model.rigid import Rigid
     from signorini.model.step import Step
+    from signorini.model.triangulated import Surface
     from signorini.model.varying import Along
 
 __all__ = [
@@ -57,6 +59,7 @@ __all__ = [
     "Sphere",
     "Step",
     "Support",
+    "Surface",
     "Torus",
     "__version__",
     "annulus",
@@ -66,11 +69,14 @@ __all__ = [
     "lcp",
     "load",
     "mesh_profile",
+    "mesh_surface",
     "paper",
     "prepare",
     "quarter_disk",
     "read",
     "read_mesh",
+    "read_profile",
+    "read_surface",
     "rectangle",
     "solve",
 ]
@@ -80,9 +86,10 @@ _HOMES = {
     "signorini.deck": ("read",),
     "signorini.errors": ("InputError", "SignoriniError", "SolveFailed"),
     "signorini.fem.generators": ("annulus", "half_disk", "quarter_disk", "rectangle"),
-    "signorini.fem.profile": ("mesh_profile",),
+    "signorini.fem.profile": ("mesh_profile", "read_profile"),
     "signorini.fem.read": ("read_mesh",),
     "signorini.fem.solids": ("box",),
+    "signorini.fem.surface": ("mesh_surface", "read_surface"),
     "signorini.model.body": ("Body",),
     "signorini.model.conditions": ("Foundation", "Load", "Support"),
     "signorini.model.contact": ("Contact",),
@@ -93,6 +100,7 @@ _HOMES = {
     "signorini.model.revolved": ("Cone", "Cylinder", "Torus"),
     "signorini.model.rigid": ("Rigid",),
     "signorini.model.step": ("Step",),
+    "signorini.model.triangulated": ("Surface",),
     "signorini.model.varying": ("Along",),
 }
 _MODULES = {"lcp": "signorini.lcp", "paper": "signorini.engine.paper"}

@@ -50,9 +50,9 @@ MISTAKES = {
         "friction = 0.4",
         "fricton = 0.4",
         ":29: contact[0].fricton: unknown key; did you mean 'friction'? Known: name, between, nonmortar, mortar, "
-        "plane, circle, profile, sphere, cylinder, cone, torus, friction, gap, interference, normal_compliance, "
-        "tangential_compliance, coupling, side, "
-        "search, adjust",
+        "plane, circle, profile, sphere, cylinder, cone, torus, surface, friction, gap, interference, "
+        "normal_compliance, tangential_compliance, coupling, side, "
+        "search, adjust, friction_axis, facets",
     ),
     "sides named twice": (
         'nonmortar = "arc"',
@@ -97,7 +97,7 @@ MISTAKES = {
         "plane = { point = [0.0, 0.0], normal = [0.0, 1.0] }\n",
         "",
         ":26: contact[0]: has no other side; expected one of mortar, plane, circle, profile, sphere, cylinder, cone, "
-        "torus",
+        "torus, surface",
     ),
     "plane without direction": (
         "normal = [0.0, 1.0]",

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 from signorini.errors import InputError
-from signorini.interface.spatial.triangulated import TriangulatedSurface
 from signorini.model.obstacle import Circle, Plane
 from signorini.model.revolved import Cone, Cylinder, Torus
+from signorini.model.triangulated import Surface
 
 AXIS = (0.3, -0.5, 0.8)
 SHAPES = [
@@ -23,7 +23,7 @@ def cube():
     """The unit cube, outward."""
     corners = np.array([[i, j, k] for i in (0.0, 1) for j in (0.0, 1) for k in (0.0, 1)])
     quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
-    return TriangulatedSurface(corners, [t for a, b, c, d in quads for t in ([a, b, c], [a, c, d])])
+    return Surface(corners, [t for a, b, c, d in quads for t in ([a, b, c], [a, c, d])])
 
 
 @pytest.mark.parametrize("shape", [*SHAPES, cube()], ids=lambda shape: type(shape).__name__)
@@ -67,24 +67,6 @@ def test_points_about_a_cube_see_its_faces_edges_and_corners():
     np.testing.assert_allclose(normals, known, atol=1e-14)
 
 
-def test_a_triangulated_sphere_comes_near_the_sphere():
-    n = 40
-    theta, phi = np.meshgrid(np.linspace(0.01, np.pi - 0.01, n), 2 * np.pi * np.arange(2 * n) / (2 * n), indexing="ij")
-    points = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)], axis=-1).reshape(-1, 3)
-    number = np.arange(len(points)).reshape(n, 2 * n)
-    a, b = number[:-1], number[1:]
-    c, d = np.roll(b, -1, axis=1), np.roll(a, -1, axis=1)
-    triangles = np.concatenate([np.stack(t, axis=-1).reshape(-1, 3) for t in ((a, b, c), (a, c, d))])
-    surface = TriangulatedSurface(points, triangles)
-    x = np.random.default_rng(3).normal(size=(300, 3))
-    x[:, 2] *= 0.5
-    exact = Circle(centre=(0, 0, 0), radius=1).nearest(x)
-    distance, normals = surface.nearest(x)
-    far = np.abs(exact[0]) > 0.1
-    np.testing.assert_allclose(distance, exact[0], atol=2e-3)
-    np.testing.assert_allclose(normals[far], exact[1][far], atol=0.08)
-
-
 def test_bad_shapes_are_refused():
     with pytest.raises(InputError, match="axis: is zero"):
         Cylinder(point=(0, 0, 0), axis=(0, 0, 0), radius=1)
@@ -94,7 +76,3 @@ def test_bad_shapes_are_refused():
         Cone(point=(0, 0, 0), axis=AXIS, angle=2)
     with pytest.raises(InputError, match="tube: is 3; expected no more than the radius, 2"):
         Torus(point=(0, 0, 0), axis=AXIS, radius=2, tube=3)
-    with pytest.raises(InputError, match="triangle 0 has no area"):
-        TriangulatedSurface([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]])
-    with pytest.raises(InputError, match="names point 9 of 3"):
-        TriangulatedSurface([[0, 0, 0], [1, 0, 0], [0, 2, 0]], [[0, 1, 9]])

@@ -58,6 +58,13 @@ IN_THE_MODEL = [
     (lambda: Elastic(E="soft", nu=0.3), "E: is 'soft'; expected a number > 0"),
     (lambda: Elastic(E=float("nan"), nu=0.3), "E: is nan; expected a number > 0"),
     (lambda: Contact("bottom", FLOOR, friction=-0.1), "friction: is -0.1; expected a number >= 0"),
+    (lambda: Contact("bottom", FLOOR, friction=(0.1, 0.2, 0.3)), "friction: has 3 coefficients; expected one, or two"),
+    (lambda: Contact("bottom", FLOOR, friction=(0.1, -0.2)), "friction[1]: is -0.2; expected a number >= 0"),
+    (lambda: Contact("bottom", FLOOR, friction=(0.1, 0.2)), "friction: has two coefficients; expected friction_axis"),
+    (lambda: Contact("bottom", FLOOR, friction_axis=(0, 0, 0)), "friction_axis: is zero; expected a direction"),
+    (lambda: Contact("bottom", FLOOR, facets=6), "facets: is 6; expected a multiple of 4, or 0 for the exact cone"),
+    (lambda: Contact("bottom", FLOOR, facets=2.5), "facets: is 2.5; expected a whole number >= 0"),
+    (lambda: Contact("a", "b", friction="tied", facets=8), "facets: is 8, but a tied contact has no friction cone"),
     (
         lambda: Contact("bottom", FLOOR, friction="rough"),
         "friction: is 'rough'; expected a number >= 0, 'stick' or 'tied'",
@@ -127,6 +134,22 @@ IN_THE_MODEL = [
         "support[0].on: unknown boundary or node set 'leftt'; did you mean 'left'? Known: bottom, left, right, top",
     ),
     (lambda: block(supports=[Support("left", u=(0, 0, 0))]), "support[0].u: has 3 components; expected 2"),
+    (
+        lambda: block(contacts=[Contact("bottom", FLOOR, friction=(0.1, 0.2), friction_axis=(1, 0, 0))]),
+        "contact[0].friction: has two coefficients, which is for models in space (kind = '3d'); expected one",
+    ),
+    (
+        lambda: block(contacts=[Contact("bottom", FLOOR, friction=0.1, friction_axis=(1, 0, 0))]),
+        "contact[0].friction_axis: is (1.0, 0.0, 0.0), which is for models in space (kind = '3d'); expected none",
+    ),
+    (
+        lambda: block(contacts=[Contact("bottom", FLOOR, friction=0.1, facets=8)]),
+        "contact[0].facets: is 8, which is for models in space (kind = '3d'); expected none",
+    ),
+    (
+        lambda: pair(steps=[Step(friction={"upper.bottom": (0.1, 0.2)})]),
+        "step[0].friction.upper.bottom: has two coefficients; expected friction_axis in the contact",
+    ),
     (
         lambda: block(loads=[Load("roof", pressure=1.0)]),
         "load[0].on: unknown boundary 'roof'. Known: bottom, left, right, top",

@@ -122,6 +122,8 @@ def _contacts(examined: Examined) -> Rows:
         pairing = examined.interface.sides[i]
         sides = f"{pairing.nonmortar} on {pairing.mortar}"
         friction = "tied" if contact.tied else _friction(contact, examined.interface.friction[own])
+        if contact.facets:
+            friction += f" on {contact.facets} facets"
         initial = f"initial gap {gap.min():.5g} to {gap.max():.5g}"
         rows.append((contact.label, sides, pairing.coupling, friction, f"{len(gap)} pairs", initial))
     return rows
@@ -135,6 +137,10 @@ def _friction(contact: Contact, mu: Array) -> str:
     low, high = mu.min(), mu.max()
     adhesion = f"adhesion {contact.adhesion:g}" if contact.adhesion else ""
     coefficient = f"friction {low:g}" if low == high else f"friction {low:g} to {high:g}"
+    if isinstance(contact.friction, tuple):
+        coefficient = "friction {:g} along ({:g}, {:g}, {:g}), {:g} across".format(
+            contact.friction[0], *(contact.friction_axis or ()), contact.friction[1]
+        )
     return ", ".join(part for part in (coefficient, adhesion, limit) if part)
 
 

@@ -142,17 +142,18 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int]) -> De
         raise InputError("there is no mesh; expected [mesh] with a generator or a file")
     materials = deck_materials(data)
     bodies = deck_bodies(data, materials)
+    mesh = deck_mesh(data["mesh"], path.parent)
     parts: dict[str, Any] = {
         "supports": deck_supports(data),
         "foundations": deck_foundations(data),
         "loads": deck_loads(data),
-        "contacts": deck_contacts(data, path.parent),
-        "obstacles": deck_obstacles(data, path.parent),
+        "contacts": deck_contacts(data, path.parent, mesh),
+        "obstacles": deck_obstacles(data, path.parent, mesh),
     }
     if "step" in data:
         parts["steps"] = deck_steps(data)
     parts |= {key: data[key] for key in ("title", "kind", "thickness", "units") if key in data}
-    model = Model(deck_mesh(data["mesh"], path.parent), bodies=bodies, **parts)
+    model = Model(mesh, bodies=bodies, **parts)
     named = {entry["material"] for entry in data["body"]}
     unused = tuple(name for name in materials if name not in named)
     return Deck(model=model, path=path, lines=MappingProxyType(dict(lines)), unused_materials=unused)

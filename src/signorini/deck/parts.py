@@ -14,10 +14,12 @@ from signorini.model.body import Body
 from signorini.model.conditions import Foundation, Load, Support
 from signorini.model.contact import Contact
 from signorini.model.material import Elastic, Material, Orthotropic
+from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Circle, Obstacle, Plane, Profile, Sphere
 from signorini.model.revolved import Cone, Cylinder, Torus
 from signorini.model.rigid import Rigid
 from signorini.model.step import Step
+from signorini.model.triangulated import Surface
 from signorini.model.varying import Along
 
 _CONTACT_KEYS = (
@@ -32,6 +34,7 @@ _CONTACT_KEYS = (
     "cylinder",
     "cone",
     "torus",
+    "surface",
     "friction",
     "shear_limit",
     "adhesion",
@@ -43,6 +46,8 @@ _CONTACT_KEYS = (
     "side",
     "search",
     "adjust",
+    "friction_axis",
+    "facets",
 )
 _OBSTACLES = {
     "plane": Plane,
@@ -52,6 +57,7 @@ _OBSTACLES = {
     "cylinder": Cylinder,
     "cone": Cone,
     "torus": Torus,
+    "surface": Surface,
 }
 _OBSTACLE_KEYS = ("name", *_OBSTACLES, "u", "rotation", "force", "moment", "point")
 
@@ -99,9 +105,9 @@ def deck_steps(data: Mapping[str, Any]) -> list[Step]:
     return [make(Step, entry, ("step", i)) for i, entry in enumerate(tables(data, "step"))]
 
 
-def deck_contacts(data: Mapping[str, Any], folder: Path) -> list[Contact]:
+def deck_contacts(data: Mapping[str, Any], folder: Path, mesh: Mesh) -> list[Contact]:
     """``[[contact]]``, each with a ``mortar`` boundary or a rigid obstacle; its file is relative to the folder."""
-    return [_contact(entry, ("contact", i), folder) for i, entry in enumerate(tables(data, "contact"))]
+    return [_contact(entry, ("contact", i), folder, mesh) for i, entry in enumerate(tables(data, "contact"))]
 
 
 def _along(entry: dict[str, Any], where: Where) -> Along:
@@ -114,35 +120,52 @@ def _along(entry: dict[str, Any], where: Where) -> Along:
     return make(Along, {"axis": axes[0], "at": entry[axes[0]], "values": entry["mu"]}, where)
 
 
-def deck_obstacles(data: Mapping[str, Any], folder: Path) -> list[Rigid]:
+def deck_obstacles(data: Mapping[str, Any], folder: Path, mesh: Mesh) -> list[Rigid]:
     """``[[obstacle]]``, each with a shape; its file is relative to the folder."""
-    return [_obstacle(entry, ("obstacle", i), folder) for i, entry in enumerate(tables(data, "obstacle"))]
+    return [_obstacle(entry, ("obstacle", i), folder, mesh) for i, entry in enumerate(tables(data, "obstacle"))]
 
 
-def _shape(key: str, value: Any, where: Where, folder: Path) -> Obstacle:
-    """A plane, a circle or a profile; a profile may be the boundary of a mesh in a file."""
-    entry = table(value, where)
-    if key != "profile" or "file" not in entry:
+def _shape(key: str, value: Any, where: Where, folder: Path, mesh: Mesh) -> Obstacle:
+    """A rigid shape; profiles and surfaces may be in a file, or be a boundary of the deck's mesh."""
+    entry = {"file": value} if key == "surface" and isinstance(value, str) else table(value, where)
+    if key not in ("profile", "surface") or not {"file", "boundary"} & set(entry):
         return make(_OBSTACLES[key], entry, where)
-    from signorini.fem.profile import mesh_profile  # brings scikit-fem with it
-    from signorini.fem.read import read_mesh  # and this every format of meshio
+    from signorini.fem.profile import mesh_profile, read_profile  # brings scikit-fem and meshio with it
+    from signorini.fem.surface import mesh_surface, read_surface
 
-    check_keys(entry, where, known=["file", "boundary", "fillet"], needed=["file", "boundary"])
+    check_keys(entry, where, known=["file", "boundary", "flip", *(["fillet"] if key == "profile" else [])])
+    given = dict(entry)
+    name = text(given["boundary"], (*where, "boundary")) if "boundary" in given else ""
+    if not isinstance(given.get("flip", False), bool):
+        raise InputError(f"is {given['flip']!r}; expected true or false", where=(*where, "flip"))
     try:
-        mesh = read_mesh(folder / text(entry["file"], ("file",)))
-        return mesh_profile(mesh, text(entry["boundary"], ("boundary",)), fillet=entry.get("fillet", 0.0))
+        if "file" in given:
+            file = folder / text(given.pop("file"), ("file",))
+            return (read_profile if key == "profile" else read_surface)(file, **given)
+        del given["boundary"]
+        _refuse_body(mesh, name)
+        return (mesh_profile if key == "profile" else mesh_surface)(mesh, name, **given)
     except InputError as error:
-        raise InputError(error.message, where=(*where, "boundary" if "boundary" in error.where else "file")) from error
+        inner = [part for part in error.where if part in entry]
+        raise InputError(error.message, where=(*where, *inner[:1])) from error
 
 
-def _obstacle(entry: dict[str, Any], where: Where, folder: Path) -> Rigid:
+def _refuse_body(mesh: Mesh, name: str) -> None:
+    """A rigid surface of the deck's own mesh bounds no body."""
+    if name in mesh.boundaries and not mesh.bounds_nothing(name):
+        raise InputError(
+            f"'{name}' bounds a body; expected a boundary of no body, or mortar = '{name}'", where=("boundary",)
+        )
+
+
+def _obstacle(entry: dict[str, Any], where: Where, folder: Path, mesh: Mesh) -> Rigid:
     check_keys(entry, where, known=_OBSTACLE_KEYS, needed=["name"])
     given = dict(entry)
     shapes = [key for key in _OBSTACLES if key in given]
     if len(shapes) != 1:
         raise InputError(f"has {len(shapes)} shapes; expected one of {', '.join(_OBSTACLES)}", where=where)
     key = shapes[0]
-    given["shape"] = _shape(key, given.pop(key), (*where, key), folder)
+    given["shape"] = _shape(key, given.pop(key), (*where, key), folder, mesh)
     return make(Rigid, given, where)
 
 
@@ -169,7 +192,7 @@ def _sided(entry: dict[str, Any], where: Where) -> dict[str, Any]:
     return {"side": "coarser", **rest, "nonmortar": sides[0], "mortar": sides[1]}
 
 
-def _contact(entry: dict[str, Any], where: Where, folder: Path) -> Contact:
+def _contact(entry: dict[str, Any], where: Where, folder: Path, mesh: Mesh) -> Contact:
     check_keys(entry, where, known=_CONTACT_KEYS, needed=[] if "between" in entry else ["nonmortar"])
     given = _sided(entry, where)
     if isinstance(given.get("friction"), dict):
@@ -182,5 +205,5 @@ def _contact(entry: dict[str, Any], where: Where, folder: Path) -> Contact:
     if key == "mortar":
         text(given["mortar"], (*where, "mortar"))
     else:
-        given["mortar"] = _shape(key, given.pop(key), (*where, key), folder)
+        given["mortar"] = _shape(key, given.pop(key), (*where, key), folder, mesh)
     return make(Contact, given, where)

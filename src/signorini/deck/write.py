@@ -15,10 +15,12 @@ import numpy as np
 from signorini.errors import InputError
 from signorini.model.model import Model
 from signorini.model.obstacle import Circle, Plane, Profile
+from signorini.model.revolved import Cone, Cylinder, Torus
+from signorini.model.triangulated import Surface
 from signorini.model.varying import Along
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
-_OBSTACLES = {Plane: "plane", Circle: "circle", Profile: "profile"}
+_OBSTACLES = {kind: kind.__name__.lower() for kind in (Plane, Circle, Profile, Cylinder, Cone, Torus, Surface)}
 _FREE = ("u", "force", "rotation")  # where None means free and is said
 
 

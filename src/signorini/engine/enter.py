@@ -55,7 +55,7 @@ def relaxed(prepared: Prepared, state: State, where: str) -> tuple[State, Certif
     after, is counted as released. None where nothing slips.
     """
     n, interface = len(prepared.interface), prepared.interface
-    tangential, bound = interface.across(state.forces[n:]), interface.most(state.forces[:n])
+    tangential, bound = interface.effort(state.forces[n:]), interface.most(state.forces[:n])
     bound[interface.sticks] = np.inf
     size = float(np.abs(state.forces).max(initial=0.0))
     if not (~prepared.absent & (tangential > (1.0 + _MORE) * bound + 1e-12 * size)).any():

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -25,7 +26,7 @@ from signorini.fem.supports import Constraints, make_constraints
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.spatial import SpatialProblem
 from signorini.interface.candidates import candidates
-from signorini.interface.interface import Interface, friction_of, make_interface
+from signorini.interface.interface import Interface, anisotropy_of, friction_of, make_interface
 from signorini.iterative.bodies import ITERATIVE, Bodies, make_bodies
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.memory import available_memory
@@ -138,8 +139,7 @@ class Prepared(Examined):
         if isinstance(self.bodies, Bodies):
             return None
         size = _size(interface, self.bodies, scale)
-        friction, adhesion, limit = _rubbing(interface, self.bodies)
-        return replace(self.law, friction=friction, adhesion=adhesion, limit=limit, scale=size)
+        return replace(self.law, scale=size, **_cones(interface, self.bodies))
 
     def changed(
         self,
@@ -179,7 +179,8 @@ class Prepared(Examined):
         hot = [replace(load, temperature=_times(load, factor)) for load in self.model.loads]
         model = replace(self.model, contacts=contacts, loads=hot)
         mu = friction_of(self.space, model, self.interface.node, self.interface.contact)
-        interface = replace(self.interface, gap=gap, friction=mu)
+        ratio = anisotropy_of(model, self.interface.tangents, self.interface.contact)
+        interface = replace(self.interface, gap=gap, friction=mu, anisotropy=ratio)
         constraints = replace(
             self.constraints,
             prescribed={name: factor.get(name, 1.0) * u for name, u in self.constraints.prescribed.items()},
@@ -286,11 +287,18 @@ def _made(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, cl
 
 def _whole(examined: Examined, K: sp.csr_array, B: sp.csr_array, near: BoolArray) -> Bodies:
     """The bodies as they are."""
-    T, d = examined.constraints.transform, examined.space.dimension
+    T, d, interface = examined.constraints.transform, examined.space.dimension, examined.interface
+    if interface.facets.any() or (interface.anisotropy != 1.0).any():
+        i = int(interface.contact[np.argmax((interface.facets > 0) | (interface.anisotropy != 1.0).any(axis=1))])
+        raise InputError(
+            "two coefficients and facets need the condensed interface, and this model is solved by iteration, because "
+            "its factor does not fit or because it was asked for; expected one coefficient and no facets",
+            where=("contact", i),
+        )
     return make_bodies(
         K,
         B,
-        examined.interface,
+        interface,
         examined.constraints.nodes,
         examined.constraints.leaders % d,
         points=examined.space.mesh.points,
@@ -330,24 +338,24 @@ def contact_law(
     """The contact law of the active pairs, with no load yet; floating (d n, k) rigid motions as the pairs see them."""
     rows = condensed.active_rows
     seen = np.where(np.any(condensed.W, axis=1, keepdims=True), floating[rows], 0.0)
-    kind = CoulombProblem if interface.directions == 2 else SpatialProblem
-    friction, adhesion, limit = _rubbing(interface, condensed)
+    kind: type[CoulombProblem] | type[SpatialProblem] = CoulombProblem if interface.directions == 2 else SpatialProblem
     return kind(
         W=frozen(condensed.W),
         b=np.zeros(len(rows)),
-        friction=friction,
-        adhesion=adhesion,
-        limit=limit,
         motions=condensed.root[:, None] * seen,
         scale=_size(interface, condensed, scale),
+        **_cones(interface, condensed),
     )
 
 
-def _rubbing(interface: Interface, condensed: Condensed) -> tuple[Array, Array, Array]:
-    """Friction, adhesion and shear limit of the active pairs; forces scaled."""
+def _cones(interface: Interface, condensed: Condensed) -> dict[str, Any]:
+    """The friction of the active pairs as the laws take it, forces scaled."""
     active = condensed.active
     area = interface.area[active] / condensed.root[: int(active.sum())]
-    return interface.friction[active], interface.adhesion[active] * area, interface.shear_limit[active] * area
+    bounds = {"adhesion": interface.adhesion[active] * area, "limit": interface.shear_limit[active] * area}
+    if interface.directions == 2:
+        return {"friction": interface.friction[active], **bounds}
+    return {"friction": interface.coefficients[active], "facets": interface.facets[active], **bounds}
 
 
 def _size(interface: Interface, condensed: Condensed, scale: Scale) -> float:
@@ -381,7 +389,8 @@ def refuse_free_motions(
     free = free_motions(motions, constraints, touching)
     if free.shape[1]:
         raise InputError(f"{_say(parts, free)}: no support or contact holds it; add a support")
-    rubbing = np.tile(interface.rubs, interface.directions - 1)
+    along = interface.coefficients + interface.adhesion[:, None] * interface.anisotropy
+    rubbing = (along > 0).T.ravel()
     resisting = interface.B[np.concatenate([np.ones(len(interface), bool), rubbing])]
     free = free_motions(motions, constraints, resisting)
     if free.shape[1]:

@@ -73,7 +73,12 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
         instants=instants,
         cycles=cycles,
         steadiness=steadiness,
-        notes=(*_notes(prepared, leg), *_finer_notes(prepared), *((words,) if words else ())),
+        notes=(
+            *_notes(prepared, leg),
+            *_facet_notes(prepared),
+            *_finer_notes(prepared),
+            *((words,) if words else ()),
+        ),
     )
 
 
@@ -85,6 +90,15 @@ def _notes(prepared: Prepared, leg: Leg) -> tuple[str, ...]:
         return leg.notes
     closed = rubbing & (leg.after.status != OPEN) & (leg.before.gap > 1e-9 * prepared.scale.length)
     return (ONE_INCREMENT, GROWN) if closed.any() else (ONE_INCREMENT,)
+
+
+def _facet_notes(prepared: Prepared) -> tuple[str, ...]:
+    """Contacts whose friction cone is not the exact one."""
+    return tuple(
+        f"contact '{contact.label}': solved and certified on a cone of {contact.facets} facets, not on the exact one"
+        for contact in prepared.model.contacts
+        if contact.facets
+    )
 
 
 def _finer_notes(prepared: Prepared) -> tuple[str, ...]:
@@ -196,7 +210,7 @@ def _contact_result(
 ) -> ContactResult:
     interface, n, own = prepared.interface, len(prepared.interface), surface.own
     normal = state.forces[:n][own]
-    tangential = interface.across(state.forces[n:])[own]
+    tangential = interface.effort(state.forces[n:])[own]
     code, area = state.status[own], surface.fixed["area"]
     bound = interface.most(state.forces[:n])[own]
     # a pair that a support guides carries no friction: it touches without slipping

@@ -11,8 +11,10 @@ import numpy as np
 from signorini.arrays import Array, BoolArray
 from signorini.engine.prepare import Prepared, contact_law, refuse_free_motions
 from signorini.errors import InputError
+from signorini.interface.frames import along_tangents
 from signorini.interface.interface import Interface
 from signorini.iterative.bodies import Bodies
+from signorini.model.contact import ratios
 from signorini.model.stage import Stage
 
 
@@ -29,11 +31,16 @@ def staged(prepared: Prepared, stage: Stage) -> Prepared:
         If the contacts that are left do not hold a body: it is named, with its motion.
     """
     labels = [contact.label for contact in prepared.model.contacts]
-    mu = prepared.interface.friction.copy()
+    mu, anisotropy = prepared.interface.friction.copy(), prepared.interface.anisotropy.copy()
     for name, value in stage.friction.items():
-        mu[prepared.interface.contact == labels.index(name)] = value
+        i = labels.index(name)
+        own = prepared.interface.contact == i
+        mu[own] = max(value) if isinstance(value, tuple) else value
+        anisotropy[own] = along_tangents(
+            ratios(value), prepared.model.contacts[i].friction_axis, prepared.interface.tangents[own]
+        )
     absent = absent_pairs(prepared, stage.inactive)
-    interface = replace(prepared.interface, friction=mu)
+    interface = replace(prepared.interface, friction=mu, anisotropy=anisotropy)
     if not absent.any():
         if not stage.friction:
             return prepared

@@ -12,8 +12,8 @@ from pathlib import Path
 import meshio
 import numpy as np
 
-from signorini.arrays import IntArray
-from signorini.errors import InputError
+from signorini.arrays import Array, IntArray
+from signorini.errors import InputError, one_of
 from signorini.model.mesh import NODES_PER_CELL, NODES_PER_PLANE_CELL, NODES_PER_SOLID_CELL, Mesh
 
 _LINES, _POINTS = ("line", "line3"), "vertex"
@@ -78,6 +78,50 @@ def read_mesh(path: str | Path) -> Mesh:
     )
 
 
+def read_facets(path: str | Path, dimension: int, name: str = "") -> tuple[Array, list[IntArray]] | None:
+    """Edges (of dimension 1) or faces (2) of a file that holds nothing of more dimensions; None if it holds cells.
+
+    Parameters
+    ----------
+    path : any format that meshio reads
+    name : of the facets, by default all
+
+    Returns
+    -------
+    Points (n, 3), and for every number of nodes that the facets have the facets (m, k)
+
+    Raises
+    ------
+    InputError
+        If the file is missing or unreadable, there is no such name, or none is given where the file holds cells.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise InputError(f"there is no file '{path}'", where=("file",))
+    found = _read(path)
+    named, cells = _named_parts(found, path)
+    wanted, higher = (_LINES, NODES_PER_CELL) if dimension == 1 else (NODES_PER_PLANE_CELL, NODES_PER_SOLID_CELL)
+    known = {key for family in wanted for key in named[family]}
+    if any(family in higher for family in cells):
+        if name:
+            return None
+        raise InputError(f"is not given, but '{path}' holds cells too; it names {_listed(known)}", where=("boundary",))
+    if name and name not in known:
+        raise InputError(one_of(name, known, "boundary"), where=("boundary",))
+    parts = {family: np.vstack(cells[family]) for family in wanted if family in cells}
+    if not parts:
+        what = "edges" if dimension == 1 else "triangles or quadrilaterals"
+        raise InputError(f"'{path}' holds no {what}; it has {_listed(cells)}", where=("file",))
+    if name:
+        parts = {family: facets[named[family][name]] for family, facets in parts.items() if name in named[family]}
+    points = np.asarray(found.points, float)
+    return np.column_stack([points, np.zeros((len(points), 3 - points.shape[1]))]), list(parts.values())
+
+
+def _listed(names: Collection[str]) -> str:
+    return ", ".join(sorted(names)) or "nothing"
+
+
 def _nodes(
     found: meshio.Mesh, named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntArray]]
 ) -> dict[str, IntArray]:
@@ -137,10 +181,10 @@ def _surfaces(named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntAr
 
 
 def _read(path: Path) -> meshio.Mesh:
-    # meshio prints warnings and ends the process on some malformed files
+    # meshio prints warnings, multiplies what is no number and ends the process on some malformed files
     said = io.StringIO()
     try:
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), np.errstate(all="ignore"):
             return meshio.read(path)
     except (Exception, SystemExit) as error:
         told = "" if isinstance(error, SystemExit) else str(error)

@@ -62,7 +62,7 @@ def _held(space: Space, constraints: Constraints, nodes: IntArray) -> BoolArray:
     return np.asarray(constraints.free[space.dofs(nodes)] < 0)
 
 
-def tangents(normals: Array, mirrored: BoolArray) -> tuple[Array, BoolArray]:
+def tangents(normals: Array, mirrored: BoolArray, fibres: Array) -> tuple[Array, BoolArray]:
     """Unit vectors across the normals, (k, d - 1, d), and which of them (k, d - 1) nothing slides along.
 
     In the plane ``t = (n_y, -n_x)``. In space ``t1 x t2 = n``; t1 goes across the plane of symmetry of a pair on one.
@@ -71,13 +71,40 @@ def tangents(normals: Array, mirrored: BoolArray) -> tuple[Array, BoolArray]:
     ----------
     normals : (k, d)
     mirrored : (k, d) whether a pair lies on a plane of symmetry across a coordinate axis, in space
+    fibres : (k, 3) in space, direction of the first tangent; 0 leaves it to a coordinate axis
     """
     if normals.shape[1] == 2:
         return np.stack([normals[:, 1], -normals[:, 0]], axis=1)[:, None], np.zeros((len(normals), 1), bool)
     axes = frames(normals)[:, 1:]
+    for axis in np.unique(fibres[fibres.any(axis=1)], axis=0):
+        own = (fibres == axis).all(axis=1)
+        axes[own] = frames(normals[own], axis)[:, 1:]
     on = mirrored.any(axis=1)
     across = np.eye(3)[np.argmax(mirrored[on], axis=1)]
     axes[on] = np.stack([across, np.cross(normals[on], across)], axis=1)
     still = np.zeros((len(normals), 2), bool)
     still[on] = np.einsum("kji,ki->kj", np.abs(axes[on]), mirrored[on]) > 1.0 - 1e-9
     return axes + 0.0, still
+
+
+def along_tangents(ratio: tuple[float, float], axis: tuple[float, float, float] | None, axes: Array) -> Array:
+    """What belongs to the direction of an axis and across it as it belongs to the tangents, (k, d - 1).
+
+    On a plane of symmetry the first tangent goes across the plane, which the axis may lie in.
+
+    Parameters
+    ----------
+    ratio : along the axis and across it
+    axis : (3,); None where both are the same
+    axes : (k, d - 1, d) tangents
+
+    Examples
+    --------
+    >>> along_tangents((0.5, 1.0), (1, 0, 0), np.array([np.eye(3)[:2], np.eye(3)[[1, 0]]])).tolist()
+    [[0.5, 1.0], [1.0, 0.5]]
+    """
+    if axis is None:
+        return np.full(axes.shape[:2], ratio[0])
+    along = np.abs(axes @ np.array(axis, float))
+    first: Array = (along[:, 0] >= along[:, 1])[:, None]
+    return np.where(first, ratio, ratio[::-1])

@@ -15,9 +15,14 @@ from signorini.errors import InputError
 from signorini.fem.obstacles import carried
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
-from signorini.interface.frames import tangents
+from signorini.interface.cone import effort
+from signorini.interface.frames import along_tangents, tangents
 from signorini.interface.pairing import Pairs, Sides, make_pairs
+from signorini.interface.spatial.frames import ALONG
+from signorini.model.contact import ratios
 from signorini.model.model import Model
+
+_OBLIQUE = 1e-6  # component of a unit vector
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -39,8 +44,11 @@ class Interface:
     tangents : (n, d - 1, d) unit vectors
     node : (n,) nodes on the nonmortar side
     contact : (n,) index of the contact that a pair belongs to
-    friction : (n,) Coulomb's coefficient, infinite where it sticks
-    adhesion, shear_limit : (n,) tractions of :mod:`signorini.bound`, force per area; no limit is infinite
+    friction : (n,) Coulomb's coefficient, the largest where it differs by direction, infinite where it sticks
+    adhesion, shear_limit : (n,) tractions of :mod:`signorini.bound`, force per area, along the direction of the largest
+        friction; no limit is infinite
+    anisotropy : (n, d - 1) coefficient along every tangent over the largest
+    facets : (n,) corners of the section of the friction cone, 0 for the exact one
     normal_compliance, tangential_compliance : (n,) length per pressure
     tied : (n,) whether the pair neither slips nor opens
     sides : how every contact was paired
@@ -56,6 +64,8 @@ class Interface:
     friction: Array
     adhesion: Array
     shear_limit: Array
+    anisotropy: Array
+    facets: IntArray
     normal_compliance: Array
     tangential_compliance: Array
     tied: BoolArray
@@ -93,6 +103,11 @@ class Interface:
         """(n,) pairs that have friction."""
         return np.asarray((self.friction > 0) | (self.adhesion > 0), dtype=np.bool_)
 
+    @property
+    def coefficients(self) -> Array:
+        """(n, d - 1) Coulomb's coefficient along every tangent."""
+        return self.friction[:, None] * self.anisotropy
+
     def bound(self, pairs: BoolArray | IntArray) -> Bound:
         """Of the friction forces of some pairs."""
         area = self.area[pairs]
@@ -104,6 +119,14 @@ class Interface:
         """(n,) Largest friction forces under normal forces (n,); infinite where a pair sticks that is pressed."""
         bound = self.bound(np.ones(len(self), dtype=np.bool_)).at(np.maximum(normal, 0.0))
         return np.where(self.sticks & (normal > 0), np.inf, bound)
+
+    def by_pair(self, tangential: Array) -> Array:
+        """(n, d - 1) tangential vectors that are given row by row, ((d - 1) n,)."""
+        return tangential.reshape(self.directions - 1, len(self)).T
+
+    def effort(self, tangential: Array) -> Array:
+        """(n,) size of tangential forces ((d - 1) n,) as friction feels it, see `signorini.interface.cone.effort`."""
+        return effort(self.by_pair(tangential), self.anisotropy, self.facets)
 
     def across(self, tangential: Array) -> Array:
         """(n,) length of tangential vectors that are given row by row, ((d - 1) n,)."""
@@ -124,7 +147,6 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
     normals = np.concatenate([part.normals for part in parts]) if parts else np.empty((0, space.dimension))
     _refuse_no_normal(space, parts)
     mirrored = np.concatenate([part.mirrored for part in parts]) if parts else np.empty((0, space.dimension), bool)
-    axes, still = tangents(normals, mirrored)
     none = sp.csr_array((0, len(space.mesh.points)))
 
     def joined(key: str) -> Array:
@@ -133,6 +155,9 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
     def data(key: str) -> Array:
         return np.array([getattr(contact, key) for contact in model.contacts], float)[index]
 
+    fibres = np.array([contact.friction_axis or (0.0,) * 3 for contact in model.contacts]).reshape(-1, 3)[index]
+    axes, still = tangents(normals, mirrored, fibres)
+    _refuse_no_fibre(space, model, joined("nodes").astype(int), index, normals, mirrored)
     position = sp.vstack([none, *(part.relative for part in parts)]) @ space.mesh.points
     carrier = np.repeat([part.obstacle for part in parts], np.bincount(index, minlength=len(parts))).astype(int)
     rows = []
@@ -141,6 +166,8 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
         relative = sp.vstack([none, *(getattr(part, key) for part in parts)])
         own = sp.hstack([_along(space, relative, directions), _carried(model, carrier, position, directions)])
         rows.append(sp.diags_array(moves) @ own)
+    friction = friction_of(space, model, joined("nodes").astype(int), index)
+    facets = np.array([contact.facets for contact in model.contacts], np.int64)[index]
     return Interface(
         B=sp.csr_array(sp.vstack(rows)),
         gap=joined("gap"),
@@ -149,9 +176,11 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
         tangents=axes,
         node=joined("nodes").astype(int),
         contact=index,
-        friction=friction_of(space, model, joined("nodes").astype(int), index),
+        friction=friction,
         adhesion=data("adhesion"),
         shear_limit=data("most_shear"),
+        anisotropy=anisotropy_of(model, axes, index),
+        facets=np.where(np.isfinite(friction), facets, 0),
         normal_compliance=data("normal_compliance"),
         tangential_compliance=data("tangential_compliance"),
         tied=data("tied").astype(bool),
@@ -165,6 +194,49 @@ def _refuse_no_normal(space: Space, parts: Sequence[Pairs]) -> None:
         if len(lost):
             number = space.mesh.labels[part.nodes[lost[0]]]
             raise InputError(f"node {number} has no normal: a face there has no area", where=("contact", i))
+
+
+def _refuse_no_fibre(
+    space: Space, model: Model, node: IntArray, contact: IntArray, normals: Array, mirrored: BoolArray
+) -> None:
+    """A direction of friction has a part along every surface, and planes of symmetry see it as their mirror image."""
+    for i, data in enumerate(model.contacts):
+        if data.friction_axis is None:
+            continue
+        axis = np.array(data.friction_axis) / np.linalg.norm(data.friction_axis)
+        own = contact == i
+        off = np.linalg.norm(axis - (normals[own] @ axis)[:, None] * normals[own], axis=1)
+        lost = np.flatnonzero(off < ALONG)
+        if len(lost):
+            number = space.mesh.labels[node[own][lost[0]]]
+            raise InputError(
+                f"runs along the normal of node {number}; expected a direction along the surface",
+                where=("contact", i, "friction_axis"),
+            )
+        on = mirrored[own].any(axis=0)
+        oblique = on & (np.abs(axis) > _OBLIQUE) & (np.abs(axis) < 1.0 - _OBLIQUE)
+        if oblique.any():
+            raise InputError(
+                f"is oblique to the plane of symmetry across {model.axes[int(np.argmax(oblique))]}, which would see "
+                "its mirror image; expected it in the plane or across it",
+                where=("contact", i, "friction_axis"),
+            )
+
+
+def anisotropy_of(model: Model, axes: Array, contact: IntArray) -> Array:
+    """Coulomb's coefficient along every tangent over the largest, (n, d - 1).
+
+    Parameters
+    ----------
+    axes : (n, d - 1, d) tangents of the pairs
+    contact : (n,) contacts that they belong to
+    """
+    found = np.ones(axes.shape[:2])
+    for i, data in enumerate(model.contacts):
+        if isinstance(data.friction, tuple):
+            own = contact == i
+            found[own] = along_tangents(ratios(data.friction), data.friction_axis, axes[own])
+    return found
 
 
 def friction_of(space: Space, model: Model, node: IntArray, contact: IntArray) -> Array:

@@ -27,6 +27,7 @@ from signorini.interface.segments import node_to_segment
 from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle, Plane
+from signorini.model.triangulated import Surface
 
 _FINER = 0.8  # of the mortar side's mean facet length
 
@@ -110,12 +111,7 @@ def _on_obstacle(
     points = space.mesh.points
     distance, normals = obstacle.nearest(points[side.nodes])
     if (np.sum(side.nodal_normals * normals, axis=1) >= 0).all():
-        what = (
-            f"the plane; its normal {obstacle.normal} must point from the obstacle towards the body"
-            if isinstance(obstacle, Plane)
-            else f"{obstacle}, or is behind it; expected the obstacle outside the body"
-        )
-        raise InputError(f"'{contact.nonmortar}' faces away from {what}", where=where)
+        raise InputError(f"'{contact.nonmortar}' faces away from {_turned(obstacle)}", where=where)
     if not side.quadratic:
         area = nodal_areas(model, side)
         coupling = Coupling(nodes=side.nodes, area=area, relative=_pick(side.nodes, len(points)))
@@ -133,6 +129,16 @@ def _on_obstacle(
         mirrored=np.zeros(normals.shape, bool),
         sides=Sides(nonmortar=contact.nonmortar, mortar=str(obstacle), coupling="obstacle"),
     )
+
+
+def _turned(obstacle: Obstacle) -> str:
+    """What a side faces away from, and what is expected."""
+    if isinstance(obstacle, Plane):
+        return f"the plane; its normal {obstacle.normal} must point from the obstacle towards the body"
+    words = f"{obstacle}, or is behind it; expected the obstacle outside the body"
+    if isinstance(obstacle, Surface):
+        words += ", its triangles counter-clockwise seen from there ('flip' turns what is read)"
+    return words
 
 
 def _on_side(

@@ -4,15 +4,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.checks import choice, number, text
-from signorini.errors import InputError
+from signorini.checks import choice, number, text, vector, whole
+from signorini.errors import InputError, Where
 from signorini.model.obstacle import Obstacle
 
 COUPLINGS = ("auto", "nodes", "mortar", "node-to-segment")
@@ -29,11 +29,12 @@ class Contact:
     Parameters
     ----------
     nonmortar : boundary whose nodes carry the pairs, the pressures and the results
-    mortar : boundary of the other body; a rigid :class:`Plane`, :class:`Circle` or :class:`Profile` at rest; or the
-        name of a :class:`Rigid` obstacle of the model
+    mortar : boundary of the other body; a rigid :class:`Plane`, :class:`Circle`, :class:`Profile`, :class:`Surface` or
+        other shape at rest; or the name of a :class:`Rigid` obstacle of the model
     friction : Coulomb's coefficient, >= 0; "stick": never slips (it may still open); "tied": neither slips nor
         opens, nor presses initial gaps, which count as filled; or a function of the points (k, d) that gives the
-        coefficients (k,), such as :class:`Along`
+        coefficients (k,), such as :class:`Along`. In space also two coefficients, along ``friction_axis`` and across:
+        tractions lie in an ellipse then, and slip is normal to it
     shear_limit : largest traction of friction, force per area, > 0: Coulomb's law with a limit, or Tresca's law with
         friction = "stick"; None (default) is no limit
     adhesion : traction that friction holds without pressure, force per area, >= 0; lost where the sides open
@@ -47,6 +48,10 @@ class Contact:
         "auto": nodes where linear meshes match, otherwise mortar
     side : which side is the nonmortar one: "named", as given here, or "coarser", the one with the longer facets (with
         "mortar" its pressures are the smoother ones)
+    friction_axis : in space, direction (3,) of the first tangents, projected on the surface, along which the first of
+        two coefficients acts; by default a coordinate axis
+    facets : in space, corners of a polygon inscribed in the section of the friction cone, which it stands for, the
+        first on the first tangent: a multiple of 4; 0 for the exact cone
     search : how far apart facets can be and still be opposite each other, length; by default half the size of the
         smaller side
     adjust : initial gaps up to this length are closed, and overlaps removed; None leaves them
@@ -60,7 +65,7 @@ class Contact:
 
     nonmortar: str
     mortar: str | Obstacle
-    friction: float | Literal["stick", "tied"] | Callable[[Array], Array] = 0.0
+    friction: float | tuple[float, float] | Literal["stick", "tied"] | Callable[[Array], Array] = 0.0
     shear_limit: float | None = None
     adhesion: float = 0.0
     gap: float | Literal["geometry", "zero"] = "geometry"
@@ -72,6 +77,8 @@ class Contact:
     side: Literal["named", "coarser"] = "named"
     search: float | None = None
     adjust: float | None = None
+    friction_axis: tuple[float, float, float] | None = None
+    facets: int = 0
 
     def __post_init__(self) -> None:
         text(self.nonmortar, ("nonmortar",))
@@ -82,7 +89,8 @@ class Contact:
                 raise InputError(
                     f"is '{self.friction}'; expected a number >= 0, 'stick' or 'tied'", where=("friction",)
                 )
-            object.__setattr__(self, "friction", number(self.friction, ("friction",), least=0.0))
+            object.__setattr__(self, "friction", coefficient(self.friction, ("friction",)))
+        self._check_cone()
         if self.gap not in ("geometry", "zero"):
             if isinstance(self.gap, str):
                 raise InputError(f"is '{self.gap}'; expected 'geometry', 'zero' or a number", where=("gap",))
@@ -110,6 +118,38 @@ class Contact:
                 raise InputError(f"is given, but the contact {words}, whatever its friction holds", where=(key,))
         if self.adjust is not None and self.gap != "geometry":
             raise InputError("goes with gap = 'geometry' only", where=("adjust",))
+
+    def _check_cone(self) -> None:
+        """What a friction cone in space has."""
+        if self.friction_axis is not None:
+            axis = vector(self.friction_axis, ("friction_axis",), dimension=3)
+            if not any(axis):
+                raise InputError("is zero; expected a direction", where=("friction_axis",))
+            object.__setattr__(self, "friction_axis", axis)
+        elif isinstance(self.friction, tuple):
+            raise InputError(
+                "has two coefficients; expected friction_axis too, the direction of the first", where=("friction",)
+            )
+        if whole(self.facets, ("facets",), least=0) % 4:
+            raise InputError(f"is {self.facets}; expected a multiple of 4, or 0 for the exact cone", where=("facets",))
+        if self.facets and self.tied:
+            raise InputError(f"is {self.facets}, but a tied contact has no friction cone", where=("facets",))
+
+    def check_plane(self) -> None:
+        """What goes with a plane model.
+
+        Raises
+        ------
+        InputError
+            If something is given that is for models in space.
+        """
+        space = "which is for models in space (kind = '3d')"
+        if isinstance(self.friction, tuple):
+            raise InputError(f"has two coefficients, {space}; expected one", where=("friction",))
+        if self.friction_axis is not None:
+            raise InputError(f"is {self.friction_axis}, {space}; expected none", where=("friction_axis",))
+        if self.facets:
+            raise InputError(f"is {self.facets}, {space}; expected none", where=("facets",))
 
     def check_alone(self) -> None:
         """What goes with a rigid obstacle.
@@ -164,18 +204,20 @@ class Contact:
     @property
     def coefficient(self) -> float:
         """Coulomb's coefficient as one number; infinite where it sticks or is tied, NaN where it varies."""
-        if callable(self.friction):
+        if callable(self.friction) or isinstance(self.friction, tuple):
             return math.nan
         return math.inf if self.friction in ("stick", "tied") else float(self.friction)
 
     def coefficients(self, points: Array) -> Array:
-        """Coulomb's coefficient at points (k, d), (k,); infinite where they stick.
+        """Coulomb's coefficient at points (k, d), (k,), the larger of two; infinite where they stick.
 
         Raises
         ------
         InputError
             If a function gives anything but one number >= 0 for every point.
         """
+        if isinstance(self.friction, tuple):
+            return np.full(len(points), max(self.friction))
         if not callable(self.friction):
             return np.full(len(points), self.coefficient)
         found = np.asarray(self.friction(points), float)
@@ -186,3 +228,29 @@ class Contact:
                 where=("friction",),
             )
         return found
+
+
+def coefficient(value: Any, where: Where) -> float | tuple[float, float]:
+    """One coefficient of friction >= 0, or two of them.
+
+    Examples
+    --------
+    >>> coefficient([0.1, 0.3], ("friction",))
+    (0.1, 0.3)
+    """
+    if not isinstance(value, Sequence) or isinstance(value, str):
+        return number(value, where, least=0.0)
+    if len(value) != 2:
+        raise InputError(f"has {len(value)} coefficients; expected one, or two along two directions", where=where)
+    return number(value[0], (*where, 0), least=0.0), number(value[1], (*where, 1), least=0.0)
+
+
+def ratios(value: float | tuple[float, float]) -> tuple[float, float]:
+    """Two coefficients over the larger of them; (1, 1) for one.
+
+    >>> ratios((0.1, 0.4)), ratios(0.3)
+    ((0.25, 1.0), (1.0, 1.0))
+    """
+    if not isinstance(value, tuple) or not any(value):
+        return 1.0, 1.0
+    return value[0] / max(value), value[1] / max(value)

@@ -139,6 +139,13 @@ class Mesh:
         found = self.boundaries[name] if name in self.boundaries else self.nodes[name]
         return np.unique(found)
 
+    def bounds_nothing(self, name: str) -> bool:
+        """Whether no node of a boundary belongs to a cell: a line or surface of its own, for a rigid obstacle."""
+        used = np.zeros(len(self.points), bool)
+        for nodes in self.cells.values():
+            used[nodes] = True
+        return not used[self.boundaries[name]].any()
+
     def __repr__(self) -> str:
         families = ", ".join(f"{len(n)} {f}{'s' if len(n) != 1 else ''}" for f, n in self.cells.items())
         parts = [f"{len(self.points)} nodes, {families}", f"bodies: {', '.join(self.bodies)}"]

@@ -203,6 +203,11 @@ class Model:
             raise InputError("an axisymmetric body rotates about its axis", where=("load", i, "centre"))
 
     def _check_contact(self, i: int, contact: Contact) -> None:
+        if self.dimension == 2:
+            try:
+                contact.check_plane()
+            except InputError as error:
+                raise error.inside("contact", i) from error
         self._check_place(contact.nonmortar, ("contact", i, "nonmortar"), nodes=False)
         if isinstance(contact.mortar, Obstacle):
             if contact.mortar.dimension != self.dimension:
@@ -306,8 +311,12 @@ class Model:
                     raise InputError(one_of(name, known, "contact"), where=("step", i, key))
                 if self.contacts[known.index(name)].tied:
                     raise InputError(f"'{name}' is tied for good; only contacts can change", where=("step", i, key))
-                if self.contacts[known.index(name)].tied:
-                    raise InputError(f"'{name}' is tied for good; a step cannot change it", where=("step", i, key))
+        for name, value in step.friction.items():
+            if isinstance(value, tuple) and self.contacts[known.index(name)].friction_axis is None:
+                raise InputError(
+                    "has two coefficients; expected friction_axis in the contact, the direction of the first",
+                    where=("step", i, "friction", name),
+                )
 
     @property
     def scaled_names(self) -> tuple[str, ...]:

@@ -13,6 +13,7 @@ from signorini.arrays import Array, frozen
 from signorini.checks import number, vector
 from signorini.errors import InputError
 from signorini.model.revolved import Cone, Cylinder, Torus
+from signorini.model.triangulated import Surface
 
 
 @dataclass(frozen=True)
@@ -249,7 +250,7 @@ class Profile:
 Sphere = Circle
 """In space a circle is a sphere."""
 
-Obstacle = Plane | Circle | Profile | Cylinder | Cone | Torus
+Obstacle = Plane | Circle | Profile | Cylinder | Cone | Torus | Surface
 
 
 def _spell(vector: tuple[float, ...]) -> str:

@@ -11,6 +11,7 @@ import numpy as np
 from signorini.checks import components, number, text, vector
 from signorini.errors import InputError
 from signorini.model.obstacle import Circle, Obstacle, Profile
+from signorini.model.triangulated import Surface
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,8 @@ class Rigid:
     rotation : radians, counterclockwise; None leaves it free; in space 0, or None for all three
     force : on it in every free direction, None or 0 elsewhere
     moment : on it about the point, counterclockwise, where the rotation is free; not in space
-    point : about which it rotates, length; by default a circle's centre, a plane's point, the middle of a profile
+    point : about which it rotates, length; by default a circle's centre, a plane's point, the middle of the points of a
+        profile or a surface
 
     Raises
     ------
@@ -90,7 +92,7 @@ class Rigid:
             return self.point
         if isinstance(self.shape, Circle):
             return self.shape.centre
-        if isinstance(self.shape, Profile):
+        if isinstance(self.shape, Profile | Surface):
             return tuple(float(x) for x in np.mean(self.shape.points, axis=0))
         return self.shape.point
 

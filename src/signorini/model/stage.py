@@ -20,7 +20,7 @@ class Stage:
     number : 1, 2, ...
     step : as the user wrote it
     ends : load factors at the end of every segment, those of every cycle
-    friction : contact to its coefficient, of contacts that some step has changed
+    friction : contact to its coefficient or two of them, of contacts that some step has changed
     interference : contact to its overlap at the end of the step, of contacts that some step has changed
     inactive : contacts that are switched off
     """
@@ -28,7 +28,7 @@ class Stage:
     number: int
     step: Step
     ends: tuple[Mapping[str, float], ...]
-    friction: Mapping[str, float]
+    friction: Mapping[str, float | tuple[float, float]]
     interference: Mapping[str, float]
     inactive: frozenset[str]
 
@@ -54,12 +54,12 @@ def stages(
     inactive : contacts that are switched off before the first step
     """
     now = dict.fromkeys(model.scaled_names, 0.0) | dict(factors or {})
-    friction: dict[str, float] = {}
+    friction: dict[str, float | tuple[float, float]] = {}
     interference: dict[str, float] = {}
     for number, step in enumerate(model.steps, start=1):
         ends = step.ends(now)
         now = ends[-1]
-        friction |= {name: math.inf if value == "stick" else float(value) for name, value in step.friction.items()}
+        friction |= {name: math.inf if value == "stick" else value for name, value in step.friction.items()}
         interference |= step.interference
         inactive = (inactive | set(step.inactive)) - set(step.active)
         yield Stage(

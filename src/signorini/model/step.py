@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 from signorini.checks import choice, number, text, whole
 from signorini.errors import InputError
+from signorini.model.contact import coefficient
 
 Factors = float | tuple[float, ...]
 
@@ -27,8 +28,8 @@ class Step:
     repeat : how many times the segments are gone through, one cycle after the other
     at : parts of the step (0 .. 1) at whose end the full results are kept too, or "events": wherever a pair changes
         its state on an exact path
-    friction : contact to its coefficient from here on, a number or "stick". What slips because of that slips at once,
-        before the loads of the step
+    friction : contact to its coefficient from here on, a number, two where the contact has a ``friction_axis``, or
+        "stick". What slips because of that slips at once, before the loads of the step
     interference : contact to its overlap at the end of the step, length; it grows linearly over the step
     inactive : contacts switched off from here on: their forces go linearly to zero over the step
     active : contacts switched on again: they touch where they meet from here on, with no slip behind them; what
@@ -52,7 +53,7 @@ class Step:
     scale: Mapping[str, float | Sequence[float]] | None = None
     repeat: int = 1
     at: Sequence[float] | Literal["events"] = ()
-    friction: Mapping[str, float | Literal["stick"]] = field(default_factory=dict)
+    friction: Mapping[str, float | tuple[float, float] | Literal["stick"]] = field(default_factory=dict)
     interference: Mapping[str, float] = field(default_factory=dict)
     inactive: Sequence[str] = ()
     active: Sequence[str] = ()
@@ -155,8 +156,8 @@ def _table(value: Any, key: str) -> list[tuple[str, Any]]:
     return list(value.items())
 
 
-def _coefficient(value: Any, name: str) -> float | str:
-    return "stick" if value == "stick" else number(value, ("friction", name), least=0.0)
+def _coefficient(value: Any, name: str) -> float | tuple[float, float] | str:
+    return "stick" if value == "stick" else coefficient(value, ("friction", name))
 
 
 def _times(at: Any) -> tuple[float, ...] | str:

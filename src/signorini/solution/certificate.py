@@ -3,19 +3,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
 from signorini.fem.supports import Constraints
+from signorini.interface.cone import farthest
 from signorini.interface.interface import Interface
 from signorini.solution.scale import Scale
 from signorini.solution.state import State
 
 TOLERANCE = 1e-8
 """Every number of a certificate is at most this, or the answer is no solution."""
+
+NUMBERS = ("equilibrium", "penetration", "tension", "cone", "complementarity")
+"""What a certificate measures."""
 
 _FARTHEST = 1e9  # lengths of the data: a body that has left is no solution
 
@@ -30,7 +34,9 @@ class Certificate:
     penetration : largest overlap
     tension : largest pulling normal force
     cone : largest excess of friction over its bound, ``mu p`` in Coulomb's law
-    complementarity : largest ``min(gap, normal force)``, ``min(|slip|, mu p - |t|)``, and friction along the slip
+    complementarity : largest ``min(gap, normal force)``, ``min(|slip|, mu p - |t|)``, and friction along the slip; on
+        an ellipse how far friction is from what dissipates most, on a polygon how much more it could dissipate
+    facets : most corners of a section of the friction cone on which this was measured; 0: the exact cone everywhere
     """
 
     equilibrium: float
@@ -38,11 +44,12 @@ class Certificate:
     tension: float
     cone: float
     complementarity: float
+    facets: int = 0
 
     @property
     def worst(self) -> float:
         """The largest of the five; NaN, which passes nothing, where any is."""
-        return float(np.max([getattr(self, field.name) for field in fields(self)]))
+        return float(np.max([getattr(self, name) for name in NUMBERS]))
 
     @property
     def passed(self) -> bool:
@@ -50,7 +57,8 @@ class Certificate:
         return bool(self.worst <= TOLERANCE)
 
     def __str__(self) -> str:
-        return ", ".join(f"{field.name} {getattr(self, field.name):.1e}" for field in fields(self))
+        words = ", ".join(f"{name} {getattr(self, name):.1e}" for name in NUMBERS)
+        return f"{words}, on a cone of {self.facets} facets" if self.facets else words
 
 
 def certify(
@@ -82,23 +90,19 @@ def certify(
     """
     u, r, n = state.displacement, state.forces, len(interface)
     if not (np.isfinite(u).all() and np.isfinite(r).all()) or np.abs(u).max(initial=0.0) > _FARTHEST * scale.length:
-        return Certificate(**{field.name: np.inf for field in fields(Certificate)})
+        return Certificate(equilibrium=np.inf, penetration=np.inf, tension=np.inf, cone=np.inf, complementarity=np.inf)
     applied = loads + interface.B.T @ r
     residual = constraints.transform.T @ (K @ u - applied)
     balance = motions.T @ (state.external + constraints.foundation_forces(u) + interface.B.T @ r)
     moved = interface.B @ u
     moved = (moved + interface.compliance * r / interface.areas) / scale.length
     gap = state.point.gap / scale.length + moved[:n]
-    normal, tangential = r[:n] / scale.force, interface.across(r[n:]) / scale.force
+    normal, tangential = r[:n] / scale.force, r[n:] / scale.force
     sliding = moved[n:] - before / scale.length
-    slip = interface.across(sliding)
     gap, tension = np.where(interface.tied, -np.abs(gap), gap), np.where(interface.tied, 0.0, normal)
-    room = np.where(interface.tied, np.inf, interface.most(r[:n]) / scale.force) - tangential
-    # 0 where friction opposes the slip, 2 where it goes with it
-    turned = interface.across(_directions(r[n:], n) + _directions(sliding, n))
-    along = 0.5 * turned * np.minimum(tangential, slip)
-    # where a pair is open, slip is free: the cone is a point and its room 0
-    friction = np.maximum(np.minimum(slip, np.maximum(room, 0.0)), along)
+    bound = np.where(interface.tied, np.inf, interface.most(r[:n]) / scale.force)
+    room = bound - interface.effort(tangential)
+    friction = _friction(interface, bound, tangential, sliding, room)
     if absent is not None:
         gap, normal, room, friction = (np.where(absent, 0.0, part) for part in (gap, normal, room, friction))
         tension = np.where(absent, 0.0, tension)
@@ -108,7 +112,30 @@ def certify(
         tension=_largest(-tension),
         cone=_largest(-room),
         complementarity=_largest(np.concatenate([np.minimum(gap, normal), friction])),
+        facets=int(interface.facets.max(initial=0)),
     )
+
+
+def _friction(interface: Interface, bound: Array, tangential: Array, sliding: Array, room: Array) -> Array:
+    """(n,) How far friction is from opposing the slip as its law says; all arguments dimensionless.
+
+    Where a pair is open, slip is free: its section is a point and has no room.
+    """
+    n = len(bound)
+    slip, size = interface.across(sliding), interface.across(tangential)
+    # 0 where friction opposes the slip, 2 where it goes with it
+    turned = interface.across(_directions(tangential, n) + _directions(sliding, n))
+    found = np.maximum(np.minimum(slip, np.maximum(room, 0.0)), 0.5 * turned * np.minimum(size, slip))
+    polygon = (interface.facets > 0) & np.isfinite(bound)
+    special = polygon | (interface.anisotropy != 1.0).any(axis=1)
+    if special.any():
+        r, s = interface.by_pair(tangential)[special], interface.by_pair(sliding)[special]
+        most = -bound[special, None] * farthest(s, interface.anisotropy[special], interface.facets[special])
+        off = np.minimum(slip[special], np.linalg.norm(r - most, axis=1))
+        more = np.sum((r - most) * s, axis=1)
+        more = more / np.maximum(np.maximum(slip, bound)[special], 1e-300)
+        found[special] = np.where(polygon[special], np.maximum(more, 0.0), off)
+    return found
 
 
 def _directions(vectors: Array, n: int) -> Array:

@@ -44,12 +44,13 @@ class Checkpoint:
         Raises
         ------
         InputError
-            What differs: the mesh, the contacts, or a load that the model lacks.
+            What differs: the mesh, the number of moving obstacles, the contacts, or a load that the model lacks.
         """
         dofs = len(self.state.displacement)
-        if dofs != model.mesh.points.size or self.mesh != digest(model.mesh):
-            found = f"was computed on another mesh ({dofs} dofs; the model has {model.mesh.points.size})"
-            raise InputError(f"{found}; expected the same mesh", where=_WHERE)
+        own = model.mesh.points.size + 2 * model.dimension * len(model.obstacles)
+        if dofs != own or self.mesh != digest(model.mesh):
+            found = f"was computed on another mesh ({dofs} dofs; the model has {own})"
+            raise InputError(f"{found}; expected the same mesh and moving obstacles", where=_WHERE)
         labels = tuple(contact.label for contact in model.contacts)
         if self.contacts != labels:
             found, expected = (", ".join(names) or "none" for names in (self.contacts, labels))

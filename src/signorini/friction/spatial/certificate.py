@@ -8,11 +8,11 @@ from dataclasses import astuple, dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from signorini.arrays import Array
+from signorini.arrays import Array, IntArray
 from signorini.friction.certificate import FARTHEST
 from signorini.friction.spatial.law import split
 from signorini.friction.spatial.problem import SpatialProblem
-from signorini.friction.spatial.section import project
+from signorini.friction.spatial.section import outermost, project
 
 
 def certify(problem: SpatialProblem, y: Array) -> float:
@@ -76,7 +76,7 @@ def violations(
     *,
     length: float,
     force: float,
-    facets: int = 0,
+    facets: int | IntArray = 0,
 ) -> Violations:
     """Test motions and forces of n pairs against Coulomb's law in the units of the problem; no equilibrium is asked.
 
@@ -100,12 +100,10 @@ def violations(
     """
     n = len(gap)
     mu = np.asarray(friction, dtype=np.float64).reshape(n, -1 if n else 1) * np.ones((1, 2))
-    angle = 2.0 * np.pi * np.arange(facets) / max(facets, 1)
-    corners = np.column_stack([np.cos(angle), np.sin(angle)])
+    sides = np.broadcast_to(np.asarray(facets, dtype=np.int64), (n,))
     flat = np.concatenate([normal_force, tangential_force.T.ravel()])
-    nearest = project(flat, mu, np.maximum(normal_force, 0.0), corners)[0][n:].reshape(2, n).T
-    scaled = mu * slip
-    reach = (scaled @ corners.T).max(axis=1, initial=0.0) if facets else np.hypot(scaled[:, 0], scaled[:, 1])
+    nearest = project(flat, mu, np.maximum(normal_force, 0.0), sides)[0][n:].reshape(2, n).T
+    reach = (outermost(slip, mu, sides) * slip).sum(axis=1)
     pressing = np.maximum(normal_force, 0.0)
     power = pressing * reach + (tangential_force * slip).sum(axis=1)
     return Violations(

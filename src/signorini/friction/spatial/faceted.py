@@ -40,9 +40,9 @@ def faceted_lcp(problem: SpatialProblem) -> tuple[Array, Array]:
     >>> decoded(problem, solve(*faceted_lcp(problem), method="lemke").z).round(12).tolist()
     [2.0, -0.2, 0.0]
     """
-    if problem.floating or not problem.facets or problem.bounded.any():
-        raise InputError("expected facets, bodies that supports hold and Coulomb's law at every pair")
-    n, k = problem.pairs, problem.facets
+    if problem.floating or len(set(problem.sides)) != 1 or not problem.sides[0] or problem.bounded.any():
+        raise InputError("expected facets, as many at every pair, held bodies and Coulomb's law at every pair")
+    n, k = problem.pairs, int(problem.sides[0])
     D, most = _corner_forces(problem)
     A, c = problem.interface.A, problem.free_motion
     forces = np.zeros((3 * n, n + n * k))
@@ -59,18 +59,18 @@ def faceted_lcp(problem: SpatialProblem) -> tuple[Array, Array]:
 
 def decoded(problem: SpatialProblem, z: Array) -> Array:
     """(3n,) Forces of a solution z of `faceted_lcp`."""
-    n, k = problem.pairs, problem.facets
+    n, k = problem.pairs, int(problem.sides[0])
     return np.concatenate([z[:n], _corner_forces(problem)[0] @ z[n : n + n * k]])
 
 
 def _corner_forces(problem: SpatialProblem) -> tuple[Array, Array]:
     """(2n, n k) Tangential force of each beta, of length mu / max(mu), and the largest mu of each pair."""
-    n, k = problem.pairs, problem.facets
+    n, k = problem.pairs, int(problem.sides[0])
     most = problem.mu.max(axis=1)
     share = problem.mu / np.where(most > 0, most, 1.0)[:, None]
     share[most == 0] = 1.0
     D = np.zeros((2, n, n, k))
-    pairs = np.arange(n)
-    for axis in (0, 1):
-        D[axis, pairs, pairs] = share[:, axis, None] * problem.corners[:, axis]
+    pairs, angle = np.arange(n), 2.0 * np.pi * np.arange(k) / k
+    for axis, corner in enumerate((np.cos(angle), np.sin(angle))):
+        D[axis, pairs, pairs] = share[:, axis, None] * corner
     return D.reshape(2 * n, n * k), most

@@ -109,11 +109,11 @@ def _projected(problem: SpatialProblem, y: Array) -> tuple[Array, IntArray, Arra
     n, dragged = problem.pairs, np.flatnonzero(problem.dragged)
     size = problem.bound.at(np.maximum(y[:n], 0.0))
     if not len(dragged):
-        return project(y, problem.axes, size, problem.corners)
+        return project(y, problem.axes, size, problem.sides)
     along = np.array(y)
     b = problem.b[n:].reshape(2, n)[:, dragged]
     reach = _FAR * np.maximum(size[dragged], problem.mu[dragged].max(axis=1)) / np.hypot(*b)
     along[n + dragged], along[2 * n + dragged] = -reach * b
-    r, left, tau, kappa = project(along, problem.axes, size, problem.corners)
+    r, left, tau, kappa = project(along, problem.axes, size, problem.sides)
     left[dragged] = 0
     return r, left, tau, kappa

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from signorini.arrays import Array, BoolArray, frozen
+from signorini.arrays import Array, BoolArray, IntArray, frozen
 from signorini.bound import Bound
 from signorini.errors import InputError
 from signorini.friction.posed import STICKY, PosedContact
@@ -44,7 +44,7 @@ class SpatialProblem(PosedContact):
     tresca : (n,) pairs whose ``friction`` is the bound itself, a scaled force, whatever the normal force, also where
         the pair is open; None stands for none
     facets : corners of a polygon inscribed in the ellipse that stands for it, the first on the first tangent; a
-        multiple of 4, or 0 for the ellipse itself
+        multiple of 4, or 0 for the ellipse itself; one number, or (n,)
     interface : what does not depend on the load, shared by ``dataclasses.replace(problem, b=...)``
 
     Raises
@@ -68,7 +68,7 @@ class SpatialProblem(PosedContact):
     """
 
     tresca: BoolArray | None = None
-    facets: int = 0
+    facets: int | IntArray = 0
 
     def __post_init__(self) -> None:
         bounded = np.zeros(len(self.friction), np.bool_) if self.tresca is None else self.tresca
@@ -123,10 +123,9 @@ class SpatialProblem(PosedContact):
         return np.asarray(self.locked.all(axis=1) & moved, dtype=np.bool_)
 
     @cached_property
-    def corners(self) -> Array:
-        """(facets, 2) Corners of the polygon in the unit circle; none for the circle itself."""
-        angle = 2.0 * np.pi * np.arange(self.facets) / max(self.facets, 1)
-        return np.column_stack([np.cos(angle), np.sin(angle)])
+    def sides(self) -> IntArray:
+        """(n,) Corners of the polygon of every pair, ``facets``."""
+        return np.broadcast_to(np.asarray(self.facets, dtype=np.int64), (self.pairs,)).copy()
 
     @cached_property
     def free_motion(self) -> Array:
@@ -140,8 +139,11 @@ class SpatialProblem(PosedContact):
             raise InputError(f"has shape {self.bounded.shape}; expected {(n,)}", where=("tresca",))
         if not np.isfinite(self.friction[self.bounded]).all():
             raise InputError("is infinite at a pair in Tresca's law; expected a force", where=("friction",))
-        if self.facets < 0 or self.facets % 4:
-            raise InputError(f"is {self.facets}; expected 0 or a multiple of 4", where=("facets",))
+        facets = np.asarray(self.facets)
+        if facets.shape not in ((), (n,)) or (facets < 0).any() or (facets % 4).any():
+            raise InputError(
+                f"is {self.facets}; expected 0 or a multiple of 4, or one for each pair", where=("facets",)
+            )
         self._check_dragged(np.asarray(self.locked & (self.b[n:].reshape(2, n).T != 0)))
 
 

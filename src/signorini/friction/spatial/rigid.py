@@ -9,6 +9,7 @@ from scipy.optimize import nnls
 from signorini.arrays import Array
 from signorini.friction.rigid import GAIN
 from signorini.friction.spatial.problem import SpatialProblem
+from signorini.friction.spatial.section import outermost
 
 _ROUNDS = 60
 
@@ -64,11 +65,5 @@ def _strongest(problem: SpatialProblem, rho: Array) -> Array:
     """(n, 3) Edge of each pair's cone that works most against the motion, scaled to length 1."""
     n, mu = problem.pairs, problem.mu
     slip = rho[n:].reshape(2, n).T
-    if problem.facets:
-        corner = np.argmin((mu * slip) @ problem.corners.T, axis=1)
-        tangential = mu * problem.corners[corner]
-    else:
-        reach = np.linalg.norm(mu * slip, axis=1)
-        tangential = -(mu**2) * slip / np.where(reach > 0, reach, 1.0)[:, None]
-    edge = np.column_stack([np.ones(n), tangential])
+    edge = np.column_stack([np.ones(n), outermost(-slip, mu, problem.sides)])
     return edge / np.linalg.norm(edge, axis=1)[:, None]

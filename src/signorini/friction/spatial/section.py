@@ -54,17 +54,17 @@ def _on_ellipse(y_1: float, y_2: float, a_1: float, a_2: float) -> tuple[float, 
 
 
 @njit(cache=True)
-def _on_polygon(
-    y_1: float, y_2: float, a_1: float, a_2: float, corners: Array
-) -> tuple[float, float, int, float, float]:
+def _on_polygon(y_1: float, y_2: float, a_1: float, a_2: float, facets: int) -> tuple[float, float, int, float, float]:
     """Nearest point of a polygon (counter-clockwise), how many directions are left to it, and the direction."""
     best, count = np.inf, 2
     r_1, r_2, tau_1, tau_2 = y_1, y_2, 0.0, 0.0
     inside = True
-    for j in range(len(corners)):
-        k = (j + 1) % len(corners)
-        p_1, p_2 = a_1 * corners[j, 0], a_2 * corners[j, 1]
-        d_1, d_2 = a_1 * corners[k, 0] - p_1, a_2 * corners[k, 1] - p_2
+    n_1, n_2 = a_1, 0.0
+    for j in range(facets):
+        p_1, p_2 = n_1, n_2
+        angle = 2.0 * math.pi * ((j + 1) % facets) / facets
+        n_1, n_2 = a_1 * math.cos(angle), a_2 * math.sin(angle)
+        d_1, d_2 = n_1 - p_1, n_2 - p_2
         inside = inside and d_1 * (y_2 - p_2) - d_2 * (y_1 - p_1) >= 0.0
         length = math.hypot(d_1, d_2)
         t = min(max(((y_1 - p_1) * d_1 + (y_2 - p_2) * d_2) / length**2, 0.0), 1.0)
@@ -78,7 +78,7 @@ def _on_polygon(
 
 @njit(cache=True)
 def nearest(
-    y_1: float, y_2: float, m_1: float, m_2: float, s: float, corners: Array
+    y_1: float, y_2: float, m_1: float, m_2: float, s: float, facets: int
 ) -> tuple[float, float, int, float, float, float]:
     """The projection r of y on the section, directions left to it (0, 1, 2), tau and kappa.
 
@@ -86,11 +86,12 @@ def nearest(
     ----------
     m_1, m_2 : half-axes of the section for s = 1, 0 or more
     s : normal force, 0 or more
-    corners : (k, 2) corners of the polygon in the unit circle, counter-clockwise; none for the circle itself
+    facets : corners of the polygon inscribed in the ellipse, a multiple of 4, the first on the first axis; 0 for the
+        ellipse itself
 
     Examples
     --------
-    >>> nearest(3.0, 4.0, 0.5, 0.5, 2.0, np.empty((0, 2)))
+    >>> nearest(3.0, 4.0, 0.5, 0.5, 2.0, 0)
     (0.6, 0.8, 1, -0.8, 0.6, 4.0)
     """
     a_1, a_2 = m_1 * s, m_2 * s
@@ -100,8 +101,8 @@ def nearest(
         return 0.0, min(max(y_2, -a_2), a_2), 1 if abs(y_2) <= a_2 else 0, 0.0, 1.0, 0.0
     if a_2 <= _NOTHING:
         return min(max(y_1, -a_1), a_1), 0.0, 1 if abs(y_1) <= a_1 else 0, 1.0, 0.0, 0.0
-    if len(corners):
-        r_1, r_2, count, tau_1, tau_2 = _on_polygon(y_1, y_2, a_1, a_2, corners)
+    if facets:
+        r_1, r_2, count, tau_1, tau_2 = _on_polygon(y_1, y_2, a_1, a_2, facets)
         return r_1, r_2, count, tau_1, tau_2, 0.0
     if math.hypot(y_1 / a_1, y_2 / a_2) <= 1.0:
         return y_1, y_2, 2, 0.0, 0.0, 0.0
@@ -110,7 +111,7 @@ def nearest(
 
 
 @njit(cache=True)
-def project(y: Array, m: Array, size: Array, corners: Array) -> tuple[Array, IntArray, Array, Array]:
+def project(y: Array, m: Array, size: Array, facets: IntArray) -> tuple[Array, IntArray, Array, Array]:
     """Admissible force nearest to y for every pair: r (3n,), directions left (n,), tau (n, 2), kappa (n,).
 
     Parameters
@@ -118,14 +119,30 @@ def project(y: Array, m: Array, size: Array, corners: Array) -> tuple[Array, Int
     y : (3n,) n normals, n first and n second tangents
     m : (n, 2) half-axes of the section of size 1
     size : (n,) of the section at the normal force of y
-    corners : see `nearest`
+    facets : (n,), see `nearest`
     """
     n = len(m)
     r, count = np.zeros(3 * n), np.zeros(n, np.int64)
     tau, kappa = np.zeros((n, 2)), np.zeros(n)
     for i in range(n):
         pressing = max(y[i], 0.0)
-        r_1, r_2, left, t_1, t_2, stiff = nearest(y[n + i], y[2 * n + i], m[i, 0], m[i, 1], size[i], corners)
+        r_1, r_2, left, t_1, t_2, stiff = nearest(y[n + i], y[2 * n + i], m[i, 0], m[i, 1], size[i], facets[i])
         r[i], r[n + i], r[2 * n + i], count[i] = pressing, r_1, r_2, left
         tau[i, 0], tau[i, 1], kappa[i] = t_1, t_2, stiff
     return r, count, tau, kappa
+
+
+def outermost(directions: Array, m: Array, facets: IntArray) -> Array:
+    """(n, 2) Point of each section of s = 1 that lies farthest along a direction (n, 2): a corner, or on the ellipse.
+
+    Examples
+    --------
+    >>> outermost(np.array([[3.0, 4.0], [3.0, 4.0]]), np.ones((2, 2)), np.array([0, 4])).round(12).tolist()
+    [[0.6, 0.8], [0.0, 1.0]]
+    """
+    stretched = m * directions
+    angle = np.arctan2(stretched[:, 1], stretched[:, 0])
+    between = 2.0 * np.pi / np.maximum(facets, 1)
+    angle = np.where(facets > 0, between * np.round(angle / between), angle)
+    still = (stretched == 0.0).all(axis=1)[:, None]
+    return np.where(still, 0.0, m * np.column_stack([np.cos(angle), np.sin(angle)]))

@@ -11,11 +11,9 @@ from signorini.interface.spatial.frames import frames
 from signorini.interface.spatial.mortar import mortar_coupling
 from signorini.interface.spatial.node_to_face import node_pairs, node_to_face
 from signorini.interface.spatial.surface import Surface, make_surface
-from signorini.interface.spatial.triangulated import TriangulatedSurface
 
 __all__ = [
     "Surface",
-    "TriangulatedSurface",
     "frames",
     "make_surface",
     "mortar_coupling",

@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike
 from signorini.arrays import Array
 from signorini.errors import InputError
 
-_ALONG = 0.1  # sine between an axis and a normal below which the axis gives no tangent
+ALONG = 0.1
+"""Sine between an axis and a normal below which the axis gives no tangent."""
 
 
 def frames(normals: Array, axis: ArrayLike | None = None) -> Array:
@@ -39,7 +40,7 @@ def frames(normals: Array, axis: ArrayLike | None = None) -> Array:
     along = np.tile(direction / length, (len(normals), 1))
     across = along - np.sum(along * normals, axis=1)[:, None] * normals
     size = np.linalg.norm(across, axis=1)
-    lost = size < _ALONG
+    lost = size < ALONG
     least = np.eye(3)[np.argmin(np.abs(normals[lost]), axis=1)]
     across[lost] = least - np.sum(least * normals[lost], axis=1)[:, None] * normals[lost]
     first = across / np.linalg.norm(across, axis=1, keepdims=True)
