@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, IntArray
-from signorini.pairstate import SLIP_PLUS, STICK
+from signorini.pairstate import SLIP_MINUS, SLIP_PLUS, STICK
 
 STICKY = 1e6
 """Friction that stands for ``inf``: without bound the law is not continuous, and need not have a solution."""
@@ -68,8 +68,7 @@ class Bound:
         )
         capped = np.isfinite(L)
         if not capped.any() and not c.any():
-            slopes = np.minimum(mu, STICKY)[None]
-            return cls(slopes=slopes, starts=np.zeros_like(slopes), kinks=_between(np.zeros_like(slopes)))
+            return cls.coulomb(mu)
         stick = np.isinf(mu)
         m = np.where(stick, np.where(capped, 0.0, STICKY), mu)
         c = np.where(stick, np.where(capped, L, 0.0), np.minimum(c, L))
@@ -88,6 +87,12 @@ class Bound:
         kinks = _between(np.stack([np.zeros_like(m), second, third])[:count])
         return cls(slopes=slopes[:count], starts=starts[:count], kinks=kinks)
 
+    @classmethod
+    def coulomb(cls, friction: Array) -> Bound:
+        """The bound of friction (n,) alone."""
+        zero = np.zeros((1, len(friction)))
+        return cls(slopes=np.minimum(friction, STICKY)[None], starts=zero, kinks=_between(zero))
+
     @property
     def branches(self) -> int:
         """The most that a pair has."""
@@ -95,9 +100,14 @@ class Bound:
 
     def at(self, p: Array) -> Array:
         """(n,) F at normal forces p >= 0."""
-        if self.branches == 1 and not self.starts.any():
-            return self.slopes[0] * p
+        if self.branches == 1:
+            return self.starts[0] + self.slopes[0] * p
         return np.asarray((self.starts + self.slopes * p).min(axis=0))
+
+    def frozen(self, p: Array) -> Bound:
+        """The bound that stays what it is at normal forces p."""
+        most = self.at(p)[None]
+        return Bound(slopes=np.zeros_like(most), starts=most, kinks=_between(np.zeros_like(most)))
 
     def branch(self, p: Array) -> IntArray:
         """(n,) Number of the branch at normal forces p."""
@@ -132,6 +142,8 @@ def plain(state: IntArray) -> IntArray:
     >>> plain(np.array([0, 1, 2, 3, 4, 7])).tolist()
     [0, 1, 2, 3, 2, 3]
     """
+    if state.max(initial=0) <= SLIP_MINUS:
+        return state
     return np.where(state > STICK, SLIP_PLUS + state % 2, state)
 
 

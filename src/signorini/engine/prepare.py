@@ -352,7 +352,11 @@ def _cones(interface: Interface, condensed: Condensed) -> dict[str, Any]:
     """The friction of the active pairs as the laws take it, forces scaled."""
     active = condensed.active
     area = interface.area[active] / condensed.root[: int(active.sum())]
-    bounds = {"adhesion": interface.adhesion[active] * area, "limit": interface.shear_limit[active] * area}
+    adheres, limited = interface.adhesion[active].any(), np.isfinite(interface.shear_limit[active]).any()
+    bounds = {
+        "adhesion": interface.adhesion[active] * area if adheres else None,
+        "limit": interface.shear_limit[active] * area if limited else None,
+    }
     if interface.directions == 2:
         return {"friction": interface.friction[active], **bounds}
     return {"friction": interface.coefficients[active], "facets": interface.facets[active], **bounds}

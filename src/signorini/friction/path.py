@@ -37,7 +37,7 @@ from signorini.arrays import Array, IntArray
 from signorini.friction.law import OPEN
 from signorini.friction.newton import admissible
 from signorini.friction.problem import CoulombProblem
-from signorini.friction.walls import beyond, columns, constant, jacobian, offsets, walls
+from signorini.friction.walls import beyond, columns, constant, jacobian, placed
 
 Covering = Literal["open", "press"]
 
@@ -80,15 +80,14 @@ class _Course:
     loosened: float
 
     def walls(self, state: IntArray) -> tuple[Array, Array]:
-        """(slots, n, 3) coefficients of (y_n, y_t, theta) in the walls of every pair, and (slots, n) their l_0."""
-        problem = self.problem
-        wall = walls(state, problem.bound, problem.closed)
-        offset = (
-            offsets(state, problem.bound, problem.closed)
-            if problem.bound.branches > 1
-            else np.zeros_like(wall[:, :, 0])
-        )
-        return np.concatenate([wall, -self.loosened * offset[:, :, None]], axis=2), offset
+        """(slots, n, 2) coefficients of the walls of every pair, and (slots, n) where they are: see `placed`."""
+        return placed(state, self.problem.bound, self.problem.closed)
+
+    def room(self, walls: tuple[Array, Array], y: Array, here: float) -> Array:
+        """(slots, n) Of a point (y, theta) to the walls (here = 1), or what a direction (here = 0) adds to it."""
+        (wall, offset), n = walls, self.problem.pairs
+        room: Array = wall[:, :, 0] * y[:n] + wall[:, :, 1] * y[n : 2 * n]
+        return room if self.problem.bound.branches == 1 else room - (here + self.loosened * y[2 * n]) * offset
 
     def load(self, state: IntArray) -> tuple[Array, Array]:
         """``(b, d)`` of a state: without the friction that its slipping pairs carry at no pressure."""
@@ -148,14 +147,15 @@ def _walk(course: _Course, state: IntArray) -> PathEnd:
         ray = np.linalg.solve(course.jacobian(state), np.stack(course.load(state), axis=1))
     except np.linalg.LinAlgError:
         return PathEnd(end="singular", state=state, y=np.zeros(2 * n), theta=np.inf, pivots=0)
-    pair, slot, theta = _entry(course.walls(state), np.concatenate([ray, [[0.0, 1.0]]]))
+    walls = course.walls(state)
+    pair, slot, theta = _entry(course, walls, np.concatenate([ray, [[0.0, 1.0]]]))
     point, pivots = np.append(ray[:, 0] + max(theta, 0.0) * ray[:, 1], max(theta, 0.0)), 0
     if theta <= 0:
         return PathEnd(end="solution", state=state, y=point[:-1], theta=0.0, pivots=0)
     X = np.zeros((0, 0))
     while pivots < course.budget:
-        before, (wall, offset) = state, course.walls(state)
-        here, at = wall[slot, pair], offset[slot, pair]
+        before, at = state, walls[1][slot, pair]
+        here = np.append(walls[0][slot, pair], -course.loosened * at)
         state = state.copy()
         state[pair], slot = beyond(int(before[pair]), slot, point[n + pair], int(problem.closed[pair]))
         updated = None if pivots % REFACTOR == 0 else _cross(course, X, before, state, pair, -here)
@@ -165,7 +165,8 @@ def _walk(course: _Course, state: IntArray) -> PathEnd:
             return PathEnd(end="singular", state=state, y=point[:-1], theta=point[-1], pivots=pivots)
         X = fresh
         entry, way = X[:, :-1] @ course.load(state)[0] - at * X[:, -1], X[:, -1].copy()
-        length, pair, slot = _next_wall(course.walls(state), entry, way, pair, slot)
+        walls = course.walls(state)
+        length, pair, slot = _next_wall(course, walls, entry, way, pair, slot)
         to_end = entry[-1] / -way[-1] if way[-1] < 0 else np.inf
         if not np.isfinite(min(length, to_end)):
             return PathEnd(end="ray", state=state, y=way[:-1], theta=entry[-1], pivots=pivots)
@@ -177,31 +178,24 @@ def _walk(course: _Course, state: IntArray) -> PathEnd:
     return PathEnd(end="budget spent", state=state, y=point[:-1], theta=point[-1], pivots=pivots)
 
 
-def _entry(walls: tuple[Array, Array], ray: Array) -> tuple[int, int, float]:
+def _entry(course: _Course, walls: tuple[Array, Array], ray: Array) -> tuple[int, int, float]:
     """The first wall met coming from infinity along ``ray[:, 0] + theta ray[:, 1]``: its pair, slot and theta."""
-    wall, offset = walls
-    value, slope = _values(wall, ray[:, 0]) - offset, _values(wall, ray[:, 1])
+    value, slope = course.room(walls, ray[:, 0], 1.0), course.room(walls, ray[:, 1], 0.0)
     met = np.divide(-value, slope, out=np.full_like(value, -np.inf), where=slope > FLAT * np.abs(ray[:, 1]).max())
     slot, pair = np.unravel_index(int(met.argmax()), met.shape)
     return int(pair), int(slot), float(met[slot, pair])
 
 
-def _next_wall(walls: tuple[Array, Array], entry: Array, way: Array, pair: int, slot: int) -> tuple[float, int, int]:
+def _next_wall(
+    course: _Course, walls: tuple[Array, Array], entry: Array, way: Array, pair: int, slot: int
+) -> tuple[float, int, int]:
     """Length to the next wall from ``entry`` along ``way`` (never the one just crossed), its pair and slot."""
-    wall, offset = walls
-    value, slope = np.maximum(_values(wall, entry) - offset, 0.0), _values(wall, way)
+    value, slope = np.maximum(course.room(walls, entry, 1.0), 0.0), course.room(walls, way, 0.0)
     slope[slot, pair] = 0.0
     steep = slope < -FLAT * np.abs(way).max()
     lengths = np.divide(value, -slope, out=np.full_like(value, np.inf), where=steep)
     next_slot, next_pair = np.unravel_index(int(lengths.argmin()), lengths.shape)
     return float(lengths[next_slot, next_pair]), int(next_pair), int(next_slot)
-
-
-def _values(wall: Array, y: Array) -> Array:
-    """Of a point (y, theta)."""
-    n = wall.shape[1]
-    values = wall[:, :, 0] * y[:n] + wall[:, :, 1] * y[n : 2 * n] + wall[:, :, 2] * y[2 * n]
-    return np.asarray(values, dtype=np.float64)
 
 
 def _inverse(course: _Course, state: IntArray, pair: int, wall: Array) -> Array | None:

@@ -62,6 +62,8 @@ class CoulombProblem(PosedContact):
     def bound(self) -> Bound:
         """Friction that can act: none at a locked pair that is not dragged, 1e6 for ``inf``."""
         still = self.locked & (self.b[self.pairs :] == 0)
+        if self.adhesion is None and self.limit is None:
+            return Bound.coulomb(np.where(still, 0.0, self.friction))
         adhesion = 0.0 if self.adhesion is None else np.where(still, 0.0, self.adhesion)
         limit = np.inf if self.limit is None else self.limit
         return Bound.of(np.where(still, 0.0, self.friction), adhesion=adhesion, limit=limit)

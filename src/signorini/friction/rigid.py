@@ -14,13 +14,17 @@ GAIN = 1e-9
 """Size of the unresisted load, relative to scale, above which it counts."""
 
 
-def pulled_away(problem: CoulombProblem) -> Array | None:
+def pulled_away(problem: CoulombProblem, bound: Bound | None = None) -> Array | None:
     """A rigid motion rho along which the load works more than forces can resist, or None where there is none.
 
     Equilibrium needs forces of the pairs with ``R'(r + b) = 0``, and forces that friction allows, p >= 0 and ``|r_t| <=
     F(p)``, do at least ``-sum max_p (F(p) |rho_t| - p rho_n)`` of work along rho. Where ``b.rho`` is larger, no state
     of the pairs whatever is in equilibrium. In Coulomb's law that maximum is 0 for ``rho_n >= mu |rho_t|``, and
     infinite for other rho.
+
+    Parameters
+    ----------
+    bound : another bound of the friction than the problem's
 
     Returns
     -------
@@ -38,7 +42,10 @@ def pulled_away(problem: CoulombProblem) -> Array | None:
     if not R.shape[1]:
         return None
     load = R.T @ problem.b / (problem.scale or 1.0)
-    a = _least(problem, load) if problem.bound.branches == 1 else _by_program(problem, load)
+    if bound is None and problem.bound.branches == 1:
+        a = _least(problem, load)
+    else:
+        a = _by_program(problem, load, bound or problem.bound)
     if a is None:
         return None
     rho = R @ a
@@ -65,13 +72,13 @@ def _least(problem: CoulombProblem, load: Array) -> Array | None:
     return a
 
 
-def _by_program(problem: CoulombProblem, load: Array) -> Array | None:
+def _by_program(problem: CoulombProblem, load: Array, bound: Bound) -> Array | None:
     """The motion, entries up to 1, along which the load works most beyond what forces resist: a linear program.
 
     Its dual: of all admissible forces those that balance the load best. What they cannot balance is the work.
     """
     R, n, unit = problem.interface.R, problem.pairs, problem.scale or 1.0
-    bound, k = problem.bound, problem.interface.R.shape[1]
+    k = R.shape[1]
     edges, room = [], []
     for j in range(bound.branches):
         has = np.flatnonzero(np.isfinite(bound.kinks[j]))

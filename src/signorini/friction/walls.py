@@ -38,26 +38,18 @@ def walls(state: IntArray, friction: Array | Bound, closed: IntArray) -> Array:
     >>> walls(np.array([SLIP_MINUS]), np.array([0.75]), np.array([UNDECIDED])).tolist()
     [[[1.0, 0.0]], [[-0.6, -0.8]]]
     """
-    return _scaled(state, _as_bound(friction), closed)[0]
+    return placed(state, friction if isinstance(friction, Bound) else Bound.of(friction), closed)[0]
 
 
-def offsets(state: IntArray, friction: Array | Bound, closed: IntArray) -> Array:
-    """(slots, n) the a of the walls, on the same scale.
+def placed(state: IntArray, bound: Bound, closed: IntArray) -> tuple[Array, Array]:
+    """The coefficients of `walls`, (slots, n, 2), and the a of every wall on their scale, (slots, n).
 
     Examples
     --------
-    >>> bound = Bound.of([0.75], limit=1.5)
-    >>> offsets(np.array([SLIP_MINUS + 2]), bound, np.array([UNDECIDED])).tolist()
-    [[2.0], [1.5], [0.0], [0.0]]
+    >>> wall, a = placed(np.array([SLIP_MINUS + 2]), Bound.of([0.75], limit=1.5), np.array([UNDECIDED]))
+    >>> wall[:3, 0].tolist(), a[:3, 0].tolist()
+    ([[1.0, 0.0], [-0.0, -1.0], [0.0, 0.0]], [2.0, 1.5, 0.0])
     """
-    return _scaled(state, _as_bound(friction), closed)[1]
-
-
-def _as_bound(friction: Array | Bound) -> Bound:
-    return friction if isinstance(friction, Bound) else Bound.of(friction)
-
-
-def _scaled(state: IntArray, bound: Bound, closed: IntArray) -> tuple[Array, Array]:
     count = bound.branches
     wall = np.zeros((2 if count == 1 else max(3, 2 * count), len(state), 2))
     offset = np.zeros(wall.shape[:2])

@@ -57,7 +57,7 @@ def _well_posedness(history: History) -> dict[str, Any] | None:
         return None
     contacts = history.model.contacts
     return {
-        "friction": found.friction,
+        "friction": found.friction if math.isfinite(found.friction) else None,
         "bound": found.bound if found.bound is None or math.isfinite(found.bound) else None,
         "verdict": found.verdict,
         "words": found.words,

@@ -150,8 +150,8 @@ class Walk:
     def _entered(self, start: PathState) -> PathState:
         """The first state; pairs that supports drag turn their friction at once where the load turns."""
         n = self.problem.pairs
-        turned = (start.state != OPEN) & (self.forced != UNDECIDED)
-        state = self.bound.coded(np.where(turned, self.forced, plain(start.state)), start.r[:n])
+        turned = (start.state != OPEN) & (self.forced != UNDECIDED) & (plain(start.state) != self.forced)
+        state = self._on_branch(np.where(turned, self.forced, start.state), start.r[:n])
         slides = turned & (state > STICK)
         bound = self.bound.at(start.r[:n])
         friction = np.where(slides, SIGN[state] * bound, start.r[n:])
@@ -164,6 +164,13 @@ class Walk:
                 where=("start",),
             )
         return replace(start, state=state, r=np.concatenate([start.r[:n], friction]))
+
+    def _on_branch(self, state: IntArray, p: Array) -> IntArray:
+        """The states with the branch that each pair slips on; at a kink the one given stays."""
+        here = self.bound.coded(state, p)
+        given = np.abs(self.bound.start(state) + self.bound.slope(state) * p)
+        meant = np.abs(given - self.bound.at(p)) <= self.width * weight(self.problem.mu)
+        return np.where((state > STICK) & meant, state, here)
 
     def turn(self) -> NoRates | None:
         """Find the rates from here on; what changes its state is an event."""

@@ -23,7 +23,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.bound import SIGN, Bound
+from signorini.bound import SIGN, Bound, plain
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 INSIDE, CORNER = -1, 0
@@ -127,6 +127,8 @@ class RateLaw:
     @property
     def mu(self) -> Array:
         """(n,) Slope of the bound: of the branch of the edge, at a kink of that below it, otherwise of the first."""
+        if self.bound.branches == 1:
+            return self.bound.slopes[0]
         return np.abs(self.bound.slope(np.where(self.kind > CORNER, self.kind, SLIP_PLUS)))
 
     def conditions(self, rates: Rates) -> tuple[Array, IntArray]:
@@ -145,13 +147,15 @@ class RateLaw:
         values[0, k], following[0, k] = gap[k], self.touching(t)[k]
         k = corner & (state != OPEN)
         values[0, k] = p[k]
+        several = self.bound.branches > 1
+        edge = plain(kind) if several else kind
         for row, code in ((1, SLIP_PLUS), (2, SLIP_MINUS)):
-            k = (corner | ((kind > CORNER) & (kind % 2 == code % 2))) & (state == STICK) & unforced
+            k = (corner | (edge == code)) & (state == STICK) & unforced
             values[row, k] = ((mu * p - SIGN[code] * q) / weight(mu))[k]
-            following[row, k] = np.where(corner, code, kind)[k]
+            following[row, k] = np.maximum(kind[k], code)
         k = (kind != INSIDE) & slips & unforced
         values[2, k], following[2, k] = (-SIGN[state] * t)[k], STICK
-        if self.kink.any():
+        if several and self.kink.any():
             k, above = self.kink & (state == STICK) & unforced, self.onto(self.kink).mu
             values[0, k], following[0, k] = ((above * p - SIGN[kind] * q) / weight(above))[k], kind[k] + 2
             k = self.kink & slips
