@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 
 from signorini.api import prepare
 from signorini.cli.main import main
@@ -21,6 +22,7 @@ from signorini.model.material import Elastic
 from signorini.model.model import Model
 from signorini.model.obstacle import Plane
 from signorini.model.step import Step
+from signorini.reference.tresca import LimitedShear
 
 GRID = np.linspace(0.0, 4.0, 17)
 SOFT = [Body("block", Elastic(E=1000.0, nu=0.3))]
@@ -180,3 +182,20 @@ def test_decks_and_the_check_say_the_law(tmp_path, capsys):
     write_deck(block(shear_limit=2.0), tmp_path / "none.toml")
     assert main(["check", str(tmp_path / "none.toml")]) == 0
     assert "no friction that it could limit" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("Q", [0.3, 1.0, 1.9])
+def test_the_closed_form_of_tresca_is_one(Q):
+    """Off the singular integrals: no strain where it sticks, the limit where it slips, and the force in all."""
+    law = LimitedShear(half_width=1.0, limit=1.0)
+    c = law.stick_half_width(Q)
+
+    def inner(s):
+        return float(law.traction(s, Q))
+
+    force = 2.0 * (quad(inner, 0.0, c, limit=200)[0] + 1.0 - c)
+    assert force == pytest.approx(Q, abs=1e-7)
+    for x in (0.0, 0.3 * c, 0.8 * c):
+        principal = quad(inner, -c, c, weight="cauchy", wvar=x, limit=400)[0]
+        outer = np.log((1.0 - x) / (c - x)) - np.log((1.0 + x) / (c + x))
+        assert principal + outer == pytest.approx(0.0, abs=1e-5)

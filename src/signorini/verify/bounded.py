@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Friction with a shear limit: a node by hand, a sliding block, Tresca's law as a convex minimum."""
+"""Friction with a shear limit: a node by hand, a sliding block, Tresca's law in closed form and as a convex minimum."""
 
 from __future__ import annotations
 
@@ -14,8 +14,10 @@ from signorini.friction.exact import follow, initial_state
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.solve import solve_coulomb
 from signorini.gallery.blocks import dragged_block
+from signorini.gallery.half_planes import EQUAL, HALF_WIDTH, equal_half_planes
 from signorini.model.conditions import Support
 from signorini.model.step import Step
+from signorini.reference.tresca import LimitedShear
 from signorini.verify.check import Check
 
 
@@ -24,6 +26,7 @@ def shear_limits() -> Iterator[Check]:
     yield from _one_node()
     yield from _sliding_block()
     yield _convex_minimum()
+    yield from _half_planes()
 
 
 def _one_node() -> Iterator[Check]:
@@ -66,6 +69,33 @@ def _sliding_block() -> Iterator[Check]:
             reference=float(floor.area.sum()),
             tolerance=1e-10,
             source="limit times area",
+        )
+
+
+def _half_planes() -> Iterator[Check]:
+    """Equal half-planes in Tresca's law, pulled by half of what they can carry."""
+    a, limit, spacing = HALF_WIDTH, 0.1 * EQUAL.normal.peak_pressure, 0.025
+    exact = LimitedShear(half_width=a, limit=limit)
+    Q = limit * a
+    pull = Q / (EQUAL.friction * EQUAL.normal.force)
+    steps = [Step(scale={"press": 1.0, "pull": 0.0}), Step(scale={"pull": pull})]
+    model = equal_half_planes(steps, spacing=spacing)
+    contact = replace(model.contacts[0], friction="stick", shear_limit=limit)
+    found = solve(replace(model, contacts=[contact])).contact("contact")
+    x, case = found.points[:, 0], f"equal half-planes, Tresca's law, nodes at {spacing} a, exact path"
+    off = np.abs(found.traction + exact.traction(x, Q))[np.abs(x) < 0.5 * a]
+    for quantity, computed, reference, tolerance in (
+        ("c/a, to a node distance", np.abs(x[found.status == "stick"]).max() / a, 0.75**0.5, spacing),
+        ("q(0) / limit", np.abs(found.traction)[np.abs(x).argmin()] / limit, 1.0 / 3.0, 0.01),
+        ("q, largest error in |x| < a/2 / limit", off.max() / limit, 0.0, 0.02),
+    ):
+        yield Check(
+            case=case,
+            quantity=quantity,
+            computed=float(computed),
+            reference=reference,
+            tolerance=tolerance,
+            source="strip that yields: Dugdale (1960)",
         )
 
 
