@@ -69,6 +69,7 @@ def test_a_dragged_block_obeys_the_bound(law, increments):
     assert slips.any()
     np.testing.assert_allclose(floor.traction[slips], -bound[slips], rtol=1e-9)
     assert all(step.certificate.passed for step in history.steps)
+    assert any("one increment" in note for step in history.steps for note in step.notes) == (increments == 1)
     if increments is None:
         for step in history.steps:
             assert abs(step.energy_defect) <= 1e-8 * abs(step.work)

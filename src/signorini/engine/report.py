@@ -87,8 +87,7 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
 
 def _notes(prepared: Prepared, leg: Leg) -> tuple[str, ...]:
     """What a reader should know of how the step was followed."""
-    friction = prepared.interface.friction
-    rubbing = (friction > 0) & np.isfinite(friction)
+    rubbing = prepared.interface.rubs & ~prepared.interface.sticks
     if leg.path != "single" or not rubbing.any():
         return leg.notes
     closed = rubbing & (leg.after.status != OPEN) & (leg.before.gap > 1e-9 * prepared.scale.length)
