@@ -3,8 +3,8 @@
 
     python benchmarks/cgx.py DECK...
 
-Needs ``cgx`` on the path. Every deck is solved, its ``.frd`` is read by ``cgx -bg``, which writes what it has read as an
-Abaqus mesh and a table of displacements, with six decimals; both are compared with the model.
+Needs ``cgx`` on the path. Every deck is solved, its ``.frd`` is read by ``cgx -bg``, which writes what it has read as
+an Abaqus mesh and a table of displacements, with six decimals; both are compared with the model.
 """
 
 from __future__ import annotations
