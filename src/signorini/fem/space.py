@@ -114,6 +114,12 @@ class Space:
         """Of all nodes, held and unused ones included, and of rigid obstacles."""
         return self.mesh.points.size + 2 * self.dimension * self.obstacles
 
+    @property
+    def places(self) -> Array:
+        """(nodes + 2 obstacles, d) Points of the mesh; then, in its middle, the two nodes of every obstacle."""
+        points = self.mesh.points
+        return np.concatenate([points, np.tile(points.mean(axis=0), (2 * self.obstacles, 1))])
+
     def obstacle_dofs(self, j: int) -> IntArray:
         """Dofs of rigid obstacle j, (2 d,): its translation, then its rotation times a length."""
         first = self.mesh.points.size + 2 * self.dimension * j
