@@ -19,11 +19,18 @@ from signorini.gallery.blocks import curved_blocks
 from signorini.model.mesh import join
 
 FAMILIES = ("hexahedron", "hexahedron20", "hexahedron27", "tetra", "tetra10")
+WEDGES = {"wedge": "triangle", "wedge15": "triangle6"}
 STEEL = sg.Elastic(E=2e5, nu=0.3)
 
 
 def cube(family, cells, z=0.0, size=2.0):
     grid = np.linspace(0.0, size, cells + 1)
+    if family in WEDGES:
+        plane = rectangle(x=grid, y=grid, cells=WEDGES[family])
+        sides = {"left": "left", "right": "right", "front": "bottom", "back": "top"}
+        walls = {name: plane.boundaries[old] for name, old in sides.items()}
+        mesh = extruded(replace(plane, boundaries=walls), z=z + grid)
+        return replace(mesh, boundaries={name: boundary(make_space(mesh), name, ()).facets for name in mesh.boundaries})
     return box(x=grid, y=grid, z=z + grid, cells=family)
 
 
@@ -37,7 +44,7 @@ def jiggled(mesh, rng, by=0.1):
 
 @pytest.mark.parametrize(
     ("family", "formulation"),
-    [(family, "standard") for family in FAMILIES]
+    [(family, "standard") for family in (*FAMILIES, *WEDGES)]
     + [("hexahedron", "incompatible")]
     + [(family, "mean dilatation") for family in ("hexahedron", "hexahedron20", "hexahedron27", "tetra10")],
 )
@@ -84,14 +91,15 @@ def pressed(lower, upper, turn):
     return model, sigma
 
 
-@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("family", [*FAMILIES, *WEDGES])
 @pytest.mark.parametrize("counts", [(2, 2), (2, 3)])
 def test_patch(family, counts):
     turn = Rotation.from_rotvec([0.3, -0.5, 0.7]).as_matrix()
     model, sigma = pressed(cube(family, counts[0]), cube(family, counts[1], z=2.0), turn)
     step = sg.solve(model).last
     contact = step.contacts[0]
-    assert contact.coupling == ("nodes" if counts[0] == counts[1] and family in ("hexahedron", "tetra") else "mortar")
+    matching = counts[0] == counts[1] and family in ("hexahedron", "tetra", "wedge")
+    assert contact.coupling == ("nodes" if matching else "mortar")
     np.testing.assert_allclose(contact.pressure, 25.0, rtol=1e-9)
     np.testing.assert_allclose(contact.traction, 0.0, atol=25e-9)
     np.testing.assert_allclose(contact.normal_force, 100.0 * turn[:, 2], rtol=1e-9)
