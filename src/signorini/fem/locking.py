@@ -46,7 +46,8 @@ def refuse_locking(model: Model) -> None:
             continue
         raise InputError(
             f"'{body.name}' is nearly incompressible (bulk over shear modulus {ratio:.3g}): its cells ({found}) would "
-            "lock. Expected quadrilaterals, hexahedra or quadratic cells with formulation = 'mean dilatation'",
+            "lock. Expected quadrilaterals, hexahedra, quadratic triangles or tetrahedra, with formulation = 'mean "
+            "dilatation'",
             where=where,
         )
 
@@ -72,7 +73,7 @@ def _refuse_mean_dilatation(model: Model, body: Body, families: set[str], where:
     if lost:
         raise InputError(
             f"is 'mean dilatation', but '{body.name}' has {' and '.join(lost)} cells, which lock all the same; "
-            "expected quadrilaterals, hexahedra or quadratic cells",
+            "expected quadrilaterals, hexahedra, quadratic triangles or tetrahedra",
             where=where,
         )
 
