@@ -156,6 +156,7 @@ def condense(
     B: sp.csr_array,
     interface: Interface,
     nodes: IntArray,
+    points: Array,
     *,
     candidates: BoolArray,
     rigid: Array,
@@ -170,6 +171,7 @@ def condense(
     B : (d n, z) relative displacements of the pairs in terms of them
     interface : the pairs
     nodes : (z,) node of each free displacement
+    points : (nodes, d) where the nodes are
     candidates : (n,) pairs that may touch; the nodes of the others are eliminated like any other
     rigid : (z, k) rigid motions that neither supports nor ties resist
     backend : of the factorisation, "auto" or a name
@@ -192,7 +194,7 @@ def condense(
     B = B[np.nonzero(interface.rows(active))[0]]
     dofs = np.unique(np.concatenate([B.indices, ties.B.indices]))
     with clock.phase("factorisation"):
-        factorisation = factorise(K, dofs, nodes=nodes, backend=backend)
+        factorisation = factorise(K, dofs, nodes=nodes, points=points, backend=backend)
     with clock.phase("condensation"):
         B_c, K_c = sp.csr_array(B[:, dofs]), sp.csr_array(K[dofs][:, dofs])
         root = np.sqrt(_interface_stiffness(K_c, B_c, interface, np.flatnonzero(active)))

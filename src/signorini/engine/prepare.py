@@ -320,7 +320,9 @@ def _made(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, cl
         whole = backend == ITERATIVE
         if backend == "auto":
             room = available_memory()
-            asked = condensing_bytes(reduced, relative, interface, nodes, candidates=near, plenty=0.5 * room)
+            asked = condensing_bytes(
+                reduced, relative, interface, nodes, examined.space.places, candidates=near, plenty=0.5 * room
+            )
             whole = asked > room
         law: CoulombProblem | SpatialProblem | None = None
         bodies: Condensed | Bodies
@@ -374,6 +376,7 @@ def _condensed(
             B,
             examined.interface,
             examined.constraints.nodes,
+            examined.space.places,
             candidates=near,
             rigid=rigid,
             backend=backend,
