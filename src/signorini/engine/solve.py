@@ -38,7 +38,7 @@ INTERRUPTED = "interrupted"
 """Status of a history that was stopped from outside."""
 
 _BEHIND_A_JUMP = 10  # increments
-_ENOUGH = 16  # increments of a straight part in space where none were asked for
+_ENOUGH = 16  # in space, where no increments were asked for: none needs to be shorter than 1/16 of a straight part
 
 
 def solve(
@@ -177,22 +177,20 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
 def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPoint) -> Leg:
     """Follow a straight part of a step as asked; where nothing was asked, exactly if there is Coulomb friction.
 
-    In space, where there is no exact path, in increments that are doubled until the answer stays, up to 16.
+    In space, where the exact cone has no exact path, in increments to events, more of them until the answer stays.
     Where the exact path that nobody asked for ends in a jump or is lost, it is followed in increments, and the notes
     say so: what they reach behind a jump is a candidate.
     """
-    step, friction = stage.step, prepared.interface.friction
+    step, friction, whole = stage.step, prepared.interface.friction, stage.step.at == "events"
     rubbing = bool(((friction > 0) & np.isfinite(friction) & ~prepared.absent).any())
     if step.path != "exact" and (step.path is not None or step.increments is not None or not rubbing):
         if step.increments == "auto":
-            return follow_automatically(prepared, step.tolerance, stage.name, span, state, end)
+            return follow_automatically(prepared, step.tolerance, stage.name, span, state, end, whole=whole)
         return follow_increments(prepared, _increments(step, span, stage), stage.name, span, state, end)
     if step.path is None and prepared.interface.directions == 3:
-        return follow_automatically(prepared, step.tolerance, stage.name, span, state, end, enough=_ENOUGH)
+        return follow_automatically(prepared, step.tolerance, stage.name, span, state, end, enough=_ENOUGH, whole=whole)
     try:
-        return follow_exactly(
-            prepared, stage.name, span, state, end, whole=step.at == "events", jumps=step.follows_jumps
-        )
+        return follow_exactly(prepared, stage.name, span, state, end, whole=whole, jumps=step.follows_jumps)
     except SolveFailed as failure:
         if step.path == "exact" or step.jump == "stop":
             raise

@@ -34,12 +34,13 @@ class Step:
     inactive : contacts switched off from here on: their forces go linearly to zero over the step
     active : contacts switched on again: they touch where they meet from here on, with no slip behind them; what
         overlaps at that moment is pressed out linearly over the step
-    increments : equal parts in which every segment is solved, or "auto": 1, 2, 4, ... until the contact forces change
-        less than ``tolerance``; None leaves it to ``path``
+    increments : equal parts in which every segment is solved, or "auto": more and more until the contact forces
+        change less than ``tolerance``, in space such as end at events; None leaves it to ``path``
     tolerance : of "auto", relative to the largest contact force
-    path : "increments", or "exact": from event to event (a pair closes, opens, slips, sticks), without any step size.
-        None chooses: "increments" where their number is given or nothing rubs (one is exact then), otherwise "exact",
-        in space up to 16 increments as with "auto"; the notes say what they left
+    path : "increments", or "exact": from event to event (a pair closes, opens, slips, sticks), without any step size;
+        in space for contacts with ``facets``. None chooses: "increments" where their number is given or nothing rubs
+        (one is exact then), otherwise "exact", in space increments as with "auto", some tens at most, and the notes
+        say what they left
     jump : where an exact path has no gradual continuation, "stop" there, or "follow" the equilibria to the next one at
         that load, which is called a candidate. None stops where the path is asked to be exact, otherwise follows
 
