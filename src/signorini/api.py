@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -24,14 +25,17 @@ from signorini.fem.stress import BodyStress, body_stresses
 from signorini.model.model import Model
 from signorini.output.archive import read_archive, write_archive
 from signorini.output.checkpoint import read_checkpoint, write_checkpoint
-from signorini.output.folder import ARCHIVE
+from signorini.output.folder import ARCHIVE, write_drawn
 from signorini.output.frd import write_frd
+from signorini.output.picture import write_pixels
 from signorini.output.replacing import replacing
 from signorini.output.table import history_table
 from signorini.output.vtu import write_vtu
 from signorini.plot.animation import animate_path
 from signorini.plot.contact import plot_contact
 from signorini.plot.escape import plot_escape
+from signorini.plot.files import ResultFolder
+from signorini.plot.view import render_view
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.history import History
 
@@ -128,6 +132,21 @@ class Solution(History):
     def plot(self) -> Figure:
         """Draw pressure and friction of every contact at the end of the last step."""
         return plot_contact(self)
+
+    def view(self, path: str | Path) -> None:
+        """Write a picture of a model in space after the last step, ``*.png``, rendered off-screen.
+
+        Stress of the deformed bodies, pressure and friction of the contact that presses most. Needs PyVista, the extra
+        ``signorini[view]``.
+
+        Raises
+        ------
+        InputError
+            If PyVista is not installed, the model is plane, no step was finished, or the name ends otherwise.
+        """
+        with tempfile.TemporaryDirectory() as name:
+            write_drawn(self, Path(name))
+            write_pixels(render_view(ResultFolder(path=Path(name))), Path(path))
 
     def plot_escape(self) -> Figure:
         """Draw the motion along which bodies run away, where no equilibrium was found because of it.

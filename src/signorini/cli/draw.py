@@ -8,12 +8,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from signorini.errors import InputError
+from signorini.output.picture import write_pixels
 from signorini.output.replacing import replacing
 from signorini.plot.contact import draw_contacts
 from signorini.plot.field import draw_mesh, draw_stress
 from signorini.plot.files import ResultFolder
 from signorini.plot.history import draw_history
 from signorini.plot.patch import draw_patches
+from signorini.plot.solid import draw_solid_mesh, draw_solid_stress
+from signorini.plot.view import render_view
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -25,24 +28,26 @@ def plot(options: argparse.Namespace) -> int:
     """Draw, write the picture and say where it is."""
     folder = ResultFolder(path=Path(options.folder))
     file = Path(options.file) if options.file else folder.path / f"{options.what}.png"
-    if file.suffix.lower() not in _FORMATS:
-        raise InputError(f"is '{file}'; expected a name that ends in {', '.join(_FORMATS)}", where=("-o",))
+    formats = _FORMATS[:1] if options.what == "view" else _FORMATS
+    if file.suffix.lower() not in formats:
+        raise InputError(f"is '{file}'; expected a name that ends in {', '.join(formats)}", where=("-o",))
     if options.file and not file.parent.is_dir():
         raise InputError(f"there is no folder '{file.parent}'", where=("-o",))
-    figure = _draw(folder, options.what)
-    with replacing(file) as aside:
-        figure.savefig(aside, dpi=150)
+    if options.what == "view":
+        write_pixels(render_view(folder), file)
+    else:
+        figure = _draw(folder, options.what)
+        with replacing(file) as aside:
+            figure.savefig(aside, dpi=150)
     print(file)
     return 0
 
 
 def _draw(folder: ResultFolder, what: str) -> Figure:
-    if folder.solid and what in ("stress", "mesh"):
-        raise InputError(f"draws plane models only; open '{folder.path / 'solution.vtu'}' in ParaView", where=(what,))
     if what == "stress":
-        return draw_stress(folder)
+        return draw_solid_stress(folder) if folder.solid else draw_stress(folder)
     if what == "mesh":
-        return draw_mesh(folder)
+        return draw_solid_mesh(folder) if folder.solid else draw_mesh(folder)
     if not folder.rows:
         raise InputError(f"the results in '{folder.path}' have no contact to draw")
     if what == "history":

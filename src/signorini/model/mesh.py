@@ -35,6 +35,28 @@ CORNERS = {"triangle": 3, "quad": 4, "triangle6": 3, "quad8": 4, "quad9": 4} | {
 """Of every family. In the plane edge k goes from corner k to corner k + 1; in quadratic cells node ``corners + k`` is
 on it."""
 
+_TETRA = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
+_TETRA10 = ((0, 2, 1, 6, 5, 4), (0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6))
+_HEXAHEDRON = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+_HEXAHEDRON20 = (
+    (0, 3, 2, 1, 11, 10, 9, 8),
+    (4, 5, 6, 7, 12, 13, 14, 15),
+    (0, 1, 5, 4, 8, 17, 12, 16),
+    (1, 2, 6, 5, 9, 18, 13, 17),
+    (2, 3, 7, 6, 10, 19, 14, 18),
+    (3, 0, 4, 7, 11, 16, 15, 19),
+)
+_CENTRES = (24, 25, 22, 21, 23, 20)  # of the faces of a hexahedron with 27 nodes, in the order above
+FACES: Mapping[str, tuple[tuple[int, ...], ...]] = {
+    "tetra": _TETRA,
+    "tetra10": _TETRA10,
+    "hexahedron": _HEXAHEDRON,
+    "hexahedron20": _HEXAHEDRON20,
+    "hexahedron27": tuple((*face, centre) for face, centre in zip(_HEXAHEDRON20, _CENTRES, strict=True)),
+    "wedge": ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)),
+}
+"""Nodes of every face, anticlockwise seen from outside: corners, then middles of edges, then the middle."""
+
 _NODES_PER_FACET = {2: (2, 3), 3: (3, 4, 6, 8, 9)}
 
 

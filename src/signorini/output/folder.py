@@ -29,7 +29,7 @@ from signorini.solution.history import History
 
 _OURS = re.compile(
     r"(summary\.json|(contact|history)\.csv|state\.npz|solution(_\d{4,})?\.vtu|contact\.vtu|solution\.(pvd|h5|frd|dat)|"
-    r"(contact|stress|mesh|history)\.png)"
+    r"(contact|stress|mesh|view|history)\.png)"
 )
 
 
@@ -90,6 +90,15 @@ def publish(
         for file in [*names, "summary.json"]:
             os.replace(aside / file, folder / file)
     return [folder / file for file in [*names, "summary.json"]]
+
+
+def write_drawn(history: History, folder: Path) -> None:
+    """Write into a folder what pictures are drawn from: the last state, contacts and the summary."""
+    write_rows(history, folder / "contact.csv")
+    write_step(history.model, history.last, folder / "solution.vtu")
+    if history.model.dimension == 3 and history.model.contacts:
+        write_surfaces(history, folder / SURFACES)
+    write_summary(history, folder / "summary.json", history.timings)
 
 
 def write_summary(history: History, path: Path, seconds: Mapping[str, float]) -> None:

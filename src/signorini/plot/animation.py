@@ -77,8 +77,10 @@ def way_of(history: History, contact: str | None = None) -> Way:
     Raises
     ------
     InputError
-        If no step was finished, or there is no such contact.
+        If no step was finished, there is no such contact, or the model is one in space.
     """
+    if history.model.dimension == 3:
+        raise InputError("a film shows contacts over a line; in space open solution.pvd in ParaView")
     names = [result.name for result in history.last.contacts]
     if not names:
         raise InputError("the model has no contact to draw")

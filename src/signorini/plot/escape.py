@@ -24,13 +24,15 @@ def plot_escape(history: History) -> Figure:
     Raises
     ------
     InputError
-        If the history has no such motion.
+        If the history has no such motion, or the model is one in space.
     """
     from matplotlib.collections import PolyCollection
     from matplotlib.figure import Figure
 
     if history.escape is None:
         raise InputError("no body runs away in this history; there is nothing to draw")
+    if history.model.dimension == 3:
+        raise InputError("draws bodies of the plane; in space the message says in words how they run away")
     mesh = history.model.mesh
     points = np.asarray(mesh.points)
     size = float(np.ptp(points, axis=0).max())

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_BODIES = ("#e4ecf4", "#f6ead9", "#e3efe2", "#f0e3ec", "#ececea")
+BODIES = ("#e4ecf4", "#f6ead9", "#e3efe2", "#f0e3ec", "#ececea")
 _MOST = 0.4  # of the size of the bodies: a window larger than this shows nothing new
 Window = tuple[Array, Array]  # lower left and upper right corner
 _SEEN = 0.01  # of the size of what is shown: displacements at least as large are drawn as they are
@@ -66,12 +66,12 @@ def draw_mesh(folder: ResultFolder) -> Figure:
     figure, panels = _canvas(grid.points, _window(folder, grid.points))
     names = folder.summary.get("bodies", [])
     handles: list[Artist] = [
-        Patch(facecolor=_BODIES[i % len(_BODIES)], edgecolor="#7d7d7d", label=name) for i, name in enumerate(names)
+        Patch(facecolor=BODIES[i % len(BODIES)], edgecolor="#7d7d7d", label=name) for i, name in enumerate(names)
     ]
     last = str(len(folder.summary["steps"]))
     for axes in panels:
         for cells, body in zip(grid.cells, grid.body, strict=True):
-            faces = [_BODIES[i % len(_BODIES)] for i in body]
+            faces = [BODIES[i % len(BODIES)] for i in body]
             axes.add_collection(PolyCollection(list(grid.points[cells]), facecolors=faces, edgecolors="none"))
         _edges(axes, grid, grid.points, colour="#7d7d7d", alpha=1.0)
         for status, colour in STATUS_INK.items():

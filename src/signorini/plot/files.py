@@ -17,6 +17,7 @@ from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.plot.curve import Curve, make_curve
 from signorini.plot.patch import Patch, halved
+from signorini.plot.skin import Skin, make_skin
 
 # corners and nodes between them, in the order around a cell
 _AROUND = {
@@ -34,10 +35,11 @@ class Grid:
 
     Attributes
     ----------
-    points, displacement : (n, 2) length
+    points, displacement : (n, d) length
     von_mises : (n,) force per area
     node : (n,) number in the mesh
-    cells : each (m, k), nodes in the order around the cells
+    families : of the cells
+    cells : each (m, k), nodes in the order around the cells, in space in the order of meshio
     body : each (m,) which body the cells belong to
     """
 
@@ -45,12 +47,13 @@ class Grid:
     displacement: Array
     von_mises: Array
     node: IntArray
+    families: tuple[str, ...]
     cells: tuple[IntArray, ...]
     body: tuple[IntArray, ...]
 
     @property
     def triangles(self) -> IntArray:
-        """Cells as triangles, (m, 3)."""
+        """Cells of the plane as triangles, (m, 3)."""
         return np.vstack([cells[:, corners] for cells in self.cells for corners in _triangles(cells.shape[1])])
 
 
@@ -93,15 +96,22 @@ class ResultFolder:
 
         file = self._file("solution.vtu")
         found = meshio.read(file)
-        blocks = [i for i, block in enumerate(found.cells) if block.type in _AROUND]
+        d = 3 if self.solid else 2
+        cells = [block.data if self.solid else block.data[:, _AROUND[block.type]] for block in found.cells]
         return Grid(
-            points=found.points[:, :2],
-            displacement=found.point_data["displacement"][:, :2],
+            points=found.points[:, :d],
+            displacement=found.point_data["displacement"][:, :d],
             von_mises=found.point_data["von_mises"],
             node=found.point_data["node"],
-            cells=tuple(found.cells[i].data[:, _AROUND[found.cells[i].type]] for i in blocks),
-            body=tuple(found.cell_data["body"][i] for i in blocks),
+            families=tuple(block.type for block in found.cells),
+            cells=tuple(cells),
+            body=tuple(found.cell_data["body"]),
         )
+
+    @cached_property
+    def skin(self) -> Skin:
+        """The skin of the bodies of a model in space."""
+        return make_skin(self.grid.points, list(zip(self.grid.families, self.grid.cells, self.grid.body, strict=True)))
 
     @property
     def solid(self) -> bool:

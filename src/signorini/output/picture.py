@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pixels as a picture file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signorini.errors import InputError
+from signorini.output.replacing import replacing
+
+
+def write_pixels(pixels: NDArray[np.uint8], path: Path) -> None:
+    """Write pixels (height, width, 3) as ``*.png``.
+
+    Raises
+    ------
+    InputError
+        If the name ends otherwise.
+    """
+    from matplotlib.image import imsave
+
+    if path.suffix.lower() != ".png":
+        raise InputError(f"is '{path}'; expected a name that ends in .png", where=("path",))
+    with replacing(path) as aside:
+        imsave(aside, pixels)

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What pictures of bodies in space show: all of them from their most stressed side, and a contact from its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.plot.camera import Camera, best_view
+from signorini.plot.files import ResultFolder
+from signorini.plot.skin import Skin
+from signorini.solution.results import OPEN
+
+_AROUND = 0.85  # of the size of the contact: half of what is shown of it
+_LEAST = 0.05  # of the size of the bodies
+_MOST = 0.4  # of it: a cut that is larger shows nothing new from the same side
+_CORNERS = 3  # nodes that make a face one of the contact
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Shot:
+    """A panel.
+
+    Attributes
+    ----------
+    title : above it
+    skin : what is drawn
+    camera : from where
+    focus : (k,) points around which it is cut out; none: everything is shown
+    contact : (f,) faces of the skin that are those of the contact
+    """
+
+    title: str
+    skin: Skin
+    camera: Camera
+    focus: IntArray
+    contact: BoolArray
+
+    def frame(self, points: Array) -> tuple[Array, Array]:
+        """Lower left and upper right corner of what is shown of points (n, 3), each (2,)."""
+        flat = self.camera.across(points)
+        whole = flat[self.skin.pieces].reshape(-1, 2)
+        low, high = whole.min(axis=0), whole.max(axis=0)
+        edge = 0.03 * (high - low).max()
+        low, high = low - edge, high + edge
+        if not len(self.focus):
+            return low, high
+        here = flat[self.focus]
+        half = max(_AROUND * float(np.ptp(here, axis=0).max()), _LEAST * float((high - low).max()))
+        middle = 0.5 * (here.min(axis=0) + here.max(axis=0))
+        return np.maximum(low, middle - half), np.minimum(high, middle + half)
+
+    def inside(self, points: Array) -> IntArray:
+        """The points that are shown."""
+        low, high = self.frame(points)
+        seen = self.skin.part(self.skin.spans(points) @ self.camera.towards > 0.0)
+        own = np.unique(seen.pieces)
+        flat = self.camera.across(points[own])
+        return own[((flat >= low) & (flat <= high)).all(axis=1)]
+
+
+def make_shots(folder: ResultFolder) -> list[Shot]:
+    """All bodies, and a contact where that shows anything else; see :func:`whole_shot` and :func:`contact_shot`."""
+    whole, near = whole_shot(folder), contact_shot(folder)
+    if near is None:
+        return [whole]
+    cut, size = (float(np.ptp(shot.frame(shot.skin.points), axis=0).max()) for shot in (near, whole))
+    everything = len(near.skin.body) == len(whole.skin.body)
+    same = everything and np.array_equal(near.camera.axes, whole.camera.axes) and cut >= _MOST * size
+    return [whole] if same else [whole, near]
+
+
+def whole_shot(folder: ResultFolder) -> Shot:
+    """The bodies from where most of their stress is seen."""
+    skin = folder.skin
+    camera = best_view(skin.spans(skin.points), _stressed(folder))
+    nothing = np.zeros(0, np.int64)
+    return Shot(title="", skin=skin, camera=camera, focus=nothing, contact=np.zeros(len(skin.body), bool))
+
+
+def contact_shot(folder: ResultFolder) -> Shot | None:
+    """The nonmortar body of the contact that presses most, on its own, from its side; None where all are open."""
+    skin = folder.skin
+    name, focus, facing = _contact(folder, skin)
+    if not len(focus):
+        return None
+    stressed = _stressed(folder)
+    camera = best_view(skin.spans(skin.points), facing + 1e-3 * stressed / max(float(stressed.max()), 1e-300))
+    body = int(np.argmax(np.bincount(skin.body[facing])))
+    own = skin.body == body
+    alone = f", '{folder.summary['bodies'][body]}' alone" if not own.all() else ""
+    below = ", seen from below" if camera.towards[2] < 0.0 else ""
+    title = f"at the contact '{name}'{alone}{below}"
+    return Shot(title=title, skin=skin.part(own), camera=camera, focus=focus, contact=facing[own])
+
+
+def last_rows(folder: ResultFolder) -> list[dict[str, str]]:
+    """Rows of the contact nodes after the last step."""
+    last = str(len(folder.summary["steps"]))
+    return [row for row in folder.rows if row["step"] == last]
+
+
+def _stressed(folder: ResultFolder) -> Array:
+    """Mean square of the stress on every face, (f,)."""
+    skin = folder.skin
+    square = skin.values(folder.grid.von_mises) ** 2
+    total = np.bincount(skin.face, weights=square[skin.pieces].mean(axis=1))
+    return np.asarray(total / np.bincount(skin.face))
+
+
+def _contact(folder: ResultFolder, skin: Skin) -> tuple[str, IntArray, BoolArray]:
+    """Of the contact that presses most its name, its closed points, and which faces are its own, (f,)."""
+    rows = [row for row in last_rows(folder) if row["status"] != OPEN]
+    faces = np.zeros(len(skin.body), bool)
+    if not rows:
+        return "", np.zeros(0, np.int64), faces
+    name = max(rows, key=lambda row: float(row["pressure"]))["contact"]
+    number = folder.grid.node
+
+    def points(chosen: list[dict[str, str]]) -> BoolArray:
+        found = np.zeros(len(skin.points), bool)
+        found[: len(number)] = np.isin(number, [int(row["node"]) for row in chosen if row["contact"] == name])
+        return found
+
+    every = points(last_rows(folder))
+    faces = np.bincount(skin.edge_face, weights=every[skin.edges[:, 0]], minlength=len(faces)) >= _CORNERS
+    own = np.zeros(len(skin.points), bool)
+    own[skin.pieces[faces[skin.face]]] = True
+    return name, np.flatnonzero(points(rows) & own), faces

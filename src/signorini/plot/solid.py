@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures of bodies in space: von Mises stress on their deformed skin, and the mesh; the contact on its own beside."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.plot.camera import Camera
+from signorini.plot.field import BODIES, drawn_factor
+from signorini.plot.files import ResultFolder
+from signorini.plot.paint import Paint, paint_skin
+from signorini.plot.shots import Shot, last_rows, make_shots
+from signorini.plot.style import INK, STATUS_INK
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_PALE, _FINE = (1.0, 1.0, 1.0, 0.30), (0.15, 0.15, 0.15, 0.35)  # edges of the mesh on dark and on light colours
+
+
+def draw_solid_stress(folder: ResultFolder) -> Figure:
+    """Von Mises stress of the last state on the deformed skin of the bodies, whole and at the contact.
+
+    The title says by what the displacements are multiplied. Colours end at the largest stress of the skin that is
+    shown at the contact.
+    """
+    import matplotlib
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    grid, skin = folder.grid, folder.skin
+    stress, moved = skin.values(grid.von_mises), skin.values(grid.displacement)
+    shots = make_shots(folder)
+    low, high = shots[-1].frame(skin.points)
+    factor = drawn_factor(float((high - low).max()), moved)
+    points = skin.points + factor * moved
+    shown = stress[shots[-1].inside(points)]
+    top, largest = float(shown.max(initial=0.0)) or 1.0, float(grid.von_mises.max())
+    scale, colours = Normalize(0.0, top), matplotlib.colormaps["viridis"]
+    figure, panels = _canvas(shots, points)
+    paint = Paint(values=stress, colours=lambda values: colours(scale(values))[:, :3], mesh=_PALE)
+    for axes, shot in zip(panels, shots, strict=True):
+        paint_skin(axes, shot.skin, points, shot.camera, paint)
+    beyond = largest > top * (1.0 + 1e-6)
+    bar = figure.colorbar(
+        ScalarMappable(scale, colours), ax=panels, shrink=0.7, pad=0.02, extend="max" if beyond else "neither"
+    )
+    more = f" (elsewhere up to {largest:.4g})" if beyond else ""
+    bar.set_label(f"von Mises stress on the skin, force per area{more}", fontsize=10, color=INK)
+    bar.outline.set_visible(False)
+    bar.ax.tick_params(labelsize=9, colors=INK)
+    words = "deformed, true displacements" if factor == 1.0 else f"deformed, displacements x {factor:g}"
+    _entitle(figure, folder, f"{words}; end of step '{folder.summary['steps'][-1]['name']}'")
+    return figure
+
+
+def draw_solid_mesh(folder: ResultFolder) -> Figure:
+    """The undeformed mesh, a colour a body, and the contact nodes with their status after the last step."""
+    from matplotlib.colors import to_rgb
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    grid, skin = folder.grid, folder.skin
+    shots = make_shots(folder)
+    figure, panels = _canvas(shots, skin.points)
+    palette = np.array([to_rgb(colour) for colour in BODIES])
+    paint = Paint(values=None, colours=lambda body: palette[body.astype(int) % len(palette)], mesh=_FINE)
+    for axes, shot in zip(panels, shots, strict=True):
+        paint_skin(axes, shot.skin, skin.points, shot.camera, paint)
+    names = folder.summary.get("bodies", [])
+    handles: list[Patch | Line2D] = [
+        Patch(facecolor=BODIES[i % len(BODIES)], edgecolor="#7d7d7d", label=name) for i, name in enumerate(names)
+    ]
+    seen = shots[-1].inside(skin.points)
+    for status, colour in STATUS_INK.items():
+        nodes = [int(row["node"]) for row in last_rows(folder) if row["status"] == status]
+        own = seen[seen < len(grid.node)]
+        own = own[np.isin(grid.node[own], nodes)]
+        if len(own):
+            panels[-1].plot(*shots[-1].camera.across(skin.points[own]).T, "o", ms=3.5, color=colour, zorder=3)
+            words = f"contact node, {status}"
+            handles.append(Line2D([], [], marker="o", ls="", ms=4, color=colour, label=words))
+    figure.legend(handles=handles, fontsize=9, frameon=False, loc="outside lower center", ncols=len(handles))
+    size = folder.summary["size"]
+    words = f"{size['nodes']} nodes, {size['elements']} elements, {size['contact_pairs']} contact pairs"
+    _entitle(figure, folder, words)
+    return figure
+
+
+def _canvas(shots: list[Shot], points: Array) -> tuple[Figure, list[Axes]]:
+    """A panel a shot, each of the shape of what it shows, with the directions of the axes and a scale."""
+    from matplotlib.figure import Figure
+
+    frames = [shot.frame(points) for shot in shots]
+    shapes = [(high - low) / (high - low).max() for low, high in frames]
+    widths = [6.0 * max(float(shape[0]), 0.35) for shape in shapes]
+    height = 6.0 * max(float(shape[1]) for shape in shapes)
+    figure = Figure(figsize=(sum(widths) + 1.6, height + 1.1), layout="compressed")
+    panels = list(figure.subplots(1, len(shots), width_ratios=widths, squeeze=False)[0])
+    for axes, shot, (low, high) in zip(panels, shots, frames, strict=True):
+        axes.set_xlim(low[0], high[0])
+        axes.set_ylim(low[1], high[1])
+        axes.set_aspect("equal")
+        axes.set_axis_off()
+        axes.set_title(shot.title, fontsize=10, color=INK, loc="left")
+        _directions(axes, shot.camera)
+        _scale(axes, float(high[0] - low[0]))
+    return figure, panels
+
+
+def _directions(axes: Axes, camera: Camera) -> None:
+    """Arrows along x, y and z below the left corner."""
+    corner = axes.inset_axes((0.0, -0.13, 0.13, 0.13))
+    corner.set_xlim(-1.5, 1.5)
+    corner.set_ylim(-1.5, 1.5)
+    corner.set_aspect("equal")
+    corner.set_axis_off()
+    arrow = {"arrowstyle": "-|>", "color": INK, "lw": 1.0, "shrinkA": 0, "shrinkB": 0}
+    for name, (across, up) in zip("xyz", camera.axes[:2].T, strict=True):
+        corner.annotate("", (across, up), (0.0, 0.0), arrowprops=arrow)
+        corner.text(1.35 * across, 1.35 * up, name, ha="center", va="center", fontsize=9, color=INK)
+
+
+def _scale(axes: Axes, width: float) -> None:
+    """A bar of a round length below the right corner."""
+    power = 10.0 ** math.floor(math.log10(width / 5.0))
+    length = max(step * power for step in (1.0, 2.0, 5.0) if step * power <= width / 5.0)
+    part = length / width
+    axes.plot([1.0 - part, 1.0], [-0.05, -0.05], transform=axes.transAxes, color=INK, lw=2.0, clip_on=False)
+    axes.text(1.0 - 0.5 * part, -0.04, f"{length:g}", transform=axes.transAxes, ha="center", fontsize=9, color=INK)
+
+
+def _entitle(figure: Figure, folder: ResultFolder, words: str) -> None:
+    figure.suptitle(f"{folder.title}\n{words}" if folder.title else words, fontsize=10.5, color=INK)

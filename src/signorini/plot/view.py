@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A view of bodies in space and of their contact, rendered off-screen by PyVista (the extra ``signorini[view]``)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signorini.arrays import Array
+from signorini.errors import InputError
+from signorini.plot.field import drawn_factor
+from signorini.plot.files import ResultFolder
+from signorini.plot.patch import Patch
+from signorini.plot.shots import Shot, contact_shot, whole_shot
+from signorini.plot.skin import Skin
+from signorini.plot.style import INK
+
+_SIDE = 1000  # pixels of a panel
+_ARROWS = 500  # of friction; more hide each other
+_LONGEST = 0.12  # arrow, of what is shown
+_LIFT = 0.004  # of what is shown: lines and arrows are so far in front of the surface
+_LIGHT = np.array([-0.45, 0.75, 0.6])  # to the right, up, towards the eye
+_BODY = "#d3dae2"
+_SURFACE = {"smooth_shading": True, "split_sharp_edges": True, "ambient": 0.64, "diffuse": 0.38, "specular": 0.04}
+_BAR = {
+    "color": INK,
+    "vertical": False,
+    "height": 0.09,
+    "width": 0.5,
+    "position_x": 0.25,
+    "position_y": 0.02,
+    "title_font_size": 20,
+    "label_font_size": 17,
+    "fmt": "%.4g",
+    "n_labels": 4,
+}
+
+
+def render_view(folder: ResultFolder) -> NDArray[np.uint8]:
+    """Pixels (height, width, 3): von Mises stress on the deformed bodies, pressure and friction of the contact beside.
+
+    Parameters
+    ----------
+    folder : with the results of a model in space
+
+    Raises
+    ------
+    InputError
+        If PyVista is not installed, or the model is plane.
+    """
+    if not folder.solid:
+        raise InputError("shows models in space; expected 'stress' for one in the plane", where=("view",))
+    pyvista = _pyvista()
+    shots = [shot for shot in (whole_shot(folder), contact_shot(folder)) if shot is not None]
+    size = (_SIDE * len(shots), _SIDE)
+    plotter = pyvista.Plotter(off_screen=True, shape=(1, len(shots)), window_size=size, border=False, lighting="none")
+    try:
+        plotter.set_background("white")
+        plotter.enable_anti_aliasing("ssaa")
+        _stress(plotter, pyvista, folder, shots[0])
+        for shot in shots[1:]:
+            plotter.subplot(0, 1)
+            _contact(plotter, pyvista, folder, shot)
+        return np.asarray(plotter.screenshot(return_img=True), dtype=np.uint8)
+    finally:
+        plotter.close()
+
+
+def _pyvista() -> Any:
+    """The package, which is no dependency."""
+    try:
+        import pyvista
+        from vtkmodules.vtkCommonCore import vtkLogger
+    except ImportError as error:
+        raise InputError(
+            "needs PyVista, which is not installed; pip install 'signorini[view]'", where=("view",)
+        ) from error
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # it says which ways to render it has tried
+    return pyvista
+
+
+def _stress(plotter: Any, pyvista: Any, folder: ResultFolder, shot: Shot) -> None:
+    """The bodies, deformed."""
+    skin = shot.skin
+    moved = skin.values(folder.grid.displacement)
+    factor = drawn_factor(float(np.ptp(shot.frame(skin.points), axis=0).max()), moved)
+    points = skin.points + factor * moved
+    surface = _surface(pyvista, skin, points)
+    surface["von Mises stress"] = stress = skin.values(folder.grid.von_mises)
+    limits = (0.0, float(stress.max()) or 1.0)
+    plotter.add_mesh(surface, cmap="viridis", clim=limits, scalar_bar_args=_BAR, **_SURFACE)
+    _edges(plotter, pyvista, shot, points, "white", 0.25)
+    words = "true displacements" if factor == 1.0 else f"displacements x {factor:g}"
+    _look(plotter, pyvista, shot, points, f"{folder.title}, {words}" if folder.title else words)
+
+
+def _contact(plotter: Any, pyvista: Any, folder: ResultFolder, shot: Shot) -> None:
+    """The pressure on the contact surface, undeformed, and the friction on it."""
+    points = shot.skin.points
+    plotter.add_mesh(_surface(pyvista, shot.skin.part(~shot.contact), points), color=_BODY, **_SURFACE)
+    _edges(plotter, pyvista, shot, points, "#404040", 0.25)
+    (patch,) = [patch for patch in folder.patches if f"'{patch.contact}'" in shot.title]
+    surface = pyvista.PolyData.from_regular_faces(patch.points, patch.triangles)
+    surface["pressure"] = patch.pressure
+    limits = (0.0, float(patch.pressure.max()) or 1.0)
+    plotter.add_mesh(surface, cmap="OrRd", clim=limits, lighting=False, scalar_bar_args=_BAR)
+    _friction(plotter, pyvista, patch, shot)
+    _look(plotter, pyvista, shot, points, shot.title)
+
+
+def _surface(pyvista: Any, skin: Skin, points: Array) -> Any:
+    flat = skin.pieces[:, 2] == skin.pieces[:, 3]
+    quads, triangles = skin.pieces[~flat], skin.pieces[flat, :3]
+    faces = [np.insert(cells, 0, cells.shape[1], axis=1).ravel() for cells in (quads, triangles)]
+    return pyvista.PolyData(points, np.concatenate(faces))
+
+
+def _edges(plotter: Any, pyvista: Any, shot: Shot, points: Array, colour: str, opacity: float) -> None:
+    """Those of the mesh, and those of the bodies stronger."""
+    crease, front = shot.skin.sharp, points + _lift(shot, points)
+    for own, ink, strength, width in ((~crease, colour, opacity, 1.0), (crease, "#1a1a1a", 0.9, 2.0)):
+        if own.any():
+            lines = pyvista.PolyData(front, lines=np.insert(shot.skin.edges[own], 0, 2, axis=1).ravel())
+            plotter.add_mesh(lines, color=ink, opacity=strength, line_width=width, lighting=False)
+
+
+def _friction(plotter: Any, pyvista: Any, patch: Patch, shot: Shot) -> None:
+    """Arrows at the nodes that rub; none without friction."""
+    rubbed = np.flatnonzero(np.linalg.norm(patch.shear, axis=1) > 0.0)
+    if not len(rubbed):
+        return
+    some = rubbed[:: max(1, len(rubbed) // _ARROWS)]
+    points = shot.skin.points
+    arrows = pyvista.PolyData(patch.points[some] + 4.0 * _lift(shot, points))
+    arrows["friction"] = patch.shear[some]
+    longest = float(np.linalg.norm(patch.shear, axis=1).max())
+    size = float(np.ptp(shot.frame(points), axis=0).max())
+    glyphs = arrows.glyph(orient="friction", scale="friction", factor=_LONGEST * size / longest)
+    plotter.add_mesh(glyphs, color=INK, lighting=False)
+
+
+def _lift(shot: Shot, points: Array) -> Array:
+    return _LIFT * float(np.ptp(shot.frame(points), axis=0).max()) * shot.camera.towards
+
+
+def _look(plotter: Any, pyvista: Any, shot: Shot, points: Array, words: str) -> None:
+    """Parallel projection of what the shot shows, with directions and words."""
+    low, high = shot.frame(points)
+    axes, size = shot.camera.axes, float((high - low).max())
+    middle = np.append(0.5 * (low + high), shot.camera.depth(points).mean()) @ axes
+    plotter.camera.position = tuple(middle + 20.0 * size * axes[2])
+    plotter.camera.focal_point = tuple(middle)
+    plotter.camera.up = tuple(axes[1])
+    plotter.enable_parallel_projection()
+    plotter.camera.parallel_scale = 0.62 * size
+    plotter.reset_camera_clipping_range()
+    lamp = middle + 20.0 * size * (_LIGHT @ axes)
+    plotter.add_light(pyvista.Light(position=tuple(lamp), focal_point=tuple(middle), light_type="scene light"))
+    plotter.add_axes(color=INK, x_color=INK, y_color=INK, z_color=INK, xlabel="x", ylabel="y", zlabel="z", line_width=2)
+    plotter.add_text(words, position="upper_left", font_size=12, color=INK)
