@@ -99,7 +99,7 @@ def test_increments_that_end_at_events_are_better_than_as_many_equal_ones():
     """A ball that grips a rigid plane: pairs drift until they touch, which no increment can know that goes beyond."""
     smooth = ball(n=2, size=4.0)
     model = replace(smooth, contacts=[replace(smooth.contacts[0], friction=0.3)])
-    fine, found = (solve(replace(model, steps=[sg.Step(increments=n)])).last for n in (120, "auto"))
+    fine, found = (solve(replace(model, steps=[sg.Step(increments=n)])).last for n in (400, "auto"))
     equal = solve(replace(model, steps=[sg.Step(increments=found.increments)])).last
     assert found.events
     off = [np.abs(step.contacts[0].traction - fine.contacts[0].traction).max() for step in (found, equal)]

@@ -24,7 +24,7 @@ from signorini.solution.state import LoadPoint, State, next_state
 from signorini.trace import Attempt
 
 _JUMPS = 100  # most that one part of a step may hold
-_TURN = 0.3  # radians over the root of the number: what friction may turn in an increment that could be shorter
+_TURN = 0.04  # radians over the root of the number: what friction may turn in an increment that could be shorter
 _NO_LANDING = "no equilibrium that it could land on was found"
 _SPENT = 1e-9  # of the friction bound: what a slipping pair may lack of it
 
