@@ -63,7 +63,7 @@ MISTAKES = {
         "[[step]]",
         "[[stepp]]",
         ":31: stepp: unknown key; did you mean 'step'? Known: title, kind, thickness, units, mesh, material, body, "
-        "support, foundation, load, contact, obstacle, step",
+        "support, foundation, load, contact, obstacle, rigid_body, equation, step",
     ),
     "unknown boundary": (
         'on = "axis"',

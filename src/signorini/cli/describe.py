@@ -38,6 +38,8 @@ def describe(deck: Deck, examined: Examined) -> list[str]:
         ("foundations", _foundations(model)),
         ("loads", _loads(examined)),
         *([("obstacles", _obstacles(model))] if model.obstacles else []),
+        *([("rigid bodies", _rigid_bodies(model))] if model.rigid_bodies else []),
+        *([("equations", [_equations(examined)])] if model.equations else []),
         ("contacts", _contacts(examined)),
         ("steps", _steps(model)),
     ):
@@ -105,10 +107,21 @@ def _obstacles(model: Model) -> Rows:
     return rows
 
 
+def _rigid_bodies(model: Model) -> Rows:
+    return [(body.name, f"the nodes of {body.on}", f"about {spell_vector(body.point)}") for body in model.rigid_bodies]
+
+
+def _equations(examined: Examined) -> tuple[str, ...]:
+    given = len(examined.model.equations)
+    return (f"{given} between displacements", f"{len(examined.constraints.dependent)} dofs follow from others")
+
+
 def _loads(examined: Examined) -> Rows:
     rows: Rows = []
+    rigid = {body.name for body in examined.model.rigid_bodies}
     for load_ in examined.model.loads:
-        total = examined.loads[load_.label].reshape(-1, examined.model.dimension).sum(axis=0)
+        forces = examined.space.at_nodes(examined.loads[load_.label])
+        total = [part or 0.0 for part in load_.force] if load_.on in rigid and load_.force else forces.sum(axis=0)
         rows.append((load_.label, load_.kind.replace("_", " "), f"total force {spell_vector(total)} at factor 1"))
     return rows
 

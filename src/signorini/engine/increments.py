@@ -101,10 +101,15 @@ def advance(
 
 
 def applied(prepared: Prepared, point: LoadPoint) -> tuple[Array, Array]:
-    """Nodal forces of the loads and imposed displacements at a point of the history, each (dofs,)."""
+    """Nodal forces of the loads and imposed displacements at a point of the history, each (dofs,).
+
+    Supports that let go are loads, what others hold beyond what they prescribe is imposed.
+    """
     zero = np.zeros(prepared.space.number_of_dofs)
     loads = sum((point.factors[name] * f for name, f in prepared.loads.items()), zero)
     imposed = sum((point.factors[name] * u for name, u in prepared.constraints.prescribed.items()), zero)
+    if len(point.reaction):
+        return loads + point.reaction, imposed + point.offset
     return loads, imposed
 
 

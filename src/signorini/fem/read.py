@@ -14,6 +14,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, one_of
+from signorini.formats import complete_meshio
 from signorini.model.mesh import NODES_PER_CELL, NODES_PER_PLANE_CELL, NODES_PER_SOLID_CELL, Mesh
 
 _LINES, _POINTS = ("line", "line3"), "vertex"
@@ -50,6 +51,7 @@ def read_mesh(path: str | Path) -> Mesh:
     path = Path(path)
     if not path.is_file():
         raise InputError(f"there is no file '{path}'", where=("mesh", "file"))
+    complete_meshio()
     found = _read(path)
     points = np.asarray(found.points, float)
     solid = any(block.type in NODES_PER_SOLID_CELL for block in found.cells)

@@ -259,11 +259,11 @@ def _with_obstacles(space: Space, model: Model, carrier: IntArray, weights: tupl
     bodies = sp.csr_array((values, (rows, columns)), shape=(len(carrier), space.mesh.points.size))
     bodies.eliminate_zeros()
     width = 2 * space.dimension
-    moved = np.zeros((len(carrier), width * len(model.obstacles)))
+    moved = np.zeros((len(carrier), width * (len(model.obstacles) + len(model.rigid_bodies))))
     for j in range(len(model.obstacles)):
         own = np.flatnonzero(carrier == j)
         seen = np.unique(np.concatenate([part[own].indices for part in weights]))
-        motions = carried(model, j, space.mesh.points[seen])
+        motions = carried(model, space.mesh.points[seen], np.array(model.obstacles[j].about))
         of_pairs = sum(part[own][:, seen] @ motions[:, i] for i, part in enumerate(weights))
         moved[own, width * j : width * (j + 1)] = -of_pairs
     return sp.csr_array(sp.hstack([bodies, sp.csr_array(moved)]))

@@ -10,6 +10,7 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.fem.space import make_space
 from signorini.fem.stress import BodyStress, body_stresses
+from signorini.formats import complete_meshio
 from signorini.model.model import Model
 from signorini.output.replacing import replacing
 from signorini.solution.history import History
@@ -38,6 +39,7 @@ def write_step(model: Model, step: StepResult, path: Path) -> None:
     """
     import meshio
 
+    complete_meshio()
     stresses = body_stresses(
         make_space(model.mesh, axisymmetric=model.axisymmetric), model, step.displacement, step.factors
     )
