@@ -37,6 +37,8 @@ _CONTACT_KEYS = (
     "torus",
     "surface",
     "friction",
+    "shear_limit",
+    "adhesion",
     "gap",
     "interference",
     "normal_compliance",

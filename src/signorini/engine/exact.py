@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 
 from signorini.arrays import Array, BoolArray
+from signorini.bound import plain
 from signorini.engine.increments import applied, certified, free_load, refuse_overlap
 from signorini.engine.leg import Leg, Snapshot, joined
 from signorini.engine.prepare import Prepared
@@ -232,7 +233,7 @@ def _start(prepared: Prepared, state: State) -> PathState:
         )
     r, status = state.forces[rows] / condensed.root, state.status[active]
     if isinstance(law, CoulombProblem):  # friction that has risen since leaves some to spare
-        spare = (status > STICK) & (np.abs(r[n:]) < (1.0 - _SPENT) * law.mu * r[:n])
+        spare = (status > STICK) & (np.abs(r[n:]) < (1.0 - _SPENT) * law.bound.at(r[:n]))
         status = np.where(spare, STICK, status)
     return PathState(
         b=b,
@@ -300,7 +301,7 @@ def _on_the_way(prepared: Prepared, last: State, point: LoadPoint, now: PathStat
     forces[rows] = condensed.root * now.r
     moved[rows] = now.h / condensed.root
     status, slip, dissipation = np.full(n, OPEN), last.slip.copy(), last.dissipation.copy()
-    status[active], status[prepared.interface.tied] = now.state, STICK
+    status[active], status[prepared.interface.tied] = plain(now.state), STICK
     slip[_along(prepared)] = now.slip / condensed.root[now.pairs :]
     dissipation[active] = now.dissipation
     return replace(

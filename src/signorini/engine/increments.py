@@ -203,7 +203,7 @@ def _iterated(
     load = Load(
         f=bodies.blocks.spread(f),
         offset=offset[rows].reshape(d, -1),
-        friction=prepared.interface.friction[bodies.pairs],
+        bound=prepared.interface.bound(bodies.pairs),
         force=prepared.scale.force,
         length=prepared.scale.length,
         floating=bool(prepared.floating.shape[1]),
@@ -221,8 +221,9 @@ def _start(prepared: Prepared, state: State) -> Array | IntArray | None:
     condensed, rows = prepared.condensed, prepared.condensed.active_rows
     if not state.forces.any():
         return None
-    if prepared.interface.directions == 2:
-        return state.status[condensed.active]
+    if isinstance(prepared.law, CoulombProblem):
+        pressing = state.forces[rows] / condensed.root
+        return prepared.law.bound.coded(state.status[condensed.active], pressing[: len(rows) // 2])
     still = np.concatenate([state.gap, np.zeros_like(state.tangential)])[rows]
     start: Array = state.forces[rows] / condensed.root - condensed.root * still
     return start

@@ -151,7 +151,7 @@ class Prepared(Examined):
         if isinstance(self.bodies, Bodies):
             return None
         size = _size(interface, self.bodies, scale)
-        return replace(self.law, scale=size, **_cones(interface, self.bodies.active))
+        return replace(self.law, scale=size, **_cones(interface, self.bodies))
 
     def changed(
         self,
@@ -387,15 +387,22 @@ def contact_law(
         b=np.zeros(len(rows)),
         motions=condensed.root[:, None] * seen,
         scale=_size(interface, condensed, scale),
-        **_cones(interface, condensed.active),
+        **_cones(interface, condensed),
     )
 
 
-def _cones(interface: Interface, active: BoolArray) -> dict[str, Any]:
-    """The friction of the active pairs as the laws take it."""
+def _cones(interface: Interface, condensed: Condensed) -> dict[str, Any]:
+    """The friction of the active pairs as the laws take it, forces scaled."""
+    active = condensed.active
+    area = interface.area[active] / condensed.root[: int(active.sum())]
+    adheres, limited = interface.adhesion[active].any(), np.isfinite(interface.shear_limit[active]).any()
+    bounds = {
+        "adhesion": interface.adhesion[active] * area if adheres else None,
+        "limit": interface.shear_limit[active] * area if limited else None,
+    }
     if interface.directions == 2:
-        return {"friction": interface.friction[active]}
-    return {"friction": interface.coefficients[active], "facets": interface.facets[active]}
+        return {"friction": interface.friction[active], **bounds}
+    return {"friction": interface.coefficients[active], "facets": interface.facets[active], **bounds}
 
 
 def _size(interface: Interface, condensed: Condensed, scale: Scale) -> float:
@@ -429,7 +436,8 @@ def refuse_free_motions(
     free = free_motions(motions, constraints, touching)
     if free.shape[1]:
         raise InputError(f"{_say(parts, free)}: no support or contact holds it; add a support")
-    rubbing = (interface.coefficients > 0).T.ravel()
+    along = interface.coefficients + interface.adhesion[:, None] * interface.anisotropy
+    rubbing = (along > 0).T.ravel()
     resisting = interface.B[np.concatenate([np.ones(len(interface), bool), rubbing])]
     free = free_motions(motions, constraints, resisting)
     if free.shape[1]:

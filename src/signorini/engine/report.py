@@ -87,8 +87,7 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
 
 def _notes(prepared: Prepared, leg: Leg) -> tuple[str, ...]:
     """What a reader should know of how the step was followed."""
-    friction = prepared.interface.friction
-    rubbing = (friction > 0) & np.isfinite(friction)
+    rubbing = prepared.interface.rubs & ~prepared.interface.sticks
     if leg.path != "single" or not rubbing.any():
         return leg.notes
     closed = rubbing & (leg.after.status != OPEN) & (leg.before.gap > 1e-9 * prepared.scale.length)
@@ -260,13 +259,12 @@ def _contact_result(
     prepared: Prepared, surface: _Surface, before: State, state: State, sliding: Array, slip_range: Array
 ) -> ContactResult:
     interface, n, own = prepared.interface, len(prepared.interface), surface.own
-    normal, friction = state.forces[:n][own], interface.friction[own]
+    normal = state.forces[:n][own]
     tangential = interface.effort(state.forces[n:])[own]
     code, area = state.status[own], surface.fixed["area"]
-    bound = np.zeros(len(normal))
-    np.multiply(friction, normal, out=bound, where=normal > 0)
+    bound = interface.most(state.forces[:n])[own]
     # a pair that a support guides carries no friction: it touches without slipping
-    sticks = (code == STICK) | ((friction > 0) & (tangential < (1.0 - 1e-9) * bound))
+    sticks = (code == STICK) | (interface.rubs[own] & (tangential < (1.0 - 1e-9) * bound))
     status = np.where(code == OPEN, results.OPEN, np.where(sticks, results.STICK, results.SLIP))
     dissipation = (state.dissipation - before.dissipation)[own]
     return ContactResult(

@@ -205,8 +205,8 @@ def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPo
     Where the exact path that nobody asked for ends in a jump or is lost, it is followed in increments, and the notes
     say so: what they reach behind a jump is a candidate.
     """
-    step, friction, whole = stage.step, prepared.interface.friction, stage.step.at == "events"
-    rubbing = bool(((friction > 0) & np.isfinite(friction) & ~prepared.absent).any())
+    step, interface, whole = stage.step, prepared.interface, stage.step.at == "events"
+    rubbing = bool((interface.rubs & ~interface.sticks & ~prepared.absent).any())
     if step.path != "exact" and (step.path is not None or step.increments is not None or not rubbing):
         if step.increments == "auto":
             return follow_automatically(prepared, step.tolerance, stage.name, span, state, end, whole=whole)

@@ -346,7 +346,8 @@ class Model:
     def _check_facets(self, i: int) -> None:
         """In space a path is exact where no section of a friction cone is smooth."""
         for contact in self.contacts:
-            if contact.friction not in (0.0, "stick", "tied") and not contact.facets:
+            slips = not contact.coulomb or contact.friction not in (0.0, "stick", "tied")
+            if slips and not contact.facets:
                 raise InputError(
                     f"is \"exact\", but friction on the exact cone of contact '{contact.label}' turns between events; "
                     'expected facets there, or increments, a number or "auto"',

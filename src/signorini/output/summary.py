@@ -57,7 +57,7 @@ def _well_posedness(history: History) -> dict[str, Any] | None:
         return None
     contacts = history.model.contacts
     return {
-        "friction": found.friction,
+        "friction": found.friction if math.isfinite(found.friction) else None,
         "bound": found.bound if found.bound is None or math.isfinite(found.bound) else None,
         "verdict": found.verdict,
         "words": found.words,
@@ -122,6 +122,8 @@ def _contact(contact: Contact, result: ContactResult) -> dict[str, Any]:
         "mortar": result.mortar,
         "coupling": result.coupling,
         "friction": "varies" if callable(contact.friction) else contact.friction,
+        "adhesion": contact.adhesion,
+        "shear_limit": contact.shear_limit,
         "normal_force": _list(result.normal_force),
         "tangential_force": _list(result.tangential_force),
         "max_pressure": float(result.pressure[worst]),

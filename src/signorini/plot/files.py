@@ -160,6 +160,7 @@ class ResultFolder:
         for contact in step["contacts"]:
             own = [row for row in self.rows if row["step"] == str(number) and row["contact"] == contact["name"]]
             friction = contact.get("friction", 0.0)
+            other = contact.get("adhesion") or contact.get("shear_limit")
             curves.append(
                 make_curve(
                     contact=contact["name"],
@@ -168,7 +169,7 @@ class ResultFolder:
                     pressure=_columns(own, "pressure")[:, 0],
                     traction=_columns(own, "traction_1")[:, 0],
                     status=np.array([row["status"] for row in own]),
-                    friction=math.inf if isinstance(friction, str) else float(friction),
+                    friction=math.inf if isinstance(friction, str) or other else float(friction),
                 )
             )
         return curves

@@ -148,7 +148,7 @@ class PairEvent:
     load_factor : step k goes from k - 1 to k
     contact : name
     nodes : indices of nonmortar nodes, from 0
-    what : "closes", "opens", "slips" or "sticks"
+    what : "closes", "opens", "slips", "sticks" or "kinks": slips on, at the shear limit or below it again
     """
 
     load_factor: float

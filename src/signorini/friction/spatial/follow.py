@@ -235,7 +235,7 @@ class _Walk:
 
     def _room(self, trial: _Trial, state: IntArray) -> float:
         """How much longer than the trial the increment may be: up to the next event, and to the turn allowed."""
-        times = lasts(self.problem, self.now, replace(trial.after, state=state))
+        times = lasts(self.problem, self.now, replace(trial.after, state=state), self.width)
         if trial.turn > 0.0:
             times = min(times, max(1.0, _SHRINK * self.settings.turn / trial.turn))
         return max(times, self._shortest / trial.step)

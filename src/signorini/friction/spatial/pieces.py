@@ -8,7 +8,8 @@ holds at its end, a slip increment s included, and at its beginning
     p = 0      of pairs that are open at the end
     r_t . s = -p max (e . s : e in the section)    of pairs that slip: the old force was already the one that slip needs
 
-because sections are convex and every condition is linear. What does not hold is an event on the way.
+because sections are convex and every condition is linear (a kink of a bound on friction must not be passed). What does
+not hold is an event on the way.
 """
 
 from __future__ import annotations
@@ -30,22 +31,20 @@ def columns(rows: Array) -> Array:
     return rows.reshape(2, -1).T
 
 
-def section_size(problem: SpatialProblem, p: Array) -> Array:
-    """(n,) What the half-axes of a section are multiplied by: the normal force, 1 in Tresca's law."""
-    return np.where(problem.bounded, 1.0, p)
-
-
 def spare(problem: SpatialProblem, r: Array) -> Array:
     """(n,) Friction to spare, a force: what the normal force could still carry; 0 on the limit."""
     n = problem.pairs
-    mu, force = problem.mu, columns(r[n:])
-    most = mu.max(axis=1)
-    scaled = np.divide(force * most[:, None], mu, out=np.zeros_like(force), where=mu > 0)
+    scaled = _over(columns(r[n:]), problem.axes)
     size = np.linalg.norm(scaled, axis=1)
     half = np.pi / np.maximum(problem.sides, 1)
     beside = np.mod(np.arctan2(scaled[:, 1], scaled[:, 0]), 2.0 * half) - half
     size = np.where(problem.sides > 0, size * np.cos(beside) / np.cos(half), size)
-    return np.asarray(most * section_size(problem, r[:n]) - size, dtype=np.float64)
+    return np.asarray(problem.bound.at(np.maximum(r[:n], 0.0)) - size, dtype=np.float64)
+
+
+def _over(force: Array, axes: Array) -> Array:
+    """(n, 2) Forces over the half-axes of sections of size 1; none along an axis of length 0."""
+    return np.divide(force, axes, out=np.zeros_like(force), where=axes > 0)
 
 
 def held_until(problem: SpatialProblem, start: PathState, h: Array, r: Array, slip: Array, width: float) -> Array:
@@ -65,12 +64,16 @@ def held_until(problem: SpatialProblem, start: PathState, h: Array, r: Array, sl
     until[opens] = p[opens] / (p + h[:n])[opens]
     size = np.linalg.norm(slip, axis=1)
     slips = (r[:n] > 0) & (size > width) & ~closes
-    most = section_size(problem, p)[:, None] * outermost(slip, problem.mu, problem.sides)
+    most = problem.bound.at(p)[:, None] * outermost(slip, problem.axes, problem.sides)
     lacking = ((most + columns(start.r[n:])) * slip).sum(axis=1) / np.where(slips, size, 1.0)
     # on a smooth section the force turns with the slip; how far is another question, see `turned`
     inside = (problem.sides > 0) | (spare(problem, start.r) > width)
     starts = slips & inside & (lacking > width)
     until[starts] = lacking[starts] / (lacking + size)[starts]
+    for kink in problem.bound.kinks[1:-1]:
+        low, high = np.minimum(p, r[:n]), np.maximum(p, r[:n])
+        passes = slips & (low < kink - width) & (kink + width < high)
+        until[passes] = np.minimum(until, (kink - p) / np.where(passes, r[:n] - p, 1.0))[passes]
     return until
 
 
@@ -92,12 +95,13 @@ def turned(problem: SpatialProblem, start: PathState, r: Array, slip: Array, wid
     return float(np.abs(np.arctan2(cross, (one[which] * two[which]).sum(axis=1))).max())
 
 
-def lasts(problem: SpatialProblem, start: PathState, end: PathState) -> float:
+def lasts(problem: SpatialProblem, start: PathState, end: PathState, width: float) -> float:
     """How much longer than it is a piece may be before a gap, a normal force or friction to spare vanishes; 1 or more.
 
     Parameters
     ----------
     start, end : of the piece, in which the law holds; the states of the end are those inside it
+    width : of zero for a force
     """
     n, h, r = problem.pairs, end.h, end.r
     dh, dr = h - start.h, r - start.r
@@ -113,20 +117,22 @@ def lasts(problem: SpatialProblem, start: PathState, end: PathState) -> float:
     closed = end.state != OPEN
     vanish(~closed, start.h[:n], dh[:n])
     vanish(closed, start.r[:n], dr[:n])
-    mu, s, ds = problem.mu, section_size(problem, start.r[:n]), np.where(problem.bounded, 0.0, dr[:n])
-    rubs = closed & (mu > 0).any(axis=1)
-    most = mu.max(axis=1)
-    scale = np.divide(most[:, None], mu, out=np.zeros_like(mu), where=mu > 0)
-    f, df = columns(start.r[n:]) * scale, columns(dr[n:]) * scale
+    s = problem.bound.at(np.maximum(start.r[:n], 0.0))
+    ds = problem.bound.at(np.maximum(r[:n], 0.0)) - s
+    rubs = closed & (s + ds > 0)
+    for kink in problem.bound.kinks[1:-1]:
+        vanish(rubs & (kink > start.r[:n] + width), kink - start.r[:n], -dr[:n])
+        vanish(rubs & (kink < start.r[:n] - width), start.r[:n] - kink, dr[:n])
+    f, df = _over(columns(start.r[n:]), problem.axes), _over(columns(dr[n:]), problem.axes)
     for j in range(int(problem.sides.max(initial=0))):
         half = np.pi / np.maximum(problem.sides, 1)
         normal = np.column_stack([np.cos((2 * j + 1) * half), np.sin((2 * j + 1) * half)])
-        reach = most * np.cos(half)
+        reach = np.cos(half)
         vanish(rubs & (problem.sides > j), reach * s - (normal * f).sum(axis=1), reach * ds - (normal * df).sum(axis=1))
     sticks = rubs & (problem.sides == 0) & (end.state == STICK)
-    a = (df**2).sum(axis=1) - (most * ds) ** 2
-    b = (f * df).sum(axis=1) - most**2 * s * ds
-    c = (f**2).sum(axis=1) - (most * s) ** 2
+    a = (df**2).sum(axis=1) - ds**2
+    b = (f * df).sum(axis=1) - s * ds
+    c = (f**2).sum(axis=1) - s**2
     root = np.sqrt(np.maximum(b * b - a * c, 0.0))
     outward = sticks & (b > 0) & (b * b >= a * c)
     inward = sticks & (b <= 0) & (a > least**2)
