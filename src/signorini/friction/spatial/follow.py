@@ -91,7 +91,7 @@ def follow_stopping(
     ... )
     >>> pressed = follow_stopping(problem, at_rest(problem, np.zeros(3)), np.array([-0.5, 0.0, 0.0]))
     >>> pulled = follow_stopping(problem, pressed.end, np.array([-0.5, 0.5, 0.0]))
-    >>> [(round(event.factor, 12), event.what) for event in pulled.events], pulled.end.h.round(12).tolist()
+    >>> [(round(event.factor, 12), event.what) for event in pulled.events], (pulled.end.h.round(12) + 0.0).tolist()
     ([(0.5, 'slips')], [0.0, 0.5, 0.0])
     """
     walk = _Walk(problem, start, np.asarray(b_end, dtype=np.float64), settings or StopSettings())
