@@ -18,9 +18,15 @@ from signorini.gallery.half_spaces import ball
 HISTORY = [sg.Step(scale={"cut": 1.0}), sg.Step(scale={"cut": 0.2}), sg.Step(scale={"cut": 0.7}, at=[0.3])]
 
 
-def slab(facets, steps):
-    """The paper's cylinder as a slab of thickness 1 in plane strain: two pairs of half the area for one."""
+def cylinder(law, steps):
+    """The paper's cylinder."""
     flat = zhu_cylinder(friction=0.4)
+    return replace(flat, contacts=[replace(flat.contacts[0], **law)], steps=steps)
+
+
+def slab(facets, law, steps):
+    """The same as a slab of thickness 1 in plane strain: two pairs of half the area for one."""
+    flat = cylinder(law, steps)
     (contact,) = flat.contacts
     floor = sg.Plane(point=(0.0, 0.0, 0.0), normal=(0.0, 1.0, 0.0))
     still = [sg.Support(name, u=(None, None, 0.0)) for name in ("bottom", "top")]
@@ -35,12 +41,12 @@ def slab(facets, steps):
     )
 
 
-@pytest.mark.parametrize("facets", [8, 0])
-def test_a_slab_goes_the_exact_path_of_plane_strain(facets):
+@pytest.mark.parametrize(("facets", "law"), [(8, {}), (0, {}), (8, {"shear_limit": 3.0})])
+def test_a_slab_goes_the_exact_path_of_plane_strain(facets, law):
     """With a corner along the loads the polygon is the law of the plane; a circle does not turn friction here."""
-    plane = solve(replace(zhu_cylinder(friction=0.4), steps=HISTORY))
+    plane = solve(cylinder(law, HISTORY))
     ways = {"path": "exact"} if facets else {"increments": "auto", "tolerance": 1e-12}
-    space = solve(slab(facets, [replace(step, **ways) for step in HISTORY]))
+    space = solve(slab(facets, law, [replace(step, **ways) for step in HISTORY]))
     for two, three in zip(plane.steps, space.steps, strict=True):
         one, other = two.contacts[0], three.contacts[0]
         size = one.pressure.max()
