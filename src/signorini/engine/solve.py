@@ -13,6 +13,7 @@ from signorini.clock import Clock
 from signorini.engine.automatic import follow_automatically
 from signorini.engine.enter import relaxed, switched
 from signorini.engine.exact import follow_exactly
+from signorini.engine.fields import refuse_fields
 from signorini.engine.increments import follow_increments, measured
 from signorini.engine.leg import Leg, Snapshot, joined, lightened
 from signorini.engine.prepare import Prepared, prepare
@@ -63,6 +64,7 @@ def solve_prepared(
     Pairs that were left out as too far apart are looked at after every increment; where one has met the other side, or
     nothing was found without them, everything is solved again with all pairs.
     """
+    refuse_fields(prepared.model)
     begin = _begin(prepared, start)
     history = _follow(prepared, begin, wellposed)
     if prepared.limited and not history.solved and history.status != INTERRUPTED:
@@ -167,7 +169,8 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
     heated = any(load.temperature is not None for load in prepared.model.loads)
     for span, point in spans(stage, state.point, end):
         leg = _leg(prepared, stage, span, state, point)
-        legs = [joined([*legs, leg if heated or stage.step.at == "events" else lightened(leg)])]
+        leg = lightened(leg, every=stage.step.at == "events", end=span.asked, heated=heated)
+        legs = [joined([*legs, leg])]
         state = leg.after
         if span.cycle:
             cycle_ends.append(span.factor(1.0))
