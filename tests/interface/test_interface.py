@@ -9,6 +9,7 @@ import pytest
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve
 from signorini.errors import InputError
+from signorini.fem.boundary import boundary
 from signorini.fem.generators import annulus, half_disk, rectangle
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit
@@ -60,6 +61,23 @@ def test_the_relative_displacement_has_the_signs_of_the_contract():
     # forces on either side are opposite: no resultant
     forces = (interface.B.T @ np.arange(1.0, 2 * n + 1)).reshape(-1, 2)
     np.testing.assert_allclose(forces.sum(axis=0), 0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("along", [(12, 12), (12, 17), (9, 6)])
+@pytest.mark.parametrize("cells", ["quad", "quad8", "triangle6"])
+def test_friction_turns_a_shaft_as_exactly_as_pressure_presses_it(cells, along):
+    """Unit traction on every pair: the friction on a node is the pressing force there, turned by a right angle."""
+    prepared = prepare(press_fit(n_radial=1, n_angular=along, cells=cells))
+    interface, space = prepared.interface, prepared.space
+    n, x = len(interface), space.mesh.points
+    side = boundary(space, "shaft.outer", ())
+    pressing, turning = (interface.B[rows].T @ interface.area for rows in (slice(n), slice(n, 2 * n)))
+    f, q = pressing.reshape(-1, 2), turning.reshape(-1, 2)
+    near = 2.0 * np.sin(1.01 * np.pi / 2.0 / along[0])  # the facets at the planes of symmetry, where nothing slides
+    own = side.nodes[(x[side.nodes] > near).all(axis=1)]
+    place = np.searchsorted(side.nodes, own)
+    np.testing.assert_allclose(f[own], -side.nodal(side.outward)[place], atol=1e-12)
+    np.testing.assert_allclose(q[own], f[own][:, ::-1] * [1.0, -1.0], atol=1e-12)
 
 
 @pytest.mark.parametrize("swap", [False, True])

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Mortar weights: known rows, exact integrals, linear fields, partial cover, rotated and shifted sides."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -112,6 +114,53 @@ def test_of_layers_behind_each_other_the_nearest_counts():
     mesh = join({"upper": rectangle(x=[0, 0.5, 1], y=[0.1, 1]), "lower": lower})
     _, _, coupling = coupled(mesh)
     np.testing.assert_allclose(coupling.relative @ mesh.points, [[0, 0.1]] * 3, atol=1e-14)
+
+
+def on_a_curve(height, counts, cells="quad", gap=0.0):
+    """Two blocks that meet on y = height(x), with a gap of a given width along y."""
+    meshes = {}
+    for name, n, low, off in (("upper", counts[0], 0.0, gap), ("lower", counts[1], -1.0, 0.0)):
+        mesh = rectangle(nx=n, ny=1, origin=(0.0, low), cells=cells)
+        x, y = mesh.points.T
+        meshes[name] = replace(mesh, points=np.column_stack([x, y + height(x) * (1.0 - np.abs(y)) + off]))
+    return join(meshes)
+
+
+def pushes(coupling):
+    """Forces of a unit pressure on all nodes, (n, 2)."""
+    return np.column_stack([force.sum(axis=0) for force in coupling.forces])
+
+
+def nodal_pushes(side):
+    """``- int N n`` of all nodes of a side, n outward."""
+    return -side.nodal(side.outward)
+
+
+@pytest.mark.parametrize("counts", [(4, 4), (3, 7), (7, 4)])
+@pytest.mark.parametrize("cells", ["quad", "quad8"])
+def test_uniform_pressure_presses_every_curve_as_it_is(cells, counts):
+    """On the nonmortar side always; on the mortar side its resultant, and all of it where both are one curve."""
+    mesh = on_a_curve(lambda x: 0.4 * x**2, counts, cells)
+    own, other, coupling = coupled(mesh)
+    pushed = pushes(coupling)
+    if cells == "quad8" or counts == (4, 4):
+        np.testing.assert_allclose(pushed[own.nodes], nodal_pushes(own), atol=1e-12)
+        np.testing.assert_allclose(pushed[other.nodes], nodal_pushes(other), atol=1e-12)
+        gap = sum(force @ x for force, x in zip(coupling.forces, mesh.points.T, strict=True))
+        np.testing.assert_allclose(gap, 0.0, atol=1e-13)
+    np.testing.assert_allclose(pushed.sum(axis=0), 0.0, atol=1e-14)
+    np.testing.assert_allclose(np.linalg.norm(coupling.normals, axis=1), 1.0)
+
+
+@pytest.mark.parametrize("counts", [(4, 4), (3, 7), (7, 4)])
+def test_on_linear_facets_the_forces_of_a_pair_are_in_balance(counts):
+    """Across a gap too: neither their sum nor their moment is left, whatever the normals do from facet to facet."""
+    mesh = on_a_curve(lambda x: 0.3 * np.sin(3 * x), counts, gap=0.1)
+    _, _, coupling = coupled(mesh)
+    fx, fy = coupling.forces
+    x, y = mesh.points.T
+    np.testing.assert_allclose([fx.sum(axis=1), fy.sum(axis=1)], 0.0, atol=1e-15)
+    np.testing.assert_allclose(fy @ x - fx @ y, 0.0, atol=1e-15)
 
 
 @pytest.mark.parametrize(

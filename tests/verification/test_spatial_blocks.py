@@ -69,7 +69,7 @@ def pressed(kinds, counts, traction, seed):
     side = make_surface(points, faces(upper, 0.0)[:, ::-1])
     other = make_surface(points, faces(lower, 0.0) + n_1)
     coupling = mortar_coupling(side, other)
-    axes = frames(-side.nodal_normals[np.searchsorted(side.nodes, coupling.nodes)])
+    axes = frames(coupling.normals)
     gap = np.sum((coupling.relative @ points) * axes[:, 0], axis=1)
     pairs = len(coupling.nodes)
     B = np.zeros((3 * pairs, len(K)))

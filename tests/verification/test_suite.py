@@ -7,13 +7,16 @@ from signorini.verify import fenet, hertz, patches, punches, rings, scalar
 from signorini.verify.check import Check
 
 CASES = (
-    patches.patch_turned,
+    patches.patch_p1,
+    patches.patch_p2,
+    patches.patch_p4,
     patches.patch_p5,
     patches.patch_p6,
     patches.patch_discs,
     hertz.line_contact,
     hertz.point_contact,
     hertz.equal_spheres,
+    hertz.small_equal_spheres,
     fenet.cylinder,
     punches.corner_exponents,
     rings.shrink_fits,

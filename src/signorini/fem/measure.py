@@ -33,3 +33,8 @@ def nodal_areas(model: Model, side: Boundary) -> Array:
     circle around it, ``pi h^2 / 3``. Quadratic facets: 1/6, 1/6 and 4/6 of a straight one.
     """
     return side.nodal(facet_areas(model, side))
+
+
+def nodal_normal_areas(model: Model, side: Boundary) -> Array:
+    """``int N_k n dS`` of every node of a boundary with the outward normals, (k, d) in the order of its nodes."""
+    return side.nodal(side.outward * measure(model, side.at)[..., None])

@@ -14,7 +14,7 @@ from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
 from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh, join
-from signorini.model.model import Model
+from signorini.model.model import Kind, Model
 from signorini.model.obstacle import Plane
 from signorini.model.step import Step
 
@@ -73,6 +73,59 @@ def block_on_foundation(*, friction: float = 0.0, cells: Cells = "quad", across:
         ],
         loads=[Load("block.top", pressure=25.0), Load("foundation.free", pressure=25.0)],
         contacts=[Contact("block.bottom", "foundation.seat", friction=friction, name="interface")],
+    )
+
+
+def curved_blocks(
+    *,
+    kind: Kind = "plane strain",
+    friction: float = 0.0,
+    cells: Cells = "quad8",
+    across: tuple[int, int] = (3, 5),
+    angle: float = 0.0,
+) -> Model:
+    """Patch test P5: two blocks that meet on the parabola y = 1 + 0.3 x^2, pressure 10 on all other sides.
+
+    E 1000, nu 0.3: the stress is -10 in every direction, p = 10, wherever the interface points. Quadratic facets of any
+    mesh hold the parabola exactly. The nodes that keep the blocks in place move as the exact solution does.
+
+    Parameters
+    ----------
+    kind : "plane strain" or "axisymmetric", where y is the axis
+    across : elements along the interface, of the upper (nonmortar) and of the lower block
+    angle : by which the blocks are turned, degrees
+    """
+    straight = join(
+        {
+            "upper": rectangle(nx=across[0], ny=2, origin=(0.0, 1.0), cells=cells),
+            "lower": rectangle(nx=across[1], ny=2, cells=cells),
+        }
+    )
+    x, y = straight.points.T
+    bent = np.column_stack([x, y + 0.3 * x**2 * np.minimum(y, 2.0 - y)])
+    turn = np.radians(angle)
+    points = bent @ np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+    E, nu, pressure = 1000.0, 0.3, 10.0
+    strain = -pressure * (1.0 - 2.0 * nu) / E * (1.0 if kind == "axisymmetric" else 1.0 + nu)
+
+    def place(x: float, y: float) -> tuple[tuple[float, float], tuple[float, float]]:
+        """A corner of the unturned blocks: where it is, and how it moves."""
+        at = points[np.abs(straight.points - [x, y]).sum(axis=1).argmin()]
+        return (float(at[0]), float(at[1])), (float(strain * at[0]), float(strain * at[1]))
+
+    (origin, still), (end, moved), (top, shifted) = place(0.0, 0.0), place(1.0, 0.0), place(0.0, 2.0)
+    held = [Support(origin, u=still), Support(end, u=(None, moved[1])), Support(top, u=(shifted[0], None))]
+    sides = [f"{name}.{side}" for name in ("upper", "lower") for side in ("left", "right")]
+    if kind == "axisymmetric":
+        held, sides = held[:1], ["upper.right", "lower.right"]
+    return Model(
+        replace(straight, points=points),
+        kind=kind,
+        title="Patch test P5: blocks that meet on a parabola",
+        bodies=[Body(name, Elastic(E=E, nu=nu)) for name in ("upper", "lower")],
+        supports=held,
+        loads=[Load(name, pressure=pressure) for name in (*sides, "upper.top", "lower.bottom")],
+        contacts=[Contact("upper.bottom", "lower.top", friction=friction, name="interface")],
     )
 
 

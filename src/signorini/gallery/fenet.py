@@ -19,6 +19,9 @@ from signorini.model.step import Step
 from signorini.reference.hertz import HertzLine, contact_modulus
 
 RADIUS, BLOCK, FORCE = 50.0, 200.0, 35000.0
+SEAT = 10.0
+"""Half-width of the part with even cells, where the two may touch."""
+
 STEEL, ALUMINIUM = Elastic(E=210e3, nu=0.3), Elastic(E=70e3, nu=0.3)
 
 HERTZ = HertzLine(force=FORCE, radius=RADIUS, modulus=contact_modulus((210e3, 0.3), (70e3, 0.3)))
@@ -39,14 +42,13 @@ def cylinder_on_block(
     >>> print(round(HERTZ.half_width, 5), round(HERTZ.peak_pressure, 2))
     6.21463 3585.36
     """
-    seat = 10.0
-    lower = quarter_disk(radius=RADIUS, contact_length=seat, contact_spacing=seat / across[0], cells=cells)
+    lower = quarter_disk(radius=RADIUS, contact_length=SEAT, contact_spacing=SEAT / across[0], cells=cells)
     upper = replace(lower, points=np.array(lower.points) * [1.0, -1.0] + [0.0, 2.0 * RADIUS])
-    spacing = seat / across[1]
-    x, depth = graded(seat, spacing, 0.5 * BLOCK), graded(4.0 * spacing, spacing, BLOCK)
+    spacing = SEAT / across[1]
+    x, depth = graded(SEAT, spacing, 0.5 * BLOCK), graded(4.0 * spacing, spacing, BLOCK)
     block = rectangle(x=x, y=-depth[::-1], cells=cells)
     top = block.boundaries["top"]
-    inside = block.points[top][:, :, 0].max(axis=1) <= seat * (1.0 + 1e-9)
+    inside = block.points[top][:, :, 0].max(axis=1) <= SEAT * (1.0 + 1e-9)
     block = replace(block, boundaries={**block.boundaries, "seat": top[inside]})
     return Model(
         join({"lower": lower, "upper": upper, "block": block}),

@@ -13,14 +13,15 @@ from signorini.interface.coupling import Coupling
 from signorini.interface.dual import dual_functions
 
 
-def corner_coupling(side: Boundary, areas: Array, count: int) -> Coupling:
-    """Weights ``int psi_k N_j / int psi_k`` with psi dual to the hats of the corners, N the shape functions.
+def corner_coupling(side: Boundary, areas: Array, normals: Array, count: int) -> Coupling:
+    """Forces ``int psi_k N_j n`` with psi dual to the hats of the corners, N the shape functions.
 
     The consistent weights of a quadratic facet are 0 or negative at its corners; these are positive.
 
     Parameters
     ----------
     areas : (m, q) area of the quadrature points of the side
+    normals : (m, q, d) of the obstacle there
     count : nodes of the mesh
 
     References
@@ -30,14 +31,12 @@ def corner_coupling(side: Boundary, areas: Array, count: int) -> Coupling:
     corners = side.facets[:, : side.corners]
     hats = facet_shapes(side.dimension, side.corners, side.places)[0]
     mass = np.einsum("mq,qa,qb->mab", areas, hats, hats)
-    multiplier = np.einsum("mab,qb,mq->mqa", dual_functions(mass), hats, areas)
-    weights = np.einsum("mqa,qj->maj", multiplier, side.shapes[0])
-    area = np.zeros(count)
-    np.add.at(area, corners, mass.sum(axis=2))
-    rows = np.broadcast_to(corners[:, :, None], weights.shape)
-    columns = np.broadcast_to(side.facets[:, None, :], weights.shape)
-    keeps = sp.csr_array((weights.ravel(), (rows.ravel(), columns.ravel())), shape=(count, count))
+    multiplier = np.einsum("mab,qb,mq,mqd->dmqa", dual_functions(mass), hats, areas, normals)
+    values = np.einsum("dmqa,qj->dmaj", multiplier, side.shapes[0])
+    rows, columns = (np.broadcast_to(x, values.shape[1:]).ravel() for x in (corners[:, :, None], side.facets[:, None]))
     nodes = np.unique(corners)
-    return Coupling(
-        nodes=nodes, area=area[nodes], relative=sp.csr_array(sp.diags_array(1.0 / area[nodes]) @ keeps[nodes])
+    forces = tuple(
+        sp.csr_array(sp.csr_array((part.ravel(), (rows, columns)), shape=(count, count))[nodes]) for part in values
     )
+    vectors = np.column_stack([force.sum(axis=1) for force in forces])
+    return Coupling(nodes=nodes, normal_areas=vectors, forces=forces)

@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
+import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
@@ -12,16 +14,68 @@ from signorini.arrays import Array, IntArray
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Coupling:
-    """Pairs of one contact: the relative position of pair k is ``sum_j relative_kj x_j``, x of all nodes.
+    """Pairs of one contact, by what pressing them does: exact for uniform pressure on curved sides too.
+
+    A unit pressure of pair k alone, of the shape psi_k, puts forces ``int psi_k N_j n dA`` on the nodes j of the
+    nonmortar side and minus ``int psi_k N_l n dA`` on those of the mortar side, with the normals n that the nonmortar
+    side has there, not with a mean of them. Virtual work makes the same numbers the weights of the gap:
+    ``gap_k = sum_ji forces_kji x_ji / area_k``.
 
     Attributes
     ----------
     nodes : (k,) nonmortar nodes, sorted
-    area : (k,) that belongs to them
-    relative : (k, nodes of the mesh) sparse; weights of the nonmortar side, which sum to 1, minus those of the mortar
-        side, which sum to 1 too (none of a rigid obstacle)
+    normal_areas : (k, d) ``int psi_k n dA``, the sum of the forces on the nonmortar side; n into the nonmortar body
+    forces : d sparse arrays (k, nodes of the mesh), one a direction; every row sums to 0 (to ``normal_areas`` where a
+        rigid obstacle is the other side)
+
+    References
+    ----------
+    Puso, Laursen (2004), Computer Methods in Applied Mechanics and Engineering 193:601-629, section 3.
     """
 
     nodes: IntArray
-    area: Array
-    relative: sp.csr_array
+    normal_areas: Array
+    forces: tuple[sp.csr_array, ...]
+
+    @cached_property
+    def area(self) -> Array:
+        """(k,) Length of ``normal_areas``: that of the surface as far as it is flat."""
+        size: Array = np.linalg.norm(self.normal_areas, axis=1)
+        return size
+
+    @cached_property
+    def normals(self) -> Array:
+        """(k, d) Unit vectors along ``normal_areas``."""
+        return np.asarray(self.normal_areas / self.area[:, None])
+
+    @cached_property
+    def relative(self) -> sp.csr_array:
+        """(k, nodes of the mesh) What a pair sees along its own normal: weights of the nonmortar side, which sum to 1,
+        minus those of the mortar side, which sum to 1 too.
+        """
+        return sp.csr_array(sp.diags_array(1.0 / self.area) @ along(self.forces, self.normals))
+
+
+def along(forces: tuple[sp.csr_array, ...], directions: Array) -> sp.csr_array:
+    """Component of the vectors of every pair along a direction of its own (k, d), (k, nodes of the mesh)."""
+    first, *others = (sp.diags_array(directions[:, i]) @ force for i, force in enumerate(forces))
+    return sp.csr_array(sum(others, first))
+
+
+def point_coupling(nodes: IntArray, normal_areas: Array, relative: sp.csr_array) -> Coupling:
+    """Of pairs with one normal each.
+
+    Parameters
+    ----------
+    nodes : (k,) nonmortar nodes
+    normal_areas : (k, d) normal into the nonmortar body times area
+    relative : (k, nodes of the mesh) weights of the nonmortar side minus those of the mortar side
+    """
+    forces = tuple(sp.csr_array(sp.diags_array(part) @ relative) for part in normal_areas.T)
+    return Coupling(nodes=nodes, normal_areas=normal_areas, forces=forces)
+
+
+def picked(nodes: IntArray, count: int) -> sp.csr_array:
+    """One row a node, (k, count)."""
+    k = len(nodes)
+    return sp.csr_array((np.ones(k), (np.arange(k), nodes)), shape=(k, count))

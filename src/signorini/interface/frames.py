@@ -6,26 +6,24 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.fem.boundary import Boundary
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
+from signorini.interface.coupling import Coupling
 from signorini.interface.spatial.frames import frames
 
 _SAME = 1e-9  # of the size of the mesh: two nodes on one plane across an axis
 
 
-def side_normals(space: Space, constraints: Constraints, side: Boundary, nodes: IntArray) -> Array:
-    """Minus the averaged outward normals at nodes of a side, (k, d); in the plane of symmetry where one holds a node.
+def in_symmetry_planes(space: Space, constraints: Constraints, coupling: Coupling) -> Array:
+    """Normal areas of the pairs (k, d), in the plane of symmetry where one holds a node.
 
-    The average at the last node of a half model misses the other half: its component along the supported direction is
+    The integral at the last node of a half model misses the other half: its component along the supported direction is
     what the mirror image takes away.
     """
-    normals = -side.nodal_normals[np.searchsorted(side.nodes, nodes)]
-    inside = np.where(_held(space, constraints, nodes), 0.0, normals)
-    size = np.linalg.norm(inside, axis=1)
-    mirrored = size > 0.5
-    normals[mirrored] = inside[mirrored] / size[mirrored, None]
-    return normals
+    whole = coupling.normal_areas
+    inside = np.where(_held(space, constraints, coupling.nodes), 0.0, whole)
+    mirrored = np.linalg.norm(inside, axis=1) > 0.5 * coupling.area
+    return np.where(mirrored[:, None], inside, whole)
 
 
 def symmetric_partners(

@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary
+from signorini.interface.coupling import Coupling
 from signorini.model.contact import Contact
 
 _KINK = np.pi / 6.0  # a turn between two facets beyond this is a corner, not a curve
@@ -16,18 +16,43 @@ _STRAIGHT = 1e-9  # a turn, or a bulge of a length of one, below this is roundin
 _ROOM = 1.25  # times the bound: curvatures are estimates
 
 
-def initial_gaps(geometry: Array, contact: Contact) -> Array:
-    """What a contact makes of the gaps that the geometry has, (n,) length, negative: overlap."""
+def initial_gaps(geometry: Array, contact: Contact, one: Array) -> Array:
+    """What a contact makes of the gaps that the geometry has, (n,) length, negative: overlap.
+
+    Parameters
+    ----------
+    one : (n,) what pairs see of a gap of length 1 along the normals of the nonmortar side, see :func:`normal_gap`
+    """
     if contact.gap == "zero" or contact.tied:
         gap = np.zeros(len(geometry))
     elif contact.gap == "geometry":
         gap = geometry if contact.adjust is None else np.where(geometry <= contact.adjust, 0.0, geometry)
     else:
-        gap = np.full(len(geometry), contact.gap)
-    return gap - contact.interference
+        gap = contact.gap * one
+    return gap - contact.interference * one
 
 
-def without_chords(gap: Array, nodes: IntArray, relative: sp.csr_array, nonmortar: Boundary, mortar: Boundary) -> Array:
+def normal_gap(coupling: Coupling, nodes: IntArray, normals: Array, distance: Array) -> Array:
+    """What pairs see of a gap that is known at the nodes of the nonmortar side, along the normals there, (n,).
+
+    On curved quadratic sides the normals turn between the nodes of a pair: a gap of 1 is a little more than 1 along
+    the pair's own normal.
+
+    Parameters
+    ----------
+    nodes : (m,) of the nonmortar side
+    normals : (m, d) into the nonmortar body; a pair's own is that of the coupling
+    distance : (m,) length
+    """
+    vectors = np.zeros((coupling.forces[0].shape[1], normals.shape[1]))
+    vectors[nodes] = normals
+    vectors[coupling.nodes] = coupling.normals
+    vectors[nodes] *= distance[:, None]
+    seen = sum(force @ part for force, part in zip(coupling.forces, vectors.T, strict=True))
+    return np.asarray(seen / coupling.area)
+
+
+def without_chords(gap: Array, coupling: Coupling, nonmortar: Boundary, mortar: Boundary) -> Array:
     """Gaps (n,), 0 where they are no more than what facets leave between two surfaces that are meant to match.
 
     Two different polygons on one curve of curvature kappa are up to ``h^2 kappa / 8`` of both apart, parabolas
@@ -36,15 +61,15 @@ def without_chords(gap: Array, nodes: IntArray, relative: sp.csr_array, nonmorta
 
     Parameters
     ----------
-    nodes : (n,) nonmortar nodes of the pairs
-    relative : (n, nodes of the mesh), see :class:`signorini.interface.coupling.Coupling`
+    gap : (n,) from the geometry, length
+    coupling : of the two sides
     """
     own, other = (_parabola_sags(side) if side.quadratic else _chord_sags(side) for side in (nonmortar, mortar))
-    mine, opposite = np.zeros(relative.shape[1]), np.zeros(relative.shape[1])
+    mine, opposite = np.zeros(coupling.relative.shape[1]), np.zeros(coupling.relative.shape[1])
     mine[nonmortar.nodes], opposite[mortar.nodes] = own, other
-    mine = mine[nodes]
-    pattern = relative.tocoo()
-    fits = np.zeros(len(nodes))  # the largest sag of the other side that is hollow where this one bulges
+    mine = mine[coupling.nodes]
+    pattern = coupling.relative.tocoo()
+    fits = np.zeros(len(gap))  # the largest sag of the other side that is hollow where this one bulges
     np.maximum.at(fits, pattern.row, -np.sign(mine)[pattern.row] * opposite[pattern.col])
     meant = (mine == 0.0) | (fits == 0.0) | (np.abs(gap) > _ROOM * (np.abs(mine) + fits))
     return gap if meant.any() else np.zeros_like(gap)

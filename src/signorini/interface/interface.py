@@ -15,6 +15,7 @@ from signorini.fem.obstacles import carried
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.cone import effort
+from signorini.interface.coupling import along
 from signorini.interface.frames import along_tangents, tangents
 from signorini.interface.pairing import Pairs, Sides, make_pairs
 from signorini.interface.spatial.frames import ALONG
@@ -38,7 +39,7 @@ class Interface:
     ----------
     B : (d n, dofs) sparse; n normal rows, then n rows of every tangent
     gap : (n,) initial gaps g, length, negative where the bodies overlap
-    area : (n,) tributary area, see :func:`signorini.fem.measure.nodal_areas`
+    area : (n,) tributary area, see :class:`signorini.interface.coupling.Coupling`
     normals : (n, d) unit vectors
     tangents : (n, d - 1, d) unit vectors
     node : (n,) nodes on the nonmortar side
@@ -116,38 +117,27 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
         If surfaces do not face each other or their obstacle, or cannot be paired as asked, with the contact's index.
     """
     parts = [make_pairs(space, model, constraints, i) for i in range(len(model.contacts))]
-    index = np.repeat(np.arange(len(parts)), [len(part.nodes) for part in parts]).astype(int)
-    normals = np.concatenate([part.normals for part in parts]) if parts else np.empty((0, space.dimension))
-    _refuse_no_normal(space, parts)
-    mirrored = np.concatenate([part.mirrored for part in parts]) if parts else np.empty((0, space.dimension), bool)
-    none = sp.csr_array((0, len(space.mesh.points)))
-
-    def joined(key: str) -> Array:
-        return np.concatenate([getattr(part, key) for part in parts]) if parts else np.empty(0)
+    index = np.repeat(np.arange(len(parts)), [len(part.gap) for part in parts]).astype(int)
+    normals = _joined([part.coupling.normals for part in parts], (0, space.dimension))
+    area = _joined([part.coupling.area for part in parts], (0,))
+    node: IntArray = np.concatenate([np.empty(0, int), *(part.coupling.nodes for part in parts)])
+    mirrored: BoolArray = np.concatenate([np.empty((0, space.dimension), bool), *(part.mirrored for part in parts)])
 
     def data(key: str) -> Array:
         return np.array([getattr(contact, key) for contact in model.contacts], float)[index]
 
     fibres = np.array([contact.friction_axis or (0.0,) * 3 for contact in model.contacts]).reshape(-1, 3)[index]
     axes, still = tangents(normals, mirrored, fibres)
-    _refuse_no_fibre(space, model, joined("nodes").astype(int), index, normals, mirrored)
-    position = sp.vstack([none, *(part.relative for part in parts)]) @ space.mesh.points
-    carrier = np.repeat([part.obstacle for part in parts], np.bincount(index, minlength=len(parts))).astype(int)
-    rows = []
-    sliding = [(axes[:, k], "sliding", np.where(still[:, k], 0.0, 1.0)) for k in range(space.dimension - 1)]
-    for directions, key, moves in [(normals, "relative", np.ones(len(normals))), *sliding]:
-        relative = sp.vstack([none, *(getattr(part, key) for part in parts)])
-        own = sp.hstack([_along(space, relative, directions), _carried(model, carrier, position, directions)])
-        rows.append(sp.diags_array(moves) @ own)
-    friction = friction_of(space, model, joined("nodes").astype(int), index)
+    _refuse_no_fibre(space, model, node, index, normals, mirrored)
+    friction = friction_of(space, model, node, index)
     facets = np.array([contact.facets for contact in model.contacts], np.int64)[index]
     return Interface(
-        B=sp.csr_array(sp.vstack(rows)),
-        gap=joined("gap"),
-        area=joined("area"),
+        B=_relative_rows(space, model, parts, normals, axes, still),
+        gap=_joined([part.gap for part in parts], (0,)),
+        area=area,
         normals=normals,
         tangents=axes,
-        node=joined("nodes").astype(int),
+        node=node,
         contact=index,
         friction=friction,
         anisotropy=anisotropy_of(model, axes, index),
@@ -159,12 +149,27 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
     )
 
 
-def _refuse_no_normal(space: Space, parts: Sequence[Pairs]) -> None:
-    for i, part in enumerate(parts):
-        lost = np.flatnonzero(~np.isfinite(part.normals).all(axis=1))
-        if len(lost):
-            number = space.mesh.labels[part.nodes[lost[0]]]
-            raise InputError(f"node {number} has no normal: a face there has no area", where=("contact", i))
+def _relative_rows(
+    space: Space, model: Model, parts: Sequence[Pairs], normals: Array, axes: Array, still: BoolArray
+) -> sp.csr_array:
+    """B: the normal rows of all pairs, then those along every tangent."""
+    count = [len(part.gap) for part in parts]
+    per_area = sp.diags_array(1.0 / _joined([part.coupling.area for part in parts], (0,)))
+    none = sp.csr_array((0, len(space.mesh.points)))
+    closing, sliding = (
+        tuple(per_area @ sp.vstack([none, *(part[i] for part in of)]) for i in range(space.dimension))
+        for of in ([part.coupling.forces for part in parts], [part.sliding for part in parts])
+    )
+    carrier = np.repeat([part.obstacle for part in parts], count).astype(int)
+    rows = [_with_obstacles(space, model, carrier, closing)]
+    for k in range(space.dimension - 1):
+        turned = _turned(sliding, normals, axes[:, k])
+        rows.append(sp.diags_array(np.where(still[:, k], 0.0, 1.0)) @ _with_obstacles(space, model, carrier, turned))
+    return sp.csr_array(sp.vstack(rows))
+
+
+def _joined(parts: Sequence[Array], none: tuple[int, ...]) -> Array:
+    return np.concatenate(parts) if parts else np.empty(none)
 
 
 def _refuse_no_fibre(
@@ -232,24 +237,33 @@ def friction_of(space: Space, model: Model, node: IntArray, contact: IntArray) -
     return friction
 
 
-def _along(space: Space, relative: sp.csr_array, axes: Array) -> sp.csr_array:
-    """Rows ``axis_k . sum_j relative_kj u_j`` in terms of the displacements of all nodes."""
-    entries = sp.coo_array(relative)
-    values = entries.data[:, None] * axes[entries.row]
-    rows = np.repeat(entries.row, space.dimension)
-    columns = space.dofs(entries.col.astype(np.int64)).ravel()
-    result = sp.csr_array((values.ravel(), (rows, columns)), shape=(len(axes), space.mesh.points.size))
-    result.eliminate_zeros()
-    return result
+def _turned(closing: tuple[sp.csr_array, ...], normals: Array, axes: Array) -> tuple[sp.csr_array, ...]:
+    """Rows of the sliding along one axis t of every pair: what turns n into t, ``t n^T - n t^T``, turns them too.
+
+    In the plane that is the exact turn by a right angle: where the weights of the gap follow the normals along a curved
+    side, those of the sliding follow its tangents, and a uniform friction passes as exactly as a uniform pressure.
+    """
+    onto, aside = along(closing, normals), along(closing, axes)
+    return tuple(
+        sp.csr_array(sp.diags_array(axes[:, i]) @ onto - sp.diags_array(normals[:, i]) @ aside)
+        for i in range(axes.shape[1])
+    )
 
 
-def _carried(model: Model, carrier: IntArray, position: Array, axes: Array) -> sp.csr_array:
-    """What moving obstacles add to the same rows: minus their displacement where the nonmortar side is."""
-    width = 2 * axes.shape[1]
-    values = np.zeros((len(axes), width))
+def _with_obstacles(space: Space, model: Model, carrier: IntArray, weights: tuple[sp.csr_array, ...]) -> sp.csr_array:
+    """Rows ``sum_ji weights_kji u_ji`` in terms of all unknowns: moving obstacles take the nonmortar side with them."""
+    entries = [sp.coo_array(part) for part in weights]
+    rows = np.concatenate([part.row for part in entries])
+    columns = np.concatenate([space.dofs(part.col.astype(np.int64))[:, i] for i, part in enumerate(entries)])
+    values = np.concatenate([part.data for part in entries])
+    bodies = sp.csr_array((values, (rows, columns)), shape=(len(carrier), space.mesh.points.size))
+    bodies.eliminate_zeros()
+    width = 2 * space.dimension
+    moved = np.zeros((len(carrier), width * len(model.obstacles)))
     for j in range(len(model.obstacles)):
-        own = carrier == j
-        values[own] = -np.einsum("ki,kil->kl", axes[own], carried(model, j, position[own]))
-    rows, columns = np.nonzero(values)
-    shape = (len(axes), width * len(model.obstacles))
-    return sp.csr_array((values[rows, columns], (rows, width * carrier[rows] + columns)), shape=shape)
+        own = np.flatnonzero(carrier == j)
+        seen = np.unique(np.concatenate([part[own].indices for part in weights]))
+        motions = carried(model, j, space.mesh.points[seen])
+        of_pairs = sum(part[own][:, seen] @ motions[:, i] for i, part in enumerate(weights))
+        moved[own, width * j : width * (j + 1)] = -of_pairs
+    return sp.csr_array(sp.hstack([bodies, sp.csr_array(moved)]))

@@ -31,12 +31,14 @@ def mortar_coupling(
     """Weigh both sides with the functions dual to the hats of the nonmortar corner nodes.
 
     On the covered part of every nonmortar facet, ``psi = diag(int N) (int N N^T)^-1 N``, N its two corner hats, so that
-    ``int psi_a N_b = delta_ab int N_a``; with ``w_k = int psi_k`` pair k sees
+    ``int psi_a N_b = delta_ab int N_a``; a unit pressure of pair k puts the forces
 
-        sum_j (int psi_k N_j / w_k) x_j  -  sum_l (int psi_k N_l^mortar / w_k) x_l .
+        int psi_k N_j n dA  on the nonmortar,  - int psi_k N_l^mortar n dA  on the mortar side,
 
-    The weights reproduce linear fields where the surfaces coincide, and ``sum_k w_k P_kl = int N_l^mortar``: uniform
-    pressure passes exactly. Of linear facets the first sum is the node itself. Quadratic facets have pairs at their
+    n the normal of the nonmortar side where it is. The psi_k sum to 1, so that a uniform pressure passes exactly, also
+    where the sides are curved: on the nonmortar side as ``int N_j n dA``, on the mortar side as its own where the two
+    coincide. Facets see each other across their chords: of linear facets the forces of every pair are in balance, with
+    their moments. On linear facets only the pair's own node bears its forces. Quadratic facets have pairs at their
     corners only (their own dual functions oscillate).
 
     Parameters
@@ -54,17 +56,18 @@ def mortar_coupling(
     ----------
     Wohlmuth (2000), SIAM J. Numer. Anal. 38:989; Popp, Wohlmuth, Gee, Wall (2012), SIAM J. Sci. Comput. 34:B421.
     """
-    at, weights = _quadrature(points, nonmortar, overlaps, measure, mortar.facets.shape[1])
-    weight, multiplier = _duals(nonmortar, overlaps, at, weights, len(points))
-    full = _full(points, nonmortar, measure)
-    nodes = np.nonzero(weight > _COVERED * full)[0]
+    at, areas = _quadrature(points, nonmortar, overlaps, measure, mortar.facets.shape[1])
+    _, multiplier = _duals(nonmortar, overlaps, at, areas)
+    corners, n = nonmortar.facets[:, :2], len(points)
+    vectors = np.zeros((n, 2))
+    np.add.at(vectors, corners[overlaps.first], np.einsum("pqad->pad", multiplier))
+    nodes = np.nonzero(np.linalg.norm(vectors, axis=1) > _COVERED * _full(points, nonmortar, measure))[0]
     if not len(nodes):
         raise InputError("no node of the nonmortar side has the mortar side opposite it", where=where)
-    corners, n = nonmortar.facets[overlaps.first, :2], len(points)
-    gives = _spread(corners, mortar.facets[overlaps.second], multiplier, _shapes(overlaps.other, at), n)
-    keeps = _own_weights(nonmortar, overlaps, at, weight, multiplier)
-    relative = sp.csr_array(sp.diags_array(1.0 / weight[nodes]) @ (keeps - gives)[nodes])
-    return Coupling(nodes=nodes, area=weight[nodes], relative=relative)
+    other = _spread(corners[overlaps.first], mortar.facets[overlaps.second], multiplier, _shapes(overlaps.other, at), n)
+    own = _own_forces(nonmortar, overlaps, at, vectors, multiplier)
+    forces = tuple(sp.csr_array((keeps - gives)[nodes]) for keeps, gives in zip(own, other, strict=True))
+    return Coupling(nodes=nodes, normal_areas=vectors[nodes], forces=forces)
 
 
 def _whole(points: Array, side: Boundary) -> Overlaps:
@@ -80,7 +83,7 @@ def _whole(points: Array, side: Boundary) -> Overlaps:
 def _quadrature(
     points: Array, side: Boundary, overlaps: Overlaps, measure: Callable[[Array], Array], opposite: int
 ) -> tuple[Array, Array]:
-    """Places along the chords and weights, (p, q) each: arc length of the side times the measure."""
+    """Places along the chords (p, q), and normals into the body times arc length times the measure, (p, q, 2)."""
     count = side.facets.shape[1]
     where, share = np.polynomial.legendre.leggauss(_POINTS[max(count, opposite)])
     half = 0.5 * (overlaps.high - overlaps.low)[:, None]
@@ -88,30 +91,30 @@ def _quadrature(
     s = parameter(overlaps.own, at)
     slopes = line_shapes(count, s.ravel())[1].reshape(*s.shape, count)
     corners = points[side.facets[overlaps.first]]
-    speed = np.linalg.norm(np.einsum("pqa,pad->pqd", slopes, corners), axis=-1)
-    stretch = speed / np.abs(np.einsum("pqa,pa->pq", slopes, overlaps.own))
-    weights: Array = half * share * stretch * measure(interpolate(corners, s))
-    return at, weights
+    along = np.einsum("pqa,pad->pqd", slopes, corners)
+    weights = half * share / np.abs(np.einsum("pqa,pa->pq", slopes, overlaps.own)) * measure(interpolate(corners, s))
+    inward = np.stack([-along[..., 1], along[..., 0]], axis=-1)
+    return at, weights[..., None] * inward
 
 
-def _duals(side: Boundary, overlaps: Overlaps, at: Array, weights: Array, n: int) -> tuple[Array, Array]:
-    """``int psi_k`` of every node of the mesh (n,), and psi of both corners times the weights (p, q, 2)."""
+def _duals(side: Boundary, overlaps: Overlaps, at: Array, areas: Array) -> tuple[Array, Array]:
+    """``int psi_k`` of both corners of every facet (m, 2), and psi of both times the areas, (p, q, 2, 2)."""
     s = parameter(overlaps.own, at)
     hats = line_shapes(2, s.ravel())[0].reshape(*s.shape, 2)
     mass = np.zeros((len(side.facets), 2, 2))
-    np.add.at(mass, overlaps.first, np.einsum("pq,pqa,pqb->pab", weights, hats, hats))
-    share = mass.sum(axis=2)
-    multiplier = np.einsum("pab,pqb->pqa", dual_functions(mass)[overlaps.first], hats) * weights[..., None]
-    weight: Array = np.bincount(side.facets[:, :2].ravel(), share.ravel(), n).astype(float)
-    return weight, multiplier
+    np.add.at(mass, overlaps.first, np.einsum("pq,pqa,pqb->pab", np.linalg.norm(areas, axis=-1), hats, hats))
+    multiplier = np.einsum("pab,pqb->pqa", dual_functions(mass)[overlaps.first], hats)
+    return mass.sum(axis=2), multiplier[..., None] * areas[..., None, :]
 
 
-def _own_weights(side: Boundary, overlaps: Overlaps, at: Array, weight: Array, multiplier: Array) -> sp.csr_array:
-    """``int psi_k N_j`` of the side itself, (n, n): diagonal for linear facets."""
-    if side.facets.shape[1] == 2:
-        return sp.csr_array(sp.diags_array(weight))
+def _own_forces(
+    side: Boundary, overlaps: Overlaps, at: Array, vectors: Array, multiplier: Array
+) -> tuple[sp.csr_array, ...]:
+    """``int psi_k N_j n`` of the side itself, two of (n, n): diagonal for linear facets, along which n is constant."""
+    if not side.quadratic:
+        return tuple(sp.csr_array(sp.diags_array(part)) for part in vectors.T)
     facets = side.facets[overlaps.first]
-    return _spread(facets[:, :2], facets, multiplier, _shapes(overlaps.own, at), len(weight))
+    return _spread(facets[:, :2], facets, multiplier, _shapes(overlaps.own, at), len(vectors))
 
 
 def _shapes(places: Array, at: Array) -> Array:
@@ -121,15 +124,15 @@ def _shapes(places: Array, at: Array) -> Array:
     return values
 
 
-def _spread(rows: IntArray, columns: IntArray, multiplier: Array, shapes: Array, n: int) -> sp.csr_array:
-    """``int psi_a N_b`` of all pieces, summed into an (n, n) matrix."""
-    values = np.einsum("pqa,pqb->pab", multiplier, shapes)
-    i, j = (np.broadcast_to(part, values.shape).ravel() for part in (rows[:, :, None], columns[:, None, :]))
-    return sp.csr_array((values.ravel(), (i, j)), shape=(n, n))
+def _spread(rows: IntArray, columns: IntArray, multiplier: Array, shapes: Array, n: int) -> tuple[sp.csr_array, ...]:
+    """``int psi_a N_b n`` of all pieces, summed into an (n, n) matrix for either direction."""
+    values = np.einsum("pqad,pqb->dpab", multiplier, shapes)
+    i, j = (np.broadcast_to(part, values.shape[1:]).ravel() for part in (rows[:, :, None], columns[:, None, :]))
+    return tuple(sp.csr_array((part.ravel(), (i, j)), shape=(n, n)) for part in values)
 
 
 def _full(points: Array, side: Boundary, measure: Callable[[Array], Array]) -> Array:
-    """Weight of every node of the mesh if all facets were covered, (n,)."""
+    """``int psi_k`` of every node of the mesh if all facets were covered, (n,)."""
     whole = _whole(points, side)
-    at, weights = _quadrature(points, side, whole, measure, 2)
-    return _duals(side, whole, at, weights, len(points))[0]
+    share, _ = _duals(side, whole, *_quadrature(points, side, whole, measure, 2))
+    return np.bincount(side.facets[:, :2].ravel(), share.ravel(), len(points)).astype(float)

@@ -12,14 +12,14 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary, boundary
-from signorini.fem.measure import facet_areas, measure, nodal_areas
+from signorini.fem.measure import facet_areas, measure, nodal_areas, nodal_normal_areas
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface import spatial
 from signorini.interface.corners import corner_coupling
-from signorini.interface.coupling import Coupling
-from signorini.interface.frames import side_normals, symmetric_partners
-from signorini.interface.gaps import initial_gaps, refuse_deep_overlap, without_chords
+from signorini.interface.coupling import Coupling, picked, point_coupling
+from signorini.interface.frames import in_symmetry_planes, symmetric_partners
+from signorini.interface.gaps import initial_gaps, normal_gap, refuse_deep_overlap, without_chords
 from signorini.interface.matching import match_nodes
 from signorini.interface.mortar import mortar_coupling
 from signorini.interface.overlap import find_overlaps
@@ -55,22 +55,17 @@ class Pairs:
 
     Attributes
     ----------
-    nodes : (k,) on the nonmortar side
-    area, gap : (k,)
-    normals : (k, d) into the nonmortar body
-    relative : (k, nodes of the mesh) weights of the relative displacement
-    sliding : the same for the tangential part; it differs on planes of symmetry in 2D
+    coupling : with the normals in the planes of symmetry
+    gap : (k,)
+    sliding : as ``coupling.forces`` for the tangential part; it differs on planes of symmetry in 2D
     mirrored : (k, d) in space whether a pair lies on a plane of symmetry across a coordinate axis
     sides : how they were found
     obstacle : number of the moving obstacle that is the other side, otherwise -1
     """
 
-    nodes: IntArray
-    area: Array
+    coupling: Coupling
     gap: Array
-    normals: Array
-    relative: sp.csr_array
-    sliding: sp.csr_array
+    sliding: tuple[sp.csr_array, ...]
     mirrored: BoolArray
     sides: Sides
     obstacle: int = -1
@@ -100,7 +95,7 @@ def make_pairs(space: Space, model: Model, constraints: Constraints, i: int) -> 
         if contact.side == "coarser" and side.lengths.mean() < (1.0 - 1e-9) * mortar.lengths.mean():
             side, mortar, names = mortar, side, names[::-1]
         pairs = _on_side(space, model, constraints, side, mortar, contact, names, where)
-    refuse_deep_overlap(pairs.gap, space.mesh.labels[pairs.nodes], contact, float(side.lengths.max()), where)
+    refuse_deep_overlap(pairs.gap, space.mesh.labels[pairs.coupling.nodes], contact, float(side.lengths.max()), where)
     return pairs
 
 
@@ -112,21 +107,19 @@ def _on_obstacle(
     distance, normals = obstacle.nearest(points[side.nodes])
     if (np.sum(side.nodal_normals * normals, axis=1) >= 0).all():
         raise InputError(f"'{contact.nonmortar}' faces away from {_turned(obstacle)}", where=where)
-    if not side.quadratic:
-        area = nodal_areas(model, side)
-        coupling = Coupling(nodes=side.nodes, area=area, relative=_pick(side.nodes, len(points)))
+    if side.quadratic:
+        _, there = obstacle.nearest(side.at.reshape(-1, side.dimension))
+        coupling = corner_coupling(side, facet_areas(model, side), there.reshape(side.at.shape), len(points))
     else:
-        coupling = corner_coupling(side, facet_areas(model, side), len(points))
-        distance = coupling.relative[:, side.nodes] @ distance
-        normals = normals[np.searchsorted(side.nodes, coupling.nodes)]
+        areas = nodal_areas(model, side)[:, None] * normals
+        coupling = point_coupling(side.nodes, areas, picked(side.nodes, len(points)))
+    _refuse_no_normal(space, coupling, where)
+    one = normal_gap(coupling, side.nodes, normals, np.ones(len(distance)))
     return Pairs(
-        nodes=coupling.nodes,
-        area=coupling.area,
-        gap=initial_gaps(distance, contact),
-        normals=normals,
-        relative=coupling.relative,
-        sliding=coupling.relative,
-        mirrored=np.zeros(normals.shape, bool),
+        coupling=coupling,
+        gap=initial_gaps(normal_gap(coupling, side.nodes, normals, distance), contact, one),
+        sliding=coupling.forces,
+        mirrored=np.zeros(coupling.normals.shape, bool),
         sides=Sides(nonmortar=contact.nonmortar, mortar=str(obstacle), coupling="obstacle"),
     )
 
@@ -160,21 +153,21 @@ def _on_side(
             where=where,
         )
     coupling, how = _couple(space, model, side, mortar, contact, where)
-    normals = side_normals(space, constraints, side, coupling.nodes)
-    gap = np.sum((coupling.relative @ points) * normals, axis=1)
+    _refuse_no_normal(space, coupling, where)
+    seen, coupling = coupling, replace(coupling, normal_areas=in_symmetry_planes(space, constraints, coupling))
+    gap = sum(force @ x for force, x in zip(seen.forces, points.T, strict=True)) / coupling.area
     plane = side.dimension == 2
     if how != "nodes" and plane:
-        gap = without_chords(gap, coupling.nodes, coupling.relative, side, mortar)
+        gap = without_chords(gap, seen, side, mortar)
     elif how != "nodes":
-        gap = spatial.without_chords(gap, coupling, *(spatial.make_surface(points, b.facets) for b in (side, mortar)))
-    partner = symmetric_partners(space, constraints, coupling.nodes, normals, mortar.nodes)
+        gap = spatial.without_chords(gap, seen, *(spatial.make_surface(points, b.facets) for b in (side, mortar)))
+    one = normal_gap(coupling, side.nodes, -side.nodal_normals, np.ones(len(side.nodes)))
+    partner = symmetric_partners(space, constraints, coupling.nodes, coupling.normals, mortar.nodes)
+    coupling = replace(coupling, forces=_without_removed(seen, coupling.normal_areas, partner))
     return Pairs(
-        nodes=coupling.nodes,
-        area=coupling.area,
-        gap=initial_gaps(gap, contact),
-        normals=normals,
-        relative=coupling.relative,
-        sliding=_mirrored(coupling, partner.max(axis=1)) if plane else coupling.relative,
+        coupling=coupling,
+        gap=initial_gaps(gap, contact, one),
+        sliding=_mirrored(coupling, partner.max(axis=1)) if plane else coupling.forces,
         mirrored=(partner >= 0) & (not plane),
         sides=Sides(
             nonmortar=names[0],
@@ -198,11 +191,11 @@ def _couple(
         if reason and contact.coupling == "nodes":
             raise InputError(reason, where=where)
         if not reason:
-            relative = _pick(side.nodes, count) - _pick(partner, count)
-            return Coupling(nodes=side.nodes, area=nodal_areas(model, side), relative=sp.csr_array(relative)), "nodes"
+            relative = sp.csr_array(picked(side.nodes, count) - picked(partner, count))
+            return point_coupling(side.nodes, -nodal_normal_areas(model, side), relative), "nodes"
     if contact.coupling == "node-to-segment":
-        area = nodal_areas(model, side)
-        return node_to_segment(points, side, mortar, area, contact.search, where), "node-to-segment"
+        areas = -nodal_normal_areas(model, side)
+        return node_to_segment(points, side, mortar, areas, contact.search, where), "node-to-segment"
     overlaps = find_overlaps(points, side, mortar, contact.search, where)
     return mortar_coupling(points, side, mortar, overlaps, partial(measure, model), where), "mortar"
 
@@ -223,20 +216,37 @@ def _couple_in_space(
     return spatial.mortar_coupling(own, other, search=contact.search, where=where), "mortar"
 
 
-def _pick(nodes: IntArray, count: int) -> sp.csr_array:
-    """One row a node, (k, count)."""
-    k = len(nodes)
-    return sp.csr_array((np.ones(k), (np.arange(k), nodes)), shape=(k, count))
+def _refuse_no_normal(space: Space, coupling: Coupling, where: Where) -> None:
+    lost = np.flatnonzero(~(coupling.area > 0.0))
+    if len(lost):
+        number = space.mesh.labels[coupling.nodes[lost[0]]]
+        raise InputError(f"node {number} has no normal: a face there has no area", where=where)
 
 
-def _mirrored(coupling: Coupling, partner: IntArray) -> sp.csr_array:
+def _without_removed(seen: Coupling, kept: Array, partner: IntArray) -> tuple[sp.csr_array, ...]:
+    """Forces without what the mirror image takes away, left to the two nodes on the plane, where supports bear it."""
+    count = seen.forces[0].shape[1]
+    parts = []
+    for i, force in enumerate(seen.forces):
+        there = np.nonzero((partner[:, i] >= 0) & (seen.normal_areas[:, i] != kept[:, i]))[0]
+        across = picked(seen.nodes[there], count) - picked(partner[there, i], count)
+        taken = sp.diags_array((kept - seen.normal_areas)[there, i]) @ across
+        parts.append(sp.csr_array(force + _rows(there, len(partner)) @ taken))
+    return tuple(parts)
+
+
+def _mirrored(coupling: Coupling, partner: IntArray) -> tuple[sp.csr_array, ...]:
     """The weights of the sliding: node against node on planes of symmetry."""
     there = np.nonzero(partner >= 0)[0]
-    if not len(there):
-        return coupling.relative
-    count = coupling.relative.shape[1]
-    pairs = sp.csr_array(_pick(coupling.nodes[there], count) - _pick(partner[there], count))
-    keep = np.ones(len(partner))
-    keep[there] = 0.0
-    spread = sp.csr_array((np.ones(len(there)), (there, np.arange(len(there)))), shape=(len(partner), len(there)))
-    return sp.csr_array(sp.diags_array(keep) @ coupling.relative + spread @ pairs)
+    count, rows = coupling.forces[0].shape[1], _rows(there, len(partner))
+    pairs = picked(coupling.nodes[there], count) - picked(partner[there], count)
+    keep = sp.diags_array(np.where(partner >= 0, 0.0, 1.0))
+    return tuple(
+        sp.csr_array(keep @ force + rows @ (sp.diags_array(coupling.normal_areas[there, i]) @ pairs))
+        for i, force in enumerate(coupling.forces)
+    )
+
+
+def _rows(there: IntArray, count: int) -> sp.csr_array:
+    """What puts rows at their places, (count, k)."""
+    return sp.csr_array((np.ones(len(there)), (there, np.arange(len(there)))), shape=(count, len(there)))

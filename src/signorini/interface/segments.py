@@ -11,14 +11,14 @@ from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary
 from signorini.fem.line import line_shapes
-from signorini.interface.coupling import Coupling
+from signorini.interface.coupling import Coupling, point_coupling
 from signorini.interface.overlap import FACING, interpolate, parameter, search_distance
 
 _BESIDE = 1e-9  # of half a facet: how far beyond its end a node still lies on it
 
 
 def node_to_segment(
-    points: Array, nonmortar: Boundary, mortar: Boundary, area: Array, search: float | None, where: Where
+    points: Array, nonmortar: Boundary, mortar: Boundary, areas: Array, search: float | None, where: Where
 ) -> Coupling:
     """Every nonmortar node against the point that its normal meets on the mortar side; nodes that meet none are left.
 
@@ -27,7 +27,7 @@ def node_to_segment(
     Parameters
     ----------
     points : (n, 2) of all nodes
-    area : (k,) of the nonmortar nodes
+    areas : (k, 2) of the nonmortar nodes, normal into the body times area
     search : how far apart node and facet can be, length; None: half the size of the smaller side
 
     Raises
@@ -59,11 +59,8 @@ def node_to_segment(
     own, best = np.unique(node[order], return_index=True)
     best = order[best]
     values = line_shapes(mortar.facets.shape[1], np.clip(s[best, 0], -1.0, 1.0))[0]
-    return Coupling(
-        nodes=nonmortar.nodes[own],
-        area=area[own],
-        relative=_rows(nonmortar.nodes[own], mortar.facets[facet[best]], values, len(points)),
-    )
+    nodes = nonmortar.nodes[own]
+    return point_coupling(nodes, areas[own], _rows(nodes, mortar.facets[facet[best]], values, len(points)))
 
 
 def _near(points: Array, nonmortar: Boundary, mortar: Boundary, search: float) -> tuple[IntArray, IntArray]:

@@ -6,7 +6,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from signorini.api import solve
-from signorini.gallery.fenet import HERTZ, cylinder_on_block
+from signorini.gallery.fenet import HERTZ, SEAT, cylinder_on_block
+from signorini.model.step import Step
 from signorini.verify.check import Check
 
 _SMALL_STRAIN = "independent small-strain computation"
@@ -40,3 +41,19 @@ def cylinder() -> Iterator[Check]:
                 tolerance=tolerance,
                 source=source,
             )
+    yield _stick(1.0)
+
+
+def _stick(spacing: float) -> Check:
+    """How far it sticks where all of the load comes at once, as in the computation that printed "about 2.0"."""
+    cells = round(SEAT / spacing)
+    model = cylinder_on_block(friction=0.1, across=(cells, cells), steps=(Step(increments=1),))
+    contact = solve(model).contact("contact")
+    return Check(
+        case=f"FENET 1 cylinder on block, mu 0.1, {cells} : {cells} cells, one increment",
+        quantity="half-width of stick, to a cell",
+        computed=float(contact.points[contact.status == "stick", 0].max()),
+        reference=2.0,
+        tolerance=spacing / 2.0,
+        source=_SMALL_STRAIN,
+    )

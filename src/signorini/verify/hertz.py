@@ -16,7 +16,7 @@ from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact
 from signorini.model.material import Elastic
-from signorini.model.mesh import join
+from signorini.model.mesh import Mesh, join
 from signorini.model.model import Kind, Model
 from signorini.model.obstacle import Plane
 from signorini.reference.hertz import HertzLine, HertzPoint, contact_modulus
@@ -24,6 +24,7 @@ from signorini.verify.check import Check
 
 _LINE = HertzLine(force=LINE_FORCE, radius=RADIUS, modulus=MODULUS)
 _POINT = HertzPoint(force=POINT_FORCE, radius=RADIUS, modulus=MODULUS)
+_BALL, _BALL_RADIUS = Elastic(E=20000.0, nu=0.3), 50.0
 _INSIDE = 0.85
 """Part of the half-width where pressures are compared: at the edge they are steeper than a cell."""
 
@@ -105,33 +106,23 @@ def _axis(
 
 def equal_spheres() -> Iterator[Check]:
     """B03: spheres of radius 50 whose equators approach by 4, as one on its plane of symmetry and as two."""
-    radius, approach, body = 50.0, 4.0, Elastic(E=20000.0, nu=0.3)
-    modulus = contact_modulus((body.E, body.nu))
-    reference = -2.0 * modulus / np.pi * float(np.sqrt(0.5 * approach / radius))
-    half = quarter_disk(radius=radius, contact_length=15.0, contact_spacing=0.5)
-    one = Model(
-        half,
-        kind="axisymmetric",
-        bodies=[Body("disk", body)],
-        supports=[Support("cut", u=(None, -0.5 * approach))],
-        contacts=[Contact("arc", Plane(point=(0, 0), normal=(0, 1)), name="contact")],
-    )
-    coarser = quarter_disk(radius=radius, contact_length=15.0, contact_spacing=0.75)
+    half = _half_sphere(0.5)
+    coarser = _half_sphere(0.75)
     two = Model(
         join({"upper": half, "lower": replace(coarser, points=np.array(coarser.points) * [1.0, -1.0])}),
         kind="axisymmetric",
-        bodies=[Body("upper", body), Body("lower", body)],
-        supports=[Support("upper.cut", u=(None, -0.5 * approach)), Support("lower.cut", u=(None, 0.5 * approach))],
+        bodies=[Body("upper", _BALL), Body("lower", _BALL)],
+        supports=[Support("upper.cut", u=(None, -2.0)), Support("lower.cut", u=(None, 2.0))],
         contacts=[Contact("upper.arc", "lower.arc", side="coarser", name="contact")],
     )
-    for words, model, name in (("one on its plane of symmetry", one, "disk"), ("two that do not match", two, "upper")):
-        solution = solve(model)
-        force = float(np.abs(solution.contact("contact").normal_force[1]))
-        hertz = HertzPoint(force=force, radius=radius, modulus=modulus)
-        found = float(solution.along([(0.0, 0.0)], body=name).stress[0, 1])
+    for words, model, name in (
+        ("one on its plane of symmetry", _sphere_on_its_plane(half, 4.0), "disk"),
+        ("two that do not match", two, "upper"),
+    ):
+        found, by_approach, by_force = _centre(model, name, 4.0)
         for quantity, peak, tolerance, source in (
-            ("for the approach of 4", reference, 0.05, "Hertz; Code_Aster SSNV104; a finite body is stiffer"),
-            ("for the force it takes", -hertz.peak_pressure, 0.03, "Hertz"),
+            ("for the approach of 4", by_approach, 0.05, "Hertz; Code_Aster SSNV104; a finite body is stiffer"),
+            ("for the force it takes", by_force, 0.03, "Hertz"),
         ):
             yield Check(
                 case=f"B03 equal spheres, a/R 0.2, {words}",
@@ -141,3 +132,52 @@ def equal_spheres() -> Iterator[Check]:
                 tolerance=tolerance,
                 source=source,
             )
+
+
+def small_equal_spheres() -> Iterator[Check]:
+    """B03 with smaller approaches, and with finer cells: what is left at a/R = 0.2 is the finite body, not the mesh."""
+    excess = {}
+    for approach, cells in ((4.0, 15), (4.0, 30), (1.0, 30), (0.25, 30)):
+        width = 1.5 * float(np.sqrt(0.5 * approach * _BALL_RADIUS))
+        mesh = quarter_disk(radius=_BALL_RADIUS, contact_length=width, contact_spacing=width / cells, order=2)
+        found, by_approach, _ = _centre(_sphere_on_its_plane(mesh, approach), "disk", approach)
+        excess[approach, cells] = found / by_approach - 1.0
+    case = "B03 equal spheres, quad8: excess of sigma_zz at the centre over Hertz at the same approach"
+    for quantity, computed, reference, tolerance, source in (
+        ("a/R 0.2: change with cells of half the size", excess[4.0, 30] - excess[4.0, 15], 0.0, 0.003, "each other"),
+        ("a/R 0.1", excess[1.0, 30], 0.0, 0.03, "Hertz"),
+        ("a/R 0.05", excess[0.25, 30], 0.0, 0.015, "Hertz"),
+        ("half as large where a/R is, 0.2 to 0.1", excess[1.0, 30] / excess[4.0, 30], 0.5, 0.2, "expansion in a/R"),
+        ("half as large where a/R is, 0.1 to 0.05", excess[0.25, 30] / excess[1.0, 30], 0.5, 0.2, "expansion in a/R"),
+    ):
+        yield Check(
+            case=case,
+            quantity=quantity,
+            computed=float(computed),
+            reference=reference,
+            tolerance=tolerance,
+            source=source,
+        )
+
+
+def _half_sphere(spacing: float) -> Mesh:
+    return quarter_disk(radius=_BALL_RADIUS, contact_length=15.0, contact_spacing=spacing)
+
+
+def _sphere_on_its_plane(mesh: Mesh, approach: float) -> Model:
+    return Model(
+        mesh,
+        kind="axisymmetric",
+        bodies=[Body("disk", _BALL)],
+        supports=[Support("cut", u=(None, -0.5 * approach))],
+        contacts=[Contact("arc", Plane(point=(0, 0), normal=(0, 1)), name="contact")],
+    )
+
+
+def _centre(model: Model, body: str, approach: float) -> tuple[float, float, float]:
+    """Stress across the contact at its centre: as found, by Hertz for the approach, by Hertz for the force it took."""
+    solution, modulus = solve(model), contact_modulus((_BALL.E, _BALL.nu))
+    force = float(np.abs(solution.contact("contact").normal_force[1]))
+    by_force = HertzPoint(force=force, radius=_BALL_RADIUS, modulus=modulus).peak_pressure
+    by_approach = 2.0 * modulus / np.pi * float(np.sqrt(0.5 * approach / _BALL_RADIUS))
+    return float(solution.along([(0.0, 0.0)], body=body).stress[0, 1]), -by_approach, -by_force

@@ -13,16 +13,17 @@ from signorini.engine.solve import solve
 from signorini.fem.generators import Cells, rectangle
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
-from signorini.gallery.blocks import block_on_foundation, four_blocks, stacked_blocks
+from signorini.gallery.blocks import block_on_foundation, curved_blocks, four_blocks, stacked_blocks
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
 from signorini.model.material import Elastic
 from signorini.model.mesh import join
-from signorini.model.model import Model
+from signorini.model.model import Kind, Model
 from signorini.model.step import Step
 from signorini.solution.history import History
 from signorini.verify.check import Check
+from signorini.verify.turned import rotation, turned
 
 _EXACT = 1e-9
 _MESHES: tuple[tuple[Cells, tuple[int, int]], ...] = (
@@ -36,126 +37,134 @@ _MESHES: tuple[tuple[Cells, tuple[int, int]], ...] = (
 )
 """Cells, and how many of either side are along the interface."""
 
+_TURN, _TURNED = 30.0, ", turned by 30 degrees"
+
 
 def patch_p1() -> Iterator[Check]:
-    """P1: two blocks pressed together."""
+    """P1: two blocks pressed together, turned ones from both sides."""
+    pressed = [Load(side, pressure=1e5) for side in ("upper.top", "lower.bottom")]
+    corners = ((0.0, 0.0), (1.0, 0.0), (0.0, 2.0))
     for cells, across in _MESHES:
-        history = solve(stacked_blocks(friction=0.3, cells=cells, across=across))
+        straight = stacked_blocks(friction=0.3, cells=cells, across=across)
+        history, case = solve(straight), f"P1 two blocks, {_say(cells, across)}"
         contact = history.contact("interface")
-        case = f"P1 two blocks, {_say(cells, across)}"
         yield _farthest(case, "contact pressure", contact.pressure, 1e5, "exact")
         yield _farthest(case, "u_y on the interface", history.last.displacement[contact.node, 1], -0.05, "exact")
+        history, case = solve(turned(straight, _TURN, (0.0, -0.05), pressed, corners)), f"{case}{_TURNED}"
+        yield _farthest(case, "contact pressure", history.contact("interface").pressure, 1e5, "exact")
+        yield _stress_error(case, history, (0.0, -1e5), _TURN)
 
 
 def patch_p2() -> Iterator[Check]:
     """P2: block on a foundation under one pressure."""
+    source, E, nu = "Taylor, Papadopoulos (1991)", 2000.0, 0.3
+    pressed = [Load(side, pressure=25.0) for side in ("block.top", "foundation.free", "foundation.bottom")]
+    strain = 25.0 * nu * (1.0 + nu) / E, -25.0 * (1.0 - nu**2) / E
     for cells, across in _MESHES:
-        yield from _p2(block_on_foundation(friction=0.3, cells=cells, across=across), f"P2, {_say(cells, across)}")
-
-
-def _p2(model: Model, case: str) -> Iterator[Check]:
-    history, source = solve(model), "Taylor, Papadopoulos (1991)"
-    contact = history.contact("interface")
-    yield _farthest(case, "contact pressure", contact.pressure, 25.0, source)
-    yield _farthest(case, "sigma_yy", _stress(history)[:, 1], -25.0, source)
-    yield _farthest(case, "largest gap", contact.gap, 0.0, source)
-
-
-def patch_turned() -> Iterator[Check]:
-    """Two blocks turned by 30 degrees, pressed between their far sides: the stress turns with them."""
-    pressure, angle = 10.0, np.radians(30.0)
-    along, across = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
-    xx, yy, xy = -pressure * np.array([across[0] ** 2, across[1] ** 2, across[0] * across[1]])
-    for cells, numbers in _MESHES[2:]:
-        history = solve(_turned(pressure, along, across, cells, numbers))
-        case = f"Two blocks turned by 30 degrees, {_say(cells, numbers)}"
-        yield _farthest(case, "contact pressure", history.contact("interface").pressure, pressure, "exact")
-        wrong = np.abs(_stress(history)[:, [0, 1, 3]] - [xx, yy, xy]).max() / pressure
-        yield _farthest(case, "largest error of the stress / p", np.array([wrong]), 0.0, "exact")
-
-
-def _turned(pressure: float, along: Array, across: Array, cells: Cells, numbers: tuple[int, int]) -> Model:
-    """Unit blocks, one on the other; what keeps them from turning moves as the stretch along the contact does."""
-    E, nu = 1000.0, 0.3
-    straight = join(
-        {
-            "upper": rectangle(nx=numbers[0], ny=3, origin=(0.0, 1.0), cells=cells),
-            "lower": rectangle(nx=numbers[1], ny=2, cells=cells),
-        }
-    )
-    mesh = replace(straight, points=straight.points @ np.array([along, across]))
-    stretch = pressure * nu * (1.0 + nu) / E
-    end = tuple(float(x) for x in mesh.points[np.linalg.norm(straight.points - [1.0, 0.0], axis=1).argmin()])
-    return Model(
-        mesh,
-        bodies=[Body("upper", Elastic(E=E, nu=nu)), Body("lower", Elastic(E=E, nu=nu))],
-        supports=[Support((0.0, 0.0), u=(0.0, 0.0)), Support(end, u=(float(stretch * along[0]), None))],
-        loads=[Load("upper.top", pressure=pressure), Load("lower.bottom", pressure=pressure)],
-        contacts=[Contact("upper.bottom", "lower.top", friction=0.3, name="interface")],
-    )
+        straight = block_on_foundation(friction=0.3, cells=cells, across=across)
+        oblique = turned(straight, _TURN, strain, pressed, ((0.0, 0.0), (3.0, 0.0), (1.0, 2.0)))
+        for model, angle, words in ((straight, 0.0, ""), (oblique, _TURN, _TURNED)):
+            history, case = solve(model), f"P2, {_say(cells, across)}{words}"
+            contact = history.contact("interface")
+            yield _farthest(case, "contact pressure", contact.pressure, 25.0, source)
+            yield _stress_error(case, history, (0.0, -25.0), angle, source)
+            yield _farthest(case, "largest gap", contact.gap, 0.0, source)
 
 
 def patch_p4() -> Iterator[Check]:
     """P4: four blocks under biaxial compression."""
-    for cells, across in (("quad", (3, 3, 3, 3)), ("quad", (2, 3, 4, 5)), ("quad8", (2, 3, 4, 5))):
-        stress = _stress(solve(four_blocks(cells="quad8" if cells == "quad8" else "quad", across=across)))
-        case = f"P4 four blocks, {cells}, {' : '.join(map(str, across))}"
-        for quantity, values, exact in (("sigma_xx", stress[:, 0], -10.0), ("sigma_yy", stress[:, 1], -20.0)):
-            yield _farthest(case, quantity, values, exact, "exact")
+    E, nu = 1000.0, 0.3
+    xx, yy = (((1.0 - nu**2) * s - nu * (1.0 + nu) * t) / E for s, t in ((-10.0, -20.0), (-20.0, -10.0)))
+    meshes: tuple[tuple[Cells, tuple[int, int, int, int]], ...] = (
+        ("quad", (3, 3, 3, 3)),
+        ("quad", (2, 3, 4, 5)),
+        ("quad8", (2, 3, 4, 5)),
+        ("triangle6", (2, 3, 4, 5)),
+    )
+    for cells, across in meshes:
+        straight = four_blocks(cells=cells, across=across)
+        reactions = [Load(f"{name}.left", pressure=10.0) for name in ("southwest", "northwest")]
+        reactions += [Load(f"{name}.bottom", pressure=20.0) for name in ("southwest", "southeast")]
+        corners = ((0.0, 0.0), (1.0 / across[0], 0.0), (2.0, 0.0), (0.0, 2.0), (2.0, 2.0))
+        oblique = turned(straight, _TURN, (xx, yy), [*straight.loads, *reactions], corners)
+        for model, angle, words in ((straight, 0.0, ""), (oblique, _TURN, _TURNED)):
+            history, case = solve(model), f"P4 four blocks, {cells}, {' : '.join(map(str, across))}{words}"
+            for names, exact in ((("southeast.left", "northeast.left"), 10.0), (("northwest.bottom",), 20.0)):
+                pressure = np.concatenate([history.contact(name).pressure for name in names])
+                yield _farthest(case, f"contact pressure, {exact:g}", pressure, exact, "exact")
+            yield _stress_error(case, history, (-10.0, -20.0), angle)
 
 
 def patch_p5() -> Iterator[Check]:
-    """P5: on quadratic sides that do not match nodes on facets are wrong where mortar is exact: the test can fail."""
-    for cells, across in (_MESHES[4], _MESHES[6]):
-        model = stacked_blocks(friction=0.3, cells=cells, across=across)
-        simple = replace(model, contacts=[replace(model.contacts[0], coupling="node-to-segment")])
-        wrong = np.abs(solve(simple).contact("interface").pressure / 1e5 - 1.0).max()
-        case = f"P5 quadratic sides, {_say(cells, across)}"
-        yield _farthest(case, "pressure, mortar", solve(model).contact("interface").pressure, 1e5, "exact")
-        yield Check(
-            case=case,
-            quantity="error of the pressure, node to segment",
-            computed=float(wrong),
-            reference=0.01,
-            tolerance=0.0,
-            source="fails, as it should",
-            least=True,
-        )
+    """P5: curved quadratic sides that do not match, where nodes on facets are wrong and mortar is exact."""
+    cases: tuple[tuple[Kind, Cells, tuple[int, int], float], ...] = (
+        ("plane strain", "quad", (4, 4), 0.0),
+        ("plane strain", "quad8", (5, 3), 0.0),
+        ("plane strain", "quad9", (3, 4), _TURN),
+        ("plane strain", "triangle6", (4, 7), _TURN),
+        ("axisymmetric", "quad8", (3, 5), 0.0),
+        ("axisymmetric", "triangle6", (5, 3), 0.0),
+    )
+    for kind, cells, across, angle in cases:
+        model = curved_blocks(kind=kind, cells=cells, across=across, angle=angle, friction=0.3)
+        case = f"P5 parabola, {kind}, {_say(cells, across)}{_TURNED if angle else ''}"
+        history = solve(model)
+        contact = history.contact("interface")
+        yield _farthest(case, "contact pressure", contact.pressure, 10.0, "exact")
+        yield _farthest(case, "friction / p", contact.traction / 10.0, 0.0, "exact")
+        yield _stress_error(case, history, (-10.0, -10.0), angle)
+        if cells == "quad8":
+            simple = replace(model, contacts=[replace(model.contacts[0], coupling="node-to-segment")])
+            wrong = np.abs(solve(simple).contact("interface").pressure / 10.0 - 1.0).max()
+            yield Check(
+                case=case,
+                quantity="error of the pressure, node to segment",
+                computed=float(wrong),
+                reference=0.01,
+                tolerance=0.0,
+                source="fails, as it should",
+                least=True,
+            )
 
 
 def patch_p6() -> Iterator[Check]:
     """P6: a block pushed by T on meshes that do not match: below mu N it sticks, above nothing can hold it."""
     friction, normal = 0.2, 25.0
-    for share in (0.5, 0.99):
-        history = solve(_pushed(share * friction * normal, friction))
-        contact = history.contact("interface")
+    cases: tuple[tuple[Cells, float], ...] = (("quad", 0.0), ("quad8", 0.0), ("quad", _TURN), ("triangle6", _TURN))
+    for cells, angle in cases:
+        words, along = f"{_say(cells, (4, 3))}{_TURNED if angle else ''}", rotation(angle)
+        for share in (0.5, 0.99):
+            contact = solve(_pushed(share * friction * normal, friction, cells, angle)).contact("interface")
+            held, pressed = float(contact.tangential_force @ along[0]), float(contact.normal_force @ along[1])
+            yield Check(
+                case=f"P6 pushed block, T = {share:g} mu N, {words}",
+                quantity="friction / N",
+                computed=-held / pressed,
+                reference=share * friction,
+                tolerance=_EXACT,
+                source="equilibrium",
+            )
+        history = solve(_pushed(1.01 * friction * normal, friction, cells, angle), raise_on_failure=False)
         yield Check(
-            case=f"P6 pushed block, T = {share:g} mu N, quad 4 : 3",
-            quantity="friction / N",
-            computed=float(-contact.tangential_force[0] / contact.normal_force[1]),
-            reference=share * friction,
-            tolerance=_EXACT,
+            case=f"P6 pushed block, T = 1.01 mu N, {words}",
+            quantity="1 if no equilibrium is proved",
+            computed=float(history.status == "no_equilibrium"),
+            reference=1.0,
+            tolerance=0.0,
             source="equilibrium",
         )
-    history = solve(_pushed(1.01 * friction * normal, friction), raise_on_failure=False)
-    yield Check(
-        case="P6 pushed block, T = 1.01 mu N, quad 4 : 3",
-        quantity="1 if no equilibrium is proved",
-        computed=float(history.status == "no_equilibrium"),
-        reference=1.0,
-        tolerance=0.0,
-        source="equilibrium",
-    )
 
 
-def _pushed(push: float, friction: float) -> Model:
+def _pushed(push: float, friction: float, cells: Cells, angle: float) -> Model:
     """P2 with its block held by friction alone, pressed and pushed in one increment."""
-    model = block_on_foundation(friction=friction, across=(4, 3))
-    held = [support for support in model.supports if support.on != (1.0, 2.0)]
+    model = block_on_foundation(friction=friction, cells=cells, across=(4, 3))
+    Q = rotation(angle)
+    sideways = tuple(float(part) for part in push * Q[0])
     return replace(
         model,
-        supports=[*held, Support("foundation.left", u=(0.0, None))],
-        loads=[*model.loads, Load("block.left", traction=(push, 0.0), name="push")],
+        mesh=replace(model.mesh, points=model.mesh.points @ Q),
+        supports=[Support("foundation.bottom", u=(0.0, 0.0))],
+        loads=[*model.loads, Load("block.left", traction=sideways, name="push")],
         steps=[Step(increments=1)],
     )
 
@@ -194,9 +203,16 @@ def _say(cells: Cells, across: tuple[int, int]) -> str:
     return f"{cells} {across[0]} : {across[1]}"
 
 
-def _stress(history: History) -> Array:
-    model: Model = history.model
-    return np.vstack([b.stress for b in body_stresses(make_space(model.mesh), model, history.last.displacement)])
+def _stress_error(
+    case: str, history: History, stress: tuple[float, float], angle: float, source: str = "exact"
+) -> Check:
+    """How far any nodal stress in the plane is from two principal ones, turned, over the larger one."""
+    model, Q = history.model, rotation(angle)
+    exact = Q.T @ np.diag(stress) @ Q
+    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
+    found = np.vstack([b.stress for b in body_stresses(space, model, history.last.displacement)])[:, [0, 1, 3]]
+    wrong = np.abs(found - [exact[0, 0], exact[1, 1], exact[0, 1]]).max() / np.abs(stress).max()
+    return _farthest(case, "largest error of the stress / its size", np.array([wrong]), 0.0, source)
 
 
 def _farthest(case: str, quantity: str, values: Array, exact: float, source: str) -> Check:

@@ -26,7 +26,6 @@ Case = Callable[[], Iterator[Check]]
 QUICK: tuple[Case, ...] = (
     patches.patch_p1,
     patches.patch_p2,
-    patches.patch_turned,
     patches.patch_p4,
     patches.patch_p5,
     patches.patch_p6,
@@ -35,6 +34,7 @@ QUICK: tuple[Case, ...] = (
     hertz.point_contact,
     hertz.below_the_contact,
     hertz.equal_spheres,
+    hertz.small_equal_spheres,
     fenet.cylinder,
     punches.flat_punches,
     punches.corner_exponents,

@@ -194,11 +194,11 @@ def _inside(flat: Array, c: int, x: float, y: float, places: Array, found: Array
 
 
 @njit(cache=True)
-def _true_area(nodes: Array, place: Array, D: Array) -> float:
-    """Area of a face per reference area at a reference place."""
+def _true_area(nodes: Array, place: Array, D: Array, normal: Array) -> float:
+    """Area of a face per reference area at a reference place; times its outward normal there, into ``normal``."""
     c = len(nodes)
     slopes(c, place[0], place[1], D)
-    x, y, normal = np.zeros(3), np.zeros(3), np.empty(3)
+    x, y = np.zeros(3), np.zeros(3)
     for a in range(c):
         for e in range(3):
             x[e] += D[0, a] * nodes[a, e]
@@ -226,8 +226,8 @@ def integrate(
     """Add up integrals over the common parts of pairs of pieces.
 
     With N the hats of the corners, N_j all functions of the nonmortar face, N_l those of the mortar face, at the same
-    Gauss points: ``mass = int N N``, ``own = int N N_j``, ``other = int N N_l``. The area is that of the nonmortar face
-    itself, curved as it is.
+    Gauss points: ``mass = int N N``, ``own = int N N_j n``, ``other = int N N_l n``. The area and its outward normal n
+    are those of the nonmortar face itself, curved as it is.
 
     Parameters
     ----------
@@ -237,8 +237,8 @@ def integrate(
     second_count : nodes of a mortar face
     i, j : (k,) pairs of pieces
     rule, weights : (q, 3) barycentric coordinates and weights of a quadrature of the triangle, which sum to 1
-    mass, own : (m, corners, corners), (m, corners, c), added to
-    other : (k, corners, second_count), added to
+    mass, own : (m, corners, corners), (m, corners, c, 3), added to
+    other : (k, corners, second_count, 3), added to
     chosen : (k,) pairs to integrate
     """
     c, o, nodes = first.shape[1], second.shape[1], first_nodes.shape[1]
@@ -246,7 +246,7 @@ def integrate(
     axes, centre, flat, projected = np.empty((3, 3)), np.empty(3), np.empty((4, 2)), np.empty((4, 2))
     polygon, spare = np.empty((16, 2)), np.empty((16, 2))
     hats, N, M, D = np.empty(4), np.empty(9), np.empty(9), np.empty((2, 9))
-    here, there = np.empty(2), np.empty(2)
+    here, there, normal = np.empty(2), np.empty(2), np.empty(3)
     for k in range(len(i)):
         if not chosen[k]:
             continue
@@ -266,14 +266,17 @@ def integrate(
                 y = rule[g, 0] * m_y + rule[g, 1] * p_y + rule[g, 2] * q_y
                 stretch = _inside(flat, c, x, y, first_places[i[k] % s_1], here)
                 _inside(projected, o, x, y, second_places[j[k] % s_2], there)
-                w = weights[g] * triangle * _true_area(first_nodes[face], here, D) / stretch
+                share = weights[g] * triangle / stretch
+                w = share * _true_area(first_nodes[face], here, D, normal)
                 shapes(c, here[0], here[1], hats)
                 shapes(nodes, here[0], here[1], N)
                 shapes(second_count, there[0], there[1], M)
                 for e in range(c):
                     for f in range(c):
                         mass[face, e, f] += w * hats[e] * hats[f]
-                    for f in range(nodes):
-                        own[face, e, f] += w * hats[e] * N[f]
-                    for f in range(second_count):
-                        other[k, e, f] += w * hats[e] * M[f]
+                    for d in range(3):
+                        force = share * hats[e] * normal[d]
+                        for f in range(nodes):
+                            own[face, e, f, d] += force * N[f]
+                        for f in range(second_count):
+                            other[k, e, f, d] += force * M[f]

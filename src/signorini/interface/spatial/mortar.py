@@ -36,14 +36,13 @@ def mortar_coupling(nonmortar: Surface, mortar: Surface, *, search: float | None
     """Weigh both sides with the functions dual to the hats of the nonmortar corner nodes.
 
     On the covered part of every nonmortar face, ``psi = diag(int N) (int N N^T)^-1 N``, N the hats of its corners, so
-    that ``int psi_a N_b = delta_ab int N_a``; with ``w_k = int psi_k`` pair k sees
+    that ``int psi_a N_b = delta_ab int N_a``; a unit pressure of pair k puts the forces
 
-        sum_j (int psi_k N_j / w_k) x_j  -  sum_l (int psi_k N_l^mortar / w_k) x_l .
+        int psi_k N_j n dA  on the nonmortar,  - int psi_k N_l^mortar n dA  on the mortar side.
 
-    The weights reproduce linear fields where the surfaces coincide, and ``sum_k w_k P_kl = int N_l^mortar``: uniform
-    pressure passes exactly. Of linear faces the first sum is the node itself. Quadratic faces have pairs at their
-    corners only (their own dual functions oscillate); for clipping four plane pieces stand for each of them. Areas are
-    those of the nonmortar faces themselves, warped or curved as they are.
+    The psi_k sum to 1: uniform pressure passes exactly, on the mortar side where the two coincide. Quadratic faces have
+    pairs at their corners only (their own dual functions oscillate); for clipping four plane pieces stand for each of
+    them. Areas and normals are those of the nonmortar faces themselves, warped or curved as they are.
 
     Parameters
     ----------
@@ -68,28 +67,28 @@ def mortar_coupling(nonmortar: Surface, mortar: Surface, *, search: float | None
     >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
     >>> upper, lower = make_surface(2 * square, [[3, 2, 1, 0]]), make_surface(2 * square, [[4, 5, 6, 7]])
     >>> coupling = mortar_coupling(upper, lower)
-    >>> coupling.area.round(12).tolist(), coupling.relative.toarray()[0].round(12).tolist()
+    >>> coupling.area.round(12).tolist(), (coupling.relative.toarray()[0].round(12) + 0.0).tolist()
     ([0.25, 0.25, 0.25, 0.25], [1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0])
     """
     n = len(nonmortar.points)
     reach = search_distance(nonmortar, mortar) if search is None else search
-    weight, full = np.zeros(n), np.zeros(n)
+    full = np.zeros(n)
     full[nonmortar.nodes] = nonmortar.nodal_areas
-    keeps, gives = sp.csr_array((n, n)), sp.csr_array((n, n))
+    keeps, gives = ([sp.csr_array((n, n)) for _ in range(3)] for _ in range(2))
     for block in nonmortar.blocks:
-        overlaps = _overlaps(block, mortar, reach)
-        share, own, other = _block_integrals(block, overlaps, n)
-        weight += share
-        keeps, gives = keeps + own, gives + other
-    nodes = np.nonzero(weight > _COVERED * full)[0]
+        own, other = _block_integrals(block, _overlaps(block, mortar, reach), n)
+        keeps = [one + two for one, two in zip(keeps, own, strict=True)]
+        gives = [one + two for one, two in zip(gives, other, strict=True)]
+    vectors = np.column_stack([part.sum(axis=1) for part in keeps])
+    nodes = np.nonzero(np.linalg.norm(vectors, axis=1) > _COVERED * full)[0]
     if not len(nodes):
         raise InputError(
             f"no face of the nonmortar side has one of the mortar side opposite it within {reach:.4g} along its "
             "normal; expected surfaces that face each other, or another 'search'",
             where=where,
         )
-    relative = sp.csr_array(sp.diags_array(1.0 / weight[nodes]) @ (keeps - gives)[nodes])
-    return Coupling(nodes=nodes, area=weight[nodes], relative=relative)
+    forces = tuple(sp.csr_array((one - two)[nodes]) for one, two in zip(keeps, gives, strict=True))
+    return Coupling(nodes=nodes, normal_areas=vectors[nodes], forces=forces)
 
 
 def _corners(block: Block) -> Array:
@@ -120,14 +119,17 @@ def _overlaps(block: Block, mortar: Surface, search: float) -> list[_Overlaps]:
     return result
 
 
-def _block_integrals(block: Block, overlaps: list[_Overlaps], n: int) -> tuple[Array, sp.csr_array, sp.csr_array]:
-    """``int psi_k`` (n,), ``int psi_k N_j`` of the block itself and ``int psi_k N_l`` of the other side, (n, n)."""
+def _block_integrals(block: Block, overlaps: list[_Overlaps], n: int) -> tuple[list[sp.csr_array], list[sp.csr_array]]:
+    """``int psi_k N_j n`` of the block itself and ``int psi_k N_l n`` of the other side, three of (n, n) each.
+
+    The normals n of the faces point outward, psi_k is negative here: together they point into the body.
+    """
     m, c = block.corners.shape
-    mass, own = np.zeros((m, c, c)), np.zeros((m, c, block.nodes_a_face))
+    mass, own = np.zeros((m, c, c)), np.zeros((m, c, block.nodes_a_face, 3))
     others = []
     for part in overlaps:
         count = part.mortar.nodes_a_face
-        other = np.zeros((len(part.i), c, count))
+        other = np.zeros((len(part.i), c, count, 3))
         places, weights = reference_rule(3, _points(block, part.mortar))
         integrate(
             _corners(block),
@@ -146,21 +148,17 @@ def _block_integrals(block: Block, overlaps: list[_Overlaps], n: int) -> tuple[A
             part.chosen,
         )
         others.append(other)
-    share = mass.sum(axis=2)
-    dual = dual_functions(mass)
-    weight: Array = np.bincount(block.corners.ravel(), share.ravel(), n).astype(float)
-    if block.nodes_a_face <= 4:
-        keeps = sp.csr_array(sp.diags_array(weight))
-    else:
-        keeps = _spread(block.corners, block.faces, np.einsum("mab,mbj->maj", dual, own), n)
-    gives = sp.csr_array((n, n))
+    dual = -dual_functions(mass)
+    keeps = _spread(block.corners, block.faces, np.einsum("mab,mbjd->dmaj", dual, own), n)
+    gives = [sp.csr_array((n, n)) for _ in range(3)]
     per_face = len(pieces(block.nodes_a_face))
     for part, other in zip(overlaps, others, strict=True):
         k = np.nonzero(part.chosen)[0]
         face, opposite = part.i[k] // per_face, part.j[k] // len(pieces(part.mortar.nodes_a_face))
-        values = np.einsum("kab,kbl->kal", dual[face], other[k])
-        gives = gives + _spread(block.corners[face], part.mortar.faces[opposite], values, n)
-    return weight, keeps, sp.csr_array(gives)
+        values = np.einsum("kab,kbld->dkal", dual[face], other[k])
+        seen = _spread(block.corners[face], part.mortar.faces[opposite], values, n)
+        gives = [one + two for one, two in zip(gives, seen, strict=True)]
+    return keeps, gives
 
 
 def _points(block: Block, mortar: Block) -> int:
@@ -171,7 +169,7 @@ def _points(block: Block, mortar: Block) -> int:
     return (hats + max(_DEGREE[block.nodes_a_face], _DEGREE[mortar.nodes_a_face])) // 2 + 2
 
 
-def _spread(rows: IntArray, columns: IntArray, values: Array, n: int) -> sp.csr_array:
-    """Values (k, a, b) of rows (k, a) and columns (k, b), summed into an (n, n) matrix."""
-    i, j = (np.broadcast_to(part, values.shape).ravel() for part in (rows[:, :, None], columns[:, None, :]))
-    return sp.csr_array((values.ravel(), (i, j)), shape=(n, n))
+def _spread(rows: IntArray, columns: IntArray, values: Array, n: int) -> list[sp.csr_array]:
+    """Values (3, k, a, b) of rows (k, a) and columns (k, b), summed into three (n, n) matrices."""
+    i, j = (np.broadcast_to(part, values.shape[1:]).ravel() for part in (rows[:, :, None], columns[:, None, :]))
+    return [sp.csr_array((part.ravel(), (i, j)), shape=(n, n)) for part in values]

@@ -9,7 +9,7 @@ from scipy.spatial import KDTree
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
-from signorini.interface.coupling import Coupling
+from signorini.interface.coupling import Coupling, picked, point_coupling
 from signorini.interface.matching import match_nodes
 from signorini.interface.spatial.candidates import FACING
 from signorini.interface.spatial.faces import CORNERS, shapes_at
@@ -53,12 +53,8 @@ def node_to_face(nonmortar: Surface, mortar: Surface, *, search: float | None = 
             "surfaces that face each other, or another 'search'",
             where=where,
         )
-    picked = sp.csr_array((np.ones(len(nodes)), (np.arange(len(nodes)), nodes)), shape=(len(nodes), n))
-    return Coupling(
-        nodes=nodes[met],
-        area=nonmortar.nodal_areas[own[met]],
-        relative=sp.csr_array((picked - gives)[met]),
-    )
+    areas = -nonmortar.nodal_normal_areas[own[met]]
+    return point_coupling(nodes[met], areas, sp.csr_array((picked(nodes, n) - gives)[met]))
 
 
 def node_pairs(nonmortar: Surface, mortar: Surface) -> tuple[Coupling | None, str]:
@@ -68,11 +64,9 @@ def node_pairs(nonmortar: Surface, mortar: Surface) -> tuple[Coupling | None, st
     partner, reason = match_nodes(nonmortar.points, nonmortar, mortar, np.arange(1, len(nonmortar.points) + 1))
     if reason:
         return None, reason
-    nodes, k = nonmortar.nodes, len(nonmortar.nodes)
-    rows = np.tile(np.arange(k), 2)
-    values = np.repeat([1.0, -1.0], k)
-    relative = sp.csr_array((values, (rows, np.concatenate([nodes, partner]))), shape=(k, len(nonmortar.points)))
-    return Coupling(nodes=nodes, area=nonmortar.nodal_areas, relative=relative), ""
+    nodes, n = nonmortar.nodes, len(nonmortar.points)
+    relative = sp.csr_array(picked(nodes, n) - picked(partner, n))
+    return point_coupling(nodes, -nonmortar.nodal_normal_areas, relative), ""
 
 
 def _nearest(points: Array, normals: Array, block: Block, search: float, n: int) -> tuple[Array, sp.csr_array]:

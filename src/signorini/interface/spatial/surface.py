@@ -114,6 +114,17 @@ class Surface:
         return result
 
     @cached_property
+    def nodal_normal_areas(self) -> Array:
+        """(k, 3) ``int N_k n`` of the linear functions of the corners, n outward; 0 at other nodes."""
+        result = np.zeros((len(self.nodes), 3))
+        for block in self.blocks:
+            count = CORNERS[block.nodes_a_face]
+            places, weights = reference_rule(count)
+            shares = np.einsum("mqd,q,qa->mad", block.outward(places), weights, shapes_at(count, places))
+            np.add.at(result, np.searchsorted(self.nodes, block.corners), shares)
+        return result
+
+    @cached_property
     def nodal_lengths(self) -> Array:
         """(k,) Roots of ``nodal_areas``."""
         return np.asarray(np.sqrt(self.nodal_areas), dtype=np.float64)
