@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from signorini.model.body import Body
     from signorini.model.conditions import Foundation, Load, Support
     from signorini.model.contact import Contact
+    from signorini.model.links import Equation, RigidBody
     from signorini.model.material import Elastic, Orthotropic
     from signorini.model.mesh import Mesh, join
     from signorini.model.model import Model
@@ -44,6 +45,7 @@ __all__ = [
     "Contact",
     "Cylinder",
     "Elastic",
+    "Equation",
     "Foundation",
     "InputError",
     "Load",
@@ -53,6 +55,7 @@ __all__ = [
     "Plane",
     "Profile",
     "Rigid",
+    "RigidBody",
     "SignoriniError",
     "Solution",
     "SolveFailed",
@@ -93,6 +96,7 @@ _HOMES = {
     "signorini.model.body": ("Body",),
     "signorini.model.conditions": ("Foundation", "Load", "Support"),
     "signorini.model.contact": ("Contact",),
+    "signorini.model.links": ("Equation", "RigidBody"),
     "signorini.model.material": ("Elastic", "Orthotropic"),
     "signorini.model.mesh": ("Mesh", "join"),
     "signorini.model.model": ("Model",),

@@ -50,8 +50,8 @@ MISTAKES = {
         "friction = 0.4",
         "fricton = 0.4",
         ":29: contact[0].fricton: unknown key; did you mean 'friction'? Known: name, between, nonmortar, mortar, "
-        "plane, circle, profile, sphere, cylinder, cone, torus, surface, friction, gap, interference, "
-        "normal_compliance, tangential_compliance, coupling, side, "
+        "plane, circle, profile, sphere, cylinder, cone, torus, surface, friction, shear_limit, adhesion, gap, "
+        "interference, normal_compliance, tangential_compliance, coupling, side, "
         "search, adjust, friction_axis, facets",
     ),
     "sides named twice": (
@@ -63,7 +63,7 @@ MISTAKES = {
         "[[step]]",
         "[[stepp]]",
         ":31: stepp: unknown key; did you mean 'step'? Known: title, kind, thickness, units, mesh, material, body, "
-        "support, foundation, load, contact, obstacle, step",
+        "support, foundation, load, contact, obstacle, rigid_body, equation, step",
     ),
     "unknown boundary": (
         'on = "axis"',

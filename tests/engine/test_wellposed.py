@@ -79,3 +79,17 @@ def test_the_motion_of_a_body_that_leaves_is_drawn():
     assert solution.plot_escape().axes
     with pytest.raises(sg.InputError, match="no body runs away"):
         sg.solve(stacked_blocks()).plot_escape()
+
+
+LAWS = [({"friction": "stick"}, False), ({"adhesion": 0.5}, False), ({"shear_limit": 0.5}, True)]
+
+
+@pytest.mark.parametrize(("law", "unique"), LAWS)
+def test_friction_without_pressure_is_not_claimed_to_be_unique(law, unique):
+    """A pair that sticks or adheres may hold a load under which it could be open as well."""
+    model = rough_block(0.2, 0.1)
+    model = replace(model, contacts=[replace(model.contacts[0], **law)])
+    found = sg.solve(model, wellposed=True).wellposedness
+    assert (found.verdict == "unique") == unique
+    assert np.isfinite(found.friction) == unique
+    assert unique or "friction without pressure is above" in found.words

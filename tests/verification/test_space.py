@@ -11,18 +11,25 @@ import signorini as sg
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
 from signorini.fem.generators import rectangle
-from signorini.fem.solids import box
+from signorini.fem.solids import box, extruded
 from signorini.fem.space import make_space
 from signorini.fem.stiffness import stiffness
 from signorini.fem.stress import body_stresses
 from signorini.model.mesh import join
 
 FAMILIES = ("hexahedron", "hexahedron20", "hexahedron27", "tetra", "tetra10")
+WEDGES = {"wedge": "triangle", "wedge15": "triangle6"}
 STEEL = sg.Elastic(E=2e5, nu=0.3)
 
 
 def cube(family, cells, z=0.0, size=2.0):
     grid = np.linspace(0.0, size, cells + 1)
+    if family in WEDGES:
+        plane = rectangle(x=grid, y=grid, cells=WEDGES[family])
+        sides = {"left": "left", "right": "right", "front": "bottom", "back": "top"}
+        walls = {name: plane.boundaries[old] for name, old in sides.items()}
+        mesh = extruded(replace(plane, boundaries=walls), z=z + grid)
+        return replace(mesh, boundaries={name: boundary(make_space(mesh), name, ()).facets for name in mesh.boundaries})
     return box(x=grid, y=grid, z=z + grid, cells=family)
 
 
@@ -34,7 +41,7 @@ def jiggled(mesh, rng, by=0.1):
     return replace(mesh, points=points)
 
 
-@pytest.mark.parametrize("family", [*FAMILIES, "incompatible"])
+@pytest.mark.parametrize("family", [*FAMILIES, *WEDGES, "incompatible"])
 def test_a_linear_field_has_its_stress_and_needs_its_tractions_only(family):
     rng = np.random.default_rng(1)
     special = family == "incompatible"
@@ -79,14 +86,15 @@ def pressed(lower, upper, turn):
     return model, sigma
 
 
-@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("family", [*FAMILIES, *WEDGES])
 @pytest.mark.parametrize("counts", [(2, 2), (2, 3)])
 def test_patch(family, counts):
     turn = Rotation.from_rotvec([0.3, -0.5, 0.7]).as_matrix()
     model, sigma = pressed(cube(family, counts[0]), cube(family, counts[1], z=2.0), turn)
     step = sg.solve(model).last
     contact = step.contacts[0]
-    assert contact.coupling == ("nodes" if counts[0] == counts[1] and family in ("hexahedron", "tetra") else "mortar")
+    matching = counts[0] == counts[1] and family in ("hexahedron", "tetra", "wedge")
+    assert contact.coupling == ("nodes" if matching else "mortar")
     np.testing.assert_allclose(contact.pressure, 25.0, rtol=1e-9)
     np.testing.assert_allclose(contact.traction, 0.0, atol=25e-9)
     np.testing.assert_allclose(contact.normal_force, 100.0 * turn[:, 2], rtol=1e-9)

@@ -11,6 +11,7 @@ from signorini.deck import Deck
 from signorini.engine.prepare import Examined
 from signorini.fem.locking import thin_bodies
 from signorini.fem.rigid import describe_motion
+from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.step import Step
 from signorini.output.align import align
@@ -38,6 +39,8 @@ def describe(deck: Deck, examined: Examined) -> list[str]:
         ("foundations", _foundations(model)),
         ("loads", _loads(examined)),
         *([("obstacles", _obstacles(model))] if model.obstacles else []),
+        *([("rigid bodies", _rigid_bodies(model))] if model.rigid_bodies else []),
+        *([("equations", [_equations(examined)])] if model.equations else []),
         ("contacts", _contacts(examined)),
         ("steps", _steps(model)),
     ):
@@ -105,10 +108,21 @@ def _obstacles(model: Model) -> Rows:
     return rows
 
 
+def _rigid_bodies(model: Model) -> Rows:
+    return [(body.name, f"the nodes of {body.on}", f"about {spell_vector(body.point)}") for body in model.rigid_bodies]
+
+
+def _equations(examined: Examined) -> tuple[str, ...]:
+    given = len(examined.model.equations)
+    return (f"{given} between displacements", f"{len(examined.constraints.dependent)} dofs follow from others")
+
+
 def _loads(examined: Examined) -> Rows:
     rows: Rows = []
+    rigid = {body.name for body in examined.model.rigid_bodies}
     for load_ in examined.model.loads:
-        total = examined.loads[load_.label].reshape(-1, examined.model.dimension).sum(axis=0)
+        forces = examined.space.at_nodes(examined.loads[load_.label])
+        total = [part or 0.0 for part in load_.force] if load_.on in rigid and load_.force else forces.sum(axis=0)
         rows.append((load_.label, load_.kind.replace("_", " "), f"total force {spell_vector(total)} at factor 1"))
     return rows
 
@@ -116,14 +130,11 @@ def _loads(examined: Examined) -> Rows:
 def _contacts(examined: Examined) -> Rows:
     rows: Rows = []
     for i, contact in enumerate(examined.model.contacts):
-        gap = examined.interface.gap[examined.interface.contact == i]
+        own = examined.interface.contact == i
+        gap = examined.interface.gap[own]
         pairing = examined.interface.sides[i]
         sides = f"{pairing.nonmortar} on {pairing.mortar}"
-        friction = "tied" if contact.tied else _friction(examined.interface.friction[examined.interface.contact == i])
-        if isinstance(contact.friction, tuple):
-            friction = "friction {:g} along ({:g}, {:g}, {:g}), {:g} across".format(
-                contact.friction[0], *(contact.friction_axis or ()), contact.friction[1]
-            )
+        friction = "tied" if contact.tied else _friction(contact, examined.interface.friction[own])
         if contact.facets:
             friction += f" on {contact.facets} facets"
         initial = f"initial gap {gap.min():.5g} to {gap.max():.5g}"
@@ -131,12 +142,19 @@ def _contacts(examined: Examined) -> Rows:
     return rows
 
 
-def _friction(mu: Array) -> str:
+def _friction(contact: Contact, mu: Array) -> str:
     """Of the pairs of one contact."""
+    limit = "" if contact.shear_limit is None else f"shear limit {contact.shear_limit:g}"
     if np.isinf(mu).all():
-        return "sticks"
+        return f"sticks up to {limit}" if limit else "sticks"
     low, high = mu.min(), mu.max()
-    return f"friction {low:g}" if low == high else f"friction {low:g} to {high:g}"
+    adhesion = f"adhesion {contact.adhesion:g}" if contact.adhesion else ""
+    coefficient = f"friction {low:g}" if low == high else f"friction {low:g} to {high:g}"
+    if isinstance(contact.friction, tuple):
+        coefficient = "friction {:g} along ({:g}, {:g}, {:g}), {:g} across".format(
+            contact.friction[0], *(contact.friction_axis or ()), contact.friction[1]
+        )
+    return ", ".join(part for part in (coefficient, adhesion, limit) if part)
 
 
 def _steps(model: Model) -> Rows:
@@ -193,15 +211,17 @@ def _contact_notes(examined: Examined) -> list[str]:
     notes, interface, model = [], examined.interface, examined.model
     size = float(np.ptp(model.mesh.points, axis=0).max())
     for i, contact in enumerate(model.contacts):
-        gap = interface.gap[interface.contact == i]
+        own = interface.contact == i
+        gap = interface.gap[own]
         if gap.min() > 0.0:
             notes.append(f"contact '{contact.label}' is open everywhere at the start, by at least {gap.min():.4g}")
         if gap.min() < -1e-9 * size and contact.interference == 0.0 and contact.gap == "geometry":
             notes.append(
                 f"contact '{contact.label}' overlaps by up to {-gap.min():.4g} at the start; it will be pressed"
             )
-        mu = interface.friction[interface.contact == i]
-        coulomb = bool(((mu > 0.0) & np.isfinite(mu)).any())
+        coulomb = bool((interface.rubs & ~interface.sticks)[own].any())
+        if contact.shear_limit is not None and not interface.rubs[own].any():
+            notes.append(f"contact '{contact.label}' has a shear limit, but no friction that it could limit")
         if coulomb and any(step.increments == 1 for step in model.steps):
             notes.append(f"contact '{contact.label}' has friction, and a step one increment: it starts from zero slip")
     return notes

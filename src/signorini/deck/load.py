@@ -17,10 +17,12 @@ from signorini.deck.meshes import deck_mesh
 from signorini.deck.parts import (
     deck_bodies,
     deck_contacts,
+    deck_equations,
     deck_foundations,
     deck_loads,
     deck_materials,
     deck_obstacles,
+    deck_rigid_bodies,
     deck_steps,
     deck_supports,
 )
@@ -44,6 +46,8 @@ _KEYS = (
     "load",
     "contact",
     "obstacle",
+    "rigid_body",
+    "equation",
     "step",
 )
 
@@ -149,6 +153,8 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int]) -> De
         "loads": deck_loads(data),
         "contacts": deck_contacts(data, path.parent, mesh),
         "obstacles": deck_obstacles(data, path.parent, mesh),
+        "rigid_bodies": deck_rigid_bodies(data),
+        "equations": deck_equations(data),
     }
     if "step" in data:
         parts["steps"] = deck_steps(data)

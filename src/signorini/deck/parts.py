@@ -13,6 +13,7 @@ from signorini.errors import InputError, Where, one_of
 from signorini.model.body import Body
 from signorini.model.conditions import Foundation, Load, Support
 from signorini.model.contact import Contact
+from signorini.model.links import Equation, RigidBody
 from signorini.model.material import Elastic, Material, Orthotropic
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Circle, Obstacle, Plane, Profile, Sphere
@@ -36,6 +37,8 @@ _CONTACT_KEYS = (
     "torus",
     "surface",
     "friction",
+    "shear_limit",
+    "adhesion",
     "gap",
     "interference",
     "normal_compliance",
@@ -96,6 +99,16 @@ def deck_foundations(data: Mapping[str, Any]) -> list[Foundation]:
 def deck_loads(data: Mapping[str, Any]) -> list[Load]:
     """``[[load]]``."""
     return [_placed(Load, entry, ("load", i)) for i, entry in enumerate(tables(data, "load"))]
+
+
+def deck_equations(data: Mapping[str, Any]) -> list[Equation]:
+    """``[[equation]]``."""
+    return [make(Equation, entry, ("equation", i)) for i, entry in enumerate(tables(data, "equation"))]
+
+
+def deck_rigid_bodies(data: Mapping[str, Any]) -> list[RigidBody]:
+    """``[[rigid_body]]``."""
+    return [make(RigidBody, entry, ("rigid_body", i)) for i, entry in enumerate(tables(data, "rigid_body"))]
 
 
 def deck_steps(data: Mapping[str, Any]) -> list[Step]:

@@ -89,6 +89,8 @@ def _lines(model: Model, mesh: str) -> Iterator[str]:
         ("foundation", model.foundations),
         ("load", model.loads),
         ("obstacle", model.obstacles),
+        ("rigid_body", model.rigid_bodies),
+        ("equation", model.equations),
     ):
         for member in members:
             yield from ("", f"[[{key}]]", *_entries(_given(member)))

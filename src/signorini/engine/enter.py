@@ -54,10 +54,9 @@ def relaxed(prepared: Prepared, state: State, where: str) -> tuple[State, Certif
     That is no gradual motion: the energy set free beyond what friction takes, by the mean of its forces before and
     after, is counted as released. None where nothing slips.
     """
-    n, mu = len(prepared.interface), prepared.interface.friction
-    normal, tangential = state.forces[:n], prepared.interface.effort(state.forces[n:])
-    bound = np.full(n, np.inf)
-    np.multiply(mu, normal, out=bound, where=np.isfinite(mu))
+    n, interface = len(prepared.interface), prepared.interface
+    tangential, bound = interface.effort(state.forces[n:]), interface.most(state.forces[:n])
+    bound[interface.sticks] = np.inf
     size = float(np.abs(state.forces).max(initial=0.0))
     if not (~prepared.absent & (tangential > (1.0 + _MORE) * bound + 1e-12 * size)).any():
         return None

@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.bound import plain
 from signorini.engine.increments import applied, certified, free_load, refuse_overlap
 from signorini.engine.leg import Leg, Snapshot, joined
 from signorini.engine.prepare import Prepared
@@ -179,7 +180,7 @@ def _start(prepared: Prepared, state: State) -> PathState:
         return initial_state(prepared.plane_law, b, motion=h if touching else None)
     r, status = state.forces[rows] / condensed.root, state.status[active]
     # friction that has risen since leaves some to spare
-    spare = (status > STICK) & (np.abs(r[half:]) < (1.0 - _SPENT) * prepared.plane_law.mu * r[:half])
+    spare = (status > STICK) & (np.abs(r[half:]) < (1.0 - _SPENT) * prepared.plane_law.bound.at(r[:half]))
     return PathState(
         b=b,
         h=h,
@@ -229,7 +230,7 @@ def _on_the_way(prepared: Prepared, last: State, point: LoadPoint, now: PathStat
     forces[rows] = condensed.root * now.r
     moved[rows] = now.h / condensed.root
     status, slip, dissipation = np.full(n, OPEN), last.slip.copy(), last.dissipation.copy()
-    status[active], status[prepared.interface.tied] = now.state, STICK
+    status[active], status[prepared.interface.tied] = plain(now.state), STICK
     slip[active] = now.slip / condensed.root[half:]
     dissipation[active] = now.dissipation
     return replace(

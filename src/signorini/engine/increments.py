@@ -101,10 +101,15 @@ def advance(
 
 
 def applied(prepared: Prepared, point: LoadPoint) -> tuple[Array, Array]:
-    """Nodal forces of the loads and imposed displacements at a point of the history, each (dofs,)."""
+    """Nodal forces of the loads and imposed displacements at a point of the history, each (dofs,).
+
+    Supports that let go are loads, what others hold beyond what they prescribe is imposed.
+    """
     zero = np.zeros(prepared.space.number_of_dofs)
     loads = sum((point.factors[name] * f for name, f in prepared.loads.items()), zero)
     imposed = sum((point.factors[name] * u for name, u in prepared.constraints.prescribed.items()), zero)
+    if len(point.reaction):
+        return loads + point.reaction, imposed + point.offset
     return loads, imposed
 
 
@@ -198,7 +203,7 @@ def _iterated(
     load = Load(
         f=bodies.blocks.spread(f),
         offset=offset[rows].reshape(d, -1),
-        friction=prepared.interface.friction[bodies.pairs],
+        bound=prepared.interface.bound(bodies.pairs),
         force=prepared.scale.force,
         length=prepared.scale.length,
         floating=bool(prepared.floating.shape[1]),
@@ -217,7 +222,8 @@ def _start(prepared: Prepared, state: State) -> Array | IntArray | None:
     if not state.forces.any():
         return None
     if prepared.interface.directions == 2:
-        return state.status[condensed.active]
+        pressing = state.forces[rows] / condensed.root
+        return prepared.plane_law.bound.coded(state.status[condensed.active], pressing[: len(rows) // 2])
     still = np.concatenate([state.gap, np.zeros_like(state.tangential)])[rows]
     start: Array = state.forces[rows] / condensed.root - condensed.root * still
     return start

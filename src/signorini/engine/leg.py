@@ -43,7 +43,8 @@ class Snapshot:
     def light(self) -> Snapshot:
         """Without the displacement of the bodies: a history may have thousands of snapshots."""
         none = np.zeros(0)
-        return replace(self, state=replace(self.state, displacement=none, external=none), whole=False)
+        point = replace(self.state.point, reaction=none, offset=none)
+        return replace(self, state=replace(self.state, point=point, displacement=none, external=none), whole=False)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

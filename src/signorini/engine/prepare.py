@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from signorini.condense.condensed import Condensed, condense
 from signorini.condense.size import condensing_bytes
 from signorini.condense.ties import Ties
 from signorini.errors import InputError, one_of
+from signorini.fem.links import linked_nodes
 from signorini.fem.loads import nodal_loads
 from signorini.fem.locking import refuse_locking
 from signorini.fem.rigid import Part, describe_motion, free_motions, make_parts, rigid_motions
@@ -32,6 +33,7 @@ from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.memory import available_memory
 from signorini.model.conditions import Load, Temperature
 from signorini.model.model import Model
+from signorini.model.stage import stages
 from signorini.solution.scale import Scale, data_scale
 
 _ROUNDING = 1e-4  # of the largest gap: times the tolerance of the law's solver, 1e-10, a few roundings of it
@@ -48,7 +50,7 @@ class Examined:
     Attributes
     ----------
     loads : name to nodal forces at factor 1, each (dofs,)
-    parts, motions : connected pieces and their rigid motions, (dofs, 3 parts) or axisymmetric (dofs, parts)
+    parts, motions : connected pieces and their rigid motions, (dofs, motions of all parts)
     floating : (motions, k) rigid motions that supports leave free and contact must hold
     scale : sizes from the data
     """
@@ -71,6 +73,8 @@ class Prepared(Examined):
     Attributes
     ----------
     K : (dofs, dofs) stiffness of bodies and elastic foundations, supports not applied
+    released : supports that do not hold
+    multiplied : what values of moving supports are multiplied by, beyond the model's
     bodies : the interface as the bodies feel it, condensed; or, where that does not fit, the bodies as they are
     law_or_none : the contact law on the condensed interface, see `law`
     clock : seconds spent so far
@@ -84,6 +88,13 @@ class Prepared(Examined):
     clock: Clock
     backend: str
     absent: BoolArray
+    released: frozenset[str] = frozenset()
+    multiplied: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def ties(self) -> Ties | None:
+        """Tied pairs on the condensed interface; None where there is none."""
+        return None if isinstance(self.bodies, Bodies) else self.bodies.ties
 
     @property
     def condensed(self) -> Condensed:
@@ -132,14 +143,28 @@ class Prepared(Examined):
     def widened(self) -> Prepared:
         """The same with every pair in the law, factorised anew."""
         everything = np.ones(len(self.interface), bool)
-        return _made(self, self.K, everything, self.backend, self.clock)
+        return self._again(self, everything)
+
+    def upheld(self, released: frozenset[str]) -> Prepared:
+        """The same under other supports, factorised anew."""
+        if released == self.released:
+            return self
+        constraints = make_constraints(self.space, self.model, without=released)
+        prescribed = {name: self.multiplied.get(name, 1.0) * u for name, u in constraints.prescribed.items()}
+        examined = _under(self, replace(constraints, prescribed=prescribed))
+        near = _near(examined) if self.limited else np.ones(len(self.interface), bool)
+        return replace(self._again(examined, near), released=released)
+
+    def _again(self, examined: Examined, near: BoolArray) -> Prepared:
+        made = _made(examined, self.K, near, self.backend, self.clock)
+        return replace(made, released=self.released, multiplied=self.multiplied)
 
     def law_under(self, interface: Interface, scale: Scale) -> CoulombProblem | SpatialProblem | None:
         """The law of the same pairs with other friction, gaps or sizes of the data."""
         if isinstance(self.bodies, Bodies):
             return None
         size = _size(interface, self.bodies, scale)
-        return replace(self.law, scale=size, **_cones(interface, self.bodies.active))
+        return replace(self.law, scale=size, **_cones(interface, self.bodies))
 
     def changed(
         self,
@@ -197,6 +222,7 @@ class Prepared(Examined):
             scale=scale,
             law_or_none=self.law_under(interface, scale),
             clock=Clock(),
+            multiplied=factor | {name: factor.get(name, 1.0) * old for name, old in self.multiplied.items()},
         )
 
 
@@ -209,13 +235,26 @@ def examine(model: Model) -> Examined:
         If something in the model does not fit the mesh, or a body can move freely: it is named, with its motion.
     """
     refuse_locking(model)
-    space = make_space(model.mesh, axisymmetric=model.axisymmetric, obstacles=len(model.obstacles))
-    constraints = make_constraints(space, model)
+    carriers = len(model.obstacles) + len(model.rigid_bodies)
+    space = make_space(model.mesh, axisymmetric=model.axisymmetric, obstacles=carriers, linked=linked_nodes(model))
+    supports = released_by_step(model)
+    sometimes = frozenset().union(*supports)
+    constraints = make_constraints(space, model, without=supports[0])
+    always = make_constraints(space, model, without=sometimes) if sometimes != supports[0] else constraints
     loads = nodal_loads(space, model)
-    interface = make_interface(space, model, constraints)
+    interface = make_interface(space, model, always)
     parts = make_parts(space, model)
-    motions = rigid_motions(space, parts, axisymmetric=model.axisymmetric)
-    refuse_free_motions(space, constraints, interface, parts, motions)
+    motions = rigid_motions(space, parts)
+    for released in dict.fromkeys(supports):
+        step = supports.index(released)
+        try:
+            now = constraints if released == supports[0] else make_constraints(space, model, without=released)
+            refuse_free_motions(space, now, interface, parts, motions)
+        except InputError as error:
+            if not released:
+                raise
+            words = f"without {', '.join(sorted(released))}, {error.message}"
+            raise InputError(words, where=error.where or ("step", step, "release")) from error
     return Examined(
         model=model,
         space=space,
@@ -224,9 +263,25 @@ def examine(model: Model) -> Examined:
         loads=loads,
         parts=parts,
         motions=motions,
-        floating=free_motions(motions, constraints, interface.B[interface.rows(interface.tied)]),
+        floating=_floating(motions, constraints, interface),
         scale=data_scale(model, loads, constraints, interface),
     )
+
+
+def released_by_step(model: Model) -> list[frozenset[str]]:
+    """Supports that do not hold in each step."""
+    return [stage.released for stage in stages(model)]
+
+
+def _floating(motions: sp.csr_array, constraints: Constraints, interface: Interface) -> Array:
+    return free_motions(motions, constraints, interface.B[interface.rows(interface.tied)])
+
+
+def _under(examined: Examined, constraints: Constraints) -> Examined:
+    """The same under other supports."""
+    floating = _floating(examined.motions, constraints, examined.interface)
+    known = {field.name: getattr(examined, field.name) for field in fields(Examined)}
+    return Examined(**(known | {"constraints": constraints, "floating": floating}))
 
 
 def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) -> Prepared:
@@ -243,7 +298,8 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
         K = stiffness(examined.space, model)
         for springs in examined.constraints.springs.values():
             K = sp.csr_array(K + springs.T @ springs)
-    return _made(examined, K, _near(examined), backend, clock)
+    made = _made(examined, K, _near(examined), backend, clock)
+    return replace(made, released=released_by_step(model)[0])
 
 
 def _near(examined: Examined) -> BoolArray:
@@ -344,15 +400,22 @@ def contact_law(
         b=np.zeros(len(rows)),
         motions=condensed.root[:, None] * seen,
         scale=_size(interface, condensed, scale),
-        **_cones(interface, condensed.active),
+        **_cones(interface, condensed),
     )
 
 
-def _cones(interface: Interface, active: BoolArray) -> dict[str, Any]:
-    """The friction of the active pairs as the laws take it."""
+def _cones(interface: Interface, condensed: Condensed) -> dict[str, Any]:
+    """The friction of the active pairs as the laws take it, forces scaled."""
+    active = condensed.active
+    area = interface.area[active] / condensed.root[: int(active.sum())]
+    adheres, limited = interface.adhesion[active].any(), np.isfinite(interface.shear_limit[active]).any()
+    bounds = {
+        "adhesion": interface.adhesion[active] * area if adheres else None,
+        "limit": interface.shear_limit[active] * area if limited else None,
+    }
     if interface.directions == 2:
-        return {"friction": interface.friction[active]}
-    return {"friction": interface.coefficients[active], "facets": interface.facets[active]}
+        return {"friction": interface.friction[active], **bounds}
+    return {"friction": interface.coefficients[active], "facets": interface.facets[active], **bounds}
 
 
 def _size(interface: Interface, condensed: Condensed, scale: Scale) -> float:
@@ -386,7 +449,8 @@ def refuse_free_motions(
     free = free_motions(motions, constraints, touching)
     if free.shape[1]:
         raise InputError(f"{_say(parts, free)}: no support or contact holds it; add a support")
-    rubbing = (interface.coefficients > 0).T.ravel()
+    along = interface.coefficients + interface.adhesion[:, None] * interface.anisotropy
+    rubbing = (along > 0).T.ravel()
     resisting = interface.B[np.concatenate([np.ones(len(interface), bool), rubbing])]
     free = free_motions(motions, constraints, resisting)
     if free.shape[1]:
@@ -401,7 +465,11 @@ def _say(parts: tuple[Part, ...], motions: Array) -> str:
 
 def _singular(examined: Examined, error: NotPositiveDefinite) -> InputError:
     node = examined.constraints.nodes[error.dof]
-    label = next(part.label for part in examined.parts if node in part.nodes)
+    label = next((part.label for part in examined.parts if node in part.nodes), "")
+    if not label:
+        return InputError(
+            "a rigid body or obstacle has no stiffness against some motion; expected a support or contact"
+        )
     at = tuple(float(x) for x in examined.model.mesh.points[node].round(6))
     number = examined.model.mesh.labels[node]
     return InputError(

@@ -16,8 +16,10 @@ from signorini.engine.heat import heat_of
 from signorini.engine.increments import applied
 from signorini.engine.leg import Leg
 from signorini.engine.prepare import Prepared
+from signorini.engine.upheld import support_forces
 from signorini.fem.obstacles import arm
 from signorini.friction.law import OPEN, STICK
+from signorini.model.links import directions
 from signorini.model.stage import Stage
 from signorini.solution import results
 from signorini.solution.certificate import Certificate
@@ -57,8 +59,9 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
         events=leg.events,
         displacement=frozen(prepared.space.at_nodes(state.displacement)),
         factors=dict(state.point.factors),
-        external=frozen(prepared.space.at_nodes(state.external)),
+        external=frozen(_external(prepared, state)),
         obstacles=_obstacles(prepared, state),
+        rigid_bodies=_rigid_bodies(prepared, state),
         reactions=_reactions(prepared, state),
         strain_energy=elastic - springs + heat(state),
         interface_energy=stored - elastic + springs,
@@ -84,8 +87,7 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
 
 def _notes(prepared: Prepared, leg: Leg) -> tuple[str, ...]:
     """What a reader should know of how the step was followed."""
-    friction = prepared.interface.friction
-    rubbing = (friction > 0) & np.isfinite(friction)
+    rubbing = prepared.interface.rubs & ~prepared.interface.sticks
     if leg.path != "single" or not rubbing.any():
         return leg.notes
     closed = rubbing & (leg.after.status != OPEN) & (leg.before.gap > 1e-9 * prepared.scale.length)
@@ -114,14 +116,46 @@ def _finer_notes(prepared: Prepared) -> tuple[str, ...]:
 def _reactions(prepared: Prepared, state: State) -> dict[str, Array]:
     """Forces of supports and elastic foundations on the bodies, by name."""
     owner, d = prepared.constraints.owner, prepared.model.dimension
+    force, rigid = _held_forces(prepared, state), _rigid_dofs(prepared)
     total = np.zeros((len(prepared.model.supports) + 1, d))
-    # a support's force is what equilibrium takes beyond the loads that act on the held node itself
-    loads, _ = applied(prepared, state.point)
-    np.add.at(total, (owner, np.arange(len(owner)) % d), np.where(owner >= 0, state.external - loads, 0.0))
-    forces = {support.label: frozen(total[i]) for i, support in enumerate(prepared.model.supports)}
+    np.add.at(total, (owner, np.arange(len(owner)) % d), np.where(owner >= 0, force, 0.0))
+    forces = {}
+    for i, support in enumerate(prepared.model.supports):
+        dofs, size = rigid.get(str(support.on), (np.empty(0, np.int64), np.zeros(0)))
+        own = np.where(owner[dofs] == i, force[dofs] * size, 0.0) if len(dofs) else total[i]
+        forces[support.label] = frozen(own)
     for name, S in prepared.constraints.springs.items():
         forces[name] = frozen(-(S.T @ (S @ state.displacement)).reshape(-1, d).sum(axis=0))
     return forces
+
+
+def _held_forces(prepared: Prepared, state: State) -> Array:
+    """(dofs,) Forces of supports."""
+    return support_forces(prepared.constraints, state, applied(prepared, state.point)[0])
+
+
+def _rigid_dofs(prepared: Prepared) -> dict[str, tuple[IntArray, Array]]:
+    """Of every rigid body its dofs, and what their forces are multiplied by to be forces and moments."""
+    model, found = prepared.model, {}
+    for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles)):
+        dofs = prepared.space.obstacle_dofs(j)[: len(directions(model.dimension))]
+        found[body.name] = (dofs, np.where(np.arange(len(dofs)) < model.dimension, 1.0, arm(model)))
+    return found
+
+
+def _external(prepared: Prepared, state: State) -> Array:
+    """(nodes, d) Loads and reactions; those of a rigid body at its node of no cell, if one is at its point."""
+    model, constraints = prepared.model, prepared.constraints
+    if not len(constraints.dependent):
+        return prepared.space.at_nodes(state.external)
+    loads, _ = applied(prepared, state.point)
+    force = np.where(constraints.alone | (constraints.free >= 0), loads, loads + _held_forces(prepared, state))
+    at_nodes = prepared.space.at_nodes(force).copy()
+    loose = prepared.space.loose_nodes
+    for body, (dofs, _) in zip(model.rigid_bodies, _rigid_dofs(prepared).values(), strict=True):
+        here = loose[(model.mesh.points[loose] == np.array(body.point)).all(axis=1)]
+        at_nodes[here[:1]] += force[dofs[: model.dimension]]
+    return at_nodes
 
 
 def _obstacles(prepared: Prepared, state: State) -> dict[str, ObstacleResult]:
@@ -135,6 +169,22 @@ def _obstacles(prepared: Prepared, state: State) -> dict[str, ObstacleResult]:
             rotation=_number(state.displacement[turn] / length),
             force=frozen(state.external[dofs[:d]]),
             moment=_number(state.external[turn] * length),
+        )
+    return found
+
+
+def _rigid_bodies(prepared: Prepared, state: State) -> dict[str, ObstacleResult]:
+    """Motions of the rigid bodies and what loads and supports do to them, by name."""
+    found, d = {}, prepared.model.dimension
+    loads, _ = applied(prepared, state.point)
+    force = loads + _held_forces(prepared, state)
+    for name, (dofs, size) in _rigid_dofs(prepared).items():
+        motion, acting = state.displacement[dofs] / size, force[dofs] * size
+        found[name] = ObstacleResult(
+            displacement=frozen(motion[:d]),
+            rotation=_number(motion[d:]),
+            force=frozen(acting[:d]),
+            moment=_number(acting[d:]),
         )
     return found
 
@@ -210,13 +260,12 @@ def _contact_result(
     prepared: Prepared, surface: _Surface, before: State, state: State, sliding: Array, slip_range: Array
 ) -> ContactResult:
     interface, n, own = prepared.interface, len(prepared.interface), surface.own
-    normal, friction = state.forces[:n][own], interface.friction[own]
+    normal = state.forces[:n][own]
     tangential = interface.effort(state.forces[n:])[own]
     code, area = state.status[own], surface.fixed["area"]
-    bound = np.zeros(len(normal))
-    np.multiply(friction, normal, out=bound, where=normal > 0)
+    bound = interface.most(state.forces[:n])[own]
     # a pair that a support guides carries no friction: it touches without slipping
-    sticks = (code == STICK) | ((friction > 0) & (tangential < (1.0 - 1e-9) * bound))
+    sticks = (code == STICK) | (interface.rubs[own] & (tangential < (1.0 - 1e-9) * bound))
     status = np.where(code == OPEN, results.OPEN, np.where(sticks, results.STICK, results.SLIP))
     dissipation = (state.dissipation - before.dissipation)[own]
     return ContactResult(

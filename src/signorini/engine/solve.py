@@ -20,8 +20,10 @@ from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
 from signorini.engine.span import Span, spans
 from signorini.engine.staged import absent_pairs, nominal_gap, staged
+from signorini.engine.upheld import at_the_end, handed_over
 from signorini.engine.wellposed import assess
 from signorini.errors import InputError, SolveFailed
+from signorini.fem.supports import Constraints, make_constraints
 from signorini.friction.law import OPEN
 from signorini.model.model import Model
 from signorini.model.stage import Stage, stages
@@ -81,13 +83,14 @@ def _begin(prepared: Prepared, start: Checkpoint | None) -> Checkpoint:
     model, interface = prepared.model, prepared.interface
     zero = dict.fromkeys(model.scaled_names, 0.0)
     if start is None:
-        return checkpoint(prepared, initial_state(zero, prepared.space.number_of_dofs, interface), inactive=frozenset())
+        state = initial_state(zero, prepared.space.number_of_dofs, interface)
+        return checkpoint(prepared, state, inactive=frozenset(), released=prepared.released)
     start.check(model, interface)
     point = start.state.point
     factors = zero | {name: factor for name, factor in point.factors.items() if name in zero}
     state = replace(start.state, point=replace(point, factors=factors))
     absent = absent_pairs(prepared, start.inactive)
-    found = measured(replace(prepared, absent=absent), state)
+    found = measured(replace(prepared, absent=absent, constraints=_constraints(prepared, start.released)), state)
     if not found.equilibrium <= TOLERANCE:
         raise InputError(
             f"is not in equilibrium in this model (residual {found.equilibrium:.1e} of the loads); expected the same "
@@ -103,23 +106,29 @@ def _follow(prepared: Prepared, begin: Checkpoint, wellposed: bool) -> History:
     seen = prepared.bodies.active | prepared.bodies.held | prepared.interface.tied
     if (state.status[~seen] != OPEN).any():
         prepared = prepared.widened()
-    schedule = list(stages(prepared.model, factors=state.point.factors, inactive=begin.inactive))
+    released = begin.released
+    schedule = list(stages(prepared.model, factors=state.point.factors, inactive=begin.inactive, released=released))
     steps: list[StepResult] = []
     now, inactive = replace(prepared, absent=absent_pairs(prepared, begin.inactive)), begin.inactive
+    supports = _constraints(prepared, released)
     prepared.clock.expect(sum(_expected(stage) for stage in schedule))
     try:
         for stage in schedule:
+            prepared = prepared.upheld(stage.released)
             absent, now = now.absent, staged(prepared, stage)
+            state = handed_over(now, supports, state)
             leg, cycle_ends = _step(now, stage, switched(now, state, absent))
             steps.append(step_result(now, stage, leg, cycle_ends))
-            state, inactive = leg.after, stage.inactive
+            state, inactive, released, supports = leg.after, stage.inactive, stage.released, now.constraints
     except KeyboardInterrupt:
         words = f"interrupted in step {len(steps) + 1} of {len(schedule)}; {len(steps)} steps were finished"
-        return _history(prepared, INTERRUPTED, words, steps, checkpoint(prepared, state, inactive=inactive))
+        end = checkpoint(prepared, state, inactive=inactive, released=released)
+        return _history(prepared, INTERRUPTED, words, steps, end)
     except SolveFailed as failure:
-        end = checkpoint(prepared, state, inactive=inactive)
+        end = checkpoint(prepared, state, inactive=inactive, released=released)
         return replace(_history(prepared, failure.status, str(failure), steps, end), escape=_motion(failure))
-    history = _history(prepared, "solved", "", steps, checkpoint(prepared, state, inactive=inactive))
+    end = checkpoint(prepared, state, inactive=inactive, released=released)
+    history = _history(prepared, "solved", "", steps, end)
     return replace(history, wellposedness=assess(now, state)) if wellposed else history
 
 
@@ -132,11 +141,19 @@ def _expected(stage: Stage) -> int:
     return (number if isinstance(number, int) else 1) * len(stage.ends)
 
 
-def checkpoint(prepared: Prepared, state: State, *, inactive: frozenset[str]) -> Checkpoint:
+def _constraints(prepared: Prepared, released: frozenset[str]) -> Constraints:
+    """Under some of the supports; the prepared ones where those are they."""
+    if released == prepared.released:
+        return prepared.constraints
+    return make_constraints(prepared.space, prepared.model, without=released)
+
+
+def checkpoint(prepared: Prepared, state: State, *, inactive: frozenset[str], released: frozenset[str]) -> Checkpoint:
     """A state as something to go on from."""
     return Checkpoint(
         state=state,
         inactive=inactive,
+        released=released,
         contacts=tuple(contact.label for contact in prepared.model.contacts),
         contact=prepared.interface.contact,
         node=prepared.interface.node,
@@ -164,7 +181,14 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
             )
         )
         state = after
-    end = LoadPoint(factors=stage.ends[-1], gap=nominal_gap(prepared, stage), given=np.zeros_like(state.point.given))
+    reaction, offset = at_the_end(prepared, stage, state.point)
+    end = LoadPoint(
+        factors=stage.ends[-1],
+        gap=nominal_gap(prepared, stage),
+        given=np.zeros_like(state.point.given),
+        reaction=reaction,
+        offset=offset,
+    )
     # the work of temperatures needs the displacements, see signorini.engine.heat
     heated = any(load.temperature is not None for load in prepared.model.loads)
     for span, point in spans(stage, state.point, end):
@@ -184,8 +208,8 @@ def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPo
     Where the exact path that nobody asked for ends in a jump or is lost, it is followed in increments, and the notes
     say so: what they reach behind a jump is a candidate.
     """
-    step, friction = stage.step, prepared.interface.friction
-    rubbing = bool(((friction > 0) & np.isfinite(friction) & ~prepared.absent).any())
+    step, interface = stage.step, prepared.interface
+    rubbing = bool((interface.rubs & ~interface.sticks & ~prepared.absent).any())
     if step.path != "exact" and (step.path is not None or step.increments is not None or not rubbing):
         if step.increments == "auto":
             return follow_automatically(prepared, step.tolerance, stage.name, span, state, end)

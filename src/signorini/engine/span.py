@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -49,7 +49,7 @@ def spans(stage: Stage, start: LoadPoint, end: LoadPoint) -> Iterator[tuple[Span
 
     Parameters
     ----------
-    start, end : points at the ends of the step; gaps and given forces change linearly from one to the other
+    start, end : points at the ends of the step; everything but factors changes linearly from one to the other
     """
     count, step = len(stage.ends), stage.step
     kinks = [(j / count, "segment") for j in range(1, count + 1)]
@@ -62,7 +62,7 @@ def spans(stage: Stage, start: LoadPoint, end: LoadPoint) -> Iterator[tuple[Span
         t = high * count - j if what == "asked" else 1.0
         way = start.towards(end, high)
         factors = {name: (1.0 - t) * first.get(name, 0.0) + t * value for name, value in stage.ends[j].items()}
-        point = LoadPoint(factors=stage.ends[j] if t == 1.0 else factors, gap=way.gap, given=way.given)
+        point = replace(way, factors=stage.ends[j] if t == 1.0 else factors)
         finished = what == "segment" and (j + 1) % step.segments == 0
         cycle = (j + 1) // step.segments if finished else 0
         yield (

@@ -116,7 +116,7 @@ def outer_faces(faces: Mapping[int, Faces], given: IntArray, points: int, name: 
 
 def _mirrored(points: Array, cells: IntArray) -> Array:
     """(m,) whether the first corners of a cell are left-handed."""
-    family = {4: (1, 2, 3), 10: (1, 2, 3), 6: (1, 2, 3)}.get(cells.shape[1], (1, 3, 4))
+    family = {4: (1, 2, 3), 10: (1, 2, 3), 6: (1, 2, 3), 15: (1, 2, 3)}.get(cells.shape[1], (1, 3, 4))
     origin = points[cells[:, 0]]
     along = np.stack([points[cells[:, k]] - origin for k in family], axis=1)
     left: Array = np.linalg.det(along) < 0.0

@@ -8,8 +8,9 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import boundary
+from signorini.fem.links import place_dofs
 from signorini.fem.measure import facet_areas, measure
-from signorini.fem.obstacles import obstacle_loads
+from signorini.fem.obstacles import arm, obstacle_loads
 from signorini.fem.places import nodes_at
 from signorini.fem.space import ON_AXIS, Space
 from signorini.fem.thermal import thermal_forces
@@ -19,12 +20,23 @@ from signorini.model.model import Model
 
 def nodal_loads(space: Space, model: Model) -> dict[str, Array]:
     """Consistent nodal forces of every load, and of loaded obstacles, at factor 1, by name, each (dofs,)."""
-    beyond = np.zeros(space.number_of_dofs - space.mesh.points.size)
     nodal = {load.label: _forces(space, model, load, ("load", i)) for i, load in enumerate(model.loads)}
-    return {label: np.concatenate([f, beyond]) for label, f in nodal.items()} | obstacle_loads(space, model)
+    return nodal | obstacle_loads(space, model)
 
 
 def _forces(space: Space, model: Model, load: Load, where: Where) -> Array:
+    """(dofs,)"""
+    forces = np.zeros(space.number_of_dofs)
+    if load.force is not None and any(load.on == body.name for body in model.rigid_bodies):
+        dofs = place_dofs(space, model, load.on, (*where, "on"))[0]
+        size = np.where(np.arange(len(dofs)) < space.dimension, 1.0, arm(model))  # dofs of rotations are lengths
+        forces[dofs] = _given(load.force) / size
+    else:
+        forces[: space.mesh.points.size] = _on_mesh(space, model, load, where)
+    return forces
+
+
+def _on_mesh(space: Space, model: Model, load: Load, where: Where) -> Array:
     if load.temperature is not None:
         return thermal_forces(space, model, load)
     if load.kind in BODY_LOADS:
@@ -79,7 +91,11 @@ def _density(load: Load, mass: float, at: Array, axisymmetric: bool) -> Array:
     """Force per volume at points (m, q, d)."""
     if load.centrifugal is not None:
         arm = at - np.array(load.centre or (0.0,) * at.shape[-1])
-        outward = {2: (1.0, 0.0 if axisymmetric else 1.0), 3: (1.0, 1.0, 0.0)}[arm.shape[-1]]  # in space about z
-        return mass * load.centrifugal**2 * arm * outward
+        along = np.array(load.axis) if load.axis is not None else np.eye(3)[2]
+        if arm.shape[-1] == 2:
+            along = np.array([0.0, 1.0 if axisymmetric else 0.0])
+        along = along / max(float(np.linalg.norm(along)), 1.0e-300)
+        outward: Array = arm - (arm @ along)[..., None] * along
+        return mass * load.centrifugal**2 * outward
     constant = np.array(load.body_force) if load.body_force is not None else mass * np.array(load.gravity)
     return np.broadcast_to(constant, at.shape)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Unknowns of moving rigid obstacles: two nodes behind those of the mesh, one to translate and one to rotate each."""
+"""Unknowns of moving obstacles and rigid bodies: two nodes behind the mesh, one to translate and one to rotate each."""
 
 from __future__ import annotations
 
@@ -15,12 +15,17 @@ def arm(model: Model) -> float:
     return float(np.linalg.norm(np.ptp(model.mesh.points, axis=0)) / 2.0)
 
 
-def carried(model: Model, j: int, points: Array) -> Array:
-    """Displacement of points (k, d) with the unknowns of obstacle j, (k, d, 2 d): in 2D ``u_x, u_y, theta arm``, none.
+def carried(model: Model, points: Array, about: Array) -> Array:
+    """Displacement of points with the unknowns of what is rigid, (k, d, 2 d): in 2D ``u_x, u_y, theta arm``, none.
 
     ``u(x) = u + theta (-(y - y_c), x - x_c)``; in space ``u + theta x (x - x_c)`` with three rotations.
+
+    Parameters
+    ----------
+    points : (k, d)
+    about : (d,) the point x_c about which it rotates
     """
-    lever = (points - np.array(model.obstacles[j].about)) / arm(model)
+    lever = (points - about) / arm(model)
     d = lever.shape[1]
     result = np.zeros((len(points), d, 2 * d))
     result[:, :, :d] = np.eye(d)

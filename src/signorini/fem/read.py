@@ -14,6 +14,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, one_of
+from signorini.formats import complete_meshio
 from signorini.model.mesh import NODES_PER_CELL, NODES_PER_PLANE_CELL, NODES_PER_SOLID_CELL, Mesh
 
 _LINES, _POINTS = ("line", "line3"), "vertex"
@@ -182,6 +183,7 @@ def _surfaces(named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntAr
 
 def _read(path: Path) -> meshio.Mesh:
     # meshio prints warnings, multiplies what is no number and ends the process on some malformed files
+    complete_meshio()
     said = io.StringIO()
     try:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), np.errstate(all="ignore"):

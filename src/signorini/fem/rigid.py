@@ -30,8 +30,11 @@ class Part:
     nodes : (k,) its nodes
     centre : (d,) their mean, length
     size : half the diagonal of its bounding box, length
-    obstacle : number of the rigid obstacle that it is instead, otherwise -1: no nodes, the point about which it rotates
-        and the length that goes with its rotation
+    obstacle : number of the rigid obstacle, or rigid body, that it is instead, otherwise -1: no nodes, the point about
+        which it rotates and the length that goes with its rotation
+    axes : along which it can move
+    turns : about how many axes it can rotate
+    kind : what it is called: "body", "obstacle", "rigid body", "node"
     """
 
     bodies: tuple[str, ...]
@@ -39,17 +42,31 @@ class Part:
     centre: Array
     size: float
     obstacle: int = -1
+    axes: tuple[int, ...] = (0, 1)
+    turns: int = 1
+    kind: str = "body"
 
     @property
     def label(self) -> str:
         """As in "body 'disk'"."""
-        if self.obstacle >= 0:
-            return f"obstacle '{self.bodies[0]}'"
-        return ("body " if len(self.bodies) == 1 else "bodies ") + " and ".join(f"'{name}'" for name in self.bodies)
+        if self.kind == "node":
+            return f"node {self.bodies[0]}"
+        kind = self.kind if len(self.bodies) == 1 else "bodies"
+        return f"{kind} " + " and ".join(f"'{name}'" for name in self.bodies)
+
+    @property
+    def motions(self) -> int:
+        """How many rigid motions it has."""
+        return len(self.axes) + self.turns
 
 
 def make_parts(space: Space, model: Model) -> tuple[Part, ...]:
-    """The connected pieces of the mesh, in the order of their first nodes, then the rigid obstacles that move."""
+    """The connected pieces of the mesh in the order of their first nodes, then what moves without being meshed.
+
+    That are rigid obstacles, rigid bodies, and nodes of no cell that equations name.
+    """
+    d = space.dimension
+    axes, turns = ((1,), 0) if model.axisymmetric else (tuple(range(d)), len(_turns(d)))
     points, count = space.mesh.points, len(space.mesh.points)
     links = [(np.repeat(b.cells[:, 0], b.cells.shape[1]), b.cells.ravel()) for b in space.blocks]
     rows, columns = np.concatenate([r for r, _ in links]), np.concatenate([c for _, c in links])
@@ -75,24 +92,47 @@ def make_parts(space: Space, model: Model) -> tuple[Part, ...]:
                 nodes=nodes,
                 centre=points[nodes].mean(axis=0),
                 size=float(np.linalg.norm(np.ptp(points[nodes], axis=0)) / 2.0),
+                axes=axes,
+                turns=turns,
             )
         )
-    for j, obstacle in enumerate(model.obstacles):
-        centre, none = np.array(obstacle.about), np.empty(0, int)
-        parts.append(Part(bodies=(obstacle.name,), nodes=none, centre=centre, size=arm(model), obstacle=j))
+    rigid = [(obstacle.name, obstacle.about, "obstacle") for obstacle in model.obstacles]
+    rigid += [(body.name, body.point, "rigid body") for body in model.rigid_bodies]
+    none = np.empty(0, int)
+    for j, (name, about, kind) in enumerate(rigid):
+        centre = np.array(about)
+        parts.append(
+            Part(
+                bodies=(name,),
+                nodes=none,
+                centre=centre,
+                size=arm(model),
+                obstacle=j,
+                axes=axes,
+                turns=turns,
+                kind=kind,
+            )
+        )
+    for node in space.loose_nodes:
+        number = str(space.mesh.labels[node])
+        alone = np.array([node])
+        every = tuple(range(d))
+        parts.append(
+            Part(bodies=(number,), nodes=alone, centre=points[node], size=1.0, axes=every, turns=0, kind="node")
+        )
     return tuple(parts)
 
 
-def rigid_motions(space: Space, parts: tuple[Part, ...], *, axisymmetric: bool = False) -> sp.csr_array:
-    """Translations along x and y and the rotation ``(-(y - y_c), x - x_c) / size`` of each part, (dofs, 3 parts).
+def rigid_motions(space: Space, parts: tuple[Part, ...]) -> sp.csr_array:
+    """Translations along x and y and the rotation ``(-(y - y_c), x - x_c) / size`` of each part, (dofs, motions).
 
-    In space three translations and the rotations ``e_k x (x - c) / size``, (dofs, 6 parts). Axisymmetric parts move
-    along the axis alone, (dofs, parts): widening a ring or tilting a plate strains it.
+    In space three translations and the rotations ``e_k x (x - c) / size``. Axisymmetric parts move along the axis
+    alone: widening a ring or tilting a plate strains it.
     """
     d = space.dimension
-    full = d * (d + 1) // 2
-    each = 1 if axisymmetric else full
+    full = d + len(_turns(d))
     rows, columns, values = [], [], []
+    start = np.cumsum([0, *(part.motions for part in parts)])
     for i, part in enumerate(parts):
         lever = (space.mesh.points[part.nodes] - part.centre) / part.size
         one, along = np.ones(len(part.nodes)), space.dofs(part.nodes).T
@@ -101,13 +141,14 @@ def rigid_motions(space: Space, parts: tuple[Part, ...], *, axisymmetric: bool =
             motions += [(k, along[first], -lever[:, second]), (k, along[second], lever[:, first])]
         if part.obstacle >= 0:
             motions = [(k, dof, np.ones(1)) for k, dof in enumerate(space.obstacle_dofs(part.obstacle)[:full, None])]
-        if axisymmetric:
-            motions = [(0, motions[1][1], motions[1][2])]
-        rows += [dofs for _, dofs, _ in motions]
-        columns += [np.full(len(dofs), each * i + k) for k, dofs, _ in motions]
-        values += [value for _, _, value in motions]
+        kept = [*part.axes, *range(d, d + part.turns)]
+        for k, dofs, value in motions:
+            if k in kept:
+                rows.append(dofs)
+                columns.append(np.full(len(dofs), start[i] + kept.index(k)))
+                values.append(value)
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-    return sp.csr_array(entries, shape=(space.number_of_dofs, each * len(parts)))
+    return sp.csr_array(entries, shape=(space.number_of_dofs, int(start[-1])))
 
 
 def _turns(dimension: int) -> tuple[tuple[int, int], ...]:
@@ -127,10 +168,8 @@ def free_motions(motions: sp.csr_array, constraints: Constraints, held: sp.csr_a
     -------
     (motions of all parts, k) coefficients, a basis as simple as it can be
     """
-    transform = constraints.transform
-    together = np.maximum(transform.sum(axis=0), 1.0)
-    # what supports and rigid boundaries hold is what the free displacements cannot represent
-    lost = motions - transform @ sp.diags_array(1.0 / together) @ (transform.T @ motions)
+    # what supports, rigid boundaries and equations hold is what the free displacements cannot represent
+    lost = motions - constraints.transform @ motions[constraints.leaders]
     # springs count as held, whatever their stiffness
     springs = [(S / abs(S).max()) @ motions for S in constraints.springs.values()]
     seen = sp.vstack([lost, held @ motions, *springs])
@@ -143,7 +182,7 @@ def describe_motion(parts: tuple[Part, ...], motion: Array) -> str:
 
     Parameters
     ----------
-    motion : coefficients of :func:`rigid_motions`: 3 of every part, 6 in space, 1 of axisymmetric ones
+    motion : coefficients of :func:`rigid_motions`
 
     Examples
     --------
@@ -153,15 +192,15 @@ def describe_motion(parts: tuple[Part, ...], motion: Array) -> str:
     "body 'block' can move along x"
     """
     words = []
-    largest = np.abs(motion).max()
-    if len(motion) == len(parts):
-        moving = [part for part, along in zip(parts, motion, strict=True) if abs(along) > 1e-6 * largest]
-        return " while ".join(f"{part.label} can move along the axis" for part in moving)
-    each = len(motion) // len(parts)
-    for part, coefficients in zip(parts, motion.reshape(-1, each), strict=True):
-        clean = np.where(np.abs(coefficients) < 1e-6 * largest, 0.0, coefficients)
-        if clean.any():
-            words.append(f"{part.label} can {_way(part, clean[: len(part.centre)], clean[len(part.centre) :])}")
+    clean = np.where(np.abs(motion) < 1e-6 * np.abs(motion).max(), 0.0, motion)
+    ends = np.cumsum([part.motions for part in parts])
+    for part, own in zip(parts, np.split(clean, ends[:-1]), strict=True):
+        along = np.zeros(len(part.centre))
+        along[list(part.axes)] = own[: len(part.axes)]
+        if part.axes == (1,) and own.any():
+            words.append(f"{part.label} can move along the axis")
+        elif own.any():
+            words.append(f"{part.label} can {_way(part, along, own[len(part.axes) :])}")
     return " while ".join(words)
 
 

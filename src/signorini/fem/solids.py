@@ -19,9 +19,12 @@ SolidCells = Literal["hexahedron", "hexahedron20", "hexahedron27", "tetra", "tet
 SIDES = (("left", "right"), ("front", "back"), ("bottom", "top"))
 """Of a box: its lower and upper boundary along x, y and z."""
 
-_RAISED = {"quad": "hexahedron", "quad8": "hexahedron20", "quad9": "hexahedron27", "triangle": "wedge"}
+_RAISED = {
+    **{"quad": "hexahedron", "quad8": "hexahedron20", "quad9": "hexahedron27"},
+    **{"triangle": "wedge", "triangle6": "wedge15"},
+}
 _QUADRILATERAL = ((0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1))  # places of its nodes
-_FAMILIES = tuple(family for family in NODES_PER_SOLID_CELL if family != "wedge")
+_FAMILIES = tuple(family for family in NODES_PER_SOLID_CELL if not family.startswith("wedge"))
 _EDGES = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))  # of a tetrahedron, in the order of its middle nodes
 
 
@@ -59,11 +62,12 @@ def box(*, x: ArrayLike, y: ArrayLike, z: ArrayLike, cells: SolidCells = "hexahe
 def extruded(mesh: Mesh, *, z: ArrayLike) -> Mesh:
     """A plane mesh raised along z; its boundaries become walls, "bottom" and "top" are added.
 
-    Quadrilaterals become hexahedra of the same order ("quad8" has 20 nodes, "quad9" 27), triangles wedges.
+    Quadrilaterals become hexahedra of the same order ("quad8" has 20 nodes, "quad9" 27), triangles wedges ("triangle6"
+    with 15 nodes).
 
     Parameters
     ----------
-    mesh : with two coordinates, of "quad", "quad8", "quad9" or "triangle"
+    mesh : with two coordinates, of "quad", "quad8", "quad9", "triangle" or "triangle6"
     z : increasing heights of the layers, length
 
     Raises
@@ -87,6 +91,9 @@ def extruded(mesh: Mesh, *, z: ArrayLike) -> Mesh:
     points = np.column_stack([np.tile(mesh.points, (len(heights), 1)), np.repeat(heights, n)])
     if family == "wedge":
         nodes = np.hstack([cells, cells + n])
+    elif family == "wedge15":
+        corners, middles = cells[:, :3], cells[:, 3:]
+        nodes = np.hstack([corners, corners + 2 * n, middles, middles + 2 * n, corners + n])
     else:
         offsets = np.array(HEXAHEDRON[: NODES_PER_SOLID_CELL[family]])
         column = [_QUADRILATERAL.index((a, b)) for a, b in offsets[:, :2]]
@@ -96,7 +103,7 @@ def extruded(mesh: Mesh, *, z: ArrayLike) -> Mesh:
     for name, edges in mesh.boundaries.items():
         corners = np.hstack([edges[:, :2], edges[:, 1::-1] + step * n])
         walls[name] = np.concatenate([corners + n * k for k in layers])
-    corners = cells[:, :3] if family == "wedge" else cells[:, :4]
+    corners = cells[:, : 3 if family.startswith("wedge") else 4]
     walls |= {"bottom": corners, "top": corners + n * (len(heights) - 1)}
     used, compact = np.unique(raised, return_inverse=True)  # hexahedra of 20 nodes have none inside faces
     first = mesh.number_of_cells * np.arange(len(layers))[:, None]

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -14,6 +14,7 @@ from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.fem.edges import Edges, check_conforming, make_edges
 from signorini.fem.faces import HEXAHEDRON, Faces, make_faces
+from signorini.fem.wedge import QuadraticWedge
 from signorini.model.mesh import CORNERS, Mesh
 
 ON_AXIS = 1e-10
@@ -51,6 +52,7 @@ _ELEMENTS: Mapping[str, _Element] = {
     "hexahedron20": _Element(skfem.ElementHexS2, 5, 5, 2, _TRILINEAR),
     "hexahedron27": _Element(skfem.ElementHex2, 5, 5, 2, _TRILINEAR),
     "wedge": _Element(skfem.ElementWedge1, 3, 3, 2, _SOLID),
+    "wedge15": _Element(QuadraticWedge, 5, 5, 2, (*_SOLID, (1, 0, 1), (0, 1, 1))),
 }
 
 
@@ -97,12 +99,14 @@ class Space:
     Attributes
     ----------
     mesh, blocks : nodes and cells
-    obstacles : how many rigid obstacles have unknowns of their own, behind those of the nodes
+    obstacles : how many rigid obstacles and rigid bodies have unknowns of their own, behind those of the nodes
+    linked : (k,) nodes that equations name, which may belong to no cell
     """
 
     mesh: Mesh
     blocks: tuple[Block, ...]
     obstacles: int = 0
+    linked: IntArray = field(default_factory=lambda: np.empty(0, np.int64))
 
     @property
     def dimension(self) -> int:
@@ -115,7 +119,7 @@ class Space:
         return self.mesh.points.size + 2 * self.dimension * self.obstacles
 
     def obstacle_dofs(self, j: int) -> IntArray:
-        """Dofs of rigid obstacle j, (2 d,): its translation, then its rotation times a length."""
+        """Dofs of rigid obstacle j, (2 d,): its translation, then its rotation times a length; then of rigid bodies."""
         first = self.mesh.points.size + 2 * self.dimension * j
         return np.arange(first, first + 2 * self.dimension)
 
@@ -123,6 +127,16 @@ class Space:
     def used_nodes(self) -> IntArray:
         """Nodes of any cell, sorted (a Gmsh file may hold others)."""
         return np.unique(np.concatenate([block.cells.ravel() for block in self.blocks]))
+
+    @cached_property
+    def loose_nodes(self) -> IntArray:
+        """Nodes of no cell that equations name, sorted."""
+        return np.setdiff1d(self.linked, self.used_nodes)
+
+    @cached_property
+    def node_of(self) -> Mapping[int, int]:
+        """Node by its number."""
+        return {number: node for node, number in enumerate(self.mesh.labels.tolist())}
 
     @cached_property
     def edges(self) -> Edges:
@@ -169,13 +183,14 @@ class Space:
         return nodes[..., None] * self.dimension + np.arange(self.dimension)
 
 
-def make_space(mesh: Mesh, *, axisymmetric: bool = False, obstacles: int = 0) -> Space:
+def make_space(mesh: Mesh, *, axisymmetric: bool = False, obstacles: int = 0, linked: IntArray | None = None) -> Space:
     """The space of a mesh.
 
     Parameters
     ----------
     axisymmetric : coordinates are radius and height: higher quadratures
-    obstacles : rigid ones with unknowns of their own
+    obstacles : rigid ones, and rigid bodies, with unknowns of their own
+    linked : nodes that equations name
 
     Raises
     ------
@@ -189,7 +204,8 @@ def make_space(mesh: Mesh, *, axisymmetric: bool = False, obstacles: int = 0) ->
     for family, cells in mesh.cells.items():
         blocks.append(_block(family, cells, first, axisymmetric))
         first += len(cells)
-    space = Space(mesh=mesh, blocks=tuple(blocks), obstacles=obstacles)
+    linked = np.empty(0, np.int64) if linked is None else linked
+    space = Space(mesh=mesh, blocks=tuple(blocks), obstacles=obstacles, linked=linked)
     if space.dimension == 2 and any(nodes.shape[1] > CORNERS[family] for family, nodes in mesh.cells.items()):
         check_conforming(mesh, space.edges)
     _check_shapes(space)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Supports and rigid boundaries: the displacements that remain unknown."""
+"""Supports, rigid boundaries and equations: the displacements that remain unknown."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -12,10 +12,14 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
 from signorini.fem.foundation import make_springs
-from signorini.fem.obstacles import driven
+from signorini.fem.links import Eliminated, Links, eliminate, make_links, place_dofs
+from signorini.fem.obstacles import arm, driven
 from signorini.fem.places import nodes_at
 from signorini.fem.space import ON_AXIS, Space
+from signorini.model.links import directions
 from signorini.model.model import Model
+
+_SAME = 1e-9  # of what supports prescribe: what equations may ask otherwise of it
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -24,13 +28,14 @@ class Constraints:
 
     Attributes
     ----------
-    free : (dofs,) index into z, -1 where a support, the axis (or nothing at all) holds the dof; dofs that move together
-        share one
-    transform : (dofs, z) sparse T, one entry 1 a row
+    free : (dofs,) index into z; -1 where a support, the axis (or nothing at all) holds the dof, -2 where equations
+        give it; dofs that move together share one
+    transform : (dofs, z) sparse T, one entry 1 a row, but of dofs that follow from others in equations
     prescribed : name of moving support or obstacle to (dofs,) displacements at factor 1
     springs : elastic foundations by name, see :func:`signorini.fem.foundation.make_springs`
     owner : (dofs,) index of the support that holds the dof, otherwise -1
     nodes : (z,) a node of each free displacement; those of obstacles follow the nodes of the mesh
+    dependent, shares : (k,) dofs that follow from others, (k, dofs) ``u[dependent] = shares @ u``
     """
 
     free: IntArray
@@ -39,38 +44,130 @@ class Constraints:
     springs: Mapping[str, sp.csr_array]
     owner: IntArray
     nodes: IntArray
+    dependent: IntArray
+    shares: sp.csr_array
 
     @property
     def leaders(self) -> IntArray:
         """(z,) The first dof of each free displacement."""
-        held = int((self.free < 0).any())
-        return np.asarray(np.unique(self.free, return_index=True)[1][held:], dtype=np.int64)
+        given = np.flatnonzero(self.free >= 0)
+        return given[np.unique(self.free[given], return_index=True)[1]]
+
+    @property
+    def held(self) -> BoolArray:
+        """(dofs,) Whether a support, the axis or nothing at all holds the dof."""
+        return np.asarray(self.free == -1)
+
+    @property
+    def alone(self) -> BoolArray:
+        """(dofs,) Free displacements that no other dof follows."""
+        count = np.bincount(self.transform.indices, minlength=self.transform.shape[1])
+        return np.asarray((self.free >= 0) & (count[self.free] == 1)) if len(count) else self.free >= 0
+
+    def completed(self, displacement: Array) -> Array:
+        """Displacements of all dofs (dofs,), those of dependent ones as they follow from the others."""
+        completed = displacement.copy()
+        completed[self.dependent] = self.shares @ displacement
+        return completed
+
+    def handed_on(self, forces: Array) -> Array:
+        """Forces on all dofs (dofs,), those on dependent ones given to the dofs that they follow from."""
+        if not len(self.dependent):
+            return forces
+        given = forces.copy()
+        given[self.dependent] = 0.0
+        result: Array = given + self.shares.T @ forces[self.dependent]
+        return result
 
     def foundation_forces(self, displacement: Array) -> Array:
         """Forces of all elastic foundations on the bodies, (dofs,)."""
         return sum((-(S.T @ (S @ displacement)) for S in self.springs.values()), np.zeros(len(self.free)))
 
 
-def make_constraints(space: Space, model: Model) -> Constraints:
-    """Read supports and rigid loaded boundaries.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Prescribed:
+    """What is known before anything is solved for.
+
+    Attributes
+    ----------
+    held : (dofs,)
+    owner : (dofs,) index of the support, otherwise -1
+    values : name to (dofs,) at factor 1
+    """
+
+    held: BoolArray
+    owner: IntArray
+    values: dict[str, Array]
+
+
+def make_constraints(space: Space, model: Model, *, without: Collection[str] = ()) -> Constraints:
+    """Read supports, rigid loaded boundaries, equations and rigid bodies.
+
+    Parameters
+    ----------
+    without : names of supports that do not act
 
     Raises
     ------
     InputError
         If two supports prescribe different values at one node, a support moves a node off the axis of an axisymmetric
-        body, or a rigid boundary carries a support in its direction.
+        body, a rigid boundary carries a support in its direction, or equations contradict what supports prescribe.
     """
-    d, total = space.dimension, space.number_of_dofs
+    links = make_links(space, model)
+    given = _prescribed(space, model, links, without)
+    leader = _leaders(space, model, given)
+    total = space.number_of_dofs
+    if len(links.first):
+        # dofs of a rigid loaded boundary are one unknown
+        C = sp.csr_array(links.C @ sp.csr_array((np.ones(total), (np.arange(total), leader)), shape=(total, total)))
+        links = replace(links, C=C, first=leader[links.first])
+    found = eliminate(links, given.held)
+    _refuse_contradictions(space, links, found, given)
+    follows = np.zeros(total, bool)
+    follows[found.dependent] = True
+    free = np.full(total, -1)
+    unknown = np.flatnonzero(~given.held & ~follows & (leader == np.arange(total)))
+    free[unknown] = np.arange(len(unknown))
+    free[found.dependent] = -2
+    free = np.where(given.held, -1, free[leader])
+    rows = np.flatnonzero(free >= 0)
+    T = sp.csr_array((np.ones(len(rows)), (rows, free[rows])), shape=(total, len(unknown)))
+    dependent, shares = np.flatnonzero(free == -2), found.shares
+    if len(dependent):
+        shares = shares[np.searchsorted(found.dependent, leader[dependent])]
+        spread = sp.csr_array(
+            (np.ones(len(dependent)), (dependent, np.arange(len(dependent)))), (total, len(dependent))
+        )
+        T = sp.csr_array(T + spread @ (shares @ T))
+    made = Constraints(
+        free=free,
+        transform=T,
+        prescribed={},
+        springs=make_springs(space, model),
+        owner=given.owner,
+        nodes=unknown // space.dimension,
+        dependent=dependent,
+        shares=shares,
+    )
+    return replace(made, prescribed={name: made.completed(u) for name, u in given.values.items()})
+
+
+def _prescribed(space: Space, model: Model, links: Links, without: Collection[str]) -> _Prescribed:
+    """What supports, moving obstacles and the axis hold, and what belongs to nothing."""
+    total, d = space.number_of_dofs, space.dimension
     axis_dofs = _on_axis(space, model)
-    owner = np.full(total, -1)
-    values = np.zeros(total)
+    owner, values = np.full(total, -1), np.zeros(total)
     prescribed = {support.label: np.zeros(total) for support in model.supports if support.moves}
+    rigid = [body.name for body in model.rigid_bodies]
     for i, support in enumerate(model.supports):
-        nodes = nodes_at(space, support.on, ("support", i, "on"))
-        for axis, value in enumerate(support.u):
-            if value is None:
+        if support.label in without:
+            continue
+        places = place_dofs(space, model, support.on, ("support", i, "on"))
+        for axis, part in enumerate(support.u):
+            if part is None:
                 continue
-            dofs = nodes * d + axis
+            # dofs of rotations are lengths
+            dofs, value = places[:, axis], part * arm(model) if axis >= d else part
             if value != 0.0:
                 _check_axis(space, np.intersect1d(dofs, axis_dofs), i, value)
             _check_agreement(space, model, owner, values, dofs, i, value)
@@ -85,30 +182,42 @@ def make_constraints(space: Space, model: Model) -> Constraints:
         if path.any():
             prescribed[obstacle.label] = np.zeros(total)
             prescribed[obstacle.label][dofs] = path
-    unused = np.setdiff1d(np.arange(len(space.mesh.points)), space.used_nodes)
-    held[space.dofs(unused).ravel()] = True
+    for j in range(len(rigid)):
+        dofs = space.obstacle_dofs(len(model.obstacles) + j)
+        held[dofs[len(directions(d)) :]] = True
+        held[dofs[[0, 2]]] |= model.axisymmetric
+    unused = space.dofs(np.setdiff1d(np.arange(len(space.mesh.points)), space.used_nodes)).ravel()
+    held[np.setdiff1d(unused, links.C.indices)] = True
     held[axis_dofs] = True
-    leader = np.arange(total)
+    return _Prescribed(held=held, owner=owner, values=prescribed)
+
+
+def _leaders(space: Space, model: Model, given: _Prescribed) -> IntArray:
+    """(dofs,) The dof that each follows, of rigid loaded boundaries; itself elsewhere."""
+    leader = np.arange(space.number_of_dofs)
     for i, load in enumerate(model.loads):
         if load.spread == "displacement" and load.force is not None:
             nodes = nodes_at(space, load.on, ("load", i, "on"))
             for axis, part in enumerate(load.force):
                 if part is not None:
-                    _tie(space, model, leader, owner, held, nodes * d + axis, i)
-    free = np.full(total, -1)
-    leaders = np.nonzero(~held & (leader == np.arange(total)))[0]
-    free[leaders] = np.arange(len(leaders))
-    free = np.where(held, -1, free[leader])
-    rows = np.nonzero(free >= 0)[0]
-    transform = sp.csr_array((np.ones(len(rows)), (rows, free[rows])), shape=(total, len(leaders)))
-    return Constraints(
-        free=free,
-        transform=transform,
-        prescribed=prescribed,
-        springs=make_springs(space, model),
-        owner=owner,
-        nodes=leaders // d,
-    )
+                    _tie(space, model, leader, given.owner, given.held, nodes * space.dimension + axis, i)
+    return leader
+
+
+def _refuse_contradictions(space: Space, links: Links, found: Eliminated, given: _Prescribed) -> None:
+    """What equations leave to held dofs alone must hold for what supports prescribe."""
+    for name, u in given.values.items():
+        wrong = abs(found.left @ u) > _SAME * (abs(found.left) @ abs(u))
+        if wrong.any():
+            row = int(np.argmax(wrong))
+            dof = int(found.left.indices[found.left.indptr[row]])
+            node = dof // space.dimension
+            at = f" (node {space.mesh.labels[node]})" if node < len(space.mesh.points) else ""
+            raise InputError(
+                f"contradicts the supports: all its displacements are held{at}, and '{name}' does not move them as it "
+                "asks; expected one of them to be free",
+                where=links.where(int(found.rows[row])),
+            )
 
 
 def _on_axis(space: Space, model: Model) -> IntArray:
@@ -138,9 +247,13 @@ def _check_agreement(
         if value == 0.0 and values[dof] == 0.0:
             continue
         node, axis = divmod(int(dof), space.dimension)
-        number = space.mesh.labels[node]
+        on = (
+            f"u_{model.axes[axis]} = {value:g} at node {space.mesh.labels[node]}, where"
+            if (node < len(space.mesh.points))
+            else f"{value:g} for a rigid body in a direction in which"
+        )
         raise InputError(
-            f"'{model.supports[i].label}' prescribes u_{model.axes[axis]} = {value:g} at node {number}, where "
+            f"'{model.supports[i].label}' prescribes {on} "
             f"support '{other.label}' prescribes {values[dof]:g}; expected one support to move a node in a direction",
             where=("support", i, "u"),
         )

@@ -9,6 +9,7 @@ import numpy as np
 
 from signorini.arrays import IntArray
 from signorini.fem.read import NAMED, NODE_NUMBER
+from signorini.formats import complete_meshio
 from signorini.model.mesh import Mesh
 
 _FACETS = {
@@ -29,6 +30,7 @@ def write_mesh(mesh: Mesh, path: Path) -> None:
     """
     import meshio
 
+    complete_meshio()
     blocks: list[tuple[str, IntArray]] = list(mesh.cells.items())
     kinds = _FACETS[mesh.points.shape[1]]
     edges = [(kinds[facets.shape[1]], facets) for facets in mesh.boundaries.values()]

@@ -6,8 +6,9 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
+from signorini.bound import STEEP, plain
 from signorini.friction.candidate import Candidate
-from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED, split, states
+from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, UNDECIDED, split, states
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.result import CoulombResult, Outcome
 from signorini.trace import Attempt
@@ -17,7 +18,7 @@ UNDETERMINED = (
     " repeats another): the solution of least change was taken"
 )
 SEVERAL = "; its index is -1: at least two more solutions exist, and the load history decides which one is taken"
-VERGE = "; pairs of unlimited friction slip on the verge of opening: {pairs}"
+VERGE = "; pairs that hold friction without pressure slip on the verge of opening: {pairs}"
 PULLED_AWAY = (
     "no equilibrium: the loads pull a body away along a rigid motion that contact cannot resist, whatever its state;"
     " hold the body, or change the loads"
@@ -36,8 +37,9 @@ NOTHING = "no certified equilibrium, and no proof that there is none: every meth
 def solved(problem: CoulombProblem, found: Candidate, trace: tuple[Attempt, ...]) -> CoulombResult:
     """A certified candidate as a result."""
     n, y = problem.pairs, found.y
-    h, r = split(y, problem.mu)
-    state = states(y, problem.mu, problem.closed)
+    h, r = split(y, problem.bound)
+    coded = states(y, problem.bound, problem.closed)
+    state = plain(coded)
     frictionless = (state != OPEN) & (problem.mu == 0)
     state = np.where(frictionless & (h[n:] > 0), SLIP_MINUS, np.where(frictionless, SLIP_PLUS, state))
     return CoulombResult(
@@ -50,7 +52,7 @@ def solved(problem: CoulombProblem, found: Candidate, trace: tuple[Attempt, ...]
         trace=trace,
         residual=found.residual,
         index=found.index,
-        message=_how(problem, found, state, trace),
+        message=_how(problem, found, coded, trace),
     )
 
 
@@ -62,7 +64,8 @@ def _how(problem: CoulombProblem, found: Candidate, state: IntArray, trace: tupl
         words += UNDETERMINED
     if found.index < 0 and not problem.floating:
         words += SEVERAL
-    verge = np.flatnonzero(np.isinf(problem.friction) & (state > STICK))
+    steep = problem.bound.slopes[0] >= STEEP
+    verge = np.flatnonzero(steep & np.isin(state, (SLIP_PLUS, SLIP_MINUS)))
     if len(verge):
         words += VERGE.format(pairs=", ".join(map(str, verge)))
     return words

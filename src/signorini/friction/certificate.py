@@ -14,7 +14,7 @@ FARTHEST = 1e9
 
 
 def certify(problem: CoulombProblem, y: Array) -> float:
-    """Largest violation of equilibrium by y, relative to the data; y obeys Coulomb's law as such (see `law`).
+    """Largest violation of equilibrium by y, relative to the data; y obeys the law of friction as such (see `law`).
 
     The larger of ``max |b + W (h + r) - h| / scale`` and, for each rigid motion rho, ``|rho.(r + b)| / (scale sum
     |rho_i|)``. The second is not implied by the first in floating-point numbers: rounding in ``h - W h`` times a huge
@@ -35,7 +35,7 @@ def certify(problem: CoulombProblem, y: Array) -> float:
     """
     if not np.isfinite(y).all():
         return np.inf
-    h, r = split(y, problem.mu)
+    h, r = split(y, problem.bound)
     unit = problem.scale if problem.scale > 0 else 1.0
     if np.abs(h).max(initial=0.0) > FARTHEST * unit:
         return np.inf

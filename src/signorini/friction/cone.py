@@ -8,7 +8,8 @@ tangential force of those that stick, and the rigid motion a. Slipping pairs car
     [ A_sn + A_st s mu   A_ss   R_s ] [ r_s ] = - [ c_s ]      slip = 0 where it sticks
     [ R_n' + R_t' s mu   R_s'   0   ] [ a   ]     [ R'b ]      resultants
 
-At most 2 n_closed + k unknowns, however many candidates are open.
+On another branch of their bound (see :mod:`signorini.bound`) mu is its slope, and what does not depend on p, ``s
+start``, is a load like any other. At most 2 n_closed + k unknowns, however many candidates are open.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ import numpy as np
 from scipy.linalg import lapack, lstsq
 
 from signorini.arrays import Array, IntArray
-from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, split
+from signorini.friction.law import OPEN, STICK, split
 from signorini.friction.problem import CoulombProblem
 
 SINGULAR = 1e-13
@@ -58,25 +59,26 @@ class ConeSystem:
         least = None if self.index else _least_change(self.problem, self.state, near)
         if not self.index and least is None:
             return None
-        h, r = self._expand(self._unknowns(self.problem.b), self.problem.b) if least is None else least
+        b, given = self.problem.b, _given(self.problem, self.state)
+        h, r = self._expand(self._unknowns(b, given), b, given) if least is None else least
         if least is None:
             for _ in range(2):
                 error = self.problem.misfit(h, r)
                 if np.abs(error).max(initial=0.0) <= REFINE * self.problem.scale:
                     break
-                dh, dr = self._expand(self._unknowns(error), error)
+                dh, dr = self._expand(self._unknowns(error, None), error, None)
                 h, r = h + dh, r + dr
         return r - h
 
-    def _unknowns(self, b: Array) -> Array:
-        rhs = _right_hand_side(self.problem, self.state, b)
+    def _unknowns(self, b: Array, given: Array | None) -> Array:
+        rhs = _right_hand_side(self.problem, self.state, b, given)
         if not len(rhs):
             return rhs
         x, _ = lapack.dgetrs(self.lu, self.pivots, rhs)
         return np.asarray(x, dtype=np.float64)
 
-    def _expand(self, x: Array, b: Array) -> tuple[Array, Array]:
-        return _expand(self.problem, self.state, x, b)
+    def _expand(self, x: Array, b: Array, given: Array | None) -> tuple[Array, Array]:
+        return _expand(self.problem, self.state, x, b, given)
 
 
 def cone_system(problem: CoulombProblem, state: IntArray) -> ConeSystem:
@@ -85,7 +87,7 @@ def cone_system(problem: CoulombProblem, state: IntArray) -> ConeSystem:
     Parameters
     ----------
     problem : the problem
-    state : (n,) OPEN, STICK, SLIP_PLUS or SLIP_MINUS
+    state : (n,) OPEN, STICK, SLIP_PLUS or SLIP_MINUS, or the code of slip on another branch
 
     Examples
     --------
@@ -112,17 +114,19 @@ def _unknown_rows(state: IntArray) -> tuple[IntArray, IntArray]:
     return np.flatnonzero(state != OPEN), np.flatnonzero(state == STICK)
 
 
-def _signed_friction(problem: CoulombProblem, state: IntArray) -> Array:
-    mu = problem.mu
-    return np.where(state == SLIP_PLUS, mu, np.where(state == SLIP_MINUS, -mu, 0.0))
+def _given(problem: CoulombProblem, state: IntArray) -> Array | None:
+    """(2n,) Forces that the state knows; None where there are none, as in Coulomb's law."""
+    if problem.bound.branches == 1:
+        return None
+    return np.concatenate([np.zeros(problem.pairs), problem.bound.start(state)])
 
 
 def _matrix(problem: CoulombProblem, state: IntArray) -> Array:
     A, R, n = problem.interface.A, problem.interface.R, problem.pairs
     closed, stick = _unknown_rows(state)
     rows = np.concatenate([closed, n + stick])
-    slips = np.flatnonzero(np.isin(state[closed], (SLIP_PLUS, SLIP_MINUS)))
-    slope = _signed_friction(problem, state)[closed[slips]]
+    slips = np.flatnonzero(state[closed] > STICK)
+    slope = problem.bound.slope(state)[closed[slips]]
     size, k = len(rows), R.shape[1]
     matrix = np.zeros((size + k, size + k), order="F")
     matrix[:size, :size] = A[np.ix_(rows, rows)]
@@ -133,21 +137,26 @@ def _matrix(problem: CoulombProblem, state: IntArray) -> Array:
     return matrix
 
 
-def _right_hand_side(problem: CoulombProblem, state: IntArray, b: Array) -> Array:
+def _right_hand_side(problem: CoulombProblem, state: IntArray, b: Array, given: Array | None) -> Array:
     closed, stick = _unknown_rows(state)
-    c = problem.free_motion(b)
-    return -np.concatenate([c[closed], c[problem.pairs + stick], problem.interface.R.T @ b])
+    c, resultants = problem.free_motion(b), problem.interface.R.T @ b
+    if given is not None:
+        c, resultants = c + problem.interface.A @ given, resultants + problem.interface.R.T @ given
+    return -np.concatenate([c[closed], c[problem.pairs + stick], resultants])
 
 
-def _expand(problem: CoulombProblem, state: IntArray, x: Array, b: Array) -> tuple[Array, Array]:
+def _expand(problem: CoulombProblem, state: IntArray, x: Array, b: Array, given: Array | None) -> tuple[Array, Array]:
     """Motion and force of every pair from the unknowns of the system."""
     n, m = problem.pairs, problem.interface
     closed, stick = _unknown_rows(state)
     size = len(closed) + len(stick)
     r = np.zeros(2 * n)
     r[closed] = x[: len(closed)]
-    r[n:] = np.where(_signed_friction(problem, state) == 0, 0.0, _signed_friction(problem, state) * r[:n])
+    slope = problem.bound.slope(state)
+    r[n:] = np.where(slope == 0, 0.0, slope * r[:n])
     r[n + stick] = x[len(closed) : size]
+    if given is not None:
+        r += given
     acting = np.flatnonzero(r)
     h = r[acting] @ m.A[acting] + problem.free_motion(b) + m.R @ x[size:]
     h[closed] = 0.0
@@ -158,10 +167,10 @@ def _expand(problem: CoulombProblem, state: IntArray, x: Array, b: Array) -> tup
 def _least_change(problem: CoulombProblem, state: IntArray, near: Array) -> tuple[Array, Array] | None:
     """The equilibrium nearest to ``near`` of a state that leaves a motion or a force undetermined."""
     closed, stick = _unknown_rows(state)
-    h, r = split(near, problem.mu)
+    h, r = split(near, problem.bound)
     x = np.concatenate([r[closed], r[problem.pairs + stick], problem.interface.R.T @ h])
-    matrix, b = _matrix(problem, state), problem.b
-    rhs = _right_hand_side(problem, state, b)
+    matrix, b, given = _matrix(problem, state), problem.b, _given(problem, state)
+    rhs = _right_hand_side(problem, state, b, given)
     if not len(rhs):
         return None
     for _ in range(2):
@@ -169,4 +178,4 @@ def _least_change(problem: CoulombProblem, state: IntArray, near: Array) -> tupl
     missing = np.abs(rhs - matrix @ x).max(initial=0.0)
     if missing > 1e-11 * problem.scale:
         return None
-    return _expand(problem, state, x, b)
+    return _expand(problem, state, x, b, given)

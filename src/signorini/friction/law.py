@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Coulomb's law of a pair in one unknown: ``y = r - h``, force minus relative motion, two numbers a pair.
+"""The law of a pair in one unknown: ``y = r - h``, force minus relative motion, two numbers a pair.
 
 Because a pair never presses and gapes at once, and never has friction to spare while it slips, y tells both::
 
     p = max(y_n, 0)      gap  = max(-y_n, 0)
-    r_t = clip(y_t, -mu p, mu p)      slip = r_t - y_t
+    r_t = clip(y_t, -F(p), F(p))      slip = r_t - y_t
 
-Every y obeys the law; what is left to solve is equilibrium, one piecewise linear equation in y with four cones a pair.
+with F the bound of the friction, ``mu p`` in Coulomb's law (see :mod:`signorini.bound` for others). Every y obeys the
+law; what is left to solve is equilibrium, one piecewise linear equation in y with four pieces a pair, or two more for
+every further branch of F.
 """
 
 from __future__ import annotations
@@ -14,6 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.bound import Bound
 from signorini.pairstate import OPEN as OPEN
 from signorini.pairstate import SLIP_MINUS as SLIP_MINUS
 from signorini.pairstate import SLIP_PLUS as SLIP_PLUS
@@ -23,13 +26,13 @@ from signorini.pairstate import UNDECIDED as UNDECIDED
 STATE_NAMES = ("open", "stick", "slip, friction +", "slip, friction -")
 
 
-def split(y: Array, friction: Array) -> tuple[Array, Array]:
+def split(y: Array, friction: Array | Bound) -> tuple[Array, Array]:
     """Motion h = (gap, slip increment) and force r = (normal, tangential) of y.
 
     Parameters
     ----------
     y : (2n,) n normals, then n tangents
-    friction : (n,) mu >= 0, finite
+    friction : the bound F; or (n,) mu >= 0, finite, of Coulomb's law
 
     Returns
     -------
@@ -41,20 +44,20 @@ def split(y: Array, friction: Array) -> tuple[Array, Array]:
     >>> h.tolist(), r.tolist()
     ([0.0, 3.0, -0.5, -4.0], [2.0, 0.0, 1.0, 0.0])
     """
-    n = len(friction)
+    n = len(y) // 2
     pressure = np.maximum(y[:n], 0.0)
-    bound = friction * pressure
+    bound = friction.at(pressure) if isinstance(friction, Bound) else friction * pressure
     r = np.concatenate([pressure, np.clip(y[n:], -bound, bound)])
     return r - y, r
 
 
-def states(y: Array, friction: Array, closed: IntArray) -> IntArray:
-    """The cone of each pair that y lies in.
+def states(y: Array, friction: Array | Bound, closed: IntArray) -> IntArray:
+    """The piece of each pair's plane that y lies in; slip codes with their branch, see `Bound`.
 
     Parameters
     ----------
     y : (2n,)
-    friction : (n,)
+    friction : the bound F, or (n,) mu
     closed : (n,) the state that a pair takes wherever it is closed, or UNDECIDED where y_t decides
 
     Examples
@@ -62,11 +65,13 @@ def states(y: Array, friction: Array, closed: IntArray) -> IntArray:
     >>> states(np.array([2.0, -3.0, 0.5, 4.0]), np.array([0.5, 0.5]), np.array([UNDECIDED, UNDECIDED])).tolist()
     [1, 0]
     """
-    n = len(friction)
+    n = len(y) // 2
     y_n, y_t = y[:n], y[n:]
-    state = np.where(np.abs(y_t) <= friction * y_n, STICK, np.where(y_t >= 0, SLIP_PLUS, SLIP_MINUS))
+    most = friction.at(y_n) if isinstance(friction, Bound) else friction * y_n
+    state = np.where(np.abs(y_t) <= most, STICK, np.where(y_t >= 0, SLIP_PLUS, SLIP_MINUS))
     state = np.where(closed == UNDECIDED, state, closed)
-    return np.where(y_n <= 0, OPEN, state).astype(np.int64)
+    state = np.where(y_n <= 0, OPEN, state).astype(np.int64)
+    return friction.coded(state, y_n) if isinstance(friction, Bound) else state
 
 
 def closed_states(friction: Array, locked: BoolArray, b_t: Array) -> IntArray:

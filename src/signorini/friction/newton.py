@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, IntArray
+from signorini.bound import plain
 from signorini.friction.candidate import Candidate
 from signorini.friction.certificate import certify
 from signorini.friction.cone import cone_system
@@ -58,7 +59,7 @@ def newton(
             end = "singular state"
             break
         y, index, residual = answer, system.index, certify(problem, answer)
-        following = states(y, problem.mu, problem.closed)
+        following = states(y, problem.bound, problem.closed)
         changes.append(int(np.count_nonzero(following != state)))
         if residual <= tolerance:
             end = "certified"
@@ -77,5 +78,5 @@ def admissible(problem: CoulombProblem, start: IntArray | None) -> IntArray:
     """States to start from that each pair can take; all closed (sticking where they can) where none are given."""
     state = np.full(problem.pairs, STICK, dtype=np.int64) if start is None else np.array(start, dtype=np.int64)
     state[state == UNDECIDED] = STICK
-    forced = (state != OPEN) & (problem.closed != UNDECIDED)
+    forced = (state != OPEN) & (problem.closed != UNDECIDED) & (plain(state) != problem.closed)
     return np.where(forced, problem.closed, state).astype(np.int64)

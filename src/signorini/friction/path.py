@@ -7,14 +7,17 @@ solution at infinity, weights e > 0 on the normals::
     open    d = G (e, 0)     all pairs open by theta e: bring the bodies together from far; G must be regular
     press   d = -W (e, 0)    all pairs stick under theta e: press every pair together, then release
 
+Where the bound of friction has further branches (adhesion, a shear limit), "press" lets them begin at ``1 + theta``
+times their forces, so that at infinity every pair sticks whatever the bound; there the law itself depends on theta.
+
 Where supports hold every body (G > 0) all motions of solutions are bounded by their loads, so that neither path can run
 off at a finite theta nor return: in exact arithmetic and without ties, *either ends in a solution, for any friction*.
 Floating bodies can follow "press" alone, and may end on a ray: bounded forces, a rigid motion without end. This is
 Lemke's method in two unknowns a pair, not three multipliers, whose built-in ties it does not have.
 
-A pivot crosses one wall ``l.y = 0``, and J changes by ``a l'``: the inverse X of ``[[J, -d], [l, 0]]`` is updated by
-rank-one products, and computed anew every 25 pivots. Initial gaps are perturbed by 1e-9 of the scale against ties (not
-the loads, whose resultants must stay).
+A pivot crosses one wall ``l.(y, theta) = l_0``, and J changes by ``a l'``: the inverse X of ``[J, -d]`` with the row l
+below is updated by rank-one products, and computed anew every 25 pivots. Initial gaps are perturbed by 1e-9 of the
+scale against ties (not the loads, whose resultants must stay).
 
 References
 ----------
@@ -34,7 +37,7 @@ from signorini.arrays import Array, IntArray
 from signorini.friction.law import OPEN
 from signorini.friction.newton import admissible
 from signorini.friction.problem import CoulombProblem
-from signorini.friction.walls import beyond, columns, jacobian, walls
+from signorini.friction.walls import beyond, columns, constant, jacobian, placed
 
 Covering = Literal["open", "press"]
 
@@ -74,6 +77,27 @@ class _Course:
     problem: CoulombProblem
     budget: int
     far: float
+    loosened: float
+
+    def walls(self, state: IntArray) -> tuple[Array, Array]:
+        """(slots, n, 2) coefficients of the walls of every pair, and (slots, n) where they are: see `placed`."""
+        return placed(state, self.problem.bound, self.problem.closed)
+
+    def room(self, walls: tuple[Array, Array], y: Array, here: float) -> Array:
+        """(slots, n) Of a point (y, theta) to the walls (here = 1), or what a direction (here = 0) adds to it."""
+        (wall, offset), n = walls, self.problem.pairs
+        room: Array = wall[:, :, 0] * y[:n] + wall[:, :, 1] * y[n : 2 * n]
+        return room if self.problem.bound.branches == 1 else room - (here + self.loosened * y[2 * n]) * offset
+
+    def load(self, state: IntArray) -> tuple[Array, Array]:
+        """``(b, d)`` of a state: without the friction that its slipping pairs carry at no pressure."""
+        if self.problem.bound.branches == 1:
+            return self.b, self.d
+        given = constant(self.G, self.W, self.problem.bound, state)
+        return self.b - given, self.d - self.loosened * given
+
+    def jacobian(self, state: IntArray) -> Array:
+        return jacobian(self.G, self.W, np.abs(self.problem.bound.slope(state)), state)
 
 
 def follow(problem: CoulombProblem, covering: Covering, *, budget: int, seed: int = 0, springs: float = 0.0) -> PathEnd:
@@ -110,25 +134,28 @@ def follow(problem: CoulombProblem, covering: Covering, *, budget: int, seed: in
         problem=problem,
         budget=budget,
         far=np.inf if springs else FAR * problem.scale,
+        loosened=0.0 if open_start else 1.0,
     )
-    return _walk(course, admissible(problem, np.full(n, OPEN) if open_start else None))
+    state = admissible(problem, np.full(n, OPEN) if open_start else None)
+    return _walk(course, problem.bound.coded(state, e[:n]))
 
 
 def _walk(course: _Course, state: IntArray) -> PathEnd:
     """Enter from infinity, then cross wall after wall."""
     problem, n = course.problem, course.problem.pairs
     try:
-        J = jacobian(course.G, course.W, problem.mu, state)
-        ray = np.asarray(np.linalg.solve(J, np.stack([course.b, course.d], axis=1)), dtype=np.float64)
+        ray = np.linalg.solve(course.jacobian(state), np.stack(course.load(state), axis=1))
     except np.linalg.LinAlgError:
         return PathEnd(end="singular", state=state, y=np.zeros(2 * n), theta=np.inf, pivots=0)
-    pair, slot, theta = _entry(walls(state, problem.mu, problem.closed), ray)
+    walls = course.walls(state)
+    pair, slot, theta = _entry(course, walls, np.concatenate([ray, [[0.0, 1.0]]]))
     point, pivots = np.append(ray[:, 0] + max(theta, 0.0) * ray[:, 1], max(theta, 0.0)), 0
     if theta <= 0:
         return PathEnd(end="solution", state=state, y=point[:-1], theta=0.0, pivots=0)
     X = np.zeros((0, 0))
     while pivots < course.budget:
-        before, here = state, walls(state, problem.mu, problem.closed)[slot, pair]
+        before, at = state, walls[1][slot, pair]
+        here = np.append(walls[0][slot, pair], -course.loosened * at)
         state = state.copy()
         state[pair], slot = beyond(int(before[pair]), slot, point[n + pair], int(problem.closed[pair]))
         updated = None if pivots % REFACTOR == 0 else _cross(course, X, before, state, pair, -here)
@@ -137,8 +164,9 @@ def _walk(course: _Course, state: IntArray) -> PathEnd:
         if fresh is None:
             return PathEnd(end="singular", state=state, y=point[:-1], theta=point[-1], pivots=pivots)
         X = fresh
-        entry, way = X[:, :-1] @ course.b, X[:, -1].copy()
-        length, pair, slot = _next_wall(walls(state, problem.mu, problem.closed), entry, way, pair, slot)
+        entry, way = X[:, :-1] @ course.load(state)[0] - at * X[:, -1], X[:, -1].copy()
+        walls = course.walls(state)
+        length, pair, slot = _next_wall(course, walls, entry, way, pair, slot)
         to_end = entry[-1] / -way[-1] if way[-1] < 0 else np.inf
         if not np.isfinite(min(length, to_end)):
             return PathEnd(end="ray", state=state, y=way[:-1], theta=entry[-1], pivots=pivots)
@@ -150,17 +178,19 @@ def _walk(course: _Course, state: IntArray) -> PathEnd:
     return PathEnd(end="budget spent", state=state, y=point[:-1], theta=point[-1], pivots=pivots)
 
 
-def _entry(wall: Array, ray: Array) -> tuple[int, int, float]:
+def _entry(course: _Course, walls: tuple[Array, Array], ray: Array) -> tuple[int, int, float]:
     """The first wall met coming from infinity along ``ray[:, 0] + theta ray[:, 1]``: its pair, slot and theta."""
-    value, slope = _values(wall, ray[:, 0]), _values(wall, ray[:, 1])
+    value, slope = course.room(walls, ray[:, 0], 1.0), course.room(walls, ray[:, 1], 0.0)
     met = np.divide(-value, slope, out=np.full_like(value, -np.inf), where=slope > FLAT * np.abs(ray[:, 1]).max())
     slot, pair = np.unravel_index(int(met.argmax()), met.shape)
     return int(pair), int(slot), float(met[slot, pair])
 
 
-def _next_wall(wall: Array, entry: Array, way: Array, pair: int, slot: int) -> tuple[float, int, int]:
+def _next_wall(
+    course: _Course, walls: tuple[Array, Array], entry: Array, way: Array, pair: int, slot: int
+) -> tuple[float, int, int]:
     """Length to the next wall from ``entry`` along ``way`` (never the one just crossed), its pair and slot."""
-    value, slope = np.maximum(_values(wall, entry), 0.0), _values(wall, way)
+    value, slope = np.maximum(course.room(walls, entry, 1.0), 0.0), course.room(walls, way, 0.0)
     slope[slot, pair] = 0.0
     steep = slope < -FLAT * np.abs(way).max()
     lengths = np.divide(value, -slope, out=np.full_like(value, np.inf), where=steep)
@@ -168,19 +198,13 @@ def _next_wall(wall: Array, entry: Array, way: Array, pair: int, slot: int) -> t
     return float(lengths[next_slot, next_pair]), int(next_pair), int(next_slot)
 
 
-def _values(wall: Array, y: Array) -> Array:
-    n = wall.shape[1]
-    values = wall[:, :, 0] * y[:n] + wall[:, :, 1] * y[n : 2 * n]
-    return np.asarray(values, dtype=np.float64)
-
-
 def _inverse(course: _Course, state: IntArray, pair: int, wall: Array) -> Array | None:
-    """Inverse of [[J, -d], [l, 0]], or None where it is singular."""
+    """Inverse of [J, -d] over l, or None where it is singular."""
     n = course.problem.pairs
     matrix = np.zeros((2 * n + 1, 2 * n + 1), order="F")
-    matrix[:-1, :-1] = jacobian(course.G, course.W, course.problem.mu, state)
-    matrix[:-1, -1] = -course.d
-    matrix[-1, [pair, n + pair]] = wall
+    matrix[:-1, :-1] = course.jacobian(state)
+    matrix[:-1, -1] = -course.load(state)[1]
+    matrix[-1, [pair, n + pair, 2 * n]] = wall
     try:
         return np.asfortranarray(np.linalg.inv(matrix))
     except np.linalg.LinAlgError:
@@ -189,12 +213,13 @@ def _inverse(course: _Course, state: IntArray, pair: int, wall: Array) -> Array 
 
 def _cross(course: _Course, X: Array, before: IntArray, state: IntArray, pair: int, wall: Array) -> Array:
     """X after one pair crossed one wall, in place: the last row of its matrix becomes l, then J grows by a l'."""
-    n, mu = course.problem.pairs, course.problem.mu[pair]
-    row = wall[0] * X[pair] + wall[1] * X[n + pair]
+    n, bound = course.problem.pairs, course.problem.bound
+    row = wall[0] * X[pair] + wall[1] * X[n + pair] + wall[2] * X[2 * n]
     pivot = row[-1]
     row[-1] -= 1.0
     X = blas.dger(-1.0 / pivot, X[:, -1].copy(), row, a=X, overwrite_a=1)
-    change = columns(course.G, course.W, mu, int(state[pair]), pair)
-    change -= columns(course.G, course.W, mu, int(before[pair]), pair)
-    X[:, -1] -= X[:, :-1] @ (change @ wall)
+    new, old = (abs(float(bound.slope(states)[pair])) for states in (state, before))
+    change = columns(course.G, course.W, new, int(state[pair]), pair)
+    change -= columns(course.G, course.W, old, int(before[pair]), pair)
+    X[:, -1] -= X[:, :-1] @ (change @ wall[:2])
     return np.asarray(X)

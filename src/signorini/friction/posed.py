@@ -8,11 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, frozen
+from signorini.bound import STICKY as STICKY
 from signorini.errors import InputError
 from signorini.friction.interface import Interface
-
-STICKY = 1e6
-"""Friction that stands for ``inf``: without bound the law is not continuous, and need not have a solution."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,6 +24,8 @@ class PosedContact:
     friction : (n,) or (n, d - 1)
     motions : (d n, k)
     scale : size of b's entries
+    adhesion, limit : (n,) scaled forces of :mod:`signorini.bound`: friction at no normal force, and the most there is;
+        None stands for none
     interface : what does not depend on the load. ``dataclasses.replace(problem, b=...)`` shares it, with its
         factorisation; made from W and motions where not given or not theirs
     """
@@ -35,11 +35,16 @@ class PosedContact:
     friction: Array
     motions: Array
     scale: float
+    adhesion: Array | None = None
+    limit: Array | None = None
     interface: Interface = field(default_factory=Interface.none, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         for name in ("W", "b", "friction", "motions"):
             object.__setattr__(self, name, _read_only(getattr(self, name)))
+        for name in ("adhesion", "limit"):
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, _read_only(getattr(self, name)))
         self._check()
         if self.interface.W is not self.W or self.interface.motions is not self.motions:
             interface = Interface.exact(self.W, self.motions)
@@ -88,12 +93,21 @@ class PosedContact:
             raise InputError(
                 "has negative entries or NaN; expected mu >= 0, inf for pairs that stick", where=("friction",)
             )
+        for name, given in (("adhesion", self.adhesion), ("limit", self.limit)):
+            if given is None:
+                continue
+            if given.shape != (self.pairs,):
+                raise InputError(f"has shape {given.shape}; expected {(self.pairs,)}", where=(name,))
+            if not (given >= 0).all() or (name == "adhesion" and not np.isfinite(given).all()):
+                raise InputError("has negative entries or NaN; expected scaled forces >= 0", where=(name,))
         if not (np.isfinite(self.scale) and self.scale >= 0):
             raise InputError(f"is {self.scale}; expected a finite number >= 0", where=("scale",))
 
     def _check_dragged(self, pulled: BoolArray) -> None:
         """Refuse pairs without bound on their friction, (n,) or (n, d - 1), that supports pull along."""
         n = self.pairs
+        if self.limit is not None:
+            pulled = pulled & np.isinf(self.limit.reshape(-1, *[1] * (pulled.ndim - 1)))
         if np.any(pulled.reshape(n, -1 if n else 1) & np.isinf(self.friction.reshape(n, -1 if n else 1))):
             raise InputError(
                 "is infinite at a pair whose supports drag it along: it can neither slip nor stick; give a finite mu",

@@ -9,8 +9,9 @@ from functools import cached_property
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.bound import Bound
 from signorini.friction.law import closed_states
-from signorini.friction.posed import STICKY, PosedContact
+from signorini.friction.posed import PosedContact
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,6 +31,8 @@ class CoulombProblem(PosedContact):
     b : (2n,) load: motion of the pairs under the loads plus ``G h0``, h0 = (initial gap, -slip of the step before)
     friction : (n,) mu >= 0; ``inf`` sticks wherever it is closed. A pair on the verge of opening may be in equilibrium
         neither sticking nor open; it slips then, under a normal force of 1e-6 of its friction
+    adhesion, limit : (n,) scaled forces of :mod:`signorini.bound`: friction at no normal force, and the most there is;
+        None stands for none
     motions : (2n, k) rigid motions seen by the pairs, W R = R; k = 0 where supports hold every body
     scale : size of b's entries, from the data, that tolerances refer to; in the units of b
     interface : what does not depend on the load. ``dataclasses.replace(problem, b=...)`` shares it, with its
@@ -56,9 +59,21 @@ class CoulombProblem(PosedContact):
         return np.asarray(~self.W[self.pairs :].any(axis=1), dtype=np.bool_)
 
     @cached_property
+    def bound(self) -> Bound:
+        """Friction that can act: none at a locked pair that is not dragged, 1e6 for ``inf``."""
+        still = self.locked & (self.b[self.pairs :] == 0)
+        if self.adhesion is None and self.limit is None:
+            return Bound.coulomb(np.where(still, 0.0, self.friction))
+        adhesion = 0.0 if self.adhesion is None else np.where(still, 0.0, self.adhesion)
+        limit = np.inf if self.limit is None else self.limit
+        return Bound.of(np.where(still, 0.0, self.friction), adhesion=adhesion, limit=limit)
+
+    @property
     def mu(self) -> Array:
-        """(n,) Friction that can act: none at a locked pair that is not dragged, 1e6 for ``inf``."""
-        return np.where(self.locked & (self.b[self.pairs :] == 0), 0.0, np.minimum(self.friction, STICKY))
+        """(n,) Friction at the smallest normal forces, per normal force: Coulomb's coefficient where there is no other
+        law.
+        """
+        return self.bound.slopes[0]
 
     @cached_property
     def closed(self) -> IntArray:

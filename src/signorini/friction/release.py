@@ -44,6 +44,8 @@ def released(problem: CoulombProblem, kept: BoolArray) -> CoulombProblem | None:
             W=(W + W.T) / 2,
             b=problem.b[c] + coupling.T @ answer[:, -1],
             friction=problem.friction[kept],
+            adhesion=None if problem.adhesion is None else problem.adhesion[kept],
+            limit=None if problem.limit is None else problem.limit[kept],
             motions=problem.motions[c],
             scale=problem.scale,
         )

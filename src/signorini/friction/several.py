@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One solution or several: a proof where the states can be tried one by one, otherwise a search from many starts.
 
-Motions and forces of n pairs are one piecewise linear map of y = r - h with 4^n cones (see `law`). Around every face
-between cones of codimension two lie four of them, so that the map is one to one exactly if the determinants of all
-cones have the same sign (then every load and history has one solution).
+Motions and forces of n pairs are one piecewise linear map of y = r - h with 4^n pieces (see `law`; more where the bound
+of friction has further branches). Around every face between pieces of codimension two lie four of them, or three at a
+kink of the bound, so that the map is one to one exactly if the determinants of all pieces have the same sign (then
+every load and history has one solution).
 
 References
 ----------
@@ -14,6 +15,7 @@ Piecewise Differentiable Equations, section 2.3.
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -28,7 +30,7 @@ from signorini.friction.path import follow
 from signorini.friction.problem import CoulombProblem
 
 FEW = 6
-"""Pairs whose 4^n states are tried one by one."""
+"""Pairs whose 4^n states are tried one by one; fewer where their friction has further branches."""
 
 SAME = 1e-7
 """Two answers closer than this, relative to the data, are one."""
@@ -42,7 +44,7 @@ def always_unique(problem: CoulombProblem) -> bool:
     Raises
     ------
     InputError
-        For more than 6 pairs.
+        For more than 6 pairs, or too many states of fewer; see `countable`.
 
     Examples
     --------
@@ -64,7 +66,7 @@ def all_solutions(problem: CoulombProblem) -> list[Array]:
     Raises
     ------
     InputError
-        For more than 6 pairs.
+        See `countable`.
     """
     rest = np.zeros(2 * problem.pairs)
     return _distinct(problem, (cone_system(problem, state).solve(rest) for state in _states(problem)))
@@ -93,12 +95,28 @@ def _candidates(problem: CoulombProblem, seed: int) -> Iterator[Array | None]:
                 yield newton(problem, path.state, near=path.y).y
 
 
+def countable(problem: CoulombProblem) -> bool:
+    """Whether the states are few enough to be tried one by one: 4^6."""
+    return math.prod(map(len, _choices(problem))) <= 4**FEW
+
+
+def _choices(problem: CoulombProblem) -> list[list[int]]:
+    """The states of every pair."""
+    found = []
+    for closed, branches in zip(problem.closed, np.isfinite(problem.bound.kinks).sum(axis=0), strict=True):
+        slips = (SLIP_PLUS, SLIP_MINUS) if closed == UNDECIDED else (int(closed),)
+        held = [OPEN, STICK] if closed == UNDECIDED else [OPEN]
+        found.append(held + [code + 2 * j for j in range(branches) for code in slips])
+    return found
+
+
 def _states(problem: CoulombProblem) -> Iterator[IntArray]:
-    if problem.pairs > FEW:
-        raise InputError(f"has {problem.pairs} pairs; expected at most {FEW}, whose states can be tried one by one")
-    free = (OPEN, STICK, SLIP_PLUS, SLIP_MINUS)
-    choices = [free if closed == UNDECIDED else (OPEN, int(closed)) for closed in problem.closed]
-    for combination in itertools.product(*choices):
+    if not countable(problem):
+        raise InputError(
+            f"has {problem.pairs} pairs; expected at most {FEW}, whose states can be tried one by one (fewer where "
+            "their friction has further branches)"
+        )
+    for combination in itertools.product(*_choices(problem)):
         yield np.array(combination, dtype=np.int64)
 
 

@@ -102,8 +102,9 @@ def _check_start(problem: CoulombProblem, start: IntArray | None) -> None:
     if start is None:
         return
     found = np.asarray(start)
-    if found.shape != (problem.pairs,) or not np.isin(found, range(UNDECIDED, SLIP_MINUS + 1)).all():
-        raise InputError(f"expected {problem.pairs} states between {UNDECIDED} and {SLIP_MINUS}", where=("start",))
+    last = SLIP_MINUS + 2 * (problem.bound.branches - 1)
+    if found.shape != (problem.pairs,) or not np.isin(found, range(UNDECIDED, last + 1)).all():
+        raise InputError(f"expected {problem.pairs} states between {UNDECIDED} and {last}", where=("start",))
 
 
 def _candidates(problem: CoulombProblem, start: IntArray | None, settings: CoulombSettings) -> Iterator[Candidate]:
@@ -172,7 +173,7 @@ def _with_springs(problem: CoulombProblem, budget: int, seed: int, settings: Cou
     for springs in settings.springs:
         path = follow(problem, "open", budget=budget, seed=seed, springs=springs)
         found = _polished(problem, path, "springs", settings)
-        motion = split(path.y, problem.mu)[0]
+        motion = split(path.y, problem.bound)[0]
         size = float(np.abs(motion).max(initial=0.0))
         grows = path.end == "solution" and size > 10.0 * max(before, problem.scale)
         yield replace(found, escape=motion / size if grows else None)

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proof that no state of the pairs is in equilibrium, or a state that is: a tree of linear programs.
 
-Relax every pair to ``gap >= 0, p >= 0, |r_t| <= mu p`` and minimise what equilibrium lacks. Where that is positive, no
-state allowed there exists, and the multipliers z of the program prove it (Farkas): ``z.(G h - W r) <= 0`` for
-everything allowed, yet ``z.b > 0``. Where it is zero, branch the pair that breaks Coulomb's law worst: open or closed,
-then stick, slip + or slip -.
+Relax every pair to ``gap >= 0, p >= 0, |r_t| <= F(p)``, F the bound of friction, and minimise what equilibrium lacks.
+Where that is positive, no state allowed there exists, and the multipliers z of the program prove it (Farkas):
+``z.(G h - W r)`` stays below ``z.b`` for everything allowed. Where it is zero, branch the pair that breaks the law
+worst: open or closed, then stick, slip + or slip -, on any branch of F.
+
+Forces are combinations of the corners and edges of ``|r_t| <= F(p)``: in Coulomb's law of the edges (1, mu) and
+(1, -mu) alone; every kink of F adds two corners, and the shares of all corners are at most 1 together.
 """
 
 from __future__ import annotations
@@ -19,7 +22,7 @@ from signorini.arrays import Array, IntArray
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 from signorini.friction.problem import CoulombProblem
 
-CLOSED = 4
+CLOSED = -2
 """Closed, and not yet decided whether it sticks or slips."""
 
 MARGIN = 1e-7
@@ -60,19 +63,19 @@ def search(problem: CoulombProblem, *, budget: int = 2000) -> TreeEnd:
     ('solution', [3])
     """
     n = problem.pairs
-    matrix = _generators(problem)
+    program = _program(problem)
     waiting = [np.full(n, UNDECIDED)]
     for programs in range(1, budget + 1):
         node = waiting.pop()
-        answer = _relaxed(problem, matrix, node)
+        answer = _relaxed(program, node)
         if answer is None:
             return TreeEnd(end="budget spent", state=None, programs=programs)
-        lacking, h, c = answer
+        lacking, h, r = answer
         if lacking <= MARGIN:
-            pair, complete = _worst(problem, node, h, c)
+            pair, complete = _worst(problem, node, h, r)
             if pair is None:
                 return TreeEnd(end="solution", state=complete, programs=programs)
-            for branch in _branches(int(node[pair]), int(complete[pair]), int(problem.closed[pair])):
+            for branch in _branches(problem, pair, int(node[pair]), int(complete[pair])):
                 child = node.copy()
                 child[pair] = branch
                 waiting.append(child)
@@ -81,26 +84,59 @@ def search(problem: CoulombProblem, *, budget: int = 2000) -> TreeEnd:
     return TreeEnd(end="budget spent", state=None, programs=budget)
 
 
-def _generators(problem: CoulombProblem) -> Array:
-    """(2n, 4n) columns of h_n, h_t and two forces a pair, the edges (1, mu) and (1, -mu) of its friction cone.
+@dataclass(frozen=True, kw_only=True)
+class _Program:
+    """The linear program of every node, but for its bounds.
 
-    Edges are scaled to length 1.
+    Unknown are h (2n), then two shares a pair for every branch of F, plus and minus in turn: of the kinks at which the
+    branches begin (from the second on) and at last of the edges of the last branch; then, with kinks, what their shares
+    leave of 1 (n).
+
+    Attributes
+    ----------
+    matrix, rhs : equations, of equilibrium and of the shares
+    forces : (2n, size) the forces r of the unknowns
+    lasts : (n,) number of the last branch of every pair
     """
-    n, W = problem.pairs, problem.W
-    length = np.hypot(1.0, problem.mu)
-    plus = (W[:, :n] + W[:, n:] * problem.mu) / length
-    minus = (W[:, :n] - W[:, n:] * problem.mu) / length
-    return np.concatenate([np.eye(2 * n) - W, -plus, -minus], axis=1)
+
+    problem: CoulombProblem
+    matrix: Array
+    rhs: Array
+    forces: Array
+    lasts: IntArray
 
 
-def _relaxed(problem: CoulombProblem, matrix: Array, node: IntArray) -> tuple[float, Array, Array] | None:
-    """Least misfit (sum of its entries over scale) of a node, with motions h (2n) and edge forces c (2n)."""
-    n, unit = problem.pairs, problem.scale or 1.0
-    low, high = _bounds(problem, node)
+def _program(problem: CoulombProblem) -> _Program:
+    n, bound, unit = problem.pairs, problem.bound, problem.scale or 1.0
+    lasts = np.isfinite(bound.kinks).sum(axis=0) - 1
+    edge = bound.slopes[lasts, np.arange(n)]
+    length = np.hypot(1.0, edge)
+    corners = [np.where(np.isfinite(p), p, 0.0) for p in bound.kinks[1:-1]]
+    shares = [(p / unit, bound.at(p) / unit) for p in corners] + [(1.0 / length, edge / length)]
+    blocks = [np.vstack([np.diag(p), sign * np.diag(F)]) for p, F in shares for sign in (1.0, -1.0)]
+    forces = np.concatenate([np.zeros((2 * n, 2 * n)), *blocks], axis=1)
+    matrix = -problem.W @ forces
+    matrix[:, : 2 * n] = np.eye(2 * n) - problem.W
+    rhs = problem.b / unit
+    if corners:
+        whole = np.concatenate(
+            [np.zeros((n, 2 * n)), *[np.eye(n)] * (2 * len(corners)), np.zeros((n, 2 * n)), np.eye(n)], axis=1
+        )
+        matrix = np.vstack([np.pad(matrix, ((0, 0), (0, n))), whole])
+        rhs, forces = np.concatenate([rhs, np.ones(n)]), np.pad(forces, ((0, 0), (0, n)))
+    return _Program(problem=problem, matrix=matrix, rhs=rhs, forces=forces, lasts=lasts)
+
+
+def _relaxed(program: _Program, node: IntArray) -> tuple[float, Array, Array] | None:
+    """Least misfit (sum of its entries over scale) of a node, with motions h and forces r there, (2n,), over scale."""
+    n, matrix = program.problem.pairs, program.matrix
+    low, high = _bounds(program, node)
+    rows, size = matrix.shape
+    slack = np.eye(rows, 2 * n)
     answer = linprog(
-        np.concatenate([np.zeros(4 * n), np.ones(4 * n)]),
-        A_eq=np.concatenate([matrix, np.eye(2 * n), -np.eye(2 * n)], axis=1),
-        b_eq=problem.b / unit,
+        np.concatenate([np.zeros(size), np.ones(4 * n)]),
+        A_eq=np.concatenate([matrix, slack, -slack], axis=1),
+        b_eq=program.rhs,
         bounds=[*zip(low, high, strict=True), *[(0.0, np.inf)] * (4 * n)],
         method="highs",
         options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
@@ -109,46 +145,64 @@ def _relaxed(problem: CoulombProblem, matrix: Array, node: IntArray) -> tuple[fl
     if answer.status != 0 or x is None or lacking is None:
         return None
     z = np.asarray(answer.eqlin.marginals)
-    proved = float(z @ problem.b) / unit
     reduced = matrix.T @ z
-    wrong = max(reduced[high > 0].max(initial=0.0), -reduced[low < 0].min(initial=0.0))
+    most = np.where(reduced > 0, high, low)
+    endless = ~np.isfinite(most)
+    wrong = np.abs(reduced[endless]).max(initial=0.0)
+    proved = float(z @ program.rhs) - float(reduced[~endless] @ most[~endless])
     if lacking > MARGIN and (proved <= 0.5 * MARGIN or wrong > 1e-9):
         return None
-    return float(lacking), x[: 2 * n], x[2 * n : 4 * n]
+    return float(lacking), x[: 2 * n], program.forces @ x[:size]
 
 
-def _bounds(problem: CoulombProblem, node: IntArray) -> tuple[Array, Array]:
-    """Bounds of (h_n, h_t, c_1, c_2) in a node."""
-    n, inf = problem.pairs, np.inf
-    low, high = np.zeros((4, n)), np.full((4, n), inf)
-    low[1] = -inf
-    high[0, (node != UNDECIDED) & (node != OPEN)] = 0.0
-    low[1, (node == STICK) | (node == SLIP_MINUS)] = 0.0
-    high[1, (node == STICK) | (node == SLIP_PLUS)] = 0.0
-    high[3, (node == SLIP_PLUS) & (problem.mu > 0)] = 0.0
-    high[2, (node == SLIP_MINUS) & (problem.mu > 0)] = 0.0
+def _bounds(program: _Program, node: IntArray) -> tuple[Array, Array]:
+    """Bounds of the unknowns in a node."""
+    problem = program.problem
+    n, branches = problem.pairs, problem.bound.branches
+    low, high = np.zeros((2 + 2 * branches, n)), np.full((2 + 2 * branches, n), np.inf)
+    rest = np.ones(n if branches > 1 else 0)
+    slips, minus = node >= SLIP_PLUS, node % 2
+    low[1] = -np.inf
+    high[0, (node == STICK) | (node == CLOSED) | slips] = 0.0
+    low[1, (node == STICK) | (slips & (minus == 1))] = 0.0
+    high[1, (node == STICK) | (slips & (minus == 0))] = 0.0
     high[2:, node == OPEN] = 0.0
-    return low.ravel(), high.ravel()
+    for i in np.flatnonzero(slips & (problem.mu > 0)):
+        branch = (int(node[i]) - SLIP_PLUS) // 2
+        behind = branch if branch < program.lasts[i] else branches - 1
+        others = np.ones(2 * branches, dtype=np.bool_)
+        others[2 * behind + minus[i]] = False
+        if branch:  # between two corners, or behind the last: nothing of the one at zero
+            others[2 * (branch - 1) + minus[i]] = False
+            rest[i] = 0.0
+        high[2:, i][others] = 0.0
+    return np.concatenate([low.ravel(), np.zeros_like(rest)]), np.concatenate([high.ravel(), rest])
 
 
-def _worst(problem: CoulombProblem, node: IntArray, h: Array, c: Array) -> tuple[int | None, IntArray]:
+def _worst(problem: CoulombProblem, node: IntArray, h: Array, r: Array) -> tuple[int | None, IntArray]:
     """The pair that breaks the law worst (None where none does), and the state that each pair comes nearest to."""
-    n = problem.pairs
-    gap, slip, plus, minus = h[:n], h[n:], c[:n], c[n:]
-    against = np.where(problem.mu == 0, 0.0, np.where(slip > 0, plus, minus))
+    n, unit, bound = problem.pairs, problem.scale or 1.0, problem.bound
+    gap, slip, p, friction = h[:n], h[n:], r[:n], r[n:]
+    pressed = np.hypot(p, friction)
+    spare = (bound.at(unit * p) / unit + np.sign(slip) * friction) / np.hypot(1.0, problem.mu)
+    against = np.where((problem.mu == 0) | (slip == 0), 0.0, np.maximum(spare, 0.0))
     slipping = np.where(node == OPEN, 0.0, np.minimum(np.abs(slip), against))
-    wrong = np.maximum(np.minimum(gap, plus + minus), slipping)
+    wrong = np.maximum(np.minimum(gap, pressed), slipping)
     nearest = np.where(np.abs(slip) <= 1e-9, STICK, np.where(slip < 0, SLIP_PLUS, SLIP_MINUS))
-    nearest = np.where(plus + minus <= 1e-9, OPEN, np.where(problem.closed == UNDECIDED, nearest, problem.closed))
+    nearest = np.where(problem.closed == UNDECIDED, nearest, problem.closed)
+    nearest = bound.coded(np.where(pressed <= 1e-9, OPEN, nearest), unit * p)
     decided = (node != UNDECIDED) & (node != CLOSED)
     nearest = np.where(decided, node, nearest).astype(np.int64)
     pair = int(np.where(decided, 0.0, wrong).argmax())
     return (None if decided[pair] or wrong[pair] <= 1e-9 else pair), nearest
 
 
-def _branches(node: int, nearest: int, closed: int) -> list[int]:
+def _branches(problem: CoulombProblem, pair: int, node: int, nearest: int) -> list[int]:
     """The branches of a pair, the likeliest last (it is taken first)."""
     if node == UNDECIDED:
         return [CLOSED, OPEN] if nearest == OPEN else [OPEN, CLOSED]
-    choices = (STICK, SLIP_PLUS, SLIP_MINUS) if closed == UNDECIDED else (closed,)
+    closed, last = int(problem.closed[pair]), int(np.isfinite(problem.bound.kinks[:, pair]).sum())
+    slips = (SLIP_PLUS, SLIP_MINUS) if closed == UNDECIDED else (closed,)
+    choices = [STICK] if closed == UNDECIDED else []
+    choices += [code + 2 * j for j in range(last) for code in slips]
     return sorted(choices, key=lambda state: state == nearest)

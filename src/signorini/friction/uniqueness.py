@@ -48,7 +48,8 @@ def mu_low(problem: CoulombProblem) -> float | None:
 
     Returns
     -------
-    mu_low : compare with the largest friction; ``inf`` where no pair can slip against friction
+    mu_low : compare with the largest slope of the bound of friction, which is the largest friction in Coulomb's law;
+        ``inf`` where no pair can slip against friction
 
     Examples
     --------
@@ -60,7 +61,7 @@ def mu_low(problem: CoulombProblem) -> float | None:
     if problem.floating:
         return None
     n = problem.pairs
-    rubs = np.flatnonzero((problem.friction > 0) & ~problem.locked)
+    rubs = np.flatnonzero((problem.mu > 0) & ~problem.locked)
     if not len(rubs):
         return np.inf
     moves = np.concatenate([np.full(n, True), ~problem.locked])

@@ -57,7 +57,7 @@ def symmetric_partners(
 
 def _held(space: Space, constraints: Constraints, nodes: IntArray) -> BoolArray:
     """(k, d) whether a support, or the axis of revolution, holds a node in a direction."""
-    return np.asarray(constraints.free[space.dofs(nodes)] < 0)
+    return constraints.held[space.dofs(nodes)]
 
 
 def tangents(normals: Array, mirrored: BoolArray, fibres: Array) -> tuple[Array, BoolArray]:

@@ -10,6 +10,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.bound import Bound
 from signorini.errors import InputError
 from signorini.fem.obstacles import carried
 from signorini.fem.space import Space
@@ -45,6 +46,8 @@ class Interface:
     node : (n,) nodes on the nonmortar side
     contact : (n,) index of the contact that a pair belongs to
     friction : (n,) Coulomb's coefficient, the largest where it differs by direction, infinite where it sticks
+    adhesion, shear_limit : (n,) tractions of :mod:`signorini.bound`, force per area, along the direction of the largest
+        friction; no limit is infinite
     anisotropy : (n, d - 1) coefficient along every tangent over the largest
     facets : (n,) corners of the section of the friction cone, 0 for the exact one
     normal_compliance, tangential_compliance : (n,) length per pressure
@@ -60,6 +63,8 @@ class Interface:
     node: IntArray
     contact: IntArray
     friction: Array
+    adhesion: Array
+    shear_limit: Array
     anisotropy: Array
     facets: IntArray
     normal_compliance: Array
@@ -90,9 +95,31 @@ class Interface:
         return np.tile(self.area, self.directions)
 
     @property
+    def sticks(self) -> BoolArray:
+        """(n,) pairs without any bound on their friction."""
+        return np.asarray(np.isinf(self.friction) & np.isinf(self.shear_limit), dtype=np.bool_)
+
+    @property
+    def rubs(self) -> BoolArray:
+        """(n,) pairs that have friction."""
+        return np.asarray((self.friction > 0) | (self.adhesion > 0), dtype=np.bool_)
+
+    @property
     def coefficients(self) -> Array:
         """(n, d - 1) Coulomb's coefficient along every tangent."""
         return self.friction[:, None] * self.anisotropy
+
+    def bound(self, pairs: BoolArray | IntArray) -> Bound:
+        """Of the friction forces of some pairs."""
+        area = self.area[pairs]
+        return Bound.of(
+            self.friction[pairs], adhesion=self.adhesion[pairs] * area, limit=self.shear_limit[pairs] * area
+        )
+
+    def most(self, normal: Array) -> Array:
+        """(n,) Largest friction forces under normal forces (n,); infinite where a pair sticks that is pressed."""
+        bound = self.bound(np.ones(len(self), dtype=np.bool_)).at(np.maximum(normal, 0.0))
+        return np.where(self.sticks & (normal > 0), np.inf, bound)
 
     def by_pair(self, tangential: Array) -> Array:
         """(n, d - 1) tangential vectors that are given row by row, ((d - 1) n,)."""
@@ -140,6 +167,8 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
         node=node,
         contact=index,
         friction=friction,
+        adhesion=data("adhesion"),
+        shear_limit=data("most_shear"),
         anisotropy=anisotropy_of(model, axes, index),
         facets=np.where(np.isfinite(friction), facets, 0),
         normal_compliance=data("normal_compliance"),
@@ -259,11 +288,11 @@ def _with_obstacles(space: Space, model: Model, carrier: IntArray, weights: tupl
     bodies = sp.csr_array((values, (rows, columns)), shape=(len(carrier), space.mesh.points.size))
     bodies.eliminate_zeros()
     width = 2 * space.dimension
-    moved = np.zeros((len(carrier), width * len(model.obstacles)))
+    moved = np.zeros((len(carrier), width * (len(model.obstacles) + len(model.rigid_bodies))))
     for j in range(len(model.obstacles)):
         own = np.flatnonzero(carrier == j)
         seen = np.unique(np.concatenate([part[own].indices for part in weights]))
-        motions = carried(model, j, space.mesh.points[seen])
+        motions = carried(model, space.mesh.points[seen], np.array(model.obstacles[j].about))
         of_pairs = sum(part[own][:, seen] @ motions[:, i] for i, part in enumerate(weights))
         moved[own, width * j : width * (j + 1)] = -of_pairs
     return sp.csr_array(sp.hstack([bodies, sp.csr_array(moved)]))

@@ -4,7 +4,7 @@
 Trial forces ``y = E (r - D (B z + h_0))`` are projected on the law, Pi, with the friction bounds of the round before.
 With ``E = (1 + D C)^-1`` a compliance C in series is exact. Rounds repeat
 
-    K z = f + B' Pi(y(z)),    r <- Pi(y),    bound <- mu r_n
+    K z = f + B' Pi(y(z)),    r <- Pi(y),    bound <- F(r_n), in Coulomb's law mu r_n
 
 where the first, the minimum of a convex energy, is approached by Newton steps, symmetric positive definite systems
 that conjugate gradients solve no further than the rest of the round deserves. A fixed point is a solution of the
@@ -27,6 +27,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
+from signorini.bound import Bound
 from signorini.iterative.bodies import Bodies
 from signorini.iterative.law import Slope, project, slope, states
 from signorini.pairstate import OPEN, STICK
@@ -43,7 +44,6 @@ _ENOUGH = 0.3  # of what the multipliers change by: equilibrium a round is solve
 _INEXACT = 0.1  # residual of a Newton step, of the one before it
 _FLOOR = 1e-4  # of their stiffness: what pairs that resist nothing keep while bodies are held by contact alone
 _FAR = 1e12
-_STICKY = 1e6  # friction that stands for infinity
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -94,14 +94,14 @@ class Load:
     ----------
     f : (b,) forces
     offset : (d, a) relative displacements without z, length
-    friction : (a,)
+    bound : of the friction forces of a pairs
     force, length : sizes of the data
     floating : whether contact alone holds a body
     """
 
     f: Array
     offset: Array
-    friction: Array
+    bound: Bound
     force: float
     length: float
     floating: bool
@@ -137,13 +137,13 @@ class _Rounds:
         self.E = 1.0 / (1.0 + self.D * self.C)
         self.softened = self.E * self.D
         self.transposed = bodies.B.T.tocsr()
-        self.friction = np.minimum(load.friction, _STICKY)
+        self.rubs = load.bound.slopes[0] > 0
         self.moves = np.diff(bodies.B.indptr).reshape(d, a) > 0
         self.internal = bodies.K @ self.z
         self.relative = self._seen(self.z) + load.offset
         self.y = self._trial()
         touching = self.y[0] >= 0
-        self.bound = self._bound(forces[0]) if forces.any() else np.where((self.friction > 0) & touching, np.inf, 0.0)
+        self.bound = self._bound(forces[0]) if forces.any() else np.where(self.rubs & touching, np.inf, 0.0)
         self.iterations: list[int] = []
         self.changes: list[int] = []
 
@@ -207,7 +207,7 @@ class _Rounds:
         return (self.bodies.B @ z).reshape(self.load.offset.shape)
 
     def _bound(self, normal: Array) -> Array:
-        return np.where(self.friction > 0, self.friction * np.maximum(normal, 0.0), 0.0)
+        return self.load.bound.at(np.maximum(normal, 0.0))
 
     def _trial(self) -> Array:
         y = self.E * (self.multiplier - self.D * self.relative)

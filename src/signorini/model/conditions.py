@@ -111,6 +111,7 @@ class Load:
         scales the force, not the velocity
     centre : point that the axis of rotation goes through, length; the origin by default. Not of axisymmetric bodies,
         which rotate about their axis
+    axis : along which it goes, in space; z by default
     temperature : above the one without thermal strain: a number, one value per node of the mesh, or a function of
         coordinates (n, 2) that gives (n,)
     spread : how a total force acts on a boundary. "traction": uniform traction. "displacement": the boundary moves
@@ -132,6 +133,7 @@ class Load:
     gravity: tuple[float, ...] | None = None
     centrifugal: float | None = None
     centre: tuple[float, ...] | None = None
+    axis: tuple[float, ...] | None = None
     temperature: Temperature | None = None
     spread: Literal["traction", "displacement"] = "traction"
     name: str = ""
@@ -149,15 +151,18 @@ class Load:
             object.__setattr__(self, "force", components(self.force, ("force",)))
         if self.nodal_forces is not None:
             object.__setattr__(self, "nodal_forces", _rows(self.nodal_forces))
-        for key in ("traction", "body_force", "gravity", "centre"):
+        for key in ("traction", "body_force", "gravity", "centre", "axis"):
             if getattr(self, key) is not None:
                 object.__setattr__(self, key, vector(getattr(self, key), (key,)))
         if self.pressure is not None:
             object.__setattr__(self, "pressure", number(self.pressure, ("pressure",)))
         if self.centrifugal is not None:
             object.__setattr__(self, "centrifugal", number(self.centrifugal, ("centrifugal",), least=0.0))
-        elif self.centre is not None:
-            raise InputError("goes with a centrifugal load only", where=("centre",))
+        elif self.centre is not None or self.axis is not None:
+            key = "axis" if self.centre is None else "centre"
+            raise InputError("goes with a centrifugal load only", where=(key,))
+        if self.axis is not None and not any(self.axis):
+            raise InputError("is zero; expected a direction", where=("axis",))
         if self.temperature is not None and not callable(self.temperature):
             object.__setattr__(self, "temperature", _field(self.temperature))
 

@@ -23,7 +23,8 @@ class Contact:
     """Two surfaces that may touch, or a surface and a rigid obstacle.
 
     ``gap >= 0``, ``pressure >= 0``, ``gap * pressure = 0`` and ``|traction| <= friction * pressure``, opposed to the
-    slip increment where it is equal.
+    slip increment where it is equal; where the sides touch with adhesion or a shear limit ``|traction| <=
+    min(adhesion + friction * pressure, shear_limit)``, and nothing where they are open.
 
     Parameters
     ----------
@@ -34,6 +35,9 @@ class Contact:
         opens, nor presses initial gaps, which count as filled; or a function of the points (k, d) that gives the
         coefficients (k,), such as :class:`Along`. In space also two coefficients, along ``friction_axis`` and across:
         tractions lie in an ellipse then, and slip is normal to it
+    shear_limit : largest traction of friction, force per area, > 0: Coulomb's law with a limit, or Tresca's law with
+        friction = "stick"; None (default) is no limit
+    adhesion : traction that friction holds without pressure, force per area, >= 0; lost where the sides open
     gap : "geometry"; "zero"; or one initial gap for every pair, length (negative: overlap)
     interference : overlap that is added to it, length, positive presses the bodies together
     normal_compliance, tangential_compliance : of the interface, length per pressure; 0 (default) is the exact law,
@@ -62,6 +66,8 @@ class Contact:
     nonmortar: str
     mortar: str | Obstacle
     friction: float | tuple[float, float] | Literal["stick", "tied"] | Callable[[Array], Array] = 0.0
+    shear_limit: float | None = None
+    adhesion: float = 0.0
     gap: float | Literal["geometry", "zero"] = "geometry"
     interference: float = 0.0
     normal_compliance: float = 0.0
@@ -89,7 +95,9 @@ class Contact:
             if isinstance(self.gap, str):
                 raise InputError(f"is '{self.gap}'; expected 'geometry', 'zero' or a number", where=("gap",))
             object.__setattr__(self, "gap", number(self.gap, ("gap",)))
-        for key in ("normal_compliance", "tangential_compliance"):
+        if self.shear_limit is not None:
+            object.__setattr__(self, "shear_limit", number(self.shear_limit, ("shear_limit",), above=0.0))
+        for key in ("adhesion", "normal_compliance", "tangential_compliance"):
             object.__setattr__(self, key, number(getattr(self, key), (key,), least=0.0))
         object.__setattr__(self, "interference", number(self.interference, ("interference",)))
         choice(self.coupling, COUPLINGS, ("coupling",), "coupling")
@@ -104,6 +112,10 @@ class Contact:
             for key in ("interference", "normal_compliance", "tangential_compliance"):
                 if getattr(self, key):
                     raise InputError("is given, but a tied contact is neither pressed nor compliant", where=(key,))
+        for key in ("shear_limit", "adhesion"):
+            if getattr(self, key) and (self.tied or (self.friction == "stick" and key == "adhesion")):
+                words = "is tied" if self.tied else "never slips"
+                raise InputError(f"is given, but the contact {words}, whatever its friction holds", where=(key,))
         if self.adjust is not None and self.gap != "geometry":
             raise InputError("goes with gap = 'geometry' only", where=("adjust",))
 
@@ -178,6 +190,16 @@ class Contact:
     def tied(self) -> bool:
         """Whether it neither slips nor opens."""
         return self.friction == "tied"
+
+    @property
+    def coulomb(self) -> bool:
+        """Whether friction has no other bound than ``friction * pressure``."""
+        return self.shear_limit is None and self.adhesion == 0.0
+
+    @property
+    def most_shear(self) -> float:
+        """The shear limit, infinite where there is none."""
+        return math.inf if self.shear_limit is None else self.shear_limit
 
     @property
     def coefficient(self) -> float:

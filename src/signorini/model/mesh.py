@@ -20,6 +20,7 @@ NODES_PER_SOLID_CELL = {
     "tetra10": 10,
     "hexahedron20": 20,
     "hexahedron27": 27,
+    "wedge15": 15,
 }
 NODES_PER_CELL = NODES_PER_PLANE_CELL | NODES_PER_SOLID_CELL
 """Families of cells by their names in meshio: corners, then the middles of edges, of faces, then the centre."""
@@ -31,6 +32,7 @@ CORNERS = {"triangle": 3, "quad": 4, "triangle6": 3, "quad8": 4, "quad9": 4} | {
     "tetra10": 4,
     "hexahedron20": 8,
     "hexahedron27": 8,
+    "wedge15": 6,
 }
 """Of every family. In the plane edge k goes from corner k to corner k + 1; in quadratic cells node ``corners + k`` is
 on it."""
@@ -54,6 +56,13 @@ FACES: Mapping[str, tuple[tuple[int, ...], ...]] = {
     "hexahedron20": _HEXAHEDRON20,
     "hexahedron27": tuple((*face, centre) for face, centre in zip(_HEXAHEDRON20, _CENTRES, strict=True)),
     "wedge": ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)),
+    "wedge15": (
+        (0, 2, 1, 8, 7, 6),
+        (3, 4, 5, 9, 10, 11),
+        (0, 1, 4, 3, 6, 13, 9, 12),
+        (1, 2, 5, 4, 7, 14, 10, 13),
+        (2, 0, 3, 5, 8, 12, 11, 14),
+    ),
 }
 """Nodes of every face, anticlockwise seen from outside: corners, then middles of edges, then the middle."""
 
@@ -71,8 +80,8 @@ class Mesh:
     ----------
     points : (n, 2) or (n, 3) array of coordinates, length
     cells : family ("triangle", "quad", "triangle6", "quad8", "quad9"; in space "tetra", "hexahedron", "wedge",
-        "tetra10", "hexahedron20", "hexahedron27") to (m, k) array of node indices in the order of meshio, in either
-        orientation: corners, then the middles of the edges, then the centre
+        "tetra10", "hexahedron20", "hexahedron27", "wedge15") to (m, k) array of node indices in the order of meshio, in
+        either orientation: corners, then the middles of the edges, then the centre
     bodies : name to indices of cells
     boundaries : name to (m, 2) or (m, 3) array, the two end nodes of each facet, and the middle one of a quadratic cell
         (it may be left out); in space (m, 3), (m, 4), (m, 6), (m, 8) or (m, 9): corners, then middle nodes

@@ -14,8 +14,9 @@ from signorini.arrays import IntArray
 from signorini.checks import choice, number
 from signorini.errors import InputError, one_of
 from signorini.model.body import Body
-from signorini.model.conditions import BODY_LOADS, Foundation, Load, Support
+from signorini.model.conditions import BODY_LOADS, Foundation, Load, Place, Support
 from signorini.model.contact import Contact
+from signorini.model.links import Equation, RigidBody, directions
 from signorini.model.material import Orthotropic
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Obstacle
@@ -40,6 +41,7 @@ class Model:
     supports, foundations, loads, contacts : see :class:`Support`, :class:`Foundation`, :class:`Load`,
         :class:`Contact`
     obstacles : rigid ones that move, see :class:`Rigid`; fixed ones are said in the contact itself
+    equations, rigid_bodies : what couples displacements without an element, see :class:`Equation`, :class:`RigidBody`
     steps : the load history; by default one step, all loads from 0 to 1, in one increment
     title, units : said again in the results
 
@@ -69,6 +71,8 @@ class Model:
     loads: Sequence[Load] = ()
     contacts: Sequence[Contact] = ()
     obstacles: Sequence[Rigid] = ()
+    equations: Sequence[Equation] = ()
+    rigid_bodies: Sequence[RigidBody] = ()
     steps: Sequence[Step] = (Step(name="load"),)
     title: str = ""
     units: str = "as given, consistent"
@@ -94,13 +98,20 @@ class Model:
             ("loads", Load),
             ("contacts", Contact),
             ("obstacles", Rigid),
+            ("equations", Equation),
+            ("rigid_bodies", RigidBody),
             ("steps", Step),
         ):
             object.__setattr__(self, part, _typed(getattr(self, part), kind, part))
         self._check_bodies()
+        self._check_links()
         for i, support in enumerate(self.supports):
-            self._check_place(support.on, ("support", i, "on"), nodes=True)
-            self._check_dimension(support.u, ("support", i, "u"))
+            self._check_place(support.on, ("support", i, "on"), nodes=True, rigid=True)
+            self._check_dimension(support.u, ("support", i, "u"), on=support.on)
+            if self.axisymmetric and len(support.u) == 3 and (support.u[0] or support.u[2]):
+                raise InputError(
+                    "moves a rigid body off the axis of revolution; expected 0 or free there", where=("support", i, "u")
+                )
         for i, foundation in enumerate(self.foundations):
             self._check_place(foundation.on, ("foundation", i, "on"), nodes=False)
         for i, load in enumerate(self.loads):
@@ -164,7 +175,7 @@ class Model:
         if load.kind in BODY_LOADS:
             self._check_body_load(i, load)
         elif load.kind in ("force", "nodal_forces") and load.spread == "traction":
-            self._check_place(load.on, where, nodes=True)
+            self._check_place(load.on, where, nodes=True, rigid=load.kind == "force")
         else:
             self._check_place(load.on, where, nodes=False)
         if load.nodal_forces is not None:
@@ -174,8 +185,13 @@ class Model:
                     f"has shape {load.nodal_forces.shape}; expected {expected}, one force for each of the nodes",
                     where=("load", i, "nodal_forces"),
                 )
-        for kind in ("force", "traction", "body_force", "gravity", "centre"):
+        self._check_dimension(load.force, ("load", i, "force"), on=load.on)
+        for kind in ("traction", "body_force", "gravity", "centre"):
             self._check_dimension(getattr(load, kind), ("load", i, kind))
+        if load.axis is not None and len(load.axis) != self.dimension:
+            raise InputError(f"has {len(load.axis)} components; expected 3, in space", where=("load", i, "axis"))
+        if load.axis is not None and self.dimension == 2:
+            raise InputError("is for models in space; expected none", where=("load", i, "axis"))
 
     def _check_body_load(self, i: int, load: Load) -> None:
         """What the loads inside a body need from its material, and from the kind of model."""
@@ -240,21 +256,47 @@ class Model:
                 "moves off the axis of revolution; expected u = (0, ...) and rotation 0", where=("obstacle", i)
             )
 
-    def _check_place(self, on: Any, where: tuple[str | int, ...], *, nodes: bool) -> None:
+    def _check_links(self) -> None:
+        """Equations and rigid bodies."""
+        taken = {*self.mesh.boundaries, *self.mesh.nodes, *(obstacle.name for obstacle in self.obstacles)}
+        for i, body in enumerate(self.rigid_bodies):
+            where = ("rigid_body", i)
+            if body.name in taken:
+                raise InputError(
+                    f"'{body.name}' is a boundary, a node set or another rigid one too; expected a name of its own",
+                    where=(*where, "name"),
+                )
+            taken.add(body.name)
+            if body.on not in self.mesh.bodies:
+                self._check_place(body.on, (*where, "on"), nodes=True)
+            self._check_dimension(body.point, (*where, "point"))
+        for i, equation in enumerate(self.equations):
+            for k, (on, _, _) in enumerate(equation.terms):
+                if not isinstance(on, int):
+                    self._check_place(on, ("equation", i, "terms", k), nodes=True, rigid=True)
+
+    def _check_place(self, on: Any, where: tuple[str | int, ...], *, nodes: bool, rigid: bool = False) -> None:
         if not isinstance(on, str):
             if not nodes:
                 raise InputError(f"is the point {on}; expected a boundary", where=where)
             self._check_dimension(on, where)
             return
-        known: set[str] = set(self.mesh.boundaries) | (set(self.mesh.nodes) if nodes else set())
+        bodies = {body.name for body in self.rigid_bodies} if rigid else set()
+        known = set(self.mesh.boundaries) | (set(self.mesh.nodes) if nodes else set()) | bodies
         if on not in known:
             raise InputError(one_of(on, known, "boundary or node set" if nodes else "boundary"), where=where)
-        if not len(self.mesh.nodes_of(on)):
+        if on not in bodies and not len(self.mesh.nodes_of(on)):
             raise InputError(f"'{on}' is empty in the mesh", where=where)
 
-    def _check_dimension(self, parts: Sequence[float | None] | None, where: tuple[str | int, ...]) -> None:
-        if parts is not None and len(parts) != self.dimension:
-            raise InputError(f"has {len(parts)} components; expected {self.dimension}", where=where)
+    def _check_dimension(
+        self, parts: Sequence[float | None] | None, where: tuple[str | int, ...], on: Place = ""
+    ) -> None:
+        """Of a vector; a rigid body has rotations too."""
+        rigid = any(on == body.name for body in self.rigid_bodies)
+        expected = directions(self.dimension) if rigid else self.axes
+        if parts is not None and len(parts) != len(expected):
+            words = f", one for each of {', '.join(expected)}" if rigid else ""
+            raise InputError(f"has {len(parts)} components; expected {len(expected)}{words}", where=where)
 
     def _check_labels(self) -> None:
         groups: tuple[tuple[str, Iterable[Support | Foundation | Load | Contact | Rigid]], ...] = (
@@ -291,6 +333,7 @@ class Model:
                     raise InputError(one_of(name, names, "load or moving support"), where=("step", i, "scale"))
             used |= set(names if step.scale is None else step.scale)
             self._check_contact_names(i, step)
+            self._check_support_names(i, step)
             if step.path == "exact" and self.kind == "3d":
                 raise InputError(
                     'is "exact", which is for plane models; in space expected increments, a number or "auto"',
@@ -318,6 +361,13 @@ class Model:
                     where=("step", i, "friction", name),
                 )
 
+    def _check_support_names(self, i: int, step: Step) -> None:
+        known = [support.label for support in self.supports]
+        for key in ("release", "hold", "restore"):
+            for name in getattr(step, key):
+                if name not in known:
+                    raise InputError(one_of(name, known, "support"), where=("step", i, key))
+
     @property
     def scaled_names(self) -> tuple[str, ...]:
         """What steps can scale: loads, moving supports, and obstacles that are moved or loaded."""
@@ -333,7 +383,7 @@ class Model:
 
 
 def _typed(values: Any, kind: type, part: str) -> tuple[Any, ...]:
-    singular = {"bodies": "body"}.get(part, part.removesuffix("s"))
+    singular = {"bodies": "body", "rigid_bodies": "rigid_body"}.get(part, part.removesuffix("s"))
     if isinstance(values, kind):
         values = (values,)
     for i, value in enumerate(values):

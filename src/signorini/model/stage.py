@@ -23,6 +23,7 @@ class Stage:
     friction : contact to its coefficient or two of them, of contacts that some step has changed
     interference : contact to its overlap at the end of the step, of contacts that some step has changed
     inactive : contacts that are switched off
+    released : supports that do not hold
     """
 
     number: int
@@ -31,6 +32,7 @@ class Stage:
     friction: Mapping[str, float | tuple[float, float]]
     interference: Mapping[str, float]
     inactive: frozenset[str]
+    released: frozenset[str]
 
     @property
     def name(self) -> str:
@@ -44,7 +46,11 @@ class Stage:
 
 
 def stages(
-    model: Model, *, factors: Mapping[str, float] | None = None, inactive: frozenset[str] = frozenset()
+    model: Model,
+    *,
+    factors: Mapping[str, float] | None = None,
+    inactive: frozenset[str] = frozenset(),
+    released: frozenset[str] = frozenset(),
 ) -> Iterator[Stage]:
     """Every step of a model in order.
 
@@ -52,6 +58,7 @@ def stages(
     ----------
     factors : load factors before the first step, all 0 where nothing else is said
     inactive : contacts that are switched off before the first step
+    released : supports that do not hold before it
     """
     now = dict.fromkeys(model.scaled_names, 0.0) | dict(factors or {})
     friction: dict[str, float | tuple[float, float]] = {}
@@ -62,6 +69,7 @@ def stages(
         friction |= {name: math.inf if value == "stick" else value for name, value in step.friction.items()}
         interference |= step.interference
         inactive = (inactive | set(step.inactive)) - set(step.active)
+        released = (released | set(step.release)) - {*step.hold, *step.restore}
         yield Stage(
             number=number,
             step=step,
@@ -69,4 +77,5 @@ def stages(
             friction=dict(friction),
             interference=dict(interference),
             inactive=inactive,
+            released=released,
         )

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -34,6 +35,9 @@ class Step:
     inactive : contacts switched off from here on: their forces go linearly to zero over the step
     active : contacts switched on again: they touch where they meet from here on, with no slip behind them; what
         overlaps at that moment is pressed out linearly over the step
+    release : supports that let go from here on: their forces go linearly to zero over the step
+    hold : supports that hold again, each node where it is at that moment; what they prescribe is added from there on
+    restore : supports that hold again and take the nodes to where they prescribe linearly over the step
     increments : equal parts in which every segment is solved, or "auto": 1, 2, 4, ... until the contact forces change
         less than ``tolerance``; None leaves it to ``path``
     tolerance : of "auto", relative to the largest contact force
@@ -57,6 +61,9 @@ class Step:
     interference: Mapping[str, float] = field(default_factory=dict)
     inactive: Sequence[str] = ()
     active: Sequence[str] = ()
+    release: Sequence[str] = ()
+    hold: Sequence[str] = ()
+    restore: Sequence[str] = ()
     increments: int | Literal["auto"] | None = None
     tolerance: float = 1e-3
     path: Literal["increments", "exact"] | None = None
@@ -84,7 +91,12 @@ class Step:
         overlaps = _table(self.interference, "interference")
         self._set("interference", {name: number(value, ("interference", name)) for name, value in overlaps})
         for key in ("active", "inactive"):
-            self._set(key, _names(getattr(self, key), key))
+            self._set(key, _names(getattr(self, key), key, "contacts"))
+        for key in ("release", "hold", "restore"):
+            self._set(key, _names(getattr(self, key), key, "supports"))
+        twice = [name for name, count in Counter((*self.release, *self.hold, *self.restore)).items() if count > 1]
+        if twice:
+            raise InputError(f"'{twice[0]}' is named twice; expected one of release, hold, restore", where=("release",))
         both = set(self.active) & set(self.inactive)
         if both:
             raise InputError(f"'{min(both)}' is switched on and off; expected one of both", where=("active",))
@@ -175,7 +187,7 @@ def _times(at: Any) -> tuple[float, ...] | str:
     return tuple(sorted(set(times)))
 
 
-def _names(value: Any, key: str) -> tuple[str, ...]:
+def _names(value: Any, key: str, what: str) -> tuple[str, ...]:
     if isinstance(value, str) or not isinstance(value, Sequence):
-        raise InputError(f"is {value!r}; expected a list of contacts", where=(key,))
+        raise InputError(f"is {value!r}; expected a list of {what}", where=(key,))
     return tuple(text(name, (key, i)) for i, name in enumerate(value))

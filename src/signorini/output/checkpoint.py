@@ -16,7 +16,7 @@ from signorini.output.replacing import replacing
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.state import LoadPoint, State
 
-_FORMAT = "signorini state 1"
+_FORMAT = "signorini state 2"
 _ARRAYS = tuple(field.name for field in fields(State) if field.name not in ("point", "work", "released"))
 
 
@@ -32,7 +32,9 @@ def write_checkpoint(checkpoint: Checkpoint, path: Path) -> None:
     parts: dict[str, Any] = {name: getattr(state, name) for name in _ARRAYS}
     parts |= {"initial_gap": point.gap, "given": point.given, "work": state.work, "released": state.released}
     parts |= {"names": np.array(list(point.factors), dtype=str), "factors": np.array(list(point.factors.values()))}
+    parts |= {"reaction": point.reaction, "offset": point.offset}
     parts |= {"inactive": np.array(sorted(checkpoint.inactive), dtype=str)}
+    parts |= {"let_go": np.array(sorted(checkpoint.released), dtype=str)}
     parts |= {"contacts": np.array(checkpoint.contacts, dtype=str)}
     parts |= {"contact": checkpoint.contact, "node": checkpoint.node, "mesh": checkpoint.mesh, "format": _FORMAT}
     with replacing(path) as aside, aside.open("wb") as file:
@@ -55,7 +57,13 @@ def read_checkpoint(path: Path) -> Checkpoint:
         if str(parts["format"]) != _FORMAT:
             raise InputError(f"'{path}' is '{parts['format']}'; expected '{_FORMAT}'")
         factors = {str(name): float(factor) for name, factor in zip(parts["names"], parts["factors"], strict=True)}
-        point = LoadPoint(factors=MappingProxyType(factors), gap=parts["initial_gap"], given=parts["given"])
+        point = LoadPoint(
+            factors=MappingProxyType(factors),
+            gap=parts["initial_gap"],
+            given=parts["given"],
+            reaction=parts["reaction"],
+            offset=parts["offset"],
+        )
         state = State(
             point=point,
             work=float(parts["work"]),
@@ -65,6 +73,7 @@ def read_checkpoint(path: Path) -> Checkpoint:
         return Checkpoint(
             state=state,
             inactive=frozenset(str(name) for name in parts["inactive"]),
+            released=frozenset(str(name) for name in parts["let_go"]),
             contacts=tuple(str(name) for name in parts["contacts"]),
             contact=parts["contact"],
             node=parts["node"],

@@ -21,9 +21,10 @@ from signorini.solution.results import StepResult
 _TYPES = {
     **{"triangle": (7, 3), "triangle6": (8, 6), "quad": (9, 4), "quad8": (10, 8), "quad9": (10, 8)},
     **{"hexahedron": (1, 8), "wedge": (2, 6), "tetra": (3, 4), "tetra10": (6, 10)},
-    **{"hexahedron20": (4, 20), "hexahedron27": (4, 20)},
+    **{"hexahedron20": (4, 20), "hexahedron27": (4, 20), "wedge15": (5, 15)},
 }
-_UPRIGHT = [*range(12), *range(16, 20), *range(12, 16)]  # in .frd the upright edges come before those of the top
+# in .frd the upright edges come before those of the top
+_UPRIGHT = {20: [*range(12), *range(16, 20), *range(12, 16)], 15: [*range(9), *range(12, 15), *range(9, 12)]}
 _TENSOR = (("SXX", 1, 1), ("SYY", 2, 2), ("SZZ", 3, 3), ("SXY", 1, 2), ("SYZ", 2, 3), ("SZX", 3, 1))
 _CONTACT = ("COPEN", "CSLIP1", "CSLIP2", "CPRESS", "CSHEAR1", "CSHEAR2")
 
@@ -74,7 +75,7 @@ def _elements(model: Model) -> Iterator[str]:
     labels, owner, first = model.mesh.cell_labels, model.body_of_cells() + 1, 0
     for family, cells in model.mesh.cells.items():
         kind, width = _TYPES[family]
-        nodes = model.mesh.labels[cells[:, _UPRIGHT if width == 20 else slice(width)]]
+        nodes = model.mesh.labels[cells[:, _UPRIGHT.get(width, slice(width))]]
         lines = []
         for row, cell in enumerate(nodes.tolist(), start=first):
             lines.append(f" -1{labels[row]:10d}{kind:5d}    0{owner[row]:5d}\n")

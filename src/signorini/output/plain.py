@@ -22,6 +22,7 @@ _HOMES = (
     "signorini.model.body",
     "signorini.model.conditions",
     "signorini.model.contact",
+    "signorini.model.links",
     "signorini.model.obstacle",
     "signorini.model.rigid",
     "signorini.model.mesh",

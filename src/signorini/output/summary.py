@@ -15,7 +15,7 @@ from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.solution.certificate import Certificate
 from signorini.solution.history import PHASES, History
-from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, StepResult
+from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, ObstacleResult, StepResult
 
 
 def summary(history: History, seconds: Mapping[str, float]) -> dict[str, Any]:
@@ -57,7 +57,7 @@ def _well_posedness(history: History) -> dict[str, Any] | None:
         return None
     contacts = history.model.contacts
     return {
-        "friction": found.friction,
+        "friction": found.friction if math.isfinite(found.friction) else None,
         "bound": found.bound if found.bound is None or math.isfinite(found.bound) else None,
         "verdict": found.verdict,
         "words": found.words,
@@ -85,15 +85,8 @@ def _step(model: Model, step: StepResult) -> dict[str, Any]:
         "method": ", ".join(step.methods),
         "notes": list(step.notes),
         "reactions": {name: _list(force) for name, force in step.reactions.items()},
-        "obstacles": {
-            name: {
-                "displacement": _list(obstacle.displacement),
-                "rotation": _turn(obstacle.rotation),
-                "force": _list(obstacle.force),
-                "moment": _turn(obstacle.moment),
-            }
-            for name, obstacle in step.obstacles.items()
-        },
+        "obstacles": {name: _rigid(obstacle) for name, obstacle in step.obstacles.items()},
+        "rigid_bodies": {name: _rigid(body) for name, body in step.rigid_bodies.items()},
         "strain_energy": step.strain_energy,
         "interface_energy": step.interface_energy,
         "work": step.work,
@@ -104,6 +97,15 @@ def _step(model: Model, step: StepResult) -> dict[str, Any]:
         "steadiness": step.steadiness,
         "certificate": _certificate(step.certificate),
         "contacts": [_contact(*pair) for pair in zip(model.contacts, step.contacts, strict=True)],
+    }
+
+
+def _rigid(found: ObstacleResult) -> dict[str, Any]:
+    return {
+        "displacement": _list(found.displacement),
+        "rotation": _turn(found.rotation),
+        "force": _list(found.force),
+        "moment": _turn(found.moment),
     }
 
 
@@ -120,6 +122,8 @@ def _contact(contact: Contact, result: ContactResult) -> dict[str, Any]:
         "mortar": result.mortar,
         "coupling": result.coupling,
         "friction": "varies" if callable(contact.friction) else contact.friction,
+        "adhesion": contact.adhesion,
+        "shear_limit": contact.shear_limit,
         "normal_force": _list(result.normal_force),
         "tangential_force": _list(result.tangential_force),
         "max_pressure": float(result.pressure[worst]),

@@ -87,9 +87,10 @@ def _step_lines(step: StepResult, number: int) -> list[str]:
         *(align([_HEAD, *rows], right=_NUMBERS) if rows else ["no contact"]),
         *([f"reactions: {reactions}"] if reactions else []),
         *(
-            f"obstacle {name}: moved {spell_vector(obstacle.displacement)}, turned {_turn(obstacle.rotation)}, bears "
-            f"force {spell_vector(obstacle.force)}, moment {_turn(obstacle.moment)}"
-            for name, obstacle in step.obstacles.items()
+            f"{kind} {name}: moved {spell_vector(found.displacement)}, turned {_turn(found.rotation)}, bears "
+            f"force {spell_vector(found.force)}, moment {_turn(found.moment)}"
+            for kind, every in (("obstacle", step.obstacles), ("rigid body", step.rigid_bodies))
+            for name, found in every.items()
         ),
         f"certificate {verdict}: worst of five {certificate.worst:.1e}, allowed {TOLERANCE:.0e}",
     ]

@@ -11,6 +11,7 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.fem.space import Space, make_space
 from signorini.fem.stress import BodyStress, body_stresses
+from signorini.formats import complete_meshio
 from signorini.model.model import Model
 from signorini.output.replacing import replacing
 from signorini.solution.history import History
@@ -51,6 +52,7 @@ def write_fields(space: Space, model: Model, displacement: Array, factors: Mappi
     """
     import meshio
 
+    complete_meshio()
     stresses = body_stresses(space, model, displacement, factors)
     nodes = np.concatenate([part.nodes for part in stresses])
     stress = np.concatenate([part.stress for part in stresses])

@@ -87,6 +87,7 @@ def way_of(history: History, contact: str | None = None) -> Way:
     if contact is not None and contact not in names:
         raise InputError(one_of(contact, names, "contact"), where=("contact",))
     i = names.index(contact) if contact is not None else 0
+    law = history.model.contacts[i]
     found = [(step.name, instant, instant.contacts[i]) for step in history.steps for instant in step.instants]
     kinks = [0.0, *(instant.load_factor for _, instant, _ in found if instant.what == "segment")]
     loads = np.array([0.0, *(instant.load_factor for _, instant, _ in found)])
@@ -100,7 +101,7 @@ def way_of(history: History, contact: str | None = None) -> Way:
     return Way(
         name=names[i],
         axis=axis,
-        friction=history.model.contacts[i].coefficient,
+        friction=law.coefficient if law.coulomb else math.inf,
         s=s[order],
         load=np.interp(loads, kinks, np.arange(len(kinks))),
         pressure=values("pressure"),

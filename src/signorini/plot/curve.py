@@ -27,7 +27,7 @@ class Curve:
     s : (n,) increasing coordinate
     pressure, traction : (n,) force per area; traction is friction on the nonmortar body along the tangent
     status : (n,) "open", "stick" or "slip"
-    friction : Coulomb's coefficient, infinite where the contact never slips or it varies
+    friction : Coulomb's coefficient, infinite where the contact never slips, it varies or has another bound too
     """
 
     contact: str
@@ -80,7 +80,7 @@ def curves_of(history: History, step: StepResult) -> list[Curve]:
             pressure=result.pressure,
             traction=result.traction,
             status=result.status,
-            friction=math.inf if math.isnan(contact.coefficient) else contact.coefficient,
+            friction=math.inf if math.isnan(contact.coefficient) or not contact.coulomb else contact.coefficient,
         )
         for contact, result in zip(history.model.contacts, step.contacts, strict=True)
     ]

@@ -15,6 +15,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
+from signorini.formats import complete_meshio
 from signorini.plot.curve import Curve, make_curve
 from signorini.plot.patch import Patch, padded_faces
 from signorini.plot.skin import Skin, make_skin
@@ -94,6 +95,7 @@ class ResultFolder:
         """``solution.vtu``."""
         import meshio
 
+        complete_meshio()
         file = self._file("solution.vtu")
         found = meshio.read(file)
         d = 3 if self.solid else 2
@@ -158,6 +160,7 @@ class ResultFolder:
         for contact in step["contacts"]:
             own = [row for row in self.rows if row["step"] == str(number) and row["contact"] == contact["name"]]
             friction = contact.get("friction", 0.0)
+            other = contact.get("adhesion") or contact.get("shear_limit")
             curves.append(
                 make_curve(
                     contact=contact["name"],
@@ -166,7 +169,7 @@ class ResultFolder:
                     pressure=_columns(own, "pressure")[:, 0],
                     traction=_columns(own, "traction_1")[:, 0],
                     status=np.array([row["status"] for row in own]),
-                    friction=math.inf if isinstance(friction, str) else float(friction),
+                    friction=math.inf if isinstance(friction, str) or other else float(friction),
                 )
             )
         return curves

@@ -33,7 +33,7 @@ class Certificate:
     equilibrium : largest nodal ``|K u - f - B^T r|`` and largest resultant on a rigid motion of any part
     penetration : largest overlap
     tension : largest pulling normal force
-    cone : largest excess of friction over ``mu p``
+    cone : largest excess of friction over its bound, ``mu p`` in Coulomb's law
     complementarity : largest ``min(gap, normal force)``, ``min(|slip|, mu p - |t|)``, and friction along the slip; on
         an ellipse how far friction is from what dissipates most, on a polygon how much more it could dissipate
     facets : most corners of a section of the friction cone on which this was measured; 0: the exact cone everywhere
@@ -100,8 +100,7 @@ def certify(
     normal, tangential = r[:n] / scale.force, r[n:] / scale.force
     sliding = moved[n:] - before / scale.length
     gap, tension = np.where(interface.tied, -np.abs(gap), gap), np.where(interface.tied, 0.0, normal)
-    bound = np.where(interface.tied, np.inf, 0.0)
-    np.multiply(interface.friction, normal, out=bound, where=normal > 0)
+    bound = np.where(interface.tied, np.inf, interface.most(r[:n]) / scale.force)
     room = bound - interface.effort(tangential)
     friction = _friction(interface, bound, tangential, sliding, room)
     if absent is not None:

@@ -26,6 +26,7 @@ class Checkpoint:
     ----------
     state : of all bodies and pairs
     inactive : contacts that are switched off in it
+    released : supports that do not hold in it
     contacts : names of all contacts, in order
     contact, node : (n,) contact and node of every pair
     mesh : digest of points and cells
@@ -33,6 +34,7 @@ class Checkpoint:
 
     state: State
     inactive: frozenset[str]
+    released: frozenset[str]
     contacts: tuple[str, ...]
     contact: IntArray
     node: IntArray
@@ -47,16 +49,20 @@ class Checkpoint:
             What differs: the mesh, the number of moving obstacles, the contacts, or a load that the model lacks.
         """
         dofs = len(self.state.displacement)
-        own = model.mesh.points.size + 2 * model.dimension * len(model.obstacles)
+        rigid = len(model.obstacles) + len(model.rigid_bodies)
+        own = model.mesh.points.size + 2 * model.dimension * rigid
         if dofs != own or self.mesh != digest(model.mesh):
             found = f"was computed on another mesh ({dofs} dofs; the model has {own})"
-            raise InputError(f"{found}; expected the same mesh and moving obstacles", where=_WHERE)
+            raise InputError(f"{found}; expected the same mesh, moving obstacles and rigid bodies", where=_WHERE)
         labels = tuple(contact.label for contact in model.contacts)
         if self.contacts != labels:
             found, expected = (", ".join(names) or "none" for names in (self.contacts, labels))
             raise InputError(f"has the contacts {found}; the model has {expected}, expected the same", where=_WHERE)
         if not np.array_equal(self.node, interface.node) or not np.array_equal(self.contact, interface.contact):
             raise InputError("pairs other nodes than the model; expected the same contact surfaces", where=_WHERE)
+        strange = self.released - {support.label for support in model.supports}
+        if strange:
+            raise InputError(f"has released '{min(strange)}'; expected a support of that name", where=_WHERE)
         for name, factor in self.state.point.factors.items():
             if factor and name not in model.scaled_names:
                 raise InputError(

@@ -123,7 +123,7 @@ class ContactResult:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ObstacleResult:
-    """A moving rigid obstacle at the end of a step.
+    """A moving rigid obstacle, or a rigid body, at the end of a step.
 
     Attributes
     ----------
@@ -148,7 +148,7 @@ class PairEvent:
     load_factor : step k goes from k - 1 to k
     contact : name
     nodes : indices of nonmortar nodes, from 0
-    what : "closes", "opens", "slips" or "sticks"
+    what : "closes", "opens", "slips", "sticks" or "kinks": slips on, at the shear limit or below it again
     """
 
     load_factor: float
@@ -218,8 +218,9 @@ class StepResult:
     displacement : (nodes, d) length
     external : (nodes, d) loads and reactions of supports, force
     obstacles : moving obstacles by name
+    rigid_bodies : the same of rigid bodies
     factors : load factors at its end, by name
-    reactions : support or elastic foundation to its force on the bodies, (d,)
+    reactions : support or elastic foundation to its force on the bodies, (d,); on a rigid body with its moments
     strain_energy : of the bodies
     interface_energy : of compliant interfaces and elastic foundations
     work : of loads, moving supports, interferences and changes of temperature in this step
@@ -242,6 +243,7 @@ class StepResult:
     displacement: Array
     external: Array
     obstacles: Mapping[str, ObstacleResult]
+    rigid_bodies: Mapping[str, ObstacleResult]
     factors: Mapping[str, float]
     reactions: Mapping[str, Array]
     strain_energy: float

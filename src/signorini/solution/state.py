@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import MappingProxyType
 
 import numpy as np
@@ -25,11 +25,15 @@ class LoadPoint:
     factors : load factors by name
     gap : (n,) initial gaps, with the interferences of the moment
     given : (d n,) forces of pairs whose contact is switched off, on their way to zero; 0 elsewhere
+    reaction : (dofs,) forces of supports that let go, on their way to zero; empty where none ever did
+    offset : (dofs,) displacements beyond what supports prescribe, of those that hold again; empty where none ever did
     """
 
     factors: Mapping[str, float]
     gap: Array
     given: Array
+    reaction: Array = field(default_factory=lambda: np.zeros(0))
+    offset: Array = field(default_factory=lambda: np.zeros(0))
 
     def towards(self, end: LoadPoint, t: float) -> LoadPoint:
         """The point at the part t of the way to another."""
@@ -40,6 +44,8 @@ class LoadPoint:
             factors=MappingProxyType(factors),
             gap=(1.0 - t) * self.gap + t * end.gap,
             given=(1.0 - t) * self.given + t * end.given,
+            reaction=(1.0 - t) * self.reaction + t * end.reaction,
+            offset=(1.0 - t) * self.offset + t * end.offset,
         )
 
 
@@ -51,7 +57,7 @@ class State:
     ----------
     point : of the load history
     displacement : (dofs,) length
-    external : (dofs,) loads, reactions of supports and forces inside rigid boundaries
+    external : (dofs,) loads, reactions of supports and forces inside rigid boundaries, rigid bodies and equations
     forces : (d n,) of the pairs on the nonmortar body: normal (pressing > 0), then tangential
     gap : (n,) of the contact law, 0 where closed
     tangential : ((d - 1) n,) tangential displacement of the contact law, length: where the next slip increment starts
@@ -126,10 +132,8 @@ def next_state(
     """
     n = len(interface)
     inner = K @ displacement - interface.B.T @ forces
-    # the loads where a displacement is free on its own, whatever equilibrium takes where it is held or tied
-    shared = np.bincount(constraints.free[constraints.free >= 0], minlength=1)
-    own = (constraints.free >= 0) & (shared[constraints.free] == 1)
-    external = np.where(own, loads, inner)
+    # the loads where a displacement is free on its own, whatever equilibrium takes where it is held, tied or linked
+    external = np.where(constraints.alone, loads, inner)
     increment = moved[n:]
     work = 0.5 * (state.external + external) @ (displacement - state.displacement)
     work -= 0.5 * (state.forces + forces)[:n] @ (point.gap - state.point.gap)

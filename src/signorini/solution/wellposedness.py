@@ -15,7 +15,7 @@ class WellPosedness:
 
     Attributes
     ----------
-    friction : the largest coefficient
+    friction : the largest coefficient; infinite where pairs stick or adhere
     bound : a coefficient below which every load and history has one solution, or None where none is known
     verdict : "unique" (proved, for every load), "one" (proved, for this load), "several" or "not decided"
     words : the same in a sentence

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from signorini.verify import (
+    bounded,
     cylinder,
     elements,
     fenet,
@@ -45,6 +46,7 @@ QUICK: tuple[Case, ...] = (
     scalar.scalar_signorini,
     one_node.one_node,
     one_node.one_node_path,
+    bounded.shear_limits,
     cylinder.paper_mesh,
     cylinder.refined,
     cylinder.literal_equals_compliance,

@@ -128,3 +128,23 @@ def test_gravity_and_rotation_are_those_of_the_package(tmp_path: Path) -> None:
     deck.write_text(RING.format("*DLOAD\nE, CENTRIF, 9., 0., 0., 0., 0., 0., 1."))
     with pytest.raises(DeckError, match="expected the y axis"):
         sg.read(deck)
+
+
+def test_supports_come_and_go(tmp_path: Path) -> None:
+    """What ``OP=NEW`` does not name lets go; what is new is taken from where it is to its value."""
+    step = "*STEP\n*STATIC\n*BOUNDARY, OP=NEW\nBase, 1, 2\n"
+    model = read(
+        tmp_path,
+        f"{step}Top, 2, 2, -0.001\n*END STEP\n{step}Top, 1, 2\n*END STEP\n{step}Top, 2, 2\n*END STEP\n",
+    )
+    by_name = {support.label: support for support in model.supports}
+    first, second, third = model.steps
+    (sideways,) = first.release  # that of the second step
+    assert by_name[sideways].u == (0.0, None)
+    assert (second.restore, third.release) == ((sideways,), (sideways,))
+    assert (second.scale or {})["Top u2"] == 0.0  # it is held all along
+    history = sg.solve(model)
+    top = model.mesh.nodes_of("Top")
+    middle, last = history.steps[1:]
+    np.testing.assert_allclose(middle.displacement[top], 0.0, atol=1e-15)
+    np.testing.assert_allclose(last.displacement, 0.0, atol=1e-12)

@@ -20,6 +20,7 @@ from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.grid import Grid, make_grid
 from signorini.deck.inp.interactions import make_interactions
 from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS
+from signorini.deck.inp.links import link_places, make_equations, make_rigid_bodies
 from signorini.deck.inp.loading import Known, follow_steps
 from signorini.deck.inp.materials import Section, make_materials, make_sections
 from signorini.deck.inp.pairs import Pair, make_contacts, make_ties
@@ -83,11 +84,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
     ignored = refuse_unsupported(outside, MODEL_WORDS, "outside a step")
     for step in steps:
         ignored = refuse_unsupported(step.placed, STEP_WORDS, "inside a step") | ignored
-    for what, there in (("*NODE", "NODE"), ("*ELEMENT", "ELEMENT"), ("*SOLID SECTION", "SOLID SECTION")):
-        if not any(item.block.keyword == there for item in outside):
-            raise DeckError(f"has no {what}; expected one", path=str(path))
-    if not steps:
-        raise DeckError("has no *STEP; expected at least one", path=str(path))
+    _refuse_incomplete(outside, steps, path)
     _refuse_large(steps, small_strain)
 
     grid = make_grid(outside)
@@ -100,6 +97,9 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
     interactions = make_interactions(outside)
     contacts = make_contacts(outside, interactions, surfaces, nodes, edges)
     contacts += make_ties(outside, surfaces, contacts)
+    places = Places(edges, surfaces, nodes)
+    rigid = make_rigid_bodies(outside, nodes, elements, grid, places)
+    equations = make_equations(outside, nodes, rigid, kind)
     known = Known(
         nodes=nodes,
         elements=elements,
@@ -109,12 +109,12 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
         amplitudes=make_amplitudes(outside),
         axisymmetric=kind == "axisymmetric",
         dimension=3 if kind == "3d" else 2,
+        rigid=tuple(rigid),
     )
-    places = Places(edges, surfaces, nodes)
-    conditions = make_conditions(follow_steps(outside, steps, known), places, steps, known)
+    conditions = make_conditions(follow_steps(outside, steps, known), places, known)
     changes = [make_changes(step, contacts, interactions, surfaces) for step in steps]
     model_steps = [_step(k, steps, conditions, changes[k], deck_increments) for k in range(len(steps))]
-    where = _where(sections, contacts, conditions, steps)
+    where = _where(sections, contacts, conditions, steps) | link_places(rigid, equations)
     try:
         model = Model(
             _mesh(grid, sections, places),
@@ -124,6 +124,8 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
             supports=conditions.supports,
             loads=conditions.loads,
             contacts=[pair.contact for pair in contacts],
+            rigid_bodies=[item.body for item in rigid],
+            equations=[item.equation for item in equations],
             steps=model_steps,
             title=_title(outside),
         )
@@ -148,6 +150,14 @@ def located(error: InputError, places: Mapping[Where, Block], path: object) -> D
         if block is not None:
             return DeckError(f"*{block.keyword}: {error.message}", path=block.path, line=block.line)
     return DeckError(error.message, path=str(path), where=error.where)
+
+
+def _refuse_incomplete(outside: Sequence[Placed], steps: Sequence[DeckStep], path: object) -> None:
+    for needed in ("NODE", "ELEMENT", "SOLID SECTION"):
+        if not any(item.block.keyword == needed for item in outside):
+            raise DeckError(f"has no *{needed}; expected one", path=str(path))
+    if not steps:
+        raise DeckError("has no *STEP; expected at least one", path=str(path))
 
 
 def _refuse_large(steps: Sequence[DeckStep], small_strain: bool) -> None:
@@ -231,7 +241,7 @@ def _step(
     scale = conditions.scale(k, steps)
     segments = max((len(value) for value in scale.values() if isinstance(value, tuple)), default=1)
     increments = max(1, math.ceil(steps[k].increments / segments)) if deck_increments else None
-    return Step(name=steps[k].name, scale=scale, increments=increments, **changes)
+    return Step(name=steps[k].name, scale=scale, increments=increments, **changes, **conditions.switched(k))
 
 
 def _where(

@@ -5,20 +5,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray, distinct
-from signorini.deck.error import DeckError
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.course import Course, Pattern, unique_label
-from signorini.deck.inp.loading import STRIDE, Courses, Known
+from signorini.deck.inp.links import STRIDE, DeckRigid, component
+from signorini.deck.inp.loading import Courses, Known
 from signorini.deck.inp.materials import Section
 from signorini.deck.inp.places import Places
 from signorini.deck.inp.steps import DeckStep
 from signorini.model.conditions import Load, Support
+from signorini.model.links import directions
 
 _MOST = 1000  # loads of one kind: more would be a field, which takes memory for each
 
@@ -32,12 +33,14 @@ class Conditions:
     supports, loads : of the model
     blocks : the keyword of each support and load, by label
     factors : label to its pattern, of what moves or loads
+    present : label of a support that some step takes away or brings to whether it holds, step by step
     """
 
     supports: list[Support] = field(default_factory=list)
     loads: list[Load] = field(default_factory=list)
     blocks: dict[str, Block] = field(default_factory=dict)
     factors: dict[str, Pattern] = field(default_factory=dict)
+    present: dict[str, tuple[bool, ...]] = field(default_factory=dict)
 
     def label(self, name: str) -> str:
         """The name, or with a number behind it if another support or load bears it."""
@@ -50,6 +53,8 @@ class Conditions:
         self.blocks[support.label] = pattern.block
         if support.moves:
             self.factors[support.label] = pattern
+        if not all(pattern.present):
+            self.present[support.label] = pattern.present
 
     def add_load(self, pattern: Pattern, **given: Any) -> None:
         """Add a load under a name of its own."""
@@ -71,24 +76,29 @@ class Conditions:
             label: tuple(pattern.factor(k, steps, time) for time in times) for label, pattern in self.factors.items()
         }
 
+    def switched(self, k: int) -> dict[str, Any]:
+        """Supports that step k takes away (`release`) and brings back (`restore`), as a step of the model has them."""
+        found: dict[str, Any] = {}
+        for key, on in (("release", False), ("restore", True)):
+            names = tuple(
+                label
+                for label, present in self.present.items()
+                if present[k] is on and (present[k - 1] if k else True) is not on
+            )
+            if names:
+                found[key] = names
+        return found
 
-def make_conditions(courses: Courses, places: Places, steps: Sequence[DeckStep], known: Known) -> Conditions:
-    """Turn courses into supports and loads.
 
-    Raises
-    ------
-    DeckError
-        If a step takes a support away or brings a new one.
-    """
-    _refuse_changes(courses.displacement, steps)
+def make_conditions(courses: Courses, places: Places, known: Known) -> Conditions:
+    """Turn courses into supports and loads."""
     conditions, sections, dimension = Conditions(), known.sections, known.dimension
     number_of_nodes = len(known.nodes.numbering.labels)
-    _supports(courses.displacement, places, conditions, dimension)
-    _forces(courses.force, places, conditions, dimension)
+    _supports(courses.displacement, places, conditions, known)
+    _forces(courses.force, places, conditions, known)
     for pattern in courses.pressure.patterns():
         for value, keys in _by_value(pattern):
-            if value:
-                on = places.at_edges(keys, pattern.label)
+            for on in places.at_edges(keys, pattern.label) if value else ():
                 conditions.add_load(pattern, on=on, pressure=value, name=on)
     for pattern in courses.body.patterns():
         for section in np.unique(pattern.slots // STRIDE):
@@ -100,9 +110,9 @@ def make_conditions(courses: Courses, places: Places, steps: Sequence[DeckStep],
     for pattern in courses.rotation.patterns():
         for i, square in zip(pattern.slots.tolist(), pattern.values.tolist(), strict=True):
             if square:
-                on, centre = sections[i].name, courses.centres[pattern.label]
-                velocity = math.sqrt(square)
-                conditions.add_load(pattern, on=on, centrifugal=velocity, centre=centre, name=f"rotation {on}")
+                on, velocity = sections[i].name, math.sqrt(square)
+                given = courses.centres[pattern.label]
+                conditions.add_load(pattern, on=on, centrifugal=velocity, name=f"rotation {on}", **given)
     for pattern in courses.temperature.patterns():
         _heat(pattern, sections, number_of_nodes, conditions)
     return conditions
@@ -117,26 +127,33 @@ def _heat(pattern: Pattern, sections: Sequence[Section], count: int, conditions:
             conditions.add_load(pattern, on=section.name, temperature=field, name=f"temperature {section.name}")
 
 
-def _refuse_changes(course: Course, steps: Sequence[DeckStep]) -> None:
-    held = course.slots_by_step()
-    for k in range(1, len(steps)):
-        for gone, word in ((held[k - 1] - held[k], "takes a support away"), (held[k] - held[k - 1], "adds a support")):
-            if gone:
-                first = course.block_of(min(gone))
-                block = next((p.block for p in steps[k].placed if p.block.keyword == "BOUNDARY"), first)
-                raise DeckError(
-                    f"*BOUNDARY: {steps[k].name} {word} (that of line {first.line}), which is not supported",
-                    path=block.path,
-                    line=block.line,
-                )
+def _apart(pattern: Pattern, known: Known) -> tuple[Pattern, list[tuple[DeckRigid, int, float]]]:
+    """What a pattern has on nodes, and component and value of what it has on rigid bodies."""
+    found = []
+    rest = np.ones(len(pattern.slots), bool)
+    for item in known.rigid:
+        own = pattern.slots // STRIDE == item.reference
+        rest &= ~own
+        for slot, value in zip(pattern.slots[own].tolist(), pattern.values[own].tolist(), strict=True):
+            index = component(slot, known.dimension)
+            if index is not None:
+                found.append((item, index, value))
+    return (replace(pattern, slots=pattern.slots[rest], values=pattern.values[rest]) if found else pattern), found
 
 
-def _supports(course: Course, places: Places, conditions: Conditions, dimension: int) -> None:
+def _supports(course: Course, places: Places, conditions: Conditions, known: Known) -> None:
     """Supports at rest hold all directions of a place at once; those that move are one a direction."""
-    resting: dict[str, list[Pattern]] = {}
-    for pattern in course.patterns():
+    dimension = known.dimension
+    resting: dict[tuple[str, tuple[bool, ...]], list[Pattern]] = {}
+    for whole in course.patterns():
+        pattern, rigid = _apart(whole, known)
+        for item, index, value in rigid:
+            words = directions(dimension)
+            u = tuple(value if i == index else None for i in range(len(words)))
+            name = item.body.name
+            conditions.add_support(pattern, on=name, u=u, name=f"{name} {words[index]}")
         if not any(pattern.shares):
-            resting.setdefault(pattern.label, []).append(pattern)
+            resting.setdefault((pattern.label, pattern.present), []).append(pattern)
             continue
         for value, slots in _by_value(pattern):
             for axis in range(dimension):
@@ -145,7 +162,7 @@ def _supports(course: Course, places: Places, conditions: Conditions, dimension:
                     u = tuple(value if i == axis else None for i in range(dimension))
                     on = places.at_nodes(nodes, pattern.label)
                     conditions.add_support(pattern, on=on, u=u, name=f"{pattern.label} u{axis + 1}")
-    for label, patterns in resting.items():
+    for (label, _), patterns in resting.items():
         slots = distinct(np.concatenate([pattern.slots for pattern in patterns]))
         nodes, where = np.unique(slots // STRIDE, return_inverse=True)
         held = np.zeros((len(nodes), dimension), bool)
@@ -156,8 +173,15 @@ def _supports(course: Course, places: Places, conditions: Conditions, dimension:
             conditions.add_support(patterns[0], on=places.at_nodes(own, label), u=u, name=label)
 
 
-def _forces(course: Course, places: Places, conditions: Conditions, dimension: int) -> None:
-    for pattern in course.patterns():
+def _forces(course: Course, places: Places, conditions: Conditions, known: Known) -> None:
+    dimension = known.dimension
+    for whole in course.patterns():
+        pattern, rigid = _apart(whole, known)
+        for item, index, value in rigid:
+            if value:
+                size, name = len(directions(dimension)), item.body.name
+                force = tuple(value if i == index else 0.0 for i in range(size))
+                conditions.add_load(pattern, on=name, force=force, name=name)
         nodes, where = np.unique(pattern.slots // STRIDE, return_inverse=True)
         forces: Array = np.zeros((len(nodes), dimension))
         forces[where, pattern.slots % STRIDE] = pattern.values

@@ -28,6 +28,7 @@ class Pattern:
     values : (m,) the largest of each slot, with its sign
     shares : (steps,) magnitudes in the steps, as parts of the largest
     amplitudes : (steps,) the amplitude in each step, or None
+    present : (steps,) whether there is a value at all
     """
 
     label: str
@@ -36,6 +37,7 @@ class Pattern:
     values: Array
     shares: tuple[float, ...]
     amplitudes: tuple[Amplitude | None, ...]
+    present: tuple[bool, ...]
 
     def at_end(self, k: int, steps: Sequence[DeckStep]) -> float:
         """The factor at the end of step k; before the first, 0."""
@@ -96,26 +98,18 @@ class Course:
         self._ends.append({slot: (magnitude, index) for slot, (magnitude, index, _) in self._now.items()})
         self._before = set(self._now)
 
-    def slots_by_step(self) -> list[set[int]]:
-        """By step the slots that have a value."""
-        return [set(ends) for ends in self._ends]
-
-    def block_of(self, slot: int) -> Block:
-        """The keyword that first set a slot."""
-        return self._sources[self._first[slot]][1]
-
     def patterns(self) -> Iterator[Pattern]:
         """Slots that change alike and bear one label, in the order in which the deck names them."""
-        groups: dict[tuple[int, tuple[float, ...], tuple[int, ...]], list[tuple[int, float]]] = {}
+        groups: dict[tuple[int, tuple[float, ...], tuple[int, ...], tuple[bool, ...]], list[tuple[int, float]]] = {}
         labels: dict[str, int] = {}
         for slot, source in self._first.items():
             history = [ends.get(slot, (0.0, 0)) for ends in self._ends]
             size = max((value for value, _ in history), key=abs, default=0.0)
             shares = tuple(round(value / size, 12) if size else 0.0 for value, _ in history)
             named = labels.setdefault(self._sources[source][0], source)
-            key = (named, shares, tuple(index for _, index in history))
+            key = (named, shares, tuple(index for _, index in history), tuple(slot in ends for ends in self._ends))
             groups.setdefault(key, []).append((slot, size))
-        for (source, shares, indices), members in groups.items():
+        for (source, shares, indices, present), members in groups.items():
             label, block = self._sources[source]
             members.sort()
             yield Pattern(
@@ -125,6 +119,7 @@ class Course:
                 values=np.array([value for _, value in members]),
                 shares=shares,
                 amplitudes=tuple(self._amplitudes[index] for index in indices),
+                present=present,
             )
 
     def _source(self, label: str, block: Block) -> int:

@@ -12,7 +12,7 @@ from signorini.model.model import Kind
 
 _PLANES = {"CPE": "plane strain", "CPS": "plane stress", "CAX": "axisymmetric"}
 _PLANE = {"3": "triangle", "4": "quad", "6": "triangle6", "8": "quad8"}
-_SOLID = {"4": "tetra", "6": "wedge", "8": "hexahedron", "10": "tetra10", "20": "hexahedron20"}
+_SOLID = {"4": "tetra", "6": "wedge", "8": "hexahedron", "10": "tetra10", "15": "wedge15", "20": "hexahedron20"}
 _FULLY = "reduced integration is not used: all elements are integrated fully"
 _VARIANTS = {
     "": "",
@@ -36,6 +36,7 @@ _FACES = {
 # edges of quadratic solids in the order of the nodes on them
 _EDGES = {
     "tetra10": ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)),
+    "wedge15": ((0, 1), (1, 2), (0, 2), (3, 4), (4, 5), (3, 5), (0, 3), (1, 4), (2, 5)),
     "hexahedron20": (
         *((0, 1), (1, 2), (2, 3), (0, 3), (4, 5), (5, 6), (6, 7), (4, 7)),
         *((0, 4), (1, 5), (2, 6), (3, 7)),
@@ -68,7 +69,7 @@ class ElementType:
     @property
     def faces(self) -> tuple[tuple[int, ...], ...]:
         """Places of the nodes of every face S1, S2, ...: corners; in space the middles of its edges follow."""
-        linear = self.family.removesuffix("20").removesuffix("10").removesuffix("6").removesuffix("8")
+        linear = self.family.rstrip("0123456789")
         faces = _FACES[linear]
         if self.family not in _EDGES:
             return faces
@@ -96,9 +97,11 @@ def element_type(block: Block) -> ElementType:
         if variant.startswith("I") and family not in ("quad", "hexahedron"):
             raise block.error(f"TYPE={name} is not supported; incompatible modes are for 4 nodes, in space 8")
         note = f"{name}: {_VARIANTS[variant]}" if _VARIANTS[variant] else ""
+        if family == "wedge15":
+            note = note or f"{name}: integrated with 21 points, where CalculiX and Abaqus take 9"
         kind = cast(Kind, "3d" if solid else _PLANES[name[:3]])
         return ElementType(family=family, kind=kind, incompatible=variant.startswith("I"), note=note)
     raise block.error(
-        f"TYPE={name} is not supported; expected CPE, CPS or CAX with 3, 4, 6 or 8 nodes, or C3D with 4, 6, 8, 10 "
-        "or 20 (variants R, I, H, M)"
+        f"TYPE={name} is not supported; expected CPE, CPS or CAX with 3, 4, 6 or 8 nodes, or C3D with 4, 6, 8, 10, "
+        "15 or 20 (variants R, I, H, M)"
     )

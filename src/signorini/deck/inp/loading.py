@@ -13,17 +13,21 @@ from signorini.deck.inp.amplitudes import Amplitude, find_amplitude
 from signorini.deck.inp.block import Block, Row
 from signorini.deck.inp.course import Course
 from signorini.deck.inp.flatten import Placed
+from signorini.deck.inp.links import STRIDE, DeckRigid, rigid_slots
 from signorini.deck.inp.materials import Section
 from signorini.deck.inp.sets import Sets
 from signorini.deck.inp.steps import DeckStep
 from signorini.deck.inp.surfaces import Edges, Surfaces
 
-STRIDE = 3
-"""Slots of a node or section: one for each direction, also in the plane."""
-
 _HELD, _PULLED = "single nodes", "forces on single nodes"  # labels where the deck gives numbers, not a set
 
-_TYPES = {"ENCASTRE": (1, 2, 3), "PINNED": (1, 2, 3), "XSYMM": (1,), "YSYMM": (2,), "ZSYMM": (3,)}
+_TYPES = {
+    "ENCASTRE": (1, 2, 3, 4, 5, 6),
+    "PINNED": (1, 2, 3),
+    "XSYMM": (1, 5, 6),
+    "YSYMM": (2, 4, 6),
+    "ZSYMM": (3, 4, 5),
+}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -38,6 +42,7 @@ class Known:
     amplitudes: Mapping[str, Amplitude]
     axisymmetric: bool
     dimension: int
+    rigid: tuple[DeckRigid, ...]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -52,7 +57,7 @@ class Courses:
     body : slots ``STRIDE * section + axis``, force per volume
     temperature : slots are nodes, above the initial temperature
     rotation : slots are sections, squares of angular velocities
-    centres : of rotation by label, None for axisymmetric bodies
+    centres : of rotation by label, centre and axis as a load has them
     """
 
     displacement: Course
@@ -61,7 +66,7 @@ class Courses:
     body: Course
     temperature: Course
     rotation: Course
-    centres: dict[str, tuple[float, float] | None]
+    centres: dict[str, dict[str, tuple[float, ...]]]
 
 
 def follow_steps(model: list[Placed], steps: list[DeckStep], known: Known) -> Courses:
@@ -125,20 +130,21 @@ def _boundary(item: Placed, known: Known, courses: Courses) -> None:
         label = _HELD if label.startswith("node ") and label not in known.nodes else label
         word = row.text(1, "a direction").upper()
         if word in _TYPES:
-            axes = tuple(axis for axis in _TYPES[word] if axis <= known.dimension)
-            value = 0.0
+            axes, value = _TYPES[word], 0.0
         else:
             first = row.whole(1, "a direction")
             last = row.whole(2, "the last direction", first)
             value = row.number(3, "the displacement", 0.0)
             if first < 1 or last < first or last > 6:
                 raise row.error(f"*BOUNDARY: directions {first} to {last}; expected 1 to {known.dimension}")
-            if last > known.dimension and value != 0.0:
-                raise row.error(f"*BOUNDARY: direction {last} moves by {value:g}; expected 1 to {known.dimension}")
-            axes = tuple(axis for axis in range(first, last + 1) if axis <= known.dimension)
+            axes = tuple(range(first, last + 1))
+        slots, rest = rigid_slots(known.rigid, nodes, axes)
+        if len(rest) and axes[-1] > known.dimension and value != 0.0:
+            raise row.error(f"*BOUNDARY: direction {axes[-1]} moves by {value:g}; expected 1 to {known.dimension}")
         for axis in axes:
-            slots = STRIDE * nodes + axis - 1
-            courses.displacement.put(slots, value, label, block, amplitude, adds=False)
+            if axis <= known.dimension:
+                slots = np.append(slots, STRIDE * rest + axis - 1)
+        courses.displacement.put(slots, value, label, block, amplitude, adds=False)
 
 
 def _cload(item: Placed, known: Known, courses: Courses) -> None:
@@ -150,9 +156,11 @@ def _cload(item: Placed, known: Known, courses: Courses) -> None:
         label = _PULLED if label.startswith("node ") and label not in known.nodes else label
         axis = row.whole(1, "a direction")
         value = row.number(2, "the force")
-        if not 1 <= axis <= known.dimension:
+        slots, rest = rigid_slots(known.rigid, nodes, [axis])
+        if not 1 <= axis <= (known.dimension if len(rest) else 6):
             raise row.error(f"*CLOAD: direction {axis}; expected 1 to {known.dimension}")
-        courses.force.put(STRIDE * nodes + axis - 1, value, label, block, amplitude, adds=True)
+        slots = np.append(slots, STRIDE * rest + axis - 1)
+        courses.force.put(slots, value, label, block, amplitude, adds=True)
 
 
 def _dload(item: Placed, known: Known, courses: Courses) -> None:
@@ -199,17 +207,22 @@ def _rotate(
 ) -> None:
     """Square of the angular velocity, a point of the axis and its direction."""
     square = row.number(2, "the square of the angular velocity")
-    if known.dimension == 3:
-        raise row.error("*DLOAD: CENTRIF is not supported in space")
     if square < 0.0:
         raise row.error(f"*DLOAD: the square of the angular velocity is {square:g}; expected a number >= 0")
-    x, y, _, *axis = (row.number(i, "a coordinate or direction", 0.0) for i in range(3, 9))
+    x, y, z, *axis = (row.number(i, "a coordinate or direction", 0.0) for i in range(3, 9))
     along = np.flatnonzero(axis).tolist()
-    if along != ([1] if known.axisymmetric else [2]) or (known.axisymmetric and x):
+    if known.dimension == 3 and not along:
+        raise row.error("*DLOAD: the axis of rotation has no direction")
+    if (known.dimension == 2 and along != ([1] if known.axisymmetric else [2])) or (known.axisymmetric and x):
         expected = "the y axis, of symmetry" if known.axisymmetric else "across the plane, like 0, 0, 1"
         raise row.error(f"*DLOAD: the axis of rotation is along {axis}; expected {expected}")
     label = "rotation" if known.axisymmetric else f"rotation about ({x:g}, {y:g})"
-    courses.centres[label] = None if known.axisymmetric else (x, y)
+    given: dict[str, tuple[float, ...]] = {} if known.axisymmetric else {"centre": (x, y)}
+    if known.dimension == 3:
+        size = float(np.linalg.norm(axis))
+        given = {"centre": (x, y, z), "axis": tuple(part / size for part in axis)}
+        label = f"rotation about {', '.join(f'{part:g}' for key in given for part in given[key])}"
+    courses.centres[label] = given
     for i in sections:
         if known.sections[i].substance.density is None:
             raise row.error(f"*DLOAD: rotation needs *DENSITY in the material of '{known.sections[i].name}'")

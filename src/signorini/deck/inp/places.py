@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from signorini.arrays import IntArray
@@ -41,12 +43,16 @@ class Places:
             self._by_nodes[key] = name
         return self._by_nodes[key]
 
-    def at_edges(self, keys: IntArray, label: str) -> str:
-        """A name for edges: that of the surface ``label`` if it has just these."""
-        ends = self._edges.facets(keys)[0]
-        known = self.boundaries.get(label)
-        if known is not None and np.array_equal(known, ends):
-            return label
-        name = unique_label(label, self.boundaries | self.nodes)
-        self.boundaries[name] = ends
-        return name
+    def unused(self, label: str, others: Sequence[str]) -> str:
+        """The label, or with a number behind it where a place or one of the others bears it."""
+        return unique_label(label, self.boundaries | self.nodes | dict.fromkeys(others))
+
+    def at_edges(self, keys: IntArray, label: str) -> list[str]:
+        """Names for edges, one for each kind of face: that of the surface ``label`` if it has just these."""
+        names = []
+        for ends in self._edges.facets(keys):
+            known = self.boundaries.get(label)
+            same = known is not None and np.array_equal(known, ends)
+            names.append(label if same else unique_label(label, self.boundaries | self.nodes))
+            self.boundaries[names[-1]] = ends
+        return names

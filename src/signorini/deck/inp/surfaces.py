@@ -46,9 +46,13 @@ class Edges:
 
     def facets(self, keys: IntArray) -> list[IntArray]:
         """Nodes of faces, (m, k) for each number of nodes k that occurs."""
-        found = self.ends[keys]
-        widths = (found >= 0).sum(axis=1)
-        return [found[widths == width, :width] for width in distinct(widths)]
+        parts = [self.ends[own] for own in self.by_kind(keys)]
+        return [part[:, : int((part[0] >= 0).sum())] for part in parts]
+
+    def by_kind(self, keys: IntArray) -> list[IntArray]:
+        """Faces apart by the number of their nodes."""
+        widths = (self.ends[keys] >= 0).sum(axis=1)
+        return [keys[widths == width] for width in distinct(widths)]
 
     def keys(self, elements: IntArray, face: str, at: Row, name: str) -> IntArray:
         """Keys of one face, as ``S2`` or ``P2``, of elements."""

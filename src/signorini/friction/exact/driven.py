@@ -12,7 +12,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.friction.exact.inverse import SingularState
-from signorini.friction.exact.rates import CORNER, INSIDE, RATE, SIGN, RateLaw, Rates
+from signorini.friction.exact.rates import CORNER, INSIDE, RATE, RateLaw, Rates
 from signorini.friction.exact.responses import Responses
 from signorini.friction.law import OPEN, STICK
 from signorini.friction.problem import CoulombProblem
@@ -65,17 +65,17 @@ def drive(responses: Responses, law: RateLaw, load: Array, before: Rates, acting
 
 def _imposed(law: RateLaw, before: Rates, acting: IntArray) -> tuple[IntArray, Array, Array]:
     """The next state of the acting pairs, and what of the old motions and forces it does not allow."""
-    n = len(law.mu)
+    n = len(law.kind)
     state, h, r = before.state.copy(), np.zeros(2 * n), np.zeros(2 * n)
-    touching = law.touching(before.h[n:])
+    touching, other = law.touching(before.h[n:]), law.following(state)
     for k in acting:
         if before.state[k] == OPEN:
             state[k], h[k] = touching[k], before.h[k]
         elif law.kind[k] == CORNER and before.r[k] < 0:
             state[k], r[k], r[n + k] = OPEN, before.r[k], before.r[n + k]
-        elif law.kind[k] not in (CORNER, INSIDE) and before.state[k] == STICK:
-            state[k] = law.kind[k]
-            r[n + k] = before.r[n + k] - SIGN[state[k]] * law.mu[k] * before.r[k]
+        elif law.kind[k] not in (CORNER, INSIDE) and (before.state[k] == STICK or law.kink[k]):
+            state[k] = law.kind[k] if before.state[k] == STICK else other[k]
+            r[n + k] = before.r[n + k] - law.bound.slope(state)[k] * before.r[k]
     return state, h, r
 
 

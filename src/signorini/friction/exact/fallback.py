@@ -10,13 +10,19 @@ import numpy as np
 
 from signorini import lcp
 from signorini.arrays import Array, IntArray
+from signorini.bound import SIGN
 from signorini.friction.exact.inverse import SingularState
-from signorini.friction.exact.rates import CORNER, RATE, SIGN, RateLaw, Rates
+from signorini.friction.exact.rates import CORNER, RATE, RateLaw, Rates
 from signorini.friction.exact.responses import Responses
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 COMBINATIONS = 4096
 """Most combinations of states that are tried one by one."""
+
+RAY = "ray termination"
+
+KINKS = 4
+"""Most pairs at kinks of their bound whose branches are chosen in all ways before Lemke's method."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,9 +56,15 @@ def find_rates(
         found = _newton(responses, law, load, guess)
         if found is not None:
             return found
-    found, ending = _lemke(responses, law, load, state)
-    if found is not None:
-        return found
+    kinks, endings = np.flatnonzero(law.kink), [""]
+    for ways in itertools.product((False, True), repeat=len(kinks)) if len(kinks) <= KINKS else ():
+        upper = np.zeros(len(state), dtype=np.bool_)
+        upper[kinks] = ways
+        found, ending = _lemke(responses, law, law.onto(upper), load, np.where(upper, law.kind + 2, state))
+        if found is not None:
+            return found
+        endings.append(ending)
+    ending = max(endings, key=lambda words: (words.endswith(RAY), len(words)))
     return _enumerate(responses, law, load, state, ending)
 
 
@@ -83,13 +95,17 @@ def _newton(responses: Responses, law: RateLaw, load: Array, guess: IntArray, li
     return None
 
 
-def _lemke(responses: Responses, law: RateLaw, load: Array, state: IntArray) -> tuple[Rates | None, str]:
-    """A complementarity problem in the motions that the pairs may make, from the state in which they all hold.
+def _lemke(
+    responses: Responses, whole: RateLaw, law: RateLaw, load: Array, state: IntArray
+) -> tuple[Rates | None, str]:
+    """Rates that obey the whole law, sought in one without kinks.
+
+    A complementarity problem in the motions that the pairs may make, from the state in which they all hold.
 
     At a corner z = (slip rate +, slip rate -, gap rate) meets w = (mu p' + r_t', mu p' - r_t', p'); on an edge the slip
     rate against the friction meets the friction to spare.
     """
-    n = len(law.mu)
+    n, mu = len(law.kind), law.mu
     undecided = np.flatnonzero(law.undecided).tolist()
     base = state.copy()
     base[undecided] = np.where(law.forced[undecided] == UNDECIDED, STICK, law.forced[undecided])
@@ -99,7 +115,7 @@ def _lemke(responses: Responses, law: RateLaw, load: Array, state: IntArray) -> 
     M, q = np.zeros((len(columns), len(columns))), np.zeros(len(columns))
 
     def forces(r: Array) -> Array:
-        return np.array([r[k] if not s else law.mu[k] * r[k] + s * r[n + k] for k, _, s in columns])
+        return np.array([r[k] if not s else mu[k] * r[k] + s * r[n + k] for k, _, s in columns])
 
     try:
         q[:] = forces(responses.respond(base, load)[1])
@@ -114,9 +130,9 @@ def _lemke(responses: Responses, law: RateLaw, load: Array, state: IntArray) -> 
         return None, f"Lemke's method: {answer.status.name.lower().replace('_', ' ')}"
     for (k, dof, sign), z, w in zip(columns, answer.z, answer.w, strict=True):
         if z > w and base[k] != OPEN:
-            slips = SLIP_MINUS if sign > 0 else SLIP_PLUS
+            slips = law.kind[k] if law.kind[k] > CORNER else SLIP_MINUS if sign > 0 else SLIP_PLUS
             base[k] = OPEN if dof < n else slips if law.forced[k] == UNDECIDED else law.forced[k]
-    return certified(responses, law, load, base), "Lemke's method: its answer does not obey the law"
+    return certified(responses, whole, load, base), "Lemke's method: its answer does not obey the law"
 
 
 def _moves(law: RateLaw, k: int) -> list[tuple[int, float]]:
@@ -124,7 +140,7 @@ def _moves(law: RateLaw, k: int) -> list[tuple[int, float]]:
 
     A pair of infinite friction is free to slip where it opens.
     """
-    n = len(law.mu)
+    n = len(law.kind)
     if law.kind[k] != CORNER:
         return [(n + k, -SIGN[law.kind[k]])]
     gap = [(k, 0.0)]
@@ -137,7 +153,7 @@ def _enumerate(responses: Responses, law: RateLaw, load: Array, state: IntArray,
     count = int(np.prod([float(len(choice)) for choice in choices]).clip(max=1e9))
     if count > COMBINATIONS:
         words = f"{ending}; {count} combinations of states are too many to try"
-        return NoRates(proof=words, proved=ending.endswith("ray termination"))
+        return NoRates(proof=words, proved=ending.endswith(RAY))
     for combination in itertools.product(*choices):
         tried = state.copy()
         tried[undecided] = combination
@@ -151,5 +167,6 @@ def _enumerate(responses: Responses, law: RateLaw, load: Array, state: IntArray,
 
 def _choices(law: RateLaw, k: int) -> tuple[int, ...]:
     if law.kind[k] != CORNER:
-        return (STICK, int(law.kind[k]))
+        slips = (int(law.kind[k]), int(law.kind[k]) + 2) if law.kink[k] else (int(law.kind[k]),)
+        return (STICK, *slips) if law.forced[k] == UNDECIDED else slips
     return (OPEN, STICK, SLIP_PLUS, SLIP_MINUS) if law.forced[k] == UNDECIDED else (OPEN, int(law.forced[k]))

@@ -2,7 +2,8 @@
 """Follow a straight segment of the load history exactly, from event to event: no step size.
 
 While no pair changes its state, motions and forces are linear in the load and slip rates are constant. So a piece ends
-where a gap, a normal force or the friction to spare of a sticking pair vanishes. There the rates change, and every pair
+where a gap, a normal force or the friction to spare of a sticking pair vanishes, or where a slipping pair comes to a
+kink of its bound. There the rates change, and every pair
 on its friction limit may change with them: from slip to stick only then.
 """
 
@@ -13,18 +14,22 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray, frozen
+from signorini.bound import SIGN, plain
 from signorini.errors import InputError
 from signorini.friction.certificate import certify
 from signorini.friction.exact.driven import drive
 from signorini.friction.exact.fallback import NoRates, find_rates
 from signorini.friction.exact.inverse import SingularState
 from signorini.friction.exact.jump import explain
-from signorini.friction.exact.rates import CORNER, SIGN, RateLaw, Rates, weight
+from signorini.friction.exact.rates import CORNER, RateLaw, Rates, weight
 from signorini.friction.exact.responses import Responses
 from signorini.friction.exact.segment import Breakpoint, Event, Jump, Outcome, Segment, What
 from signorini.friction.exact.state import PathState
-from signorini.friction.law import OPEN, STICK, UNDECIDED
+from signorini.friction.law import OPEN, SLIP_PLUS, STICK, UNDECIDED
 from signorini.friction.problem import CoulombProblem
+
+_APART = 1e-2  # of the first kink of a bound: what counts as zero beside it
+_ROUNDING = 1e-14  # of the data
 
 LET_GO = "a pair of infinite friction holds back a tangential force until it loses its pressure, and lets go at once"
 """A jump that the law itself makes."""
@@ -128,9 +133,13 @@ class Walk:
         self.problem = replace(problem, b=frozen(target - start.b))
         self.load = self.problem.b
         self.responses = Responses(self.problem)
-        self.unbounded = np.isinf(problem.friction) & ~self.problem.locked
+        self.bound = self.problem.bound
+        limit = np.inf if problem.limit is None else problem.limit
+        self.unbounded = np.isinf(problem.friction) & np.isinf(limit) & ~self.problem.locked
         self.forced = np.where(self.unbounded, STICK, self.problem.closed)
-        self.width = settings.width * (problem.scale or 1.0)
+        unit = problem.scale or 1.0
+        # a kink at small pressures is told from the corner
+        self.width = np.minimum(settings.width * unit, np.maximum(_APART * self.bound.kinks[1], _ROUNDING * unit))
         self.now, self.factor = self._entered(start), 0.0
         self.events: list[Event] = []
         self.pieces = [Breakpoint(factor=0.0, h=start.h, r=self.now.r)]
@@ -141,11 +150,12 @@ class Walk:
     def _entered(self, start: PathState) -> PathState:
         """The first state; pairs that supports drag turn their friction at once where the load turns."""
         n = self.problem.pairs
-        turned = (start.state != OPEN) & (self.forced != UNDECIDED)
-        state = np.where(turned, self.forced, start.state)
+        turned = (start.state != OPEN) & (self.forced != UNDECIDED) & (plain(start.state) != self.forced)
+        state = self._on_branch(np.where(turned, self.forced, start.state), start.r[:n])
         slides = turned & (state > STICK)
-        friction = np.where(slides, SIGN[state] * self.problem.mu * start.r[:n], start.r[n:])
-        most = np.where(self.unbounded, np.inf, self.problem.mu * start.r[:n])
+        bound = self.bound.at(start.r[:n])
+        friction = np.where(slides, SIGN[state] * bound, start.r[n:])
+        most = np.where(self.unbounded, np.inf, bound)
         beyond = np.flatnonzero((np.abs(friction) - most) / weight(self.problem.mu) > 1e2 * self.width)
         if len(beyond):
             raise InputError(
@@ -154,6 +164,13 @@ class Walk:
                 where=("start",),
             )
         return replace(start, state=state, r=np.concatenate([start.r[:n], friction]))
+
+    def _on_branch(self, state: IntArray, p: Array) -> IntArray:
+        """The states with the branch that each pair slips on; at a kink the one given stays."""
+        here = self.bound.coded(state, p)
+        given = np.abs(self.bound.start(state) + self.bound.slope(state) * p)
+        meant = np.abs(given - self.bound.at(p)) <= self.width * weight(self.problem.mu)
+        return np.where((state > STICK) & meant, state, here)
 
     def turn(self) -> NoRates | None:
         """Find the rates from here on; what changes its state is an event."""
@@ -175,7 +192,7 @@ class Walk:
         now = self.now
         closing = self.acting[now.state[self.acting] == OPEN]
         return RateLaw.at(
-            mu=self.problem.mu,
+            bound=self.bound,
             forced=self.forced,
             state=now.state,
             h=now.h,
@@ -198,12 +215,15 @@ class Walk:
         natural[acts & corner] = np.where(state == OPEN, hold, OPEN)[acts & corner]
         spent = acts & ~corner & (state == STICK) & (law.kind > CORNER)
         natural[spent] = law.kind[spent]
+        turns = acts & law.kink & (state > STICK)
+        natural[turns] = law.following(state)[turns]
         stuck[corner] = hold[corner]
         return [stuck, natural] if (state == OPEN).all() else [natural, stuck]
 
     def _change(self, state: IntArray) -> None:
         """Enter new states at the present load."""
         old, now = self.now.state, self.now
+        turned = plain(state) != plain(old)
         sticking = (state == STICK) & (old != STICK)
         anchor = np.where(sticking, now.h[len(state) :], now.anchor)
         self.now = replace(now, state=state, anchor=anchor)
@@ -211,7 +231,8 @@ class Walk:
             ("opens", (old != OPEN) & (state == OPEN)),
             ("closes", (old == OPEN) & (state != OPEN)),
             ("sticks", (old > STICK) & (state == STICK)),
-            ("slips", (old != OPEN) & (state > STICK) & (state != old) & (self.forced == UNDECIDED)),
+            ("slips", (old != OPEN) & (state > STICK) & turned & (self.forced == UNDECIDED)),
+            ("kinks", (old > STICK) & (state > STICK) & (state != old) & ~turned),
         )
         for what, which in kinds:
             pairs = tuple(int(k) for k in np.flatnonzero(which))
@@ -249,11 +270,14 @@ class Walk:
         """Acting pairs of infinite friction that lose their pressure while they hold back a tangential force."""
         n, k = self.problem.pairs, self.acting
         holds = self.unbounded[k] & (after.state[k] == STICK)
-        return k[holds & (after.r[k] <= self.width) & (np.abs(after.r[n + k]) > self.width)]
+        return k[holds & (after.r[k] <= self.width[k]) & (np.abs(after.r[n + k]) > self.width[k])]
 
     def _times(self, rates: Rates) -> Array:
-        """(n,) Part of the segment until a gap, a normal force or the friction to spare of a pair vanishes."""
-        n, state, mu = self.problem.pairs, rates.state, self.problem.mu
+        """(n,) Part of the segment until a gap, a normal force or the friction to spare of a pair vanishes.
+
+        Or until a slipping pair comes to a kink of its bound.
+        """
+        n, state, bound = self.problem.pairs, rates.state, self.bound
         gap, p, q = self.now.h[:n], self.now.r[:n], self.now.r[n:]
         resting = 1e-10 * rates.size
         times = np.full(n, np.inf)
@@ -265,9 +289,15 @@ class Walk:
         vanish(state == OPEN, gap, rates.h[:n])
         vanish(state != OPEN, p, rates.r[:n])
         stick = (state == STICK) & (self.forced == UNDECIDED)
-        for sign in (1.0, -1.0):
-            spare, rate = (mu * p - sign * q) / weight(mu), (mu * rates.r[:n] - sign * rates.r[n:]) / weight(mu)
-            vanish(stick, spare, rate)
+        for mu, start, begins in zip(bound.slopes, bound.starts, bound.kinks[:-1], strict=True):
+            has = stick & np.isfinite(begins)
+            for sign in (1.0, -1.0):
+                spare, rate = start + mu * p - sign * q, mu * rates.r[:n] - sign * rates.r[n:]
+                vanish(has, spare / weight(mu), rate / weight(mu))
+        for j in range(1, bound.branches):
+            branch = np.where(state > STICK, (state - SLIP_PLUS) // 2, -1)
+            vanish(branch == j, p - bound.kinks[j], rates.r[:n])
+            vanish((branch == j - 1) & np.isfinite(bound.kinks[j]), bound.kinks[j] - p, -rates.r[:n])
         return times
 
     def _load_at(self, factor: float) -> Array:
@@ -275,14 +305,16 @@ class Walk:
 
     def _solved(self, factor: float) -> PathState:
         """The state at a load in the present states, with the slip and the dissipation of the piece."""
-        now, n, mu = self.now, self.problem.pairs, self.problem.mu
+        now, n = self.now, self.problem.pairs
         b, state = self._load_at(factor), self.now.state
         held = np.concatenate([np.zeros(n), np.where(state == STICK, now.anchor, now.h[n:])])
-        h, r = self.responses.respond(state, b + self.problem.W @ held - held)
+        given = np.concatenate([np.zeros(n), self.bound.start(state)])
+        h, r = self.responses.respond(state, b + self.problem.W @ (held + given) - held)
         h = h + held
         p = np.maximum(r[:n], 0.0)
-        most = np.where(self.unbounded, np.inf, mu * p)
-        friction = np.where(state > STICK, SIGN[state] * mu * p, np.clip(r[n:], -most, most))
+        bound = self.bound.at(p)
+        most = np.where(self.unbounded, np.inf, bound)
+        friction = np.where(state > STICK, SIGN[state] * bound, np.clip(r[n:], -most, most))
         r = np.concatenate([p, friction])
         h[:n] = np.maximum(h[:n], 0.0)
         moved = np.where(state > STICK, h[n:] - now.h[n:], 0.0)

@@ -11,7 +11,6 @@ import numpy as np
 from scipy.linalg import lapack
 
 from signorini.arrays import Array, IntArray
-from signorini.friction.exact.rates import SIGN
 from signorini.friction.law import OPEN, STICK
 from signorini.friction.problem import CoulombProblem
 
@@ -34,7 +33,7 @@ class StateInverse:
 
     Parameters
     ----------
-    problem : its mu holds, its b does not matter
+    problem : its bound of friction holds, its b does not matter
 
     Attributes
     ----------
@@ -58,7 +57,7 @@ class StateInverse:
         A, R = problem.interface.A, problem.interface.R
         k = R.shape[1]
         self._full = np.block([[A, R], [R.T, np.zeros((k, k))]])
-        self._n, self._motions, self._mu = problem.pairs, len(A) + np.arange(k), problem.mu
+        self._n, self._motions, self._bound = problem.pairs, len(A) + np.arange(k), problem.bound
         self._state: IntArray | None = None
         self._buffer = np.zeros_like(self._full)
         self.unknowns = self._motions
@@ -76,7 +75,8 @@ class StateInverse:
         if self._state is not None:
             changes = np.flatnonzero(state != self._state)
             few = len(changes) <= max(4, len(self.unknowns) // 8) and self._age + len(changes) <= REFRESH
-            if few and all(self._change(int(k), int(state[k])) for k in changes):
+            slope = self._bound.slope(state)
+            if few and all(self._change(int(k), int(state[k]), float(slope[k])) for k in changes):
                 self._state = state.copy()
                 return
         self._invert(state)
@@ -91,7 +91,7 @@ class StateInverse:
         self.factorisations += 1
         closed, stick = np.flatnonzero(state != OPEN), self._n + np.flatnonzero(state == STICK)
         self.unknowns = np.concatenate([closed, stick, self._motions])
-        self.slope = SIGN[state] * self._mu
+        self.slope = self._bound.slope(state)
         matrix = np.asfortranarray(self._columns(self.unknowns)[self.unknowns])
         m = len(matrix)
         if m:
@@ -109,7 +109,7 @@ class StateInverse:
         columns[:, normal] += self._full[:, self._n + unknowns[normal]] * self.slope[unknowns[normal]]
         return columns
 
-    def _change(self, k: int, new: int) -> bool:
+    def _change(self, k: int, new: int, slope: float) -> bool:
         """One pair enters another state; False where the way there is (nearly) singular.
 
         A tangential force is added before, and removed after, the slope of its normal force changes: in its presence
@@ -117,7 +117,6 @@ class StateInverse:
         """
         assert self._state is not None
         old, n = int(self._state[k]), self._n
-        slope = float(SIGN[new] * self._mu[k])
         self._age += 1
         if new == OPEN:
             steps = self._remove(k) and (old != STICK or self._remove(n + k))

@@ -19,10 +19,11 @@ BEYOND = 1e-4
 
 LEAVING = "a rigid motion of the bodies shows that more load has no equilibrium"
 SLIDING = f"gross sliding: every closed pair has used up its friction, and {LEAVING}"
+LIMITED = "gross sliding: every closed pair has used up its friction, which more load exceeds at these pressures"
 
 
 def explain(
-    problem: CoulombProblem, now: PathState, b_end: Array, factor: float, acting: IntArray, proof: str, width: float
+    problem: CoulombProblem, now: PathState, b_end: Array, factor: float, acting: IntArray, proof: str, width: Array
 ) -> Jump:
     """The jump at a state that no rates continue.
 
@@ -34,14 +35,22 @@ def explain(
     factor : part of the segment behind
     acting : pairs whose event it is; all at their limit where there is none
     proof : what the search for rates found
-    width : of zero for a force
+    width : (n,) of zero for a force
     """
-    n, mu = now.pairs, problem.mu
-    spent = (mu * now.r[:n] - np.abs(now.r[n:])) / weight(mu) <= width
+    n = now.pairs
+    spent = (problem.bound.at(now.r[:n]) - np.abs(now.r[n:])) / weight(problem.mu) <= width
     beyond = now.b + BEYOND * (b_end - now.b)
-    leaves = problem.floating and pulled_away(replace(problem, b=frozen(beyond))) is not None
+    further = replace(problem, b=frozen(beyond))
+    leaves = problem.floating and pulled_away(further) is not None
     pressed = now.r[:n] > width
-    gross = leaves and bool(pressed.any() and spent[pressed].all())
+    slides = problem.floating and bool(pressed.any() and spent[pressed].all())
+    # friction that is not in proportion to the pressures depends on how they are shared
+    limited = slides and not leaves and pulled_away(further, problem.bound.frozen(now.r[:n])) is not None
     pairs = acting if len(acting) else np.flatnonzero(spent)
-    words = f"{proof}; {SLIDING if gross else LEAVING}" if leaves else proof
-    return Jump(factor=factor, pairs=tuple(int(k) for k in pairs), proof=words, gross_sliding=gross)
+    reason = (SLIDING if slides else LEAVING) if leaves else LIMITED if limited else ""
+    return Jump(
+        factor=factor,
+        pairs=tuple(int(k) for k in pairs),
+        proof=f"{proof}; {reason}" if reason else proof,
+        gross_sliding=(leaves and slides) or limited,
+    )

@@ -106,9 +106,9 @@ def _left(back: Walk, limit: PathState, start: PathState) -> float:
 def _depart(walk: Walk) -> bool:
     """Take the rates in which the acting pairs are in a next state, not those of the way that led here."""
     law = walk.law()
-    acts = np.zeros(len(law.mu), dtype=np.bool_)
+    acts = np.zeros(len(law.kind), dtype=np.bool_)
     acts[walk.acting] = True
-    held = replace(law, kind=np.where(acts, INSIDE, law.kind))
+    held = replace(law, kind=np.where(acts, INSIDE, law.kind), kink=law.kink & ~acts)
     for state in _next(law, walk.now.state, acts):
         found = find_rates(walk.responses, held, walk.load, state, [state])
         if isinstance(found, Rates) and law.violation(found) <= 1e-9:
@@ -118,11 +118,15 @@ def _depart(walk: Walk) -> bool:
 
 
 def _next(law: RateLaw, state: IntArray, acts: BoolArray) -> Iterator[IntArray]:
-    """The states that acting pairs may enter: slip for stick, open for closed, and any closed one for open."""
+    """The states that acting pairs may enter: slip for stick, open for closed, and any closed one for open.
+
+    At a kink of the bound also slip on its other branch.
+    """
     spent = acts & (law.kind > CORNER) & (state == STICK)
     leaves = acts & (law.kind == CORNER) & (state != OPEN)
     meets = acts & (law.kind == CORNER) & (state == OPEN)
-    moved = np.where(spent, law.kind, np.where(leaves, OPEN, state))
+    turns = acts & law.kink & (state > STICK)
+    moved = np.where(spent, law.kind, np.where(leaves, OPEN, np.where(turns, law.following(state), state)))
     for closed in (STICK, SLIP_PLUS, SLIP_MINUS) if meets.any() else (STICK,):
         forced = np.where(law.forced == UNDECIDED, closed, law.forced)
         yield np.where(meets, forced, moved).astype(np.int64)

@@ -4,32 +4,33 @@
 At a given load most pairs are inside their state and stay there for a while. The others are
 
 - at a corner (gap and normal force vanish): open, sticking or slipping either way, as their rates decide;
-- on an edge (friction used up, sticking or slipping): sticking, or slipping against it.
+- on an edge (friction used up, sticking or slipping): sticking, or slipping against it;
+- on an edge at a kink of the bound F (see :mod:`signorini.bound`): sticking, or slipping on the branch of F below or
+  above it.
 
-In a state the rates are linear; these inequalities make them those of Coulomb's law::
+In a state the rates are linear; these inequalities make them those of the law, with mu the slope of the branch of F, in
+Coulomb's law the friction::
 
     open  gap' >= 0        closed  p' >= 0
-    stick mu p' - s r_t' >= 0  (s = both signs at a corner, the sign of the friction on an edge)
-    slip under friction s mu p:  -s h_t' >= 0
+    stick mu p' - s r_t' >= 0  (s = both signs at a corner, the sign of the friction on an edge; at a kink for both mu)
+    slip under friction s F(p):  -s h_t' >= 0, at a kink p' <= 0 below it and p' >= 0 above
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.bound import SIGN, Bound, plain
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 INSIDE, CORNER = -1, 0
-"""Kinds of pairs; on an edge the kind is the code of the slip that it allows."""
+"""Kinds of pairs; on an edge the kind is the code of the slip that it allows, at a kink that of the branch below."""
 
 RATE = 1e-10
 """Sign of a rate, relative to the largest rate."""
-
-SIGN = np.array([0.0, 0.0, 1.0, -1.0])
-"""Of the friction of a slipping pair, by code."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,19 +55,20 @@ class Rates:
 
 @dataclass(frozen=True, kw_only=True)
 class RateLaw:
-    """Coulomb's law of the rates at one load.
+    """The law of the rates at one load.
 
     Parameters
     ----------
-    mu : (n,) friction
+    bound : of the friction
     forced : (n,) the state that a pair takes wherever it is closed, or UNDECIDED
-    kind : (n,) INSIDE, CORNER or, on an edge, SLIP_PLUS or SLIP_MINUS
+    kind : (n,) INSIDE, CORNER or, on an edge, the code of the slip
+    kink : (n,) on an edge that ends here, going on as the edge of the next branch
 
     Examples
     --------
     >>> law = RateLaw.at(
-    ...     mu=np.array([0.5]), forced=np.array([UNDECIDED]), state=np.array([STICK]),
-    ...     h=np.zeros(2), r=np.array([1.0, 0.5]), width=1e-10,
+    ...     bound=Bound.of([0.5]), forced=np.array([UNDECIDED]), state=np.array([STICK]),
+    ...     h=np.zeros(2), r=np.array([1.0, 0.5]), width=np.array([1e-10]),
     ... )
     >>> law.kind.tolist()
     [2]
@@ -74,24 +76,25 @@ class RateLaw:
     [2]
     """
 
-    mu: Array
+    bound: Bound
     forced: IntArray
     kind: IntArray
+    kink: BoolArray
 
     @classmethod
     def at(
         cls,
         *,
-        mu: Array,
+        bound: Bound,
         forced: IntArray,
         state: IntArray,
         h: Array,
         r: Array,
-        width: float,
+        width: Array,
         closing: Array | None = None,
     ) -> RateLaw:
-        """The law at given motions and forces; ``width`` tells zero, ``closing`` (pairs) are at a corner anyway."""
-        n = len(mu)
+        """The law at given motions and forces; ``width`` (n,) tells zero; pairs ``closing`` are at a corner anyway."""
+        n = len(state)
         gap, p, q = h[:n], r[:n], r[n:]
         corner = np.where(state == OPEN, gap <= width, p <= width)
         if closing is not None:
@@ -99,9 +102,34 @@ class RateLaw:
         kind = np.where(corner, CORNER, INSIDE)
         free = ~corner & (state != OPEN) & (forced == UNDECIDED)
         kind[free & (state > STICK)] = state[free & (state > STICK)]
-        spent = free & (state == STICK) & ((mu * p - np.abs(q)) / weight(mu) <= width)
-        kind[spent] = np.where(q[spent] > 0, SLIP_PLUS, SLIP_MINUS)
-        return cls(mu=mu, forced=forced, kind=kind)
+        for j in range(bound.branches - 1, -1, -1):
+            spare = bound.starts[j] + bound.slopes[j] * p - np.abs(q)
+            spent = free & (state == STICK) & (spare / weight(bound.slopes[j]) <= width)
+            kind[spent] = np.where(q[spent] > 0, SLIP_PLUS, SLIP_MINUS) + 2 * j
+        kink = np.zeros(n, dtype=np.bool_)
+        for j in range(1, bound.branches):
+            near = ~corner & (np.abs(p - bound.kinks[j]) <= width) & ((state > STICK) | (kind > CORNER))
+            kink |= near
+            signs = np.where(state > STICK, state, kind) % 2
+            kind[near] = SLIP_PLUS + 2 * (j - 1) + signs[near]
+        return cls(bound=bound, forced=forced, kind=kind, kink=kink)
+
+    def onto(self, upper: BoolArray) -> RateLaw:
+        """The law without kinks: every pair at one keeps to the branch above it (``upper``, (n,)) or below."""
+        kind = np.where(self.kink & upper, self.kind + 2, self.kind)
+        kind = np.where(self.kink & (self.forced != UNDECIDED), INSIDE, kind)
+        return replace(self, kind=kind, kink=np.zeros_like(self.kink))
+
+    def following(self, state: IntArray) -> IntArray:
+        """(n,) The other branch of pairs that slip at a kink."""
+        return np.where(state == self.kind, self.kind + 2, self.kind)
+
+    @property
+    def mu(self) -> Array:
+        """(n,) Slope of the bound: of the branch of the edge, at a kink of that below it, otherwise of the first."""
+        if self.bound.branches == 1:
+            return self.bound.slopes[0]
+        return np.abs(self.bound.slope(np.where(self.kind > CORNER, self.kind, SLIP_PLUS)))
 
     def conditions(self, rates: Rates) -> tuple[Array, IntArray]:
         """What must not be negative, and the state that takes over where it is.
@@ -111,7 +139,7 @@ class RateLaw:
         values : (3, n) inf where nothing is asked
         following : (3, n) states
         """
-        n, mu, kind, state = len(self.mu), self.mu, self.kind, rates.state
+        n, mu, kind, state = len(self.kind), self.mu, self.kind, rates.state
         gap, t, p, q = rates.h[:n], rates.h[n:], rates.r[:n], rates.r[n:]
         values, following = np.full((3, n), np.inf), np.full((3, n), OPEN)
         corner, unforced, slips = kind == CORNER, self.forced == UNDECIDED, state > STICK
@@ -119,11 +147,20 @@ class RateLaw:
         values[0, k], following[0, k] = gap[k], self.touching(t)[k]
         k = corner & (state != OPEN)
         values[0, k] = p[k]
+        several = self.bound.branches > 1
+        edge = plain(kind) if several else kind
         for row, code in ((1, SLIP_PLUS), (2, SLIP_MINUS)):
-            k = (corner | (kind == code)) & (state == STICK) & unforced
-            values[row, k], following[row, k] = ((mu * p - SIGN[code] * q) / weight(mu))[k], code
+            k = (corner | (edge == code)) & (state == STICK) & unforced
+            values[row, k] = ((mu * p - SIGN[code] * q) / weight(mu))[k]
+            following[row, k] = np.maximum(kind[k], code)
         k = (kind != INSIDE) & slips & unforced
         values[2, k], following[2, k] = (-SIGN[state] * t)[k], STICK
+        if several and self.kink.any():
+            k, above = self.kink & (state == STICK) & unforced, self.onto(self.kink).mu
+            values[0, k], following[0, k] = ((above * p - SIGN[kind] * q) / weight(above))[k], kind[k] + 2
+            k = self.kink & slips
+            values[1, k] = np.where(state == kind, -p, p)[k]
+            following[1, k] = self.following(state)[k]
         return values, following
 
     def touching(self, t: Array) -> IntArray:
@@ -138,7 +175,7 @@ class RateLaw:
     def proposal(self, rates: Rates) -> IntArray:
         """(n,) Every pair in the state that its worst violation asks for."""
         values, following = self.conditions(rates)
-        worst, pairs = values.argmin(axis=0), np.arange(len(self.mu))
+        worst, pairs = values.argmin(axis=0), np.arange(len(self.kind))
         return np.where(values[worst, pairs] < -RATE * rates.size, following[worst, pairs], rates.state)
 
     @property

@@ -2,8 +2,8 @@
 """Motions and forces of the pairs under a load, with every pair's state given: the linear map behind the path.
 
 In the force form (see `signorini.friction.cone`) a state leaves these unknowns: the normal force of every closed pair,
-the tangential force of those that stick, and the rigid motion. Slipping pairs carry ``r_t = s mu p``; open pairs take
-no part.
+the tangential force of those that stick, and the rigid motion. Slipping pairs carry ``r_t = s mu p``, mu the slope of
+their bound; open pairs take no part. Friction that does not depend on p is a load, for the caller.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ class Responses:
 
     Parameters
     ----------
-    problem : its mu holds, its b does not matter
+    problem : its bound of friction holds, its b does not matter
 
     Attributes
     ----------

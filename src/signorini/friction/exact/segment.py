@@ -9,7 +9,7 @@ from typing import Literal
 from signorini.arrays import Array
 from signorini.friction.exact.state import PathState
 
-What = Literal["closes", "opens", "slips", "sticks"]
+What = Literal["closes", "opens", "slips", "sticks", "kinks"]
 Outcome = Literal["followed", "jump", "not_found"]
 
 
@@ -21,7 +21,8 @@ class Event:
     ----------
     factor : part of the segment behind, 0 .. 1
     pairs : their numbers
-    what : "closes" (sticking or slipping), "opens", "slips" (from stick, or the other way round), "sticks" (from slip)
+    what : "closes" (sticking or slipping), "opens", "slips" (from stick, or the other way round), "sticks" (from slip),
+        "kinks" (slips on, on another branch of its bound: it reaches the shear limit or leaves it)
     state : the state at this load, with the codes that hold from here on
     """
 

@@ -27,7 +27,8 @@ class PathState:
     b : (2n,) load, with the slip of no step before in it
     h : (2n,) gap >= 0, then the total tangential displacement
     r : (2n,) normal force >= 0, then the tangential force on body 1
-    state : (n,) codes of `signorini.pairstate`; SLIP_PLUS: friction +mu p, slip rate <= 0
+    state : (n,) codes of `signorini.pairstate`; SLIP_PLUS: friction along +t, slip rate <= 0. Within a path with the
+        branch of the bound that a pair slips on, see `signorini.bound`
     anchor : (n,) tangential displacement at which a sticking pair is held; of others, where they last stuck
     slip : (n,) slip accumulated while closed, with its sign
     dissipation : (n,) work that friction has consumed

@@ -102,7 +102,7 @@ def violations(
     mu = np.asarray(friction, dtype=np.float64).reshape(n, -1 if n else 1) * np.ones((1, 2))
     sides = np.broadcast_to(np.asarray(facets, dtype=np.int64), (n,))
     flat = np.concatenate([normal_force, tangential_force.T.ravel()])
-    nearest = project(flat, mu, np.zeros(n, np.bool_), sides)[0][n:].reshape(2, n).T
+    nearest = project(flat, mu, np.maximum(normal_force, 0.0), sides)[0][n:].reshape(2, n).T
     reach = (outermost(slip, mu, sides) * slip).sum(axis=1)
     pressing = np.maximum(normal_force, 0.0)
     power = pressing * reach + (tangential_force * slip).sum(axis=1)

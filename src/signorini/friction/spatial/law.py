@@ -35,7 +35,7 @@ class Tangent:
     closed : (n,) pairs that press
     left : (n,) tangential directions whose force is unknown: 2 where it sticks, 1 or 0 where it slips
     share : (n, 2) tangential force per normal force, e; zero where it sticks
-    fixed : (n, 2) tangential force that is known, of pairs in Tresca's law
+    fixed : (n, 2) tangential force that does not depend on the normal force, where friction is bounded so
     tau : (n, 2) the unknown direction where one is left
     kappa : (n,) slip per force along it
     """
@@ -76,13 +76,14 @@ def tangent(problem: SpatialProblem, y: Array) -> Tangent:
     closed = y[:n] > 0
     force = r[n:].reshape(2, n).T
     slips = (left < 2)[:, None]
-    size = np.where(closed, y[:n], 1.0)[:, None]
-    fixed = problem.bounded[:, None]
+    state = problem.bound.coded(np.full(n, SLIP), y[:n])
+    size = np.where(left < 2, problem.bound.at(np.maximum(y[:n], 0.0)), 1.0)[:, None]
+    unit = np.divide(force, size, out=np.zeros_like(force), where=size > 0)
     return Tangent(
         closed=closed,
         left=left,
-        share=np.where(slips & closed[:, None] & ~fixed, force / size, 0.0),
-        fixed=np.where(slips & fixed, force, 0.0),
+        share=np.where(slips & closed[:, None], unit * problem.bound.slope(state)[:, None], 0.0),
+        fixed=np.where(slips, unit * problem.bound.start(state)[:, None], 0.0),
         tau=tau,
         kappa=kappa,
     )
@@ -106,12 +107,13 @@ def states(problem: SpatialProblem, y: Array) -> IntArray:
 def _projected(problem: SpatialProblem, y: Array) -> tuple[Array, IntArray, Array, Array]:
     """`project`, except that pairs whose supports drag them slip in the direction known beforehand."""
     n, dragged = problem.pairs, np.flatnonzero(problem.dragged)
+    size = problem.bound.at(np.maximum(y[:n], 0.0))
     if not len(dragged):
-        return project(y, problem.mu, problem.bounded, problem.sides)
+        return project(y, problem.axes, size, problem.sides)
     along = np.array(y)
     b = problem.b[n:].reshape(2, n)[:, dragged]
-    reach = _FAR * (problem.mu[dragged].max(axis=1) * np.maximum(y[dragged], 1.0)) / np.hypot(*b)
+    reach = _FAR * np.maximum(size[dragged], problem.mu[dragged].max(axis=1)) / np.hypot(*b)
     along[n + dragged], along[2 * n + dragged] = -reach * b
-    r, left, tau, kappa = project(along, problem.mu, problem.bounded, problem.sides)
+    r, left, tau, kappa = project(along, problem.axes, size, problem.sides)
     left[dragged] = 0
     return r, left, tau, kappa

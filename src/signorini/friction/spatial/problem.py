@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, BoolArray, IntArray, frozen
+from signorini.bound import Bound
 from signorini.errors import InputError
 from signorini.friction.posed import STICKY, PosedContact
 
@@ -38,6 +39,8 @@ class SpatialProblem(PosedContact):
         friction
     motions : (3n, k) rigid motions seen by the pairs, W R = R; k = 0 where supports hold every body
     scale : size of b's entries, from the data, that tolerances refer to; in the units of b
+    adhesion, limit : (n,) scaled forces of :mod:`signorini.bound`: friction at no normal force, and the most there is,
+        along the axis of the larger friction; None stands for none
     tresca : (n,) pairs whose ``friction`` is the bound itself, a scaled force, whatever the normal force, also where
         the pair is open; None stands for none
     facets : corners of a polygon inscribed in the ellipse that stands for it, the first on the first tangent; a
@@ -84,13 +87,34 @@ class SpatialProblem(PosedContact):
         return np.asarray(~self.W[n:].any(axis=1).reshape(2, n).T, dtype=np.bool_)
 
     @cached_property
-    def mu(self) -> Array:
-        """(n, 2) Friction that can act: none along a locked tangent that is not dragged, 1e6 for ``inf``."""
+    def bound(self) -> Bound:
+        """Of the friction along the axis of the larger friction; that of Tresca's law does not depend on the force."""
+        given = self.friction.reshape(self.pairs, -1 if self.pairs else 1).max(axis=1, initial=0.0)
+        adhesion = 0.0 if self.adhesion is None else self.adhesion
+        limit = np.inf if self.limit is None else self.limit
+        bound = Bound.of(np.where(self.bounded, 0.0, given), adhesion=adhesion, limit=limit)
+        if not self.bounded.any():
+            return bound
+        known = np.where(self.bounded, given, 0.0)
+        slopes, kinks = np.where(self.bounded, 0.0, bound.slopes), bound.kinks.copy()
+        kinks[1:, self.bounded] = np.inf
+        return Bound(slopes=slopes, starts=np.where(self.bounded, known, bound.starts), kinks=kinks)
+
+    @cached_property
+    def axes(self) -> Array:
+        """(n, 2) Half-axes of the section over the larger of them; none along a locked tangent that is not dragged."""
         n = self.pairs
-        given = self.friction.reshape(n, -1 if n else 1) * np.ones((1, 2))
-        given = np.where(self.bounded[:, None], given, np.minimum(given, STICKY))
+        given = np.minimum(self.friction.reshape(n, -1 if n else 1) * np.ones((1, 2)), STICKY)
+        largest = given.max(axis=1, initial=0.0)[:, None]
+        shape = np.divide(given, largest, out=np.ones_like(given), where=largest > 0)
         still = self.locked & (self.b[n:].reshape(2, n).T == 0)
-        return np.asarray(np.where(still, 0.0, given), dtype=np.float64)
+        return np.asarray(np.where(still, 0.0, shape), dtype=np.float64)
+
+    @cached_property
+    def mu(self) -> Array:
+        """(n, 2) Friction at the smallest normal forces, per normal force; in Tresca's law friction itself."""
+        bound = self.bound
+        return self.axes * np.where(self.bounded, bound.starts[0], bound.slopes[0])[:, None]
 
     @cached_property
     def dragged(self) -> BoolArray:

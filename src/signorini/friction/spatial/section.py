@@ -18,7 +18,7 @@ import math
 import numpy as np
 from numba import njit
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, IntArray
 
 _TOLERANCE = 1e-15
 _NOTHING = 1e-150  # its square underflows: a section smaller than that is a point
@@ -111,13 +111,14 @@ def nearest(
 
 
 @njit(cache=True)
-def project(y: Array, m: Array, tresca: BoolArray, facets: IntArray) -> tuple[Array, IntArray, Array, Array]:
+def project(y: Array, m: Array, size: Array, facets: IntArray) -> tuple[Array, IntArray, Array, Array]:
     """Admissible force nearest to y for every pair: r (3n,), directions left (n,), tau (n, 2), kappa (n,).
 
     Parameters
     ----------
     y : (3n,) n normals, n first and n second tangents
-    m : (n, 2) half-axes of the section per normal force; the section itself where ``tresca``
+    m : (n, 2) half-axes of the section of size 1
+    size : (n,) of the section at the normal force of y
     facets : (n,), see `nearest`
     """
     n = len(m)
@@ -125,8 +126,7 @@ def project(y: Array, m: Array, tresca: BoolArray, facets: IntArray) -> tuple[Ar
     tau, kappa = np.zeros((n, 2)), np.zeros(n)
     for i in range(n):
         pressing = max(y[i], 0.0)
-        s = 1.0 if tresca[i] else pressing
-        r_1, r_2, left, t_1, t_2, stiff = nearest(y[n + i], y[2 * n + i], m[i, 0], m[i, 1], s, facets[i])
+        r_1, r_2, left, t_1, t_2, stiff = nearest(y[n + i], y[2 * n + i], m[i, 0], m[i, 1], size[i], facets[i])
         r[i], r[n + i], r[2 * n + i], count[i] = pressing, r_1, r_2, left
         tau[i, 0], tau[i, 1], kappa[i] = t_1, t_2, stiff
     return r, count, tau, kappa

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, IntArray
 from signorini.friction.spatial.problem import SpatialProblem
 from signorini.friction.spatial.section import nearest
 
@@ -19,7 +19,7 @@ _STILL = 1e-14
 
 @njit(cache=True)
 def _sweep(
-    A: Array, c: Array, m: Array, tresca: BoolArray, facets: IntArray, step: Array, r: Array, count: int
+    A: Array, c: Array, m: Array, slopes: Array, starts: Array, facets: IntArray, step: Array, r: Array, count: int
 ) -> None:
     """Relax r in place for ``h = A r + c``; a pair's own problem by a projected fixed point of step ``step``."""
     n = len(m)
@@ -43,7 +43,9 @@ def _sweep(
                     else:
                         x_2 -= step[i] * moved
                 p = max(x_0, 0.0)
-                s = 1.0 if tresca[i] else p
+                s = np.inf
+                for j in range(len(slopes)):
+                    s = min(s, starts[j, i] + slopes[j, i] * p)
                 t_1, t_2, _, _, _, _ = nearest(x_1, x_2, m[i, 0], m[i, 1], s, facets[i])
                 change = abs(p - force[0]) + abs(t_1 - force[1]) + abs(t_2 - force[2])
                 force[0], force[1], force[2] = p, t_1, t_2
@@ -86,5 +88,6 @@ def gauss_seidel(problem: SpatialProblem, force: Array, rigid: Array, *, count: 
     largest = np.linalg.eigvalsh(blocks)[:, -1]
     step = 1.0 / np.where(largest > 0, largest, 1.0)
     r = force.copy()
-    _sweep(np.ascontiguousarray(A), c, problem.mu, problem.bounded, problem.sides, step, r, count)
+    bound = problem.bound
+    _sweep(np.ascontiguousarray(A), c, problem.axes, bound.slopes, bound.starts, problem.sides, step, r, count)
     return r, rigid + R.T @ r + pull

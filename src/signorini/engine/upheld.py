@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Supports that steps release, and that hold again: other free displacements, and what goes on from there."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.engine.increments import applied
+from signorini.engine.prepare import Prepared
+from signorini.fem.supports import Constraints
+from signorini.model.stage import Stage
+from signorini.solution.state import LoadPoint, State
+
+
+def handed_over(prepared: Prepared, before: Constraints, state: State) -> State:
+    """The state under the supports of a step.
+
+    What a support that lets go bears becomes a given force on the bodies, which the step takes to zero. What holds
+    again, or another support holds, is where it is: beyond what the support prescribes there is an offset.
+
+    Parameters
+    ----------
+    prepared : under the supports of the step
+    before : those of the step before
+    state : at its end
+    """
+    now = prepared.constraints
+    if now is before:
+        return state
+    # at the end of a step nothing is left of what supports bore that it released
+    loads, imposed = applied(prepared, replace(state.point, reaction=np.zeros(0), offset=np.zeros(0)))
+    borne = support_forces(before, state, loads)
+    reaction = np.where(before.held & ~now.held, borne, 0.0)
+    other = now.held & ((now.owner != before.owner) | ~before.held)
+    old = state.point.offset if len(state.point.offset) else np.zeros(len(imposed))
+    offset = np.where(other, state.displacement - imposed, np.where(now.held, old, 0.0))
+    return replace(state, point=replace(state.point, reaction=reaction, offset=_completed(prepared, offset)))
+
+
+def support_forces(constraints: Constraints, state: State, loads: Array) -> Array:
+    """(dofs,) Forces of supports: what equilibrium takes beyond the loads, where equations hand it on to.
+
+    Parameters
+    ----------
+    loads : (dofs,) nodal forces of the loads in that state
+    """
+    force = constraints.handed_on(np.where(constraints.alone, 0.0, state.external - loads))
+    return np.where(constraints.held, force, 0.0)
+
+
+def at_the_end(prepared: Prepared, stage: Stage, point: LoadPoint) -> tuple[Array, Array]:
+    """Given forces and offsets at the end of a step, from those at its beginning: supports that restore have none."""
+    if not len(point.offset):
+        return point.reaction, point.offset
+    labels = [support.label for support in prepared.model.supports]
+    restored = [labels.index(name) for name in stage.step.restore]
+    kept = np.where(np.isin(prepared.constraints.owner, restored), 0.0, point.offset)
+    kept[~prepared.constraints.held] = 0.0
+    return np.zeros_like(point.reaction), _completed(prepared, kept)
+
+
+def _completed(prepared: Prepared, offset: Array) -> Array:
+    """Offsets of held dofs, and with them what equations and ties make of them."""
+    constraints = prepared.constraints
+    completed = constraints.completed(offset)
+    ties = prepared.ties
+    if ties is None or not len(ties.rows):
+        return completed
+    result: Array = completed + constraints.transform @ ties.closing(prepared.interface.B[ties.rows] @ completed)
+    return result

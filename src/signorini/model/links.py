@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What couples displacements without an element: linear equations, and nodes that move as one rigid body."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from signorini.checks import choice, number, text, vector
+from signorini.errors import InputError
+
+AXES = ("x", "y", "z")
+TURNS = {2: ("rotation",), 3: ("rotation x", "rotation y", "rotation z")}
+"""How the rotations of a rigid body are called, behind x and y (and z); by the dimension of space."""
+
+Term = tuple[str | int | tuple[float, ...], str, float]
+
+
+@dataclass(frozen=True)
+class Equation:
+    """A linear equation between displacements: ``sum_k c_k u_k = 0``.
+
+    It is solved for the displacement of its first term, which is no unknown any more; where a support holds that, for
+    another. Equations may share displacements and follow from one another.
+
+    Parameters
+    ----------
+    terms : of place, direction and coefficient c. A place is a node set, a boundary, the coordinates of a node, its
+        number, or a rigid body. A direction is "x", "y" or "z" ("r" for "x" in axisymmetric models), of a rigid body
+        also "rotation", in space "rotation x", "rotation y" or "rotation z". Places of n nodes make n equations: their
+        nodes go together in ascending order, and single nodes are in all of them
+    name : what messages call it
+
+    Examples
+    --------
+    Two edges with the same vertical displacement:
+
+    >>> Equation([("left", "y", 1.0), ("right", "y", -1.0)]).terms[1]
+    ('right', 'y', -1.0)
+    """
+
+    terms: Sequence[Term]
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        if isinstance(self.terms, str) or not isinstance(self.terms, Sequence) or not len(self.terms):
+            raise InputError(f"is {self.terms!r}; expected a list of terms", where=("terms",))
+        terms = tuple(_term(term, ("terms", k)) for k, term in enumerate(self.terms))
+        object.__setattr__(self, "terms", terms)
+
+
+@dataclass(frozen=True)
+class RigidBody:
+    """Nodes that move as one: ``u(x) = u + theta x (x - point)`` with a small rotation theta.
+
+    Its displacement u and its rotation are unknowns. Supports and loads whose place is its name hold and load them:
+    they have an entry for every direction, then one for the rotation (counterclockwise, radians, moment), in space
+    three. In axisymmetric models only the motion along the axis is left; the others are held.
+
+    Parameters
+    ----------
+    name : what supports, loads, equations and results call it
+    on : a boundary, a node set or a body: the nodes that it consists of
+    point : about which it rotates and where forces act, length
+
+    Examples
+    --------
+    >>> RigidBody("head", on="top", point=(0.0, 1.0)).label
+    'head'
+    """
+
+    name: str
+    on: str
+    point: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        text(self.name, ("name",))
+        text(self.on, ("on",))
+        object.__setattr__(self, "point", vector(self.point, ("point",)))
+
+    @property
+    def label(self) -> str:
+        """The name in results."""
+        return self.name
+
+
+def directions(dimension: int) -> tuple[str, ...]:
+    """Of a rigid body: how its displacements and rotations are called, in order.
+
+    >>> directions(2)
+    ('x', 'y', 'rotation')
+    """
+    return (*AXES[:dimension], *TURNS[dimension])
+
+
+def _term(term: Any, where: tuple[str | int, ...]) -> Term:
+    if isinstance(term, str) or not isinstance(term, Sequence) or len(term) != 3:
+        raise InputError(f"is {term!r}; expected a place, a direction and a coefficient", where=where)
+    on, axis, coefficient = term
+    if isinstance(on, bool) or not isinstance(on, str | int):
+        on = vector(on, (*where, 0))
+    elif isinstance(on, str):
+        text(on, (*where, 0))
+    axis = choice("x" if axis == "r" else axis, (*AXES, *TURNS[2], *TURNS[3]), (*where, 1), "direction")
+    value = number(coefficient, (*where, 2))
+    if value == 0.0:
+        raise InputError("is 0; expected another coefficient, or no such term", where=(*where, 2))
+    return on, axis, value
