@@ -51,6 +51,7 @@ def read_mesh(path: str | Path) -> Mesh:
     path = Path(path)
     if not path.is_file():
         raise InputError(f"there is no file '{path}'", where=("mesh", "file"))
+    complete_meshio()
     found = _read(path)
     points = np.asarray(found.points, float)
     solid = any(block.type in NODES_PER_SOLID_CELL for block in found.cells)
@@ -99,6 +100,7 @@ def read_facets(path: str | Path, dimension: int, name: str = "") -> tuple[Array
     path = Path(path)
     if not path.is_file():
         raise InputError(f"there is no file '{path}'", where=("file",))
+    complete_meshio()
     found = _read(path)
     named, cells = _named_parts(found, path)
     wanted, higher = (_LINES, NODES_PER_CELL) if dimension == 1 else (NODES_PER_PLANE_CELL, NODES_PER_SOLID_CELL)
@@ -183,7 +185,6 @@ def _surfaces(named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntAr
 
 def _read(path: Path) -> meshio.Mesh:
     # meshio prints warnings, multiplies what is no number and ends the process on some malformed files
-    complete_meshio()
     said = io.StringIO()
     try:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), np.errstate(all="ignore"):
