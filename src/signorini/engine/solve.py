@@ -91,7 +91,7 @@ def _begin(prepared: Prepared, start: Checkpoint | None) -> Checkpoint:
     state = replace(start.state, point=replace(point, factors=factors))
     absent = absent_pairs(prepared, start.inactive)
     found = measured(replace(prepared, absent=absent, constraints=_constraints(prepared, start.released)), state)
-    if not found.equilibrium <= TOLERANCE:
+    if not found.imbalance <= TOLERANCE:
         raise InputError(
             f"is not in equilibrium in this model (residual {found.equilibrium:.1e} of the loads); expected the same "
             "bodies, materials, supports and loads",
