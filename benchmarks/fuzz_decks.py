@@ -83,6 +83,13 @@ _LINES = (
         "1, 1000000000, 1",
         "*INSTANCE, NAME=x",
     ),
+    *(
+        "*EQUATION",
+        "2",
+        "4, 1, 1., 5, 2, -1.",
+        "*RIGID BODY, NSET=Top, REF NODE=99",
+        "*RIGID BODY, ELSET=E, REF NODE=1",
+    ),
     *("*AMPLITUDE, NAME=A", "*TIE", "*FRICTION", "*CONTACT PAIR", "*SURFACE, NAME=s, TYPE=NODE", "*END PART", "*DLOAD"),
 )
 

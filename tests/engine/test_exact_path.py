@@ -144,3 +144,37 @@ def test_gross_sliding_is_not_followed():
     ]
     with pytest.raises(sg.SolveFailed, match=r"gross sliding.*; no equilibrium that it could land on was found"):
         sg.solve(replace(dragged_block(friction=0.2), steps=steps))
+
+
+def in_a_corner(friction, **parts):
+    """A block between a floor and a wall, held by contact alone; the node in the corner has a pair with either."""
+    return sg.Model(
+        sg.rectangle(nx=4, ny=4),
+        bodies=[sg.Body("block", sg.Elastic(E=1000.0, nu=0.3))],
+        loads=[sg.Load("top", pressure=1.0, name="press"), sg.Load("right", pressure=1.0, name="push")],
+        contacts=[
+            sg.Contact("bottom", sg.Plane((0, 0), (0, 1)), friction=friction, name="floor"),
+            sg.Contact("left", sg.Plane((0, 0), (1, 0)), friction=friction, name="wall"),
+        ],
+        steps=[
+            sg.Step(name="press", scale={"press": 1.0, "push": 1.0}, **parts),
+            sg.Step(name="lift", scale={"press": -0.2}, **parts),
+            sg.Step(name="back", scale={"press": 0.5}, **parts),
+        ],
+    )
+
+
+@pytest.mark.parametrize("friction", [0.25, 0.8])
+def test_two_contacts_share_a_node_on_an_exact_path(friction):
+    """Forces in the corner are not unique; the path is followed all the same, and increments come to the same end."""
+    exact = sg.solve(in_a_corner(friction))
+    for step, load in zip(exact.steps, (1.0, -0.2, 0.5), strict=True):
+        assert (step.path, step.notes) == ("exact", ())
+        total = sum(contact.normal_force + contact.tangential_force for contact in step.contacts)
+        np.testing.assert_allclose(total, [1.0, load], atol=1e-12)
+        assert abs(step.energy_defect) < 1e-15
+        assert step.certificate.passed
+    assert (exact.steps[1].contacts[0].status == "open").any()
+    fine = sg.solve(in_a_corner(friction, increments=200))
+    size = np.abs(exact.last.displacement).max()
+    np.testing.assert_allclose(fine.last.displacement, exact.last.displacement, atol=0.01 * size)

@@ -35,10 +35,11 @@ def space_of(model):
     return make_space(model.mesh, axisymmetric=model.axisymmetric)
 
 
-@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize(
-    ("family", "formulation"),
-    [(f, "standard") for f in (*FAMILIES, *MIXED)] + [(f, "incompatible") for f in ("quad", "triangle+quad")],
+    ("family", "formulation", "kind"),
+    [(f, "standard", kind) for f in (*FAMILIES, *MIXED) for kind in KINDS]
+    + [(f, "incompatible", kind) for f in ("quad", "triangle+quad") for kind in KINDS]
+    + [(f, "mean dilatation", kind) for f in FAMILIES for kind in KINDS if f != "triangle" and kind != "plane stress"],
 )
 def test_patch(family, formulation, kind):
     """A constant strain: the stress is constant at every node, and the tractions on the boundary balance it."""

@@ -168,6 +168,7 @@ def test_on_linear_facets_the_forces_of_a_pair_are_in_balance(counts):
     [
         ({"y": [-5.0, -4.0]}, "the nearest nodes are 4 apart"),
         ({"y": [-5.0, -4.0], "x": [30, 31]}, "looked for up to 0.5 along the normals"),
+        ({"y": [-5.0, -4.0]}, "their outward normals 180 degrees"),
     ],
 )
 def test_sides_too_far_apart_are_refused(lower, said):

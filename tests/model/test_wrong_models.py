@@ -230,6 +230,14 @@ IN_THE_MESH = [
         "contact[0]: the surfaces do not face each other at",
     ),
     (
+        lambda: pair(contacts=[Contact("upper.bottom", "lower.left")]),
+        "contact[0]: no facets of the two sides lie opposite each other",
+    ),
+    (
+        lambda: pair(contacts=[Contact("upper.bottom", "lower.left")]),
+        "their outward normals 90 degrees. Expected surfaces that face each other, normals 180 degrees apart",
+    ),
+    (
         lambda: block(contacts=[Contact("bottom", "left")]),
         "contact[0]: both sides hold node 1; bodies that touch need nodes of their own",
     ),
@@ -405,6 +413,19 @@ def test_the_steps_before_a_failure_are_kept():
     history = solve(model, raise_on_failure=False)
     assert [step.name for step in history.steps] == ["press"]
     assert history.message.startswith("step 'lift' at 75%")
+
+
+def test_a_contact_that_nothing_closes_is_noted():
+    """A wrong place, or a load that pulls: the answer is one, but hardly what was meant."""
+    far = block(
+        supports=[Support("top", u=(0.0, 0.1))],
+        contacts=[Contact("bottom", Plane((0, -9), (0, 1)))],
+        loads=[],
+        steps=[Step()],
+    )
+    (note,) = solve(far).last.notes
+    assert note == "contact 'bottom' is open everywhere: its sides are 9.1 apart, 9 to begin with"
+    assert solve(block()).last.notes == ()
 
 
 def test_an_unknown_contact_is_named():

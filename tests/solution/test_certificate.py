@@ -168,6 +168,19 @@ def test_a_body_that_has_left_is_no_solution():
     assert answer.certificate(u=near, r=zero).equilibrium > 0.1  # nothing carries the load
 
 
+@pytest.mark.parametrize("far", [1e6, 1e7, 1e8])
+def test_rounding_of_displacements_is_told_from_an_imbalance(far):
+    """A body moved far away stays in equilibrium but for rounding; what a millionth of the load lacks is none."""
+    answer = Answer(friction=0.0)
+    away = answer.u.copy()
+    away[1::2] += far * answer.length
+    found = answer.certificate(u=away)
+    assert found.rounding == 0.0 or found.equilibrium > TOLERANCE
+    assert found.imbalance <= TOLERANCE
+    lacking = answer.certificate(u=away, r=answer.pushed(int(answer.closed[0]), 1e-5))
+    assert lacking.imbalance > TOLERANCE
+
+
 def test_passed_is_the_tolerance_on_the_worst():
     small = dict.fromkeys(NUMBERS, 0.0)
     for name in NUMBERS:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from signorini.engine.solve import solve
-from signorini.fem.generators import rectangle
+from signorini.fem.generators import quarter_disk, rectangle
 from signorini.gallery.blocks import block_on_foundation, stacked_blocks
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
@@ -15,7 +15,7 @@ from signorini.model.contact import Contact
 from signorini.model.material import Elastic
 from signorini.model.mesh import join
 from signorini.model.model import Model
-from signorini.model.obstacle import Circle, Profile
+from signorini.model.obstacle import Circle, Plane, Profile
 from signorini.model.step import Step
 
 ELASTIC = Elastic(E=1000.0, nu=0.3)
@@ -119,6 +119,29 @@ def curved(upper, lower):
         loads=[Load("upper.top", pressure=1.0)],
         contacts=[Contact("upper.bottom", "lower.top", friction="stick", name="contact")],
     )
+
+
+@pytest.mark.parametrize("obstacle", [True, False])
+def test_long_facets_behind_short_ones_feign_no_contact(obstacle):
+    """Facets four times as long as the one before: the mean gap of dual functions there is negative, no point is."""
+    radius, approach = 50.0, 0.03125
+    a = np.sqrt(approach * radius)
+    disk = quarter_disk(radius=radius, contact_length=1.5 * a, contact_spacing=0.1 * a, order=2)
+    ball, other = Body("ball", ELASTIC), Plane((0, 0), (0, 1))
+    mesh, bodies, contact = join({"ball": disk}), [ball], Contact("ball.arc", other, name="contact")
+    supports = [Support("ball.cut", u=(None, -approach))]
+    if not obstacle:
+        depth = np.concatenate([-np.geomspace(2 * radius, 0.1 * a, 20), [0.0]])
+        x = np.concatenate([[0.0], np.geomspace(0.15 * a, radius, 24)])
+        mesh = join({"ball": disk, "table": rectangle(x=x, y=depth, cells="quad8")})
+        bodies, contact = [ball, replace(ball, name="table")], Contact("ball.arc", "table.top", name="contact")
+        supports += [Support("table.bottom", u=(0, 0))]
+    model = Model(mesh, kind="axisymmetric", bodies=bodies, supports=supports, contacts=[contact])
+    contact = solve(model).contact("contact")
+    assert contact.points[contact.closed, 0].max() < 1.3 * a
+    if obstacle:
+        force = 4 / 3 * ELASTIC.E / (1 - ELASTIC.nu**2) * np.sqrt(radius * approach**3)
+        assert contact.normal_force[1] == pytest.approx(force, rel=0.03)
 
 
 @pytest.mark.parametrize(("upper", "lower", "error"), [(12, 16, 0.03), (16, 12, 0.03), (12, 24, 0.03)])

@@ -96,8 +96,8 @@ def price(name: str, model: Model, timer: Timer, *, repeats: int = REPEATS) -> d
     }
 
 
-def _fixed(prepared: Prepared) -> tuple[sp.csr_array, IntArray, Array]:
-    """Matrix, node of each unknown and load of the same bodies with the contact nodes fixed."""
+def _fixed(prepared: Prepared) -> tuple[sp.csr_array, IntArray, Array, Array]:
+    """Matrix, node of each unknown, places of the nodes and load of the same bodies with the contact nodes fixed."""
     T = prepared.constraints.transform
     keep = np.setdiff1d(np.arange(T.shape[1]), prepared.condensed.dofs)
     K = sp.csr_array((T.T @ prepared.K @ T)[keep][:, keep])
@@ -106,11 +106,11 @@ def _fixed(prepared: Prepared) -> tuple[sp.csr_array, IntArray, Array]:
         gap=prepared.interface.gap,
         given=np.zeros(prepared.interface.B.shape[0]),
     )
-    return K, prepared.constraints.nodes[keep], free_load(prepared, full)[keep]
+    return K, prepared.constraints.nodes[keep], prepared.space.places, free_load(prepared, full)[keep]
 
 
-def _linear(K: sp.csr_array, nodes: IntArray, f: Array, backend: str, timer: Timer) -> float:
+def _linear(K: sp.csr_array, nodes: IntArray, points: Array, f: Array, backend: str, timer: Timer) -> float:
     """Seconds of one plain solve: analyse, factorise, solve."""
     began = timer()
-    factorise(K, np.empty(0, int), nodes=nodes, backend=backend).reduce(f).expand(np.empty(0))
+    factorise(K, np.empty(0, int), nodes=nodes, points=points, backend=backend).reduce(f).expand(np.empty(0))
     return timer() - began

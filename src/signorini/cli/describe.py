@@ -9,7 +9,7 @@ from signorini.arrays import Array
 from signorini.cli.suspicion import far_notes, held_notes, mesh_notes, unit_notes
 from signorini.deck import Deck
 from signorini.engine.prepare import Examined
-from signorini.fem.locking import thin_bodies
+from signorini.fem.locking import stiffened_bodies, thin_bodies
 from signorini.fem.rigid import describe_motion
 from signorini.model.contact import Contact
 from signorini.model.model import Model
@@ -18,6 +18,8 @@ from signorini.output.align import align
 from signorini.output.table import spell_vector
 
 Rows = list[tuple[str, ...]]
+
+_FORMULATIONS = {"incompatible": "incompatible modes", "mean dilatation": "mean dilatation"}
 
 
 def describe(deck: Deck, examined: Examined) -> list[str]:
@@ -55,7 +57,7 @@ def all_notes(deck: Deck, examined: Examined) -> list[str]:
         *_notes(deck),
         *mesh_notes(deck.model),
         *unit_notes(deck.model),
-        *_bending_notes(examined),
+        *_stiffness_notes(examined),
         *_contact_notes(examined),
         *far_notes(examined),
         *held_notes(examined),
@@ -68,7 +70,7 @@ def _bodies(model: Model) -> Rows:
         (
             body.name,
             str(body.material),
-            *(["incompatible modes"] if body.formulation == "incompatible" else []),
+            *([_FORMULATIONS[body.formulation]] if body.formulation in _FORMULATIONS else []),
             f"{len(model.mesh.bodies[body.name])} elements",
         )
         for body in model.bodies
@@ -199,8 +201,13 @@ def _notes(deck: Deck) -> list[str]:
     return notes
 
 
-def _bending_notes(examined: Examined) -> list[str]:
-    return [
+def _stiffness_notes(examined: Examined) -> list[str]:
+    volume = [
+        f"body '{name}' hardly changes its volume (Poisson's ratio above 0.45), and its standard cells are too stiff "
+        "for that; take formulation = 'mean dilatation'"
+        for name in stiffened_bodies(examined.model)
+    ]
+    return volume + [
         f"body '{name}' is at most two linear quadrilaterals thick: too stiff where it bends; take formulation = "
         "'incompatible', quadratic cells or more layers"
         for name in thin_bodies(examined.space, examined.model)

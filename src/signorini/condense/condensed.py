@@ -146,6 +146,7 @@ def condense(
     B: sp.csr_array,
     interface: Interface,
     nodes: IntArray,
+    points: Array,
     *,
     candidates: BoolArray,
     backend: str,
@@ -159,6 +160,7 @@ def condense(
     B : (d n, z) relative displacements of the pairs in terms of them
     interface : the pairs
     nodes : (z,) node of each free displacement
+    points : (nodes, d) where the nodes are
     candidates : (n,) pairs that may touch; the nodes of the others are eliminated like any other
     backend : of the factorisation, "auto" or a name
     clock : counts the factorisation and the condensation apart
@@ -178,7 +180,7 @@ def condense(
     B = B[np.nonzero(interface.rows(active))[0]]
     dofs = np.unique(np.concatenate([B.indices, ties.B.indices]))
     with clock.phase("factorisation"):
-        factorisation = factorise(K, dofs, nodes=nodes, backend=backend)
+        factorisation = factorise(K, dofs, nodes=nodes, points=points, backend=backend)
     with clock.phase("condensation"):
         K_c = sp.csr_array(K[dofs][:, dofs])
         return _condense(factorisation, K_c, sp.csr_array(B[:, dofs]), interface, active, held, dofs, ties)

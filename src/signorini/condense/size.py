@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.interface.interface import Interface
 from signorini.linalg.plan import analyse
 from signorini.linalg.system import check
@@ -16,7 +16,14 @@ _SQUARE = 4, 6  # dense matrices of the size of the contact dofs, and of that of
 
 
 def condensing_bytes(
-    K: sp.csr_array, B: sp.csr_array, interface: Interface, nodes: IntArray, *, candidates: BoolArray, plenty: float
+    K: sp.csr_array,
+    B: sp.csr_array,
+    interface: Interface,
+    nodes: IntArray,
+    points: Array,
+    *,
+    candidates: BoolArray,
+    plenty: float,
 ) -> float:
     """Bytes at the worst time of :func:`signorini.condense.condensed.condense` and of the law on its result.
 
@@ -25,6 +32,7 @@ def condensing_bytes(
     K : (z, z) stiffness of the free displacements
     B : (d n, z) relative displacements of the pairs in terms of them
     nodes : (z,) node of each free displacement
+    points : (nodes, d) where the nodes are
     candidates : (n,) pairs that may touch
     plenty : bytes; where a generous bound stays below, it is returned and the pattern of K is not analysed
     """
@@ -33,4 +41,4 @@ def condensing_bytes(
     dense = _SQUARE[0] * len(dofs) ** 2 + _SQUARE[1] * int(np.count_nonzero(chosen)) ** 2
     factor, power = _GENEROUS[:2] if interface.directions == 2 else _GENEROUS[2:]
     bound = 8.0 * (factor * K.shape[0] ** power + dense)
-    return bound if bound <= plenty else analyse(check(K, dofs, nodes)).peak_bytes + 8.0 * dense
+    return bound if bound <= plenty else analyse(check(K, dofs, nodes, points)).peak_bytes + 8.0 * dense

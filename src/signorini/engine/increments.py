@@ -168,7 +168,7 @@ def _balanced(
     forces, moved, free = np.zeros(len(offset)), np.zeros(len(offset)), np.zeros_like(f)
     load, start = f, _start(prepared, state)
     lacking = np.zeros(len(rows))
-    guided = np.concatenate([law.locked.reshape(law.pairs, interface.directions - 1).all(axis=1), law.locked.T.ravel()])
+    guided = np.concatenate([np.zeros(law.pairs, dtype=np.bool_), law.locked.T.ravel()])
     for _ in range(_REFINEMENTS + 1):
         with prepared.clock.phase("complementarity"):
             reduced = condensed.reduce(load)

@@ -306,7 +306,9 @@ def _made(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, cl
         whole = backend == ITERATIVE
         if backend == "auto":
             room = available_memory()
-            asked = condensing_bytes(reduced, relative, interface, nodes, candidates=near, plenty=0.5 * room)
+            asked = condensing_bytes(
+                reduced, relative, interface, nodes, examined.space.places, candidates=near, plenty=0.5 * room
+            )
             whole = asked > room
         law: CoulombProblem | SpatialProblem | None = None
         bodies: Condensed | Bodies
@@ -356,7 +358,14 @@ def _condensed(
     """Factorise the bodies with the nodes of the candidates last."""
     try:
         return condense(
-            K, B, examined.interface, examined.constraints.nodes, candidates=near, backend=backend, clock=clock
+            K,
+            B,
+            examined.interface,
+            examined.constraints.nodes,
+            examined.space.places,
+            candidates=near,
+            backend=backend,
+            clock=clock,
         )
     except NotPositiveDefinite as error:
         raise _singular(examined, error) from error

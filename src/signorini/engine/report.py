@@ -80,6 +80,7 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
             *_notes(prepared, leg),
             *_facet_notes(prepared),
             *_finer_notes(prepared),
+            *_open_notes(prepared, leg),
             *((words,) if words else ()),
         ),
     )
@@ -111,6 +112,19 @@ def _finer_notes(prepared: Prepared) -> tuple[str, ...]:
         for contact, sides in zip(prepared.model.contacts, prepared.interface.sides, strict=True)
         if sides.finer and not contact.tied
     )
+
+
+def _open_notes(prepared: Prepared, leg: Leg) -> tuple[str, ...]:
+    """Contacts that nothing brings together: a wrong place, or a wrong direction of a load."""
+    interface, notes = prepared.interface, []
+    for i, contact in enumerate(prepared.model.contacts):
+        own = interface.contact == i
+        if all((state.status[own] == OPEN).all() for state in (leg.before, leg.after)):
+            notes.append(
+                f"contact '{contact.label}' is open everywhere: its sides are {leg.after.gap[own].min():.4g} apart, "
+                f"{interface.gap[own].min():.4g} to begin with"
+            )
+    return tuple(notes)
 
 
 def _reactions(prepared: Prepared, state: State) -> dict[str, Array]:
@@ -224,7 +238,8 @@ def _instants(
             what=snapshot.what,
             contacts=contacts,
             work=snapshot.state.work - leg.before.work + heat(snapshot.state) - begun if snapshot.worked else np.nan,
-            displacement=frozen(prepared.space.at_nodes(snapshot.state.displacement)) if snapshot.whole else None,
+            displacement=frozen(prepared.space.at_nodes(snapshot.state.displacement)) if snapshot.kept else None,
+            factors=dict(snapshot.state.point.factors),
         )
         if cycle + 1 < len(cycle_ends) and snapshot.load_factor == cycle_ends[cycle]:
             low, high, cycle = slip, slip, cycle + 1

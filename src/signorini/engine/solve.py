@@ -13,6 +13,7 @@ from signorini.clock import Clock
 from signorini.engine.automatic import follow_automatically
 from signorini.engine.enter import relaxed, switched
 from signorini.engine.exact import follow_exactly
+from signorini.engine.fields import refuse_fields
 from signorini.engine.increments import follow_increments, measured
 from signorini.engine.leg import Leg, Snapshot, joined, lightened
 from signorini.engine.prepare import Prepared, prepare
@@ -65,6 +66,7 @@ def solve_prepared(
     Pairs that were left out as too far apart are looked at after every increment; where one has met the other side, or
     nothing was found without them, everything is solved again with all pairs.
     """
+    refuse_fields(prepared.model)
     begin = _begin(prepared, start)
     history = _follow(prepared, begin, wellposed)
     if prepared.limited and not history.solved and history.status != INTERRUPTED:
@@ -89,7 +91,7 @@ def _begin(prepared: Prepared, start: Checkpoint | None) -> Checkpoint:
     state = replace(start.state, point=replace(point, factors=factors))
     absent = absent_pairs(prepared, start.inactive)
     found = measured(replace(prepared, absent=absent, constraints=_constraints(prepared, start.released)), state)
-    if not found.equilibrium <= TOLERANCE:
+    if not found.imbalance <= TOLERANCE:
         raise InputError(
             f"is not in equilibrium in this model (residual {found.equilibrium:.1e} of the loads); expected the same "
             "bodies, materials, supports and loads",
@@ -191,7 +193,8 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
     heated = any(load.temperature is not None for load in prepared.model.loads)
     for span, point in spans(stage, state.point, end):
         leg = _leg(prepared, stage, span, state, point)
-        legs = [joined([*legs, leg if heated or stage.step.at == "events" else lightened(leg)])]
+        leg = lightened(leg, every=stage.step.at == "events", end=span.asked, heated=heated)
+        legs = [joined([*legs, leg])]
         state = leg.after
         if span.cycle:
             cycle_ends.append(span.factor(1.0))

@@ -95,6 +95,8 @@ def add_block(
     entries: IntArray,
     law: Array,
     material: IntArray,
+    pressures: Array,
+    bulk: Array,
     rows: IntArray,
     columns: Int32Array,
     data: Array,
@@ -106,7 +108,9 @@ def add_block(
     product of the components ``entries[t, 1]`` and ``entries[t, 2]`` to the stiffness of the directions r and s,
     ``entries[t, 0] = d r + s``. With `values`, (nq, k), the body is axisymmetric: ``N_a / r`` joins the
     gradients as a further component. `modes`, (M, nq, k', e), are the gradients of k' internal modes, eliminated
-    element by element. Wrong may be: 1 the element is folded or has no volume, 2 it reaches over the axis.
+    element by element. `pressures`, (nq, p), are functions that the dilatation of an element without modes is projected
+    on, with `bulk` moduli of the materials; none with p = 0. Wrong may be: 1 the element is folded or has no volume, 2
+    it reaches over the axis.
     """
     nodes, d = cells.shape[1], points.shape[1]
     ring, inner = len(values) > 0, modes.shape[2]
@@ -117,6 +121,7 @@ def add_block(
     g = np.empty(every * e)
     x = np.empty((nodes, d))
     J, I = np.eye(3), np.empty((3, 3))  # noqa: E741
+    divergence, volume = np.empty((len(weights), nodes * d)), np.empty(len(weights))
     for t in range(len(cells)):
         for a in range(nodes):
             for r in range(d):
@@ -141,12 +146,20 @@ def add_block(
                 for i in range(e):
                     g[(nodes + a) * e + i] = modes[t, q, a, i]
             w *= measure[t, q]
+            volume[q] = w
+            for a in range(nodes):
+                for r in range(d):
+                    divergence[q, a * d + r] = g[a * e + r]
+                if ring:
+                    divergence[q, a * d] += g[a * e + d]
             for i in range(every * e):
                 wg = w * g[i]
                 for j in range(every * e):
                     C[i, j] += wg * g[j]
         _combine(C, every, d, e, entries, law[material[t]], K)
         _eliminate(K, nodes * d)
+        if pressures.shape[1]:
+            _project(K, divergence, volume, pressures, bulk[material[t]])
         _scatter(K, cells[t], d, rows, columns, data)
     return -1, 0
 
@@ -216,6 +229,36 @@ def _eliminate(K: Array, keep: int) -> None:
             factor = K[i, p] / K[p, p]
             for j in range(p):
                 K[i, j] -= factor * K[p, j]
+
+
+@njit(cache=True)
+def _project(K: Array, divergence: Array, volume: Array, pressures: Array, bulk: float) -> None:
+    """Take away ``bulk int (b - P b)(b - P b)^T``, b the rows of the divergence, P the projection on `pressures`."""
+    p, n = pressures.shape[1], divergence.shape[1]
+    basis = pressures.copy()
+    for k in range(p):  # orthonormal in the element, Gram-Schmidt
+        for l in range(k):  # noqa: E741
+            share = 0.0
+            for q in range(len(volume)):
+                share += volume[q] * basis[q, k] * basis[q, l]
+            for q in range(len(volume)):
+                basis[q, k] -= share * basis[q, l]
+        size = 0.0
+        for q in range(len(volume)):
+            size += volume[q] * basis[q, k] ** 2
+        for q in range(len(volume)):
+            basis[q, k] /= np.sqrt(size)
+        for i in range(n):
+            share = 0.0
+            for q in range(len(volume)):
+                share += volume[q] * basis[q, k] * divergence[q, i]
+            for q in range(len(volume)):
+                divergence[q, i] -= share * basis[q, k]
+    for q in range(len(volume)):
+        for i in range(n):
+            factor = bulk * volume[q] * divergence[q, i]
+            for j in range(n):
+                K[i, j] -= factor * divergence[q, j]
 
 
 @njit(cache=True)

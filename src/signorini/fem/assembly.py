@@ -36,6 +36,8 @@ class Cells:
     measure : (M, nq), (M, 1) or one number, what a point of the plane stands for: thickness or circumference, length
     shape_values : (nq, k) the shape functions themselves; axisymmetric bodies need them for the hoop strain
     modes : (M, nq, k', e) gradients of internal modes of each element, which are eliminated; None without
+    pressures : (nq, p) functions that the dilatation of every element is projected on; None: it stays as it is
+    bulk : (n,) bulk moduli of the materials, force / length^2, for that
     """
 
     nodes: ArrayLike
@@ -46,6 +48,8 @@ class Cells:
     measure: ArrayLike = 1.0
     shape_values: Array | None = None
     modes: Array | None = None
+    pressures: Array | None = None
+    bulk: Array | None = None
 
 
 def stiffness(points: Array, blocks: Cells | Sequence[Cells], *, axisymmetric: bool = False) -> sparse.csr_array:
@@ -113,6 +117,8 @@ def stiffness(points: Array, blocks: Cells | Sequence[Cells], *, axisymmetric: b
             np.column_stack([entries[:, 0] * d + entries[:, 2], entries[:, 1], entries[:, 3]]).astype(np.uint32),
             np.ascontiguousarray(law[:, *entries.T]),
             np.ascontiguousarray(np.broadcast_to(block.material, len(cells)), dtype=np.int64),
+            np.empty((len(block.weights), 0)) if block.pressures is None else block.pressures,
+            np.empty(0) if block.bulk is None else block.bulk,
             rows,
             columns,
             data,

@@ -31,13 +31,13 @@ class Group:
     block : their family
     index : (m,) which of its cells
     body : (m,) index of the body of each
-    incompatible : whether they have internal modes
+    formulation : "standard", "incompatible" with internal modes, or "mean dilatation"
     """
 
     block: Block
     index: IntArray
     body: IntArray
-    incompatible: bool
+    formulation: str
 
     @property
     def cells(self) -> IntArray:
@@ -112,18 +112,34 @@ class Kinematics:
         return relaxed
 
 
+def mean_in_cells(weights: Array, functions: Array, values: Array, there: Array) -> Array:
+    """Values (m, q) projected on a few functions in every cell, at other points, (m, r).
+
+    Parameters
+    ----------
+    weights : (m, q) volumes of the points
+    functions, there : (q, n) and (r, n) at both points
+    """
+    mass = np.einsum("mq,qa,qb->mab", weights, functions, functions)
+    share = np.einsum("mq,qa,mq->ma", weights, functions, values)
+    mean: Array = np.linalg.solve(mass, share[..., None])[..., 0] @ there.T
+    return mean
+
+
 def groups(space: Space, model: Model) -> Iterator[Group]:
     """All cells, by family and formulation, so many at once that arrays over their points stay small."""
     owner = model.body_of_cells()
-    incompatible = np.array([body.formulation == "incompatible" for body in model.bodies])
+    formulations = np.array([body.formulation for body in model.bodies])
     for block in space.blocks:
         body = owner[block.first : block.first + len(block.cells)]
-        special = incompatible[body] if block.family in BRICKS else np.zeros(len(body), bool)
-        for kind in (False, True):
-            every = np.nonzero(special == kind)[0]
+        own = formulations[body]
+        if block.family not in BRICKS:
+            own[own == "incompatible"] = "standard"
+        for formulation in np.unique(own):
+            every = np.nonzero(own == formulation)[0]
             for index in np.split(every, range(_AT_ONCE, len(every), _AT_ONCE)):
                 if len(index):
-                    yield Group(block=block, index=index, body=body[index], incompatible=kind)
+                    yield Group(block=block, index=index, body=body[index], formulation=str(formulation))
 
 
 def kinematics(space: Space, model: Model, group: Group, *, best: bool = False) -> Kinematics:
@@ -140,7 +156,7 @@ def kinematics(space: Space, model: Model, group: Group, *, best: bool = False) 
         gradients = np.concatenate([gradients, (values / at[..., :1])[..., None]], axis=-1)
     weights = np.abs(np.linalg.det(jacobians)) * measure(model, at)
     weights = weights * (1.0 / len(values) if best else block.weights)
-    if group.incompatible:
+    if group.formulation == "incompatible":
         gradients = np.concatenate([gradients, mode_gradients(space, model, group)], axis=2)
     return Kinematics(gradients=gradients, values=values, weights=weights, nodes=group.cells.shape[1])
 

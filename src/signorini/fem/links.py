@@ -17,6 +17,8 @@ from signorini.model.conditions import Place
 from signorini.model.links import AXES, Equation, directions
 from signorini.model.model import Model
 
+_NOTHING = 1e-11  # of the largest coefficient of an equation: smaller ones are what is left where others cancel
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Links:
@@ -24,7 +26,7 @@ class Links:
 
     Attributes
     ----------
-    C : (rows, dofs) coefficients
+    C : (rows, dofs) coefficients, the largest of each row 1
     first : (rows,) the dof that each should be solved for
     source : (rows,) number of the equation of the model, then of its rigid bodies
     equations : how many equations the model has
@@ -70,6 +72,9 @@ def make_links(space: Space, model: Model) -> Links:
     ends = np.cumsum(np.concatenate([[0], *widths]).astype(np.int64))
     C = sp.csr_array((values, columns, ends), shape=(sum(sizes), space.number_of_dofs))
     C.sum_duplicates()
+    size = abs(C).max(axis=1).toarray().ravel() if len(ends) > 1 else np.ones(0)
+    C.data /= np.repeat(np.where(size > 0.0, size, 1.0), np.diff(C.indptr))
+    C.data[abs(C.data) < _NOTHING] = 0.0
     C.eliminate_zeros()
     return Links(
         C=C,
@@ -159,9 +164,6 @@ class Eliminated:
     shares: sp.csr_array
     left: sp.csr_array
     rows: IntArray
-
-
-_NOTHING = 1e-11  # of the largest coefficient of an equation: what is left of those that cancel
 
 
 def eliminate(links: Links, held: BoolArray) -> Eliminated:

@@ -5,12 +5,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from signorini.errors import InputError
-from signorini.fem.space import Space
+from signorini.errors import InputError, Where
+from signorini.fem.kinematics import BRICKS
+from signorini.fem.space import Space, has_mean_dilatation
+from signorini.model.body import Body
+from signorini.model.material import Elastic
 from signorini.model.model import Model
 
 # bulk over shear modulus, Poisson's ratio 0.49: compatible displacements cannot keep the volume of their cells
 _STIFF = 50.0
+_STIFFISH = 10.0  # 0.45: from here on it shows, but in cells with so many functions as these
+_SUPPLE = {"quad8", "quad9", "hexahedron20", "hexahedron27"}
 _FEW = 4  # cells: a body of fewer is a toy
 
 
@@ -20,31 +25,70 @@ def refuse_locking(model: Model) -> None:
     Raises
     ------
     InputError
-        If a body is nearly incompressible, its strain is prescribed across the plane and its cells have no internal
-        modes, or if the incompatible formulation is asked for a body without linear quadrilaterals.
+        If a body is nearly incompressible, its strain is prescribed across the plane and its cells would lock; if a
+        formulation is asked for cells, a material or a kind of model that do not have it.
     """
-    owner = model.body_of_cells()
-    for i, body in enumerate(model.bodies):
-        families, first = set(), 0
-        for family, cells in model.mesh.cells.items():
-            if (owner[first : first + len(cells)] == i).any():
-                families.add(family)
-            first += len(cells)
+    for i, (body, families) in enumerate(zip(model.bodies, _families(model), strict=True)):
         where = ("body", i, "formulation")
-        if body.formulation == "incompatible" and not families & {"quad", "hexahedron"}:
-            found = " and ".join(sorted(families))
+        found = " and ".join(sorted(families))
+        if body.formulation == "incompatible" and not families & set(BRICKS):
             raise InputError(
                 f"is 'incompatible', but '{body.name}' has no 'quad' or 'hexahedron' cells; it has {found}", where=where
             )
+        if body.formulation == "mean dilatation":
+            _refuse_mean_dilatation(model, body, families, where)
+            continue
         ratio = body.material.bulk_modulus / body.material.shear_modulus
         if model.kind == "plane stress" or ratio <= _STIFF:
             continue
-        if body.formulation != "incompatible" or families not in ({"quad"}, {"hexahedron"}):
-            raise InputError(
-                f"'{body.name}' is nearly incompressible (bulk over shear modulus {ratio:.3g}): its cells would lock. "
-                "Expected linear quadrilaterals ('quad') or hexahedra alone, with formulation = 'incompatible'",
-                where=where,
-            )
+        # with a hoop strain, and in space, internal modes do not keep the volume of distorted cells
+        if body.formulation == "incompatible" and families == {"quad"} and model.kind == "plane strain":
+            continue
+        raise InputError(
+            f"'{body.name}' is nearly incompressible (bulk over shear modulus {ratio:.3g}): its cells ({found}) would "
+            "lock. Expected quadrilaterals, hexahedra, quadratic triangles or tetrahedra, with formulation = 'mean "
+            "dilatation'",
+            where=where,
+        )
+
+
+def _families(model: Model) -> list[set[str]]:
+    """Families of the cells of every body."""
+    owner, first = model.body_of_cells(), 0
+    found: list[set[str]] = [set() for _ in model.bodies]
+    for family, cells in model.mesh.cells.items():
+        for i in np.unique(owner[first : first + len(cells)]):
+            found[i].add(family)
+        first += len(cells)
+    return found
+
+
+def _refuse_mean_dilatation(model: Model, body: Body, families: set[str], where: Where) -> None:
+    """Only for isotropic bodies, of cells that it helps, whose strain across the plane is given."""
+    if model.kind == "plane stress":
+        raise InputError("is 'mean dilatation', of which plane stress has no need; expected 'standard'", where=where)
+    if not isinstance(body.material, Elastic):
+        raise InputError(f"is 'mean dilatation', but the material of '{body.name}' is not isotropic", where=where)
+    lost = sorted(family for family in families if not has_mean_dilatation(family))
+    if lost:
+        raise InputError(
+            f"is 'mean dilatation', but '{body.name}' has {' and '.join(lost)} cells, which lock all the same; "
+            "expected quadrilaterals, hexahedra, quadratic triangles or tetrahedra",
+            where=where,
+        )
+
+
+def stiffened_bodies(model: Model) -> tuple[str, ...]:
+    """Bodies that are not refused, but whose standard cells are noticeably too stiff in their volume."""
+    if model.kind == "plane stress":
+        return ()
+    return tuple(
+        body.name
+        for body, families in zip(model.bodies, _families(model), strict=True)
+        if body.formulation == "standard"
+        and not families <= _SUPPLE
+        and body.material.bulk_modulus > _STIFFISH * body.material.shear_modulus
+    )
 
 
 def thin_bodies(space: Space, model: Model) -> tuple[str, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import tempfile
 from collections import defaultdict
 from collections.abc import Collection
 from pathlib import Path
@@ -14,6 +15,11 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, one_of
+from signorini.fem.families import name_families
+from signorini.fem.geometry import SUFFIX as GEOMETRY
+from signorini.fem.geometry import mesh_geometry
+from signorini.fem.unv import SUFFIX as UNV
+from signorini.fem.unv import read_unv
 from signorini.formats import complete_meshio
 from signorini.model.mesh import NODES_PER_CELL, NODES_PER_PLANE_CELL, NODES_PER_SOLID_CELL, Mesh
 
@@ -40,7 +46,8 @@ def read_mesh(path: str | Path) -> Mesh:
 
     Parameters
     ----------
-    path : any format that meshio reads; a plane mesh lies in a plane z = const
+    path : any format that meshio reads, or a universal file (``.unv``); a plane mesh lies in a plane z = const. A
+        geometry (``.geo``) is meshed first by Gmsh, if that is installed
 
     Raises
     ------
@@ -52,7 +59,15 @@ def read_mesh(path: str | Path) -> Mesh:
     if not path.is_file():
         raise InputError(f"there is no file '{path}'", where=("mesh", "file"))
     complete_meshio()
-    found = _read(path)
+    if path.suffix.lower() == UNV:
+        found = read_unv(path)
+    elif path.suffix.lower() == GEOMETRY:
+        with tempfile.TemporaryDirectory() as folder:
+            mesh_geometry(path, Path(folder, "mesh.msh"))
+            found = _read(Path(folder, "mesh.msh"))
+    else:
+        found = _read(path)
+    name_families(found)
     points = np.asarray(found.points, float)
     solid = any(block.type in NODES_PER_SOLID_CELL for block in found.cells)
     if points.shape[1] == 3 and not solid:
@@ -100,6 +115,7 @@ def read_facets(path: str | Path, dimension: int, name: str = "") -> tuple[Array
     path = Path(path)
     if not path.is_file():
         raise InputError(f"there is no file '{path}'", where=("file",))
+    complete_meshio()
     found = _read(path)
     named, cells = _named_parts(found, path)
     wanted, higher = (_LINES, NODES_PER_CELL) if dimension == 1 else (NODES_PER_PLANE_CELL, NODES_PER_SOLID_CELL)
@@ -127,8 +143,9 @@ def _listed(names: Collection[str]) -> str:
 def _nodes(
     found: meshio.Mesh, named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntArray]]
 ) -> dict[str, IntArray]:
-    """Node sets, from cells that are points and from arrays on points."""
+    """Node sets, from cells that are points, from sets of points and from arrays on points."""
     sets = {name: np.unique(np.vstack(cells[_POINTS])[index]) for name, index in named[_POINTS].items()}
+    sets |= {name: np.unique(np.asarray(members, np.int64)) for name, members in found.point_sets.items()}
     for key, on in found.point_data.items():
         if key.startswith(NAMED):
             sets[key.removeprefix(NAMED)] = np.flatnonzero(on)

@@ -27,6 +27,7 @@ class _Element:
 
     plane, ring : for plane and for axisymmetric bodies: enough for the patch test on curved elements
     stress : points where stresses are best, extrapolated to the nodes by as many monomials
+    pressures : monomials that the dilatation can be projected on so that no cell locks; none for cells that have none
     """
 
     kind: type[skfem.Element]
@@ -34,6 +35,7 @@ class _Element:
     ring: int
     stress: int
     monomials: tuple[tuple[int, ...], ...]
+    pressures: tuple[tuple[int, ...], ...] = ()
 
 
 _LINEAR = ((0, 0), (1, 0), (0, 1))
@@ -42,15 +44,15 @@ _SOLID = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))
 _TRILINEAR = (*_SOLID, (1, 1, 0), (0, 1, 1), (1, 0, 1), (1, 1, 1))
 _ELEMENTS: Mapping[str, _Element] = {
     "triangle": _Element(skfem.ElementTriP1, 1, 2, 1, ((0, 0),)),
-    "quad": _Element(skfem.ElementQuad1, 2, 2, 2, _BILINEAR),
-    "triangle6": _Element(skfem.ElementTriP2, 2, 4, 2, _LINEAR),
-    "quad8": _Element(skfem.ElementQuadS2, 5, 7, 2, _BILINEAR),
-    "quad9": _Element(skfem.ElementQuad2, 5, 7, 2, _BILINEAR),
+    "quad": _Element(skfem.ElementQuad1, 2, 2, 2, _BILINEAR, _LINEAR[:1]),
+    "triangle6": _Element(skfem.ElementTriP2, 2, 4, 2, _LINEAR, _LINEAR[:1]),
+    "quad8": _Element(skfem.ElementQuadS2, 5, 7, 2, _BILINEAR, _LINEAR),
+    "quad9": _Element(skfem.ElementQuad2, 5, 7, 2, _BILINEAR, _LINEAR),
     "tetra": _Element(skfem.ElementTetP1, 1, 1, 1, _SOLID[:1]),
-    "tetra10": _Element(skfem.ElementTetP2, 2, 2, 2, _SOLID),
-    "hexahedron": _Element(skfem.ElementHex1, 2, 2, 2, _TRILINEAR),
-    "hexahedron20": _Element(skfem.ElementHexS2, 5, 5, 2, _TRILINEAR),
-    "hexahedron27": _Element(skfem.ElementHex2, 5, 5, 2, _TRILINEAR),
+    "tetra10": _Element(skfem.ElementTetP2, 2, 2, 2, _SOLID, _SOLID[:1]),
+    "hexahedron": _Element(skfem.ElementHex1, 2, 2, 2, _TRILINEAR, _SOLID[:1]),
+    "hexahedron20": _Element(skfem.ElementHexS2, 5, 5, 2, _TRILINEAR, _SOLID),
+    "hexahedron27": _Element(skfem.ElementHex2, 5, 5, 2, _TRILINEAR, _SOLID),
     "wedge": _Element(skfem.ElementWedge1, 3, 3, 2, _SOLID),
     "wedge15": _Element(QuadraticWedge, 5, 5, 2, (*_SOLID, (1, 0, 1), (0, 1, 1))),
 }
@@ -71,6 +73,8 @@ class Block:
     corners : (k, k, d) reference gradients at the nodes
     stress_values, stress_gradients : (p, k), (p, k, d) the same where stresses are best
     to_nodes : (k, p) from there to the nodes
+    pressures, stress_pressures : (q, n), (p, n) functions for a mean dilatation at either points; n = 0 for cells that
+        have none
     """
 
     family: str
@@ -83,6 +87,8 @@ class Block:
     stress_values: Array
     stress_gradients: Array
     to_nodes: Array
+    pressures: Array
+    stress_pressures: Array
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -117,6 +123,12 @@ class Space:
     def number_of_dofs(self) -> int:
         """Of all nodes, held and unused ones included, and of rigid obstacles."""
         return self.mesh.points.size + 2 * self.dimension * self.obstacles
+
+    @property
+    def places(self) -> Array:
+        """(nodes + 2 obstacles, d) Points of the mesh; then, in its middle, the two nodes of every obstacle."""
+        points = self.mesh.points
+        return np.concatenate([points, np.tile(points.mean(axis=0), (2 * self.obstacles, 1))])
 
     def obstacle_dofs(self, j: int) -> IntArray:
         """Dofs of rigid obstacle j, (2 d,): its translation, then its rotation times a length; then of rigid bodies."""
@@ -231,7 +243,9 @@ def _block(family: str, cells: IntArray, first: int, axisymmetric: bool) -> Bloc
         corners=_shape(element, nodes, order)[1],
         stress_values=stress_values,
         stress_gradients=stress_gradients,
-        to_nodes=_monomials(nodes, what) @ np.linalg.pinv(_monomials(best, what)),
+        to_nodes=_monomials(nodes, what.monomials) @ np.linalg.pinv(_monomials(best, what.monomials)),
+        pressures=_monomials(where, what.pressures),
+        stress_pressures=_monomials(best, what.pressures),
     )
 
 
@@ -253,8 +267,15 @@ def shape_functions(family: str, at: Array) -> tuple[Array, Array]:
     return _shape(element, at, _meshio_order(family, element))
 
 
-def _monomials(at: Array, what: _Element) -> Array:
-    return np.stack([np.prod([x**i for x, i in zip(at, powers, strict=True)], axis=0) for powers in what.monomials], 1)
+def _monomials(at: Array, of: tuple[tuple[int, ...], ...]) -> Array:
+    """(points, monomials) at reference coordinates (d, points)."""
+    powers = [np.prod([x**i for x, i in zip(at, each, strict=True)], axis=0) for each in of]
+    return np.stack(powers, axis=1) if powers else np.empty((at.shape[1], 0))
+
+
+def has_mean_dilatation(family: str) -> bool:
+    """Whether cells of a family do not lock with a mean dilatation."""
+    return bool(_ELEMENTS[family].pressures)
 
 
 def _meshio_order(family: str, element: skfem.Element) -> IntArray:

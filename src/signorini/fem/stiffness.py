@@ -19,8 +19,10 @@ def stiffness(space: Space, model: Model) -> sp.csr_array:
     """``K_ij = int eps(phi_i) : C : eps(phi_j) dx``, (dofs, dofs).
 
     ``dx`` holds the thickness; of axisymmetric bodies ``2 pi r dr dz``, and their strain has the hoop part ``u_r / r``.
+    With a mean dilatation the volume strain is projected on few functions in every cell (Simo, Taylor, Pister 1985).
     """
     law = law_tensor(elasticities(model), hoop=model.axisymmetric)
+    bulk = np.array([body.material.bulk_modulus for body in model.bodies])
     blocks = []
     for group in groups(space, model):
         block = group.block
@@ -34,7 +36,9 @@ def stiffness(space: Space, model: Model) -> sp.csr_array:
                 material=group.body,
                 measure=across,
                 shape_values=block.values,
-                modes=mode_gradients(space, model, group) if group.incompatible else None,
+                modes=mode_gradients(space, model, group) if group.formulation == "incompatible" else None,
+                pressures=block.pressures if group.formulation == "mean dilatation" else None,
+                bulk=bulk,
             )
         )
     K = assemble(space.mesh.points, blocks, axisymmetric=model.axisymmetric)

@@ -10,7 +10,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.fem.elasticity import elasticities
-from signorini.fem.kinematics import Group, groups, kinematics
+from signorini.fem.kinematics import Group, Kinematics, groups, kinematics, mean_in_cells
 from signorini.fem.space import Space
 from signorini.fem.thermal import temperatures, thermal_strain
 from signorini.model.model import Model
@@ -102,8 +102,21 @@ def _cell_stresses(space: Space, model: Model, group: Group, displacement: Array
     """Stresses xx, yy, zz, xy (yz, xz) at the best points of the cells of a group, (m, p, 4 or 6)."""
     D = elasticities(model)[group.body]
     points = kinematics(space, model, group, best=True)
+    strain = _elastic_strain(model, group, points, displacement, temperature)
+    if group.formulation == "mean dilatation":
+        every = kinematics(space, model, group)
+        dilatation = _elastic_strain(model, group, every, displacement, temperature)[..., :3].sum(axis=-1)
+        mean = mean_in_cells(every.weights, group.block.pressures, dilatation, group.block.stress_pressures)
+        strain[..., :3] += ((mean - strain[..., :3].sum(axis=-1)) / 3.0)[..., None]
+    stress = np.einsum("mcd,mqd->mqc", D, strain)
+    return points.relaxed(D, stress)
+
+
+def _elastic_strain(
+    model: Model, group: Group, points: Kinematics, displacement: Array, temperature: Array | None
+) -> Array:
+    """Strains of the displacements less the thermal ones, at points of a group, (m, q, 4 or 6)."""
     strain = points.strain(displacement[group.cells])
     if temperature is not None:
         strain = strain - thermal_strain(model, group, points, temperature)
-    stress = np.einsum("mcd,mqd->mqc", D, strain)
-    return points.relaxed(D, stress)
+    return strain

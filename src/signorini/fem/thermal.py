@@ -13,7 +13,7 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.fem.elasticity import elasticities, expansions
-from signorini.fem.kinematics import Group, Kinematics, groups, kinematics
+from signorini.fem.kinematics import Group, Kinematics, groups, kinematics, mean_in_cells
 from signorini.fem.space import Space
 from signorini.model.conditions import Load
 from signorini.model.model import Model
@@ -49,6 +49,10 @@ def thermal_forces(space: Space, model: Model, load: Load) -> Array:
     """Nodal forces of a temperature at factor 1, (dofs,)."""
     forces = np.zeros((len(space.mesh.points), space.dimension))
     for group, points, _, stress in _held(space, model, load):
+        if group.formulation == "mean dilatation":
+            pressure = stress[..., :3].mean(axis=-1)
+            mean = mean_in_cells(points.weights, group.block.pressures, pressure, group.block.pressures)
+            stress[..., :3] += (mean - pressure)[..., None]
         np.add.at(forces, group.cells, -points.forces(stress)[:, : points.nodes])
     return forces.ravel()
 

@@ -13,6 +13,23 @@ from signorini.arrays import Array, IntArray
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class FacetGaps:
+    """Gaps at points of facets, not in the mean.
+
+    Attributes
+    ----------
+    corners : (m, c) nodes of the facets
+    ends : (m, c) gaps there, length
+    low, high : (m,) smallest and largest one on each facet
+    """
+
+    corners: IntArray
+    ends: Array
+    low: Array
+    high: Array
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Coupling:
     """Pairs of one contact, by what pressing them does: exact for uniform pressure on curved sides too.
 
@@ -27,6 +44,7 @@ class Coupling:
     normal_areas : (k, d) ``int psi_k n dA``, the sum of the forces on the nonmortar side; n into the nonmortar body
     forces : d sparse arrays (k, nodes of the mesh), one a direction; every row sums to 0 (to ``normal_areas`` where a
         rigid obstacle is the other side)
+    facets : gaps at points of the facets that pairs take means over; None where a pair sees one point, or in space
 
     References
     ----------
@@ -36,6 +54,7 @@ class Coupling:
     nodes: IntArray
     normal_areas: Array
     forces: tuple[sp.csr_array, ...]
+    facets: FacetGaps | None = None
 
     @cached_property
     def area(self) -> Array:

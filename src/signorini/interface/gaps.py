@@ -52,6 +52,25 @@ def normal_gap(coupling: Coupling, nodes: IntArray, normals: Array, distance: Ar
     return np.asarray(seen / coupling.area)
 
 
+def resolved(gap: Array, coupling: Coupling) -> Array:
+    """Mean gaps (k,), raised to the smallest one that any point has where facets are too long for a mean.
+
+    Dual functions are negative in part: along a parabola the mean gap is smaller than that at the node by a sixth of
+    what it grows to on a facet from the vertex. Where a short facet meets one so long that the mean is smaller by more
+    than the gap varies on the short one, it can be negative though everything is far apart.
+    """
+    if coupling.facets is None:
+        return gap
+    facets, nodes = coupling.facets, coupling.nodes
+    size = int(max(facets.corners.max(), nodes.max())) + 1
+    own, least, varies = (np.full(size, np.inf) for _ in range(3))
+    np.minimum.at(own, facets.corners, facets.ends)
+    np.minimum.at(least, facets.corners, facets.low[:, None])
+    np.minimum.at(varies, facets.corners, (facets.high - facets.low)[:, None])
+    lost = own[nodes] - gap > varies[nodes] + _STRAIGHT * np.abs(own[nodes])
+    return np.where(lost, np.maximum(gap, least[nodes]), gap)
+
+
 def without_chords(gap: Array, coupling: Coupling, nonmortar: Boundary, mortar: Boundary) -> Array:
     """Gaps (n,), 0 where they are no more than what facets leave between two surfaces that are meant to match.
 

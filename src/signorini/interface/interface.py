@@ -23,6 +23,7 @@ from signorini.interface.spatial.frames import ALONG
 from signorini.model.contact import ratios
 from signorini.model.model import Model
 
+_SHARED = 1e-8  # of the size of the model over the softest modulus
 _OBLIQUE = 1e-6  # component of a unit vector
 
 
@@ -170,9 +171,9 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
         adhesion=data("adhesion"),
         shear_limit=data("most_shear"),
         anisotropy=anisotropy_of(model, axes, index),
-        facets=np.where(np.isfinite(friction), facets, 0),
+        facets=np.where(np.isinf(friction) & np.isinf(data("most_shear")), 0, facets),
         normal_compliance=data("normal_compliance"),
-        tangential_compliance=data("tangential_compliance"),
+        tangential_compliance=np.maximum(data("tangential_compliance"), _of_shared_nodes(space, model, node, friction)),
         tied=data("tied").astype(bool),
         sides=tuple(part.sides for part in parts),
     )
@@ -226,6 +227,21 @@ def _refuse_no_fibre(
                 "its mirror image; expected it in the plane or across it",
                 where=("contact", i, "friction_axis"),
             )
+
+
+def _of_shared_nodes(space: Space, model: Model, node: IntArray, friction: Array) -> Array:
+    """Tangential compliance of pairs with friction at plane nodes that several contacts share, (n,), otherwise 0.
+
+    In a corner the normal force of one contact and the friction of the other act along one line, and only their sum is
+    determined, which no path of states can follow. With so little compliance that displacements do not feel it they
+    share it in one way.
+    """
+    if space.dimension == 3 or not len(node):
+        return np.zeros(len(node))
+    shared = np.bincount(node)[node] > 1
+    size = float(np.ptp(space.mesh.points, axis=0).max())
+    softest = min(body.material.smallest_modulus for body in model.bodies)
+    return np.where(shared & (friction > 0.0), _SHARED * size / softest, 0.0)
 
 
 def anisotropy_of(model: Model, axes: Array, contact: IntArray) -> Array:

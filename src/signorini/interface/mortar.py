@@ -12,7 +12,7 @@ from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary
 from signorini.fem.line import line_shapes
-from signorini.interface.coupling import Coupling
+from signorini.interface.coupling import Coupling, FacetGaps
 from signorini.interface.dual import dual_functions
 from signorini.interface.overlap import Overlaps, interpolate, parameter
 
@@ -67,7 +67,25 @@ def mortar_coupling(
     other = _spread(corners[overlaps.first], mortar.facets[overlaps.second], multiplier, _shapes(overlaps.other, at), n)
     own = _own_forces(nonmortar, overlaps, at, vectors, multiplier)
     forces = tuple(sp.csr_array((keeps - gives)[nodes]) for keeps, gives in zip(own, other, strict=True))
-    return Coupling(nodes=nodes, normal_areas=vectors[nodes], forces=forces)
+    facets = _facet_gaps(points, nonmortar, mortar, overlaps)
+    return Coupling(nodes=nodes, normal_areas=vectors[nodes], forces=forces, facets=facets)
+
+
+def _facet_gaps(points: Array, nonmortar: Boundary, mortar: Boundary, overlaps: Overlaps) -> FacetGaps:
+    """Gaps across the chords of the facets that anything is opposite, at the ends and in the middle of every piece."""
+    at = np.column_stack([overlaps.low, 0.5 * (overlaps.low + overlaps.high), overlaps.high])
+    one = interpolate(points[nonmortar.facets[overlaps.first]], parameter(overlaps.own, at))
+    two = interpolate(points[mortar.facets[overlaps.second]], parameter(overlaps.other, at))
+    gap = np.einsum("pqd,pd->pq", two - one, nonmortar.normals[overlaps.first])
+    order = np.lexsort([overlaps.low, overlaps.first])
+    gap, (facet, start) = gap[order], np.unique(overlaps.first[order], return_index=True)
+    end = np.append(start[1:], len(order)) - 1
+    return FacetGaps(
+        corners=nonmortar.facets[facet, :2],
+        ends=np.column_stack([gap[start, 0], gap[end, -1]]),
+        low=np.minimum.reduceat(gap.min(axis=1), start),
+        high=np.maximum.reduceat(gap.max(axis=1), start),
+    )
 
 
 def _whole(points: Array, side: Boundary) -> Overlaps:

@@ -161,9 +161,15 @@ def _apart(
             f"the surfaces do not face each other at ({at}): both outward normals point the same way",
             where=where,
         )
-    distance, _ = KDTree(points[mortar.nodes]).query(points[nonmortar.nodes])
+    distance, nearest = KDTree(points[mortar.nodes]).query(points[nonmortar.nodes])
+    closest = int(np.argmin(distance))
+    cosine = float(nonmortar.nodal_normals[closest] @ mortar.nodal_normals[nearest[closest]])
+    found = (
+        f"the nearest nodes are {distance[closest]:.4g} apart, "
+        f"their outward normals {np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))):.0f} degrees"
+    )
     return InputError(
-        f"no facets of the two sides lie opposite each other: looked for up to {search:.4g} along the normals; the "
-        f"nearest nodes are {distance.min():.4g} apart. Expected surfaces that face each other, or another 'search'",
+        f"no facets of the two sides lie opposite each other: looked for up to {search:.4g} along the normals; {found}"
+        ". Expected surfaces that face each other, normals 180 degrees apart, or another 'search'",
         where=where,
     )

@@ -17,9 +17,9 @@ from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface import spatial
 from signorini.interface.corners import corner_coupling
-from signorini.interface.coupling import Coupling, picked, point_coupling
+from signorini.interface.coupling import Coupling, FacetGaps, picked, point_coupling
 from signorini.interface.frames import in_symmetry_planes, symmetric_partners
-from signorini.interface.gaps import initial_gaps, normal_gap, refuse_deep_overlap, without_chords
+from signorini.interface.gaps import initial_gaps, normal_gap, refuse_deep_overlap, resolved, without_chords
 from signorini.interface.matching import match_nodes
 from signorini.interface.mortar import mortar_coupling
 from signorini.interface.overlap import find_overlaps
@@ -110,14 +110,19 @@ def _on_obstacle(
     if side.quadratic:
         _, there = obstacle.nearest(side.at.reshape(-1, side.dimension))
         coupling = corner_coupling(side, facet_areas(model, side), there.reshape(side.at.shape), len(points))
+        on_facets = distance[np.searchsorted(side.nodes, side.facets)]
+        corners, ends = side.facets[:, : side.corners], on_facets[:, : side.corners]
+        low, high = on_facets.min(axis=1), on_facets.max(axis=1)
+        coupling = replace(coupling, facets=FacetGaps(corners=corners, ends=ends, low=low, high=high))
     else:
         areas = nodal_areas(model, side)[:, None] * normals
         coupling = point_coupling(side.nodes, areas, picked(side.nodes, len(points)))
     _refuse_no_normal(space, coupling, where)
     one = normal_gap(coupling, side.nodes, normals, np.ones(len(distance)))
+    gap = resolved(normal_gap(coupling, side.nodes, normals, distance), coupling)
     return Pairs(
         coupling=coupling,
-        gap=initial_gaps(normal_gap(coupling, side.nodes, normals, distance), contact, one),
+        gap=initial_gaps(gap, contact, one),
         sliding=coupling.forces,
         mirrored=np.zeros(coupling.normals.shape, bool),
         sides=Sides(nonmortar=contact.nonmortar, mortar=str(obstacle), coupling="obstacle"),
@@ -156,6 +161,7 @@ def _on_side(
     _refuse_no_normal(space, coupling, where)
     seen, coupling = coupling, replace(coupling, normal_areas=in_symmetry_planes(space, constraints, coupling))
     gap = sum(force @ x for force, x in zip(seen.forces, points.T, strict=True)) / coupling.area
+    gap = resolved(gap, seen)
     plane = side.dimension == 2
     if how != "nodes" and plane:
         gap = without_chords(gap, seen, side, mortar)

@@ -25,7 +25,14 @@ AUTOMATIC = "multifrontal"
 (`benchmarks/linalg.py`), and it needs nothing that has to be installed apart."""
 
 
-def factorise(K: Any, interface: ArrayLike, *, nodes: ArrayLike | None = None, backend: str = "auto") -> Factorisation:
+def factorise(
+    K: Any,
+    interface: ArrayLike,
+    *,
+    nodes: ArrayLike | None = None,
+    points: ArrayLike | None = None,
+    backend: str = "auto",
+) -> Factorisation:
     """Factorise the interior of a symmetric matrix and condense it onto the interface.
 
     Parameters
@@ -33,6 +40,7 @@ def factorise(K: Any, interface: ArrayLike, *, nodes: ArrayLike | None = None, b
     K : (n, n) sparse array, symmetric, both triangles stored
     interface : (m,) unknowns that are not eliminated, in the order of the condensed system; may be empty
     nodes : (n,) node of every unknown; makes the analysis cheaper, changes no result
+    points : (k, d) where the nodes 0, 1, ... are; makes the analysis cheaper, changes no result
     backend : a name of `BACKENDS`, or "auto": see `AUTOMATIC`; the result says which one it was
 
     Raises
@@ -61,4 +69,4 @@ def factorise(K: Any, interface: ArrayLike, *, nodes: ArrayLike | None = None, b
     name = AUTOMATIC if backend == "auto" else backend
     if name not in BACKENDS:
         raise InputError(one_of(backend, ["auto", *BACKENDS], "back end"))
-    return BACKENDS[name](check(K, interface, nodes))
+    return BACKENDS[name](check(K, interface, nodes, points))

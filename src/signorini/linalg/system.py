@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, cast
 
 import numpy as np
@@ -27,6 +27,7 @@ class System:
     interface : (m,) unknowns that are never eliminated
     inside : (n,) whether an unknown is eliminated
     nodes : (n,) the node of every unknown
+    points : (k, d) where the nodes are, or None
     """
 
     indptr: Int32Array
@@ -35,6 +36,7 @@ class System:
     interface: IntArray
     inside: BoolArray
     nodes: IntArray
+    points: Array | None = None
 
     @property
     def n(self) -> int:
@@ -64,6 +66,7 @@ class NodeGraph:
     member : (n,) unknowns, node by node, ascending inside a node
     interior : number of nodes that are eliminated: the first ones
     indptr, indices : rows of the graph, without loops
+    points : (g, d) where the nodes are, or None
     """
 
     start: Int32Array
@@ -71,21 +74,32 @@ class NodeGraph:
     interior: int
     indptr: Int32Array
     indices: Int32Array
+    points: Array | None = None
 
 
-def check(K: Any, interface: ArrayLike, nodes: ArrayLike | None) -> System:
+def check(K: Any, interface: ArrayLike, nodes: ArrayLike | None, points: ArrayLike | None = None) -> System:
     """Check the arguments of `factorise`.
 
     Raises
     ------
     InputError
         If K is not a square sparse matrix of finite numbers, the interface names an unknown twice or one that does not
-        exist, or `nodes` has another length than K.
+        exist, `nodes` has another length than K, or `points` are not finite or not those of the nodes.
     """
     shape = getattr(K, "shape", ())
     if not sparse.issparse(K) or shape != shape[:1] * 2:
         raise InputError(f"K is {type(K).__name__} of shape {shape}; expected a square sparse matrix")
-    return _checked(sparse.csr_array(cast(Any, K)), interface, nodes)
+    system = _checked(sparse.csr_array(cast(Any, K)), interface, nodes)
+    return system if points is None else replace(system, points=_places(points, system.nodes))
+
+
+def _places(points: ArrayLike, nodes: IntArray) -> Array:
+    places = np.asarray(points, dtype=np.float64)
+    if places.ndim != 2 or not 0 <= nodes.min(initial=0) <= nodes.max(initial=0) < max(1, len(places)):
+        raise InputError(f"points has shape {places.shape}; expected (k, d), a row for every node, counted from 0")
+    if not np.isfinite(places).all():
+        raise InputError("points has entries that are not finite")
+    return places
 
 
 def _checked(K: sparse.csr_array, interface: ArrayLike, nodes: ArrayLike | None) -> System:
@@ -150,4 +164,5 @@ def node_graph(system: System) -> NodeGraph:
     group[member] = np.cumsum(first) - 1
     indptr, indices = quotient(system.indptr, system.indices, start, member, group)
     interior = int(np.searchsorted(start, system.n - system.m))
-    return NodeGraph(start=start, member=member, interior=interior, indptr=indptr, indices=indices)
+    points = None if system.points is None else system.points[system.nodes[member[start[:-1]]]]
+    return NodeGraph(start=start, member=member, interior=interior, indptr=indptr, indices=indices, points=points)

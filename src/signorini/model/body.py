@@ -19,8 +19,8 @@ class Body:
     ----------
     name : body of the mesh (physical group, or what the generator calls it)
     material : what it is made of
-    formulation : of its linear quadrilaterals: "standard", or "incompatible" with two modes more a cell, so that thin
-        bodies bend and incompressible ones deform as they should
+    formulation : of its cells: "standard"; "incompatible": linear quadrilaterals with two modes more a cell, hexahedra
+        with three, so that thin bodies bend as they should; "mean dilatation" for nearly incompressible materials
 
     Examples
     --------
@@ -30,10 +30,10 @@ class Body:
 
     name: str
     material: Material
-    formulation: Literal["standard", "incompatible"] = "standard"
+    formulation: Literal["standard", "incompatible", "mean dilatation"] = "standard"
 
     def __post_init__(self) -> None:
         text(self.name, ("name",))
         if not isinstance(self.material, Elastic | Orthotropic):
             raise InputError(f"is {self.material!r}; expected an Elastic or Orthotropic material", where=("material",))
-        choice(self.formulation, ("standard", "incompatible"), ("formulation",), "formulation")
+        choice(self.formulation, ("standard", "incompatible", "mean dilatation"), ("formulation",), "formulation")

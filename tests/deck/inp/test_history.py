@@ -148,3 +148,13 @@ def test_supports_come_and_go(tmp_path: Path) -> None:
     middle, last = history.steps[1:]
     np.testing.assert_allclose(middle.displacement[top], 0.0, atol=1e-15)
     np.testing.assert_allclose(last.displacement, 0.0, atol=1e-12)
+
+
+def test_friction_has_a_largest_traction(tmp_path: Path) -> None:
+    deck = tmp_path / "deck.inp"
+    deck.write_text(TWO_BLOCKS.replace("*FRICTION", "*FRICTION, TAUMAX=2.5"))
+    (contact,) = sg.read(deck).contacts
+    assert (contact.friction, contact.shear_limit) == (0.3, 2.5)
+    deck.write_text(TWO_BLOCKS.replace("*FRICTION", "*FRICTION, TAUMAX=0."))
+    with pytest.raises(DeckError, match=r"\*FRICTION: TAUMAX=0.: expected a traction > 0"):
+        sg.read(deck)

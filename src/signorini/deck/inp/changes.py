@@ -43,6 +43,8 @@ def make_changes(
             if not changed:
                 raise block.error("stands in a step without *CHANGE FRICTION before it")
             coefficient, compliance = read_friction(block)
+            if "TAUMAX" in block.parameters or interactions[changed].shear_limit is not None:
+                raise block.error("changes friction with a largest traction, which is not supported")
             if compliance != interactions[changed].tangential_compliance:
                 raise block.error("changes the stick slope, which is not supported; expected that of the model")
             friction |= {pair.contact.label: coefficient for pair in pairs if pair.interaction == changed}

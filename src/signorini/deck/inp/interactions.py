@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from signorini.deck.inp.block import Block, Row
+from signorini.deck.inp.block import Block, Row, to_number
 from signorini.deck.inp.flatten import Placed
 
 INTERACTION_WORDS = ("SURFACE BEHAVIOR", "FRICTION")
@@ -22,6 +22,7 @@ class Interaction:
     block : where it begins
     friction : Coulomb's coefficient, or "stick"
     normal_compliance, tangential_compliance : length per pressure
+    shear_limit : largest traction of friction, or None
     tied : the surfaces never part
     """
 
@@ -29,6 +30,7 @@ class Interaction:
     friction: float | Literal["stick"] = 0.0
     normal_compliance: float = 0.0
     tangential_compliance: float = 0.0
+    shear_limit: float | None = None
     tied: bool = False
 
 
@@ -60,7 +62,7 @@ def make_interactions(placed: list[Placed]) -> dict[str, Interaction]:
 def _with(law: Interaction, block: Block) -> Interaction:
     if block.keyword == "FRICTION":
         friction, compliance = read_friction(block)
-        return replace(law, friction=friction, tangential_compliance=compliance)
+        return replace(law, friction=friction, tangential_compliance=compliance, shear_limit=_limit(block))
     enforcement = ("PENALTY", "AUGMENTED LAGRANGE", "DIRECT", "MECHANICAL CONSTRAINT")  # ours is exact
     block.refuse_unknown(("PRESSURE-OVERCLOSURE",), enforcement)
     kind = block.choice("PRESSURE-OVERCLOSURE", ("HARD", "LINEAR", "TIED"), "HARD")
@@ -74,7 +76,7 @@ def _with(law: Interaction, block: Block) -> Interaction:
 
 def read_friction(block: Block) -> tuple[float | Literal["stick"], float]:
     """Coefficient and tangential compliance of a ``*FRICTION``; CalculiX's stick slope is the compliance's inverse."""
-    block.refuse_unknown(("ROUGH", "LAGRANGE"), ("SLIP TOLERANCE", "ELASTIC SLIP"))
+    block.refuse_unknown(("ROUGH", "LAGRANGE", "TAUMAX"), ("SLIP TOLERANCE", "ELASTIC SLIP"))
     if "ROUGH" in block.parameters:
         return "stick", 0.0
     rows = list(block.rows())
@@ -88,6 +90,16 @@ def read_friction(block: Block) -> tuple[float | Literal["stick"], float]:
         raise row.error("*FRICTION: a coefficient that depends on pressure or temperature is not supported")
     slope = _positive(row, 1, "the stick slope, traction per slip") if len(row.fields) > 1 and row.fields[1] else 0.0
     return coefficient, 1.0 / slope if slope else 0.0
+
+
+def _limit(block: Block) -> float | None:
+    """``TAUMAX``, the largest traction of friction."""
+    if "TAUMAX" not in block.parameters:
+        return None
+    limit = to_number(block.value("TAUMAX", "a traction"))
+    if limit is None or not limit > 0.0 or "ROUGH" in block.parameters:
+        raise block.error(f"TAUMAX={block.get('TAUMAX')}: expected a traction > 0, and no ROUGH")
+    return limit
 
 
 def _positive(row: Row, i: int, what: str) -> float:

@@ -75,6 +75,7 @@ def make_contacts(
                 friction="tied" if law.tied else law.friction,
                 normal_compliance=0.0 if law.tied else law.normal_compliance,
                 tangential_compliance=0.0 if law.tied else law.tangential_compliance,
+                shear_limit=None if law.tied else law.shear_limit,
                 name=_label(slave, master, found),
                 **given,
             )

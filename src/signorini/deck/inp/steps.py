@@ -94,6 +94,8 @@ def _step(block: Block, number: int, members: list[Placed], start: float, before
     first, period = first or 1.0, period or 1.0
     if not (first > 0.0 and period > 0.0):
         raise static.error(f"has the increment {first:g} and the period {period:g}; expected numbers > 0")
+    if not start < start + period < math.inf:
+        raise static.error(f"has the period {period:g} after {start:g}; expected one that can be added to that")
     nlgeom = "NLGEOM" in block.parameters and block.get("NLGEOM") != "NO"
     if "NLGEOM" not in block.parameters and before is not None:
         nlgeom = before.nlgeom

@@ -1,0 +1,352 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Compiled loops of nested dissection by geometry: cuts across the plane or space, then refined on the graph.
+
+A piece is cut where the sweep of a plane along one of some directions meets the fewest vertices. Vertices of one side
+that touch the other separate them; the separator is then improved by moves of single vertices.
+
+References
+----------
+Gilbert, Miller, Teng (1998), Geometric mesh partitioning, SIAM J. Sci. Comput. 19:2091.
+Fiduccia, Mattheyses (1982), A linear-time heuristic for improving network partitions, Proc. 19th Design Automation
+Conference, 175; Hendrickson, Rothberg (1998), Improving the run time and quality of nested dissection ordering, SIAM J.
+Sci. Comput. 20:468: the moves of a vertex separator.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from signorini.arrays import IntArray
+
+Int32Array = NDArray[np.int32]
+
+LEAF = 8
+"""Pieces up to this many vertices are not cut."""
+LARGE = 2000
+"""Pieces up to this many vertices are cut along the first directions only."""
+LEAST, MOST = 0.25, 0.7
+"""Share of a piece that a cut leaves on either side; share up to which moves make a side grow."""
+IMBALANCE = 0.3
+"""A cut that leaves nothing on one side may be this share thinner than one through the middle."""
+PASSES, PATIENCE = 4, 50
+"""Passes of moves, and moves in vain (besides a quarter of the separator) before a pass ends."""
+GAINS = 20
+"""Buckets of moves: they shorten the separator by 1, 0, -1, ..."""
+
+NEAR, FAR, SEPARATOR = 0, 1, 2
+
+
+class Moves(NamedTuple):
+    """What a pass keeps: for both directions of a move the gains, and the vertices in buckets of equal gain.
+
+    Attributes
+    ----------
+    gain : (2, n) by how much the separator shortens when a vertex of it moves to that side
+    locked : (n,) the pass in which a vertex has moved last
+    head : (2, GAINS) newest entry of every bucket, -1 where empty
+    vertex, older : the entries; entries whose vertex has left or has another gain by now are passed over
+    moved, before : the vertices that moved, in their order, and where they were
+    used : (2,) entries and moves so far
+    """
+
+    gain: Int32Array
+    locked: Int32Array
+    head: IntArray
+    vertex: Int32Array
+    older: Int32Array
+    moved: Int32Array
+    before: Int32Array
+    used: IntArray
+
+
+@njit(cache=True)
+def dissect(indptr: Int32Array, indices: Int32Array, along: Int32Array, first: int) -> Int32Array:
+    """Order the vertices of a graph so that few entries fill in.
+
+    Parameters
+    ----------
+    along : (k, n) the vertices in their order along every direction
+    first : how many of the directions are for pieces of any size; the others for `LARGE` ones
+    """
+    directions, n = along.shape
+    along = along.copy()
+    order = np.empty(n, np.int32)
+    label, place = np.zeros(n, np.int32), np.empty(n, np.int32)
+    separator, other = np.empty(n, np.int32), np.empty(n, np.int32)
+    difference = np.empty((2, n + 2), np.int32)
+    entries, room = 4 * n + 1024, 3 * n
+    moves = Moves(
+        np.zeros((2, n), np.int32), np.zeros(n, np.int32), np.empty((2, GAINS), np.int64), np.empty(entries, np.int32),
+        np.empty(entries, np.int32), np.empty(room, np.int32), np.empty(room, np.int32), np.zeros(2, np.int64),
+    )  # fmt: skip
+    stack = [(0, n)]
+    base, passed = 1, 0
+    while len(stack) > 0:
+        low, high = stack.pop()
+        size = high - low
+        if size <= LEAF:
+            order[low:high] = along[0, low:high]
+            continue
+        for v in along[0, low:high]:
+            label[v] = base
+        best, chosen, cut, thinner = np.inf, 0, 0, NEAR
+        for k in range(directions if size > LARGE else first):
+            cost, where, side = _best_cut(indptr, indices, along[k, low:high], label, place, difference)
+            if cost < best:
+                best, chosen, cut, thinner = cost, k, where, side
+        base += 1
+        count = _separate(indptr, indices, along[chosen, low:high], cut, thinner, label, base, separator)
+        sides = np.array([cut, size - cut])
+        sides[thinner] -= count
+        for _ in range(PASSES):
+            passed += 1
+            shorter = _refine(indptr, indices, label, base, sides, separator, count, moves, passed)
+            if shorter == count:
+                break
+            count = shorter
+        order[high - count : high] = separator[:count]
+        near = 0
+        for k in range(directions):
+            near = _partition(along[k, low:high], label, base, other)
+        stack.append((low, low + near))
+        stack.append((low + near, high - count))
+        base += 3
+    return order
+
+
+@njit(cache=True)
+def _best_cut(
+    indptr: Int32Array, indices: Int32Array, line: Int32Array, label: Int32Array, place: Int32Array, change: Int32Array
+) -> tuple[float, int, int]:
+    """Where a piece, sorted along a direction, is cut best: the cost, the vertices before it, the thinner side.
+
+    A vertex with neighbours beyond the cut is in the separator of its side: for all cuts between it and its farthest
+    neighbour, so that differences sum up to the sizes of the separators at all cuts.
+    """
+    size = len(line)
+    mine = label[line[0]]
+    change[:, : size + 2] = 0
+    for q in range(size):
+        place[line[q]] = q
+    for q in range(size):
+        v = line[q]
+        last = begin = q
+        for p in range(indptr[v], indptr[v + 1]):
+            w = indices[p]
+            if label[w] == mine:
+                last, begin = max(last, place[w]), min(begin, place[w])
+        change[NEAR, q + 1] += 1
+        change[NEAR, last + 1] -= 1
+        change[FAR, begin + 1] += 1
+        change[FAR, q + 1] -= 1
+    least = max(1, int(LEAST * size))
+    best, cut, side = np.inf, least, NEAR
+    near = far = 0
+    for k in range(size - least + 1):
+        near += change[NEAR, k]
+        far += change[FAR, k]
+        if k >= least:
+            cost = min(near, far) * (1.0 + IMBALANCE * abs(1.0 - 2.0 * k / size))
+            if cost < best:
+                best, cut, side = cost, k, NEAR if near <= far else FAR
+    return best, cut, side
+
+
+@njit(cache=True)
+def _separate(
+    indptr: Int32Array,
+    indices: Int32Array,
+    line: Int32Array,
+    cut: int,
+    thinner: int,
+    label: Int32Array,
+    base: int,
+    separator: Int32Array,
+) -> int:
+    """Label a piece by the sides of its cut and by the separator, which is listed; gives its size."""
+    for q in range(len(line)):
+        label[line[q]] = base + (NEAR if q < cut else FAR)
+    count = 0
+    for v in line[:cut] if thinner == NEAR else line[cut:]:
+        for p in range(indptr[v], indptr[v + 1]):
+            if label[indices[p]] == base + 1 - thinner:
+                separator[count] = v
+                count += 1
+                break
+    for v in separator[:count]:
+        label[v] = base + SEPARATOR
+    return count
+
+
+@njit(cache=True)
+def _partition(line: Int32Array, label: Int32Array, base: int, other: Int32Array) -> int:
+    """Bring the near side of a piece to the front and the far one behind it, in their order; gives the near size."""
+    near = far = 0
+    for v in line:
+        if label[v] == base + NEAR:
+            line[near] = v
+            near += 1
+        elif label[v] == base + FAR:
+            other[far] = v
+            far += 1
+    line[near : near + far] = other[:far]
+    return near
+
+
+@njit(cache=True)
+def _refine(
+    indptr: Int32Array,
+    indices: Int32Array,
+    label: Int32Array,
+    base: int,
+    sides: IntArray,
+    separator: Int32Array,
+    count: int,
+    moves: Moves,
+    stamp: int,
+) -> int:
+    """Shorten a separator by one pass of moves; lists it anew and gives its size."""
+    kept = _pass(indptr, indices, label, base, sides, separator[:count], moves, stamp)
+    left = 0
+    for k in range(count + kept):
+        v = separator[k] if k < count else moves.moved[k - count]
+        if label[v] == base + SEPARATOR and moves.locked[v] != -stamp:
+            separator[left] = v
+            left += 1
+            moves.locked[v] = -stamp
+    return left
+
+
+@njit(cache=True)
+def _pass(
+    indptr: Int32Array,
+    indices: Int32Array,
+    label: Int32Array,
+    base: int,
+    sides: IntArray,
+    separator: Int32Array,
+    moves: Moves,
+    stamp: int,
+) -> int:
+    """Move vertices out of the separator, best first and each once; undo what came after the best; gives what is kept.
+
+    A vertex that moves to one side draws its neighbours on the other one into the separator.
+    """
+    moves.head[:] = -1
+    moves.used[:] = 0
+    for v in separator:
+        _enter(indptr, indices, label, base, v, moves)
+    current = best = len(separator)
+    most = int(MOST * (sides[NEAR] + sides[FAR] + current))
+    near, kept, vain, patience = sides[NEAR], 0, 0, PATIENCE + current // 4
+    far = sides[FAR]
+    while vain < patience:
+        v, side = _next_move(label, base, sides, most, moves, stamp)
+        if v < 0:
+            break
+        current += _move(indptr, indices, label, base, v, side, sides, moves, stamp)
+        if current < best or (current == best and abs(sides[NEAR] - sides[FAR]) < abs(near - far)):
+            kept, best, near, far, vain = moves.used[1], current, sides[NEAR], sides[FAR], 0
+        else:
+            vain += 1
+    for k in range(moves.used[1] - 1, kept - 1, -1):
+        label[moves.moved[k]] = moves.before[k]
+    sides[NEAR], sides[FAR] = near, far
+    return kept
+
+
+@njit(cache=True)
+def _next_move(label: Int32Array, base: int, sides: IntArray, most: int, moves: Moves, stamp: int) -> tuple[int, int]:
+    """The vertex whose move gains most, the smaller side first, and where it goes; -1 where nothing may move."""
+    lighter = NEAR if sides[NEAR] <= sides[FAR] else FAR
+    for level in range(GAINS):
+        for side in (lighter, 1 - lighter):
+            if sides[side] >= most:
+                continue
+            while moves.head[side, level] >= 0:
+                entry = moves.head[side, level]
+                v = moves.vertex[entry]
+                moves.head[side, level] = moves.older[entry]
+                current = label[v] == base + SEPARATOR and moves.locked[v] != stamp
+                if current and _level(moves.gain[side, v]) == level:
+                    return v, side
+    return -1, NEAR
+
+
+@njit(cache=True)
+def _move(
+    indptr: Int32Array,
+    indices: Int32Array,
+    label: Int32Array,
+    base: int,
+    v: int,
+    side: int,
+    sides: IntArray,
+    moves: Moves,
+    stamp: int,
+) -> int:
+    """Move a vertex of the separator to a side; gives by how much the separator grows."""
+    growth = -1
+    _note(label, v, base + side, moves)
+    moves.locked[v] = stamp
+    sides[side] += 1
+    for p in range(indptr[v], indptr[v + 1]):
+        u = indices[p]
+        where = label[u] - base
+        if where == SEPARATOR:  # once it leaves for the other side, v comes back
+            moves.gain[1 - side, u] -= 1
+            _offer(u, 1 - side, moves)
+        elif where == 1 - side:
+            _note(label, u, base + SEPARATOR, moves)
+            sides[1 - side] -= 1
+            growth += 1
+            _enter(indptr, indices, label, base, u, moves)
+            for q in range(indptr[u], indptr[u + 1]):
+                w = indices[q]
+                if label[w] == base + SEPARATOR and w != u:
+                    moves.gain[side, w] += 1
+                    _offer(w, side, moves)
+    return growth
+
+
+@njit(cache=True)
+def _enter(indptr: Int32Array, indices: Int32Array, label: Int32Array, base: int, v: int, moves: Moves) -> None:
+    """Offer both moves of a vertex in the separator."""
+    near = far = 0
+    for p in range(indptr[v], indptr[v + 1]):
+        where = label[indices[p]] - base
+        near += where == NEAR
+        far += where == FAR
+    moves.gain[NEAR, v], moves.gain[FAR, v] = 1 - far, 1 - near
+    _offer(v, NEAR, moves)
+    _offer(v, FAR, moves)
+
+
+@njit(cache=True)
+def _offer(v: int, side: int, moves: Moves) -> None:
+    """Put a move into its bucket; where there is no room left, it is not made."""
+    entry = moves.used[0]
+    if entry < len(moves.vertex):
+        level = _level(moves.gain[side, v])
+        moves.vertex[entry], moves.older[entry] = v, moves.head[side, level]
+        moves.head[side, level] = entry
+        moves.used[0] += 1
+
+
+@njit(cache=True)
+def _level(gain: int) -> int:
+    """Bucket of a gain."""
+    return max(0, min(GAINS - 1, 1 - gain))
+
+
+@njit(cache=True)
+def _note(label: Int32Array, v: int, new: int, moves: Moves) -> None:
+    """Relabel a vertex so that it can be undone; at most three times a vertex and pass."""
+    k = moves.used[1]
+    moves.moved[k], moves.before[k] = v, label[v]
+    moves.used[1] += 1
+    label[v] = new
