@@ -8,13 +8,26 @@ from __future__ import annotations
 
 import itertools
 import time
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from benchmarks.page import seconds, table, write
+from signorini.arrays import Array
 from signorini.bench.spatial import hard_random, punch
-from signorini.friction.spatial import from_compliance, natural_residual, solve_spatial, split
+from signorini.friction.exact import PathState
+from signorini.friction.spatial import (
+    SpatialProblem,
+    StopSettings,
+    at_rest,
+    follow_stopping,
+    from_compliance,
+    natural_residual,
+    solve_spatial,
+    split,
+)
 from signorini.interface.spatial import make_surface, mortar_coupling
 from signorini.interface.spatial.candidates import near_pairs
 from signorini.interface.spatial.faces import node_places
@@ -81,6 +94,47 @@ def hard() -> str:
     )
 
 
+def histories() -> str:
+    """The punch from where it just touches to its full motion: pairs drift and turn before they touch."""
+    A, c = punch(11, push=(0.15, 0.0), turn=0.15)
+    n, mu = len(c) // 3, 0.3
+    touching = np.concatenate([c[:n] - c[:n].min(), np.zeros(2 * n)])
+
+    def ends(count: int) -> tuple[SpatialProblem, PathState]:
+        problem, root = from_compliance(A, c, np.full(n, mu), facets=count)
+        begin = from_compliance(A, touching, np.full(n, mu))[0].b
+        return problem, at_rest(problem, begin, motion=root * touching)
+
+    def equal(problem: SpatialProblem, state: PathState, number: int) -> tuple[Array, int, int]:
+        h, y = state.h, None
+        for k in range(1, number + 1):
+            origin = np.concatenate([np.zeros(n), h[n:]])
+            b = state.b + k / number * (problem.b - state.b) + problem.W @ origin - origin
+            result = solve_spatial(replace(problem, b=b), y)
+            h, y = np.concatenate([result.gap, result.slip.T.ravel()]) + origin, result.y
+        return np.concatenate([result.normal_force, result.tangential_force.T.ravel()]), number, number
+
+    def stopping(problem: SpatialProblem, state: PathState, **settings: float) -> tuple[Array, int, int]:
+        segment = follow_stopping(problem, state, problem.b, settings=StopSettings(**settings))
+        return segment.end.r, len(segment.pieces) - 1, segment.pivots
+
+    circle = ends(0)
+    exact = stopping(*circle, turn=0.003)[0]
+    rows = []
+    ways = [(f"{k} equal ones", circle, partial(equal, number=k)) for k in (16, 64, 256, 1024)]
+    for k in (1, 4, 16, 64, 256):
+        ways.append((f"to events, N = {k}", circle, partial(stopping, shortest=1 / k, turn=0.04 / k**0.5)))
+    ways.append(("to every event, turning 0.03", circle, partial(stopping, turn=0.03)))
+    ways += [(f"exact path, {k} facets", ends(k), stopping) for k in (8, 16, 32)]
+    for words, (problem, state), way in ways:
+        start = time.process_time()
+        r, number, solved = way(problem, state)
+        spent = time.process_time() - start
+        error = np.linalg.norm((r - exact)[n:].reshape(2, n), axis=0).max() / (mu * exact[:n].max())
+        rows.append((words, number, solved, f"{100 * error:.2f} %", seconds(spent)))
+    return table(("increments", "number", "solved", "largest nodal error / (mu p_max)", "seconds"), rows)
+
+
 def plane_side(n: int, kind: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
     """A unit square of n^2 cells, inner nodes moved at random, straight edges: nodes (k, 2) and faces."""
     line = np.linspace(0, 1, n + 1)
@@ -130,7 +184,13 @@ def mortar() -> str:
 
 def main() -> None:
     mortar_coupling(*two_sides(2, 4, 3, 4)[1:])  # compiles
-    for name, measured in (("punches", punches), ("facets", facets), ("hard", hard), ("mortar", mortar)):
+    for name, measured in (
+        ("punches", punches),
+        ("facets", facets),
+        ("hard", hard),
+        ("histories", histories),
+        ("mortar", mortar),
+    ):
         text = measured()
         print(text, "\n")
         write(name, text, PAGE)

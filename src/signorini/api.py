@@ -29,6 +29,7 @@ from signorini.output.folder import ARCHIVE, write_drawn
 from signorini.output.frd import write_frd
 from signorini.output.picture import write_pixels
 from signorini.output.replacing import replacing
+from signorini.output.series import write_pvd
 from signorini.output.table import history_table
 from signorini.output.vtu import write_vtu
 from signorini.plot.animation import animate_path
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
 
 _WRITERS: Mapping[str, Callable[[History, Path], None]] = {
     ".vtu": write_vtu,
+    ".pvd": write_pvd,
     ".h5": write_archive,
     ".frd": write_frd,
 }
@@ -65,8 +67,9 @@ class Solution(History):
 
         Parameters
         ----------
-        path : ``.vtu``: the last state with displacement, stress and von Mises stress; ``.h5``: everything, to be read
-            again with :func:`load`; ``.frd``: all steps, as CalculiX writes them
+        path : ``.vtu``: the last state with displacement, stress and von Mises stress; ``.pvd``: a series of these for
+            ParaView, at the ends of steps and at times asked for; ``.h5``: everything, to be read again with
+            :func:`load`; ``.frd``: all steps, as CalculiX writes them
 
         Raises
         ------

@@ -10,12 +10,20 @@ from matplotlib.figure import Figure
 
 import signorini as sg
 from signorini.errors import InputError
+from signorini.fem.solids import extruded
 from signorini.plot.camera import best_view, look_from
 from signorini.plot.paint import Paint, paint_skin
 from signorini.plot.skin import make_skin
 
 X, Y, Z = [0, 1, 2.5], [0, 2.0], [0, 0.5, 1, 1.5]
-FAMILIES = ["hexahedron", "hexahedron20", "hexahedron27", "tetra", "tetra10"]
+FAMILIES = ["hexahedron", "hexahedron20", "hexahedron27", "tetra", "tetra10", "wedge15"]
+
+
+def box(family):
+    """Of the size 2.5 x 2 x 1.5."""
+    if family == "wedge15":
+        return extruded(sg.rectangle(x=X, y=Y, cells="triangle6"), z=Z)
+    return sg.box(x=X, y=Y, z=Z, cells=family)
 
 
 def skin_of(mesh):
@@ -28,7 +36,7 @@ def skin_of(mesh):
 @pytest.mark.parametrize("family", FAMILIES)
 def test_the_skin_of_a_box_is_its_surface(family, mirrored):
     """Also of cells that are numbered the other way round."""
-    mesh = sg.box(x=X, y=Y, z=Z, cells=family)
+    mesh = box(family)
     points = mesh.points * [1, 1, -1 if mirrored else 1]
     skin = skin_of(sg.Mesh(**{**vars(mesh), "points": points}))
     spans = skin.spans(skin.points)
@@ -45,7 +53,7 @@ def test_the_skin_of_a_box_is_its_surface(family, mirrored):
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_quadratic_fields_are_those_of_the_cells_on_the_skin(family):
-    mesh = sg.box(x=X, y=Y, z=Z, cells=family)
+    mesh = box(family)
     skin = skin_of(mesh)
 
     def field(x):

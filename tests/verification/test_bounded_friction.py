@@ -15,6 +15,7 @@ from signorini.engine.solve import solve
 from signorini.errors import InputError
 from signorini.fem.generators import rectangle
 from signorini.fem.solids import box
+from signorini.gallery.cubes import cubes
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
@@ -127,6 +128,29 @@ def test_a_slab_in_space_is_the_plane_model(law):
         own = np.isclose(deep.points[:, 0], x)
         np.testing.assert_allclose(deep.pressure[own], pressure, rtol=0, atol=5e-8)
         np.testing.assert_allclose(deep.shear[own], [[traction, 0, 0]] * own.sum(), rtol=0, atol=5e-8)
+
+
+@pytest.mark.parametrize("facets", [0, 8])
+@pytest.mark.parametrize(
+    ("friction", "ratios"), [((0.1, 0.4), (0.25, 1.0)), (0.4, (1.0, 1.0)), ("stick", (1.0, 1.0))], ids=str
+)
+def test_every_cone_in_space_has_its_limit(friction, ratios, facets):
+    """Sections keep their shape: an ellipse or a polygon, the larger friction bounded by the limit."""
+    model = cubes(3)
+    axis = (1.0, 0.0, 0.0) if isinstance(friction, tuple) else None
+    contact = replace(model.contacts[0], friction=friction, friction_axis=axis, facets=facets)
+    plain = solve(replace(model, contacts=[replace(contact, friction=0.4, friction_axis=None)]))
+    limit = 0.15 * plain.last.contacts[0].pressure.mean()
+    step = solve(replace(model, contacts=[replace(contact, shear_limit=limit)])).last
+    found, (one, two) = step.contacts[0], ratios
+    assert step.certificate.passed
+    assert step.certificate.facets == facets
+    rubbed = np.where(found.pressure > 0, np.inf, 0.0) if friction == "stick" else 0.4 * found.pressure
+    effort, most = np.hypot(found.traction[:, 0] / one, found.traction[:, 1] / two), np.minimum(rubbed, limit)
+    assert (effort <= most * (1 + 1e-9)).all()
+    slips = found.status == "slip"
+    assert (effort[slips] >= most[slips] * (np.cos(np.pi / facets) if facets else 1.0) * (1 - 1e-9)).all()
+    assert (slips & (most == limit)).any()
 
 
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)

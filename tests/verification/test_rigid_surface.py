@@ -10,6 +10,7 @@ import signorini as sg
 from signorini.cli import main
 from signorini.deck.write import write_deck
 from signorini.errors import InputError
+from signorini.fem.write import write_mesh
 
 FINE = [0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.5]
 FLOOR = ([[-3, -3, 0], [9, -3, 0], [9, 9, 0], [-3, 9, 0], [1.1, 0.7, 0]], [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
@@ -215,6 +216,34 @@ def test_a_meshed_line_serves_in_the_plane(gmsh_files):
     for found, known in zip(profile.nearest(x), exact, strict=True):
         np.testing.assert_allclose(found, known, atol=2e-2)
     assert len(profile.points) > 100
+
+
+def test_a_line_of_no_body_is_an_obstacle_of_a_deck_in_the_plane(tmp_path, capsys):
+    """Of the deck's own mesh, and in a file of its own: the profile of its points."""
+    block = sg.rectangle(width=2.0, height=1.0, nx=4, ny=2)
+    line = np.array([[2.5, -0.2], [1.0, 0.0], [-0.5, -0.2]])
+    count = len(block.points)
+    mesh = sg.Mesh(
+        points=np.vstack([block.points, line]),
+        cells=block.cells,
+        bodies=block.bodies,
+        boundaries={**block.boundaries, "die": [[count + 2, count + 1], [count + 1, count]]},
+    )
+    write_mesh(mesh, tmp_path / "both.vtu")
+    meshio.write(tmp_path / "line.vtu", meshio.Mesh(np.pad(line, ((0, 0), (0, 1))), [("line", [[2, 1], [1, 0]])]))
+    exact = sg.Profile(line[::-1].tolist())
+    for key in ('{ boundary = "die" }', '{ file = "line.vtu" }', '{ file = "both.vtu", boundary = "die" }'):
+        text = DECK.format(surface="{}").replace("surface = {}", f"profile = {key}").replace("block.msh", "both.vtu")
+        text = text.replace("u = [0, 0, -0.02]", "").replace('"low"', '"bottom"').replace("[0, 0, -0.3]", "[0, -0.1]")
+        (tmp_path / "deck.toml").write_text(text)
+        model = sg.read(tmp_path / "deck.toml")
+        assert model.contacts[0].mortar == exact
+        assert main(["check", str(tmp_path / "deck.toml")]) == 0
+        assert "belong to no element" not in capsys.readouterr().out
+    forces = sg.solve(model).contact("bottom").normal_force
+    apart = sg.solve(sg.Model(**{**vars(model), "mesh": block})).contact("bottom").normal_force
+    np.testing.assert_allclose(forces, apart, rtol=1e-12)
+    assert forces[1] > 0
 
 
 def test_what_is_solved_with_a_surface_is_kept_and_gone_on_from(tmp_path):

@@ -11,11 +11,9 @@ from scipy.spatial.transform import Rotation
 from signorini.engine.increments import free_load
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve
-from signorini.errors import InputError
 from signorini.friction.spatial import solve_spatial
 from signorini.gallery.cubes import cube_on_block, cubes
 from signorini.model.conditions import Support
-from signorini.model.step import Step
 from signorini.solution.state import LoadPoint
 
 
@@ -62,8 +60,3 @@ def test_a_turn_about_the_normal_changes_nothing(model, turn):
     np.testing.assert_allclose(two.pressure, one.pressure, atol=1e-8 * size)
     np.testing.assert_allclose(two.shear, one.shear @ Q.T, atol=1e-8 * size)
     assert (two.status == one.status).all()
-
-
-def test_an_exact_path_in_space_is_refused():
-    with pytest.raises(InputError, match=r"step\[0\].path: is \"exact\", which is for plane models"):
-        replace(cubes(1), steps=[Step(path="exact")])

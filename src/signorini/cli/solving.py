@@ -7,6 +7,8 @@ import argparse
 import sys
 import textwrap
 import time
+from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 
 from signorini.api import solve
@@ -53,7 +55,7 @@ def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: f
             print(history_table(history), end="\n\n")
         for note in deck.notes:
             print(textwrap.fill(f"deck: {note}", 112), end="\n\n")
-        print(f"{', '.join(file.name for file in files)} in {folder} ({time.perf_counter() - started:.2f} s)")
+        print(f"{_listed(files, folder)} in {folder} ({time.perf_counter() - started:.2f} s)")
     if history.solved:
         return 0
     sys.stdout.flush()
@@ -62,6 +64,13 @@ def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: f
         return 130
     print(f"signorini: {deck.path}: no certified solution ({history.status}): {history.message}", file=sys.stderr)
     return 3
+
+
+def _listed(files: Sequence[Path], folder: Path) -> str:
+    """Names of the files; of those in folders of it only how many there are."""
+    inner = Counter(file.parent.name for file in files if file.parent != folder)
+    names = [file.name for file in files if file.parent == folder]
+    return ", ".join([*names, *(f"{count} files in {name}" for name, count in inner.items())])
 
 
 def _start(name: str | None) -> Checkpoint | None:

@@ -24,10 +24,11 @@ _METALS = (
 
 
 def mesh_notes(model: Model) -> Iterator[str]:
-    """Nodes of no element, and nodes of one body that lie at one place."""
+    """Nodes of no element and no rigid surface, and nodes of one body that lie at one place."""
     mesh, labels = model.mesh, model.mesh.labels
     used = np.unique(np.concatenate([cells.ravel() for cells in mesh.cells.values()]))
-    loose = np.setdiff1d(np.arange(len(mesh.points)), used)
+    rigid = [mesh.nodes_of(name) for name in mesh.boundaries if mesh.bounds_nothing(name)]
+    loose = np.setdiff1d(np.arange(len(mesh.points)), np.concatenate([used, *rigid]))
     if len(loose):
         yield f"{len(loose)} nodes belong to no element: {_some(labels[loose])}"
     owner, first = model.body_of_cells(), 0

@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""As many increments as it takes: twice as many, until the answer changes less than a tolerance."""
+"""As many increments as it takes: more of them, until the answer changes less than a tolerance.
+
+In the plane 1, 2, 4, ... equal ones. In space they end at events (a pair opens, closes or starts to slip), on the exact
+cone too, unless that would make them shorter than 1, 1/4, 1/16, ... of the way; where friction turns little and nothing
+happens they are longer. Where that way is lost they are equal as in the plane.
+"""
 
 from __future__ import annotations
 
@@ -7,15 +12,17 @@ from dataclasses import replace
 
 import numpy as np
 
+from signorini.engine.exact import follow_to_events
 from signorini.engine.increments import follow_increments
 from signorini.engine.leg import Leg
 from signorini.engine.prepare import Prepared
 from signorini.engine.span import Span
 from signorini.errors import SolveFailed
+from signorini.iterative.bodies import Bodies
 from signorini.solution.state import LoadPoint, State
 
 MOST = 4096
-"""Increments of one straight part of a step."""
+"""Increments of one straight part of a step; in space the part of it that they need not undercut."""
 _MORE = 'expected less? Give the step increments = "auto" or their number'
 
 
@@ -28,14 +35,16 @@ def follow_automatically(
     end: LoadPoint,
     *,
     enough: int | None = None,
+    whole: bool = False,
 ) -> Leg:
-    """Follow a straight part of a step in 1, 2, 4, ... increments, each time from its beginning.
+    """Follow a straight part of a step in more and more increments, each time from its beginning.
 
     Parameters
     ----------
     tolerance : largest change of a contact force from one number to the next, of the largest force
     where : name of the step, for messages
-    enough : increments at which to stop whatever they still change, and to say so; None: go on to 4096
+    enough : number at which to stop whatever it still changes, and to say so; None: go on to 4096
+    whole : whether the displacement of the bodies is recovered at every event, in space
 
     Raises
     ------
@@ -44,25 +53,37 @@ def follow_automatically(
     """
     coarse: Leg | None = None
     change, number = np.inf, 1
+    more, fewer = (2, "half as many") if prepared.interface.directions == 2 else (4, "a quarter as many")
     while number <= MOST:
         try:
-            fine = follow_increments(prepared, number, where, span, state, end)
+            fine, words = _followed(prepared, number, where, span, state, end, whole)
         except SolveFailed as failure:
-            if failure.status == "no_equilibrium" or 2 * number > MOST:
+            if failure.status == "no_equilibrium" or more * number > MOST:
                 raise
-            coarse, number = None, 2 * number
+            coarse, number = None, more * number
             continue
         if coarse is not None:
             size = float(np.abs(fine.after.forces).max(initial=0.0)) or 1.0
             change = float(np.abs(fine.after.forces - coarse.after.forces).max(initial=0.0)) / size
-            note = f"{number} increments: half as many change contact forces by {change:.1e} of the largest"
+            note = f"{words}: {fewer} change contact forces by {change:.1e} of the largest"
             if change <= tolerance:
                 return replace(fine, path="increments", notes=(note,))
             if enough is not None and number >= enough:
                 return replace(fine, path="increments", notes=(f"{note}; {_MORE}",))
-        coarse, number = fine, 2 * number
+        coarse, number = fine, more * number
     raise SolveFailed(
         f"{where}: {MOST} increments still change contact forces by {change:.1e} of the largest; expected a larger "
         'tolerance, or path = "exact"',
         status="not_found",
     )
+
+
+def _followed(
+    prepared: Prepared, number: int, where: str, span: Span, state: State, end: LoadPoint, whole: bool
+) -> tuple[Leg, str]:
+    """A way in at most so many increments, and their number in words."""
+    if prepared.interface.directions == 3 and not isinstance(prepared.bodies, Bodies):
+        leg = follow_to_events(prepared, number, where, span, state, end, whole=whole)
+        if leg is not None:
+            return leg, f"{len(leg.trace)} increments to events, none needs to be shorter than 1/{number}"
+    return follow_increments(prepared, number, where, span, state, end), f"{number} increments"

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from signorini.arrays import Array
 from signorini.engine.leg import Leg
 from signorini.friction.law import OPEN
 from signorini.solution.results import Cycle
@@ -27,10 +28,11 @@ def make_cycles(leg: Leg, ends: Sequence[float]) -> tuple[Cycle, ...]:
     """
     found: list[Cycle] = []
     begin, last = leg.before, leg.before.slip
-    sliding = np.zeros_like(last)
+    n = len(begin.status)
+    sliding = np.zeros(n)
     for snapshot in leg.snapshots:
         state = snapshot.state
-        sliding, last = sliding + np.abs(state.slip - last), state.slip
+        sliding, last = sliding + _across(state.slip - last, n), state.slip
         if snapshot.load_factor != ends[len(found)]:
             continue
         size = float(np.abs(state.forces).max(initial=0.0)) or 1.0
@@ -46,14 +48,19 @@ def make_cycles(leg: Leg, ends: Sequence[float]) -> tuple[Cycle, ...]:
                 drift=_drift(begin, state),
             )
         )
-        begin, sliding = state, np.zeros_like(last)
+        begin, sliding = state, np.zeros(n)
     return tuple(found)
 
 
 def _drift(begin: State, end: State) -> float:
     """Largest change of the tangential displacement of pairs that touch at both ends; what opens may slide unseen."""
     touching = (begin.status != OPEN) & (end.status != OPEN)
-    return float(np.abs(end.tangential - begin.tangential)[touching].max(initial=0.0))
+    return float(_across(end.tangential - begin.tangential, len(touching))[touching].max(initial=0.0))
+
+
+def _across(tangential: Array, n: int) -> Array:
+    """(n,) length of tangential vectors that are given row by row, ((d - 1) n,)."""
+    return np.linalg.norm(tangential.reshape(-1, n), axis=0) if n else np.zeros(0)
 
 
 def judge(cycles: Sequence[Cycle], scale: Scale) -> tuple[str, str]:

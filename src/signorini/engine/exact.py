@@ -1,27 +1,31 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Follow a straight part of a step exactly, from event to event, on the condensed interface."""
+"""Follow a straight part of a step from event to event on the condensed interface, exactly where that is possible."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
+from typing import Literal
 
 import numpy as np
 
-from signorini.arrays import Array
+from signorini.arrays import Array, BoolArray
 from signorini.bound import plain
 from signorini.engine.increments import applied, certified, free_load, refuse_overlap
 from signorini.engine.leg import Leg, Snapshot, joined
 from signorini.engine.prepare import Prepared
 from signorini.engine.span import Span
 from signorini.errors import SolveFailed
-from signorini.friction.exact import Landing, PathState, Segment, follow, initial_state, land
+from signorini.friction.exact import Breakpoint, Landing, PathState, Segment, follow, initial_state, land
 from signorini.friction.law import OPEN, STICK
+from signorini.friction.problem import CoulombProblem
+from signorini.friction.spatial import SpatialProblem, StopSettings, at_rest, follow_stopping
 from signorini.solution.results import PairEvent
 from signorini.solution.state import LoadPoint, State, next_state
 from signorini.trace import Attempt
 
 _JUMPS = 100  # most that one part of a step may hold
+_TURN = 0.04  # radians over the root of the number: what friction may turn in an increment that could be shorter
 _NO_LANDING = "no equilibrium that it could land on was found"
 _SPENT = 1e-9  # of the friction bound: what a slipping pair may lack of it
 
@@ -56,12 +60,14 @@ def follow_exactly(
     while True:
         with prepared.clock.phase("complementarity"):
             start = _start(prepared, state)
-            segment = follow(prepared.plane_law, start, _right_hand_side(prepared, end))
+            segment = _followed(prepared.law, start, _right_hand_side(prepared, end))
         if segment.followed:
             legs.append(_leg(prepared, where, span, state, start, segment, end, whole=whole))
             return joined(legs)
         lost = _lost(prepared, where, span, segment)
-        landing = land(prepared.plane_law, start, segment) if jumps and len(legs) < _JUMPS else None
+        law = prepared.law
+        can_land = jumps and len(legs) < _JUMPS and isinstance(law, CoulombProblem)
+        landing = land(law, start, segment) if can_land and isinstance(law, CoulombProblem) else None
         if segment.jump is None or landing is None:
             raise lost if not jumps or segment.jump is None else SolveFailed(f"{lost}; {_NO_LANDING}", status="jump")
         limit = state.point.towards(end, segment.jump.factor)
@@ -69,6 +75,45 @@ def follow_exactly(
         legs.append(_leg(prepared, where, before, state, start, segment, limit, whole=whole))
         legs.append(_landed(prepared, where, before, legs[-1].after, landing))
         state, span = legs[-1].after, replace(span, low=before.high)
+
+
+def follow_to_events(
+    prepared: Prepared, number: int, where: str, span: Span, state: State, end: LoadPoint, *, whole: bool = False
+) -> Leg | None:
+    """Follow a straight part of a step in space in increments that end at events.
+
+    Parameters
+    ----------
+    number : an increment need not be shorter than 1 / number of the span, whatever happens in it
+    where, span, whole : see `follow_exactly`
+
+    Returns
+    -------
+    None where the way is lost
+    """
+    prepared.clock.increment(f"{where}, increments to events")
+    refuse_overlap(prepared, _offset(prepared, end)[: len(prepared.interface)], where)
+    stops = StopSettings(shortest=1.0 / number, turn=_TURN / number**0.5)
+    with prepared.clock.phase("complementarity"):
+        start = _start(prepared, state)
+        segment = _followed(prepared.law, start, _right_hand_side(prepared, end), stops)
+    if not segment.followed:
+        return None
+    leg = _leg(prepared, where, span, state, start, segment, end, whole=whole, path="increments")
+    return replace(leg, trace=tuple((_attempt(piece),) for piece in segment.pieces[1:]))
+
+
+def _attempt(piece: Breakpoint) -> Attempt:
+    return Attempt(method="increments to events", iterations=piece.tried, end="certified")
+
+
+def _followed(
+    law: CoulombProblem | SpatialProblem, start: PathState, b: Array, stops: StopSettings | None = None
+) -> Segment:
+    """The history up to a load, in the plane or in space."""
+    if isinstance(law, SpatialProblem):
+        return follow_stopping(law, start, b, settings=stops)
+    return follow(law, start, b)
 
 
 def _leg(
@@ -81,20 +126,21 @@ def _leg(
     end: LoadPoint,
     *,
     whole: bool,
+    path: Literal["exact", "increments"] = "exact",
 ) -> Leg:
     """A segment that was followed as far as to ``end``."""
     with prepared.clock.phase("recovery"):
         whole = whole or bool(state.point.given.any())
-        visited = _visited(prepared, span, state, start, segment, end, whole=whole)
+        visited = _visited(prepared, span, state, start, segment, end, whole=whole, every=path == "increments")
         after = visited[-1].state
     last = max(0, len(segment.pieces) - 2)
     before = state.tangential.copy()
-    before[prepared.condensed.active] = _tangential(prepared, segment.pieces[last].h)
+    before[_along(prepared)] = _tangential(prepared, segment.pieces[last].h)
     # the law of the rate, on the last piece, is the law of the increment from where the piece began
     certificate = certified(prepared, after, before, where)
     attempt = Attempt(method="exact path", iterations=segment.pivots, end=segment.message)
     return Leg(
-        path="exact",
+        path=path,
         before=state,
         after=after,
         certificates=(certificate,),
@@ -154,9 +200,10 @@ def stored_energy(prepared: Prepared, state: State) -> float:
 
 
 def _offset(prepared: Prepared, point: LoadPoint) -> Array:
-    """(2 n,) Motions of all pairs that loads do not cause: gaps and what supports impose, no slip of the past."""
+    """(d n,) Motions of all pairs that loads do not cause: gaps and what supports impose, no slip of the past."""
     _, imposed = applied(prepared, point)
-    offset: Array = np.concatenate([point.gap, np.zeros_like(point.gap)]) + prepared.interface.B @ imposed
+    none = np.zeros(len(point.gap) * (prepared.interface.directions - 1))
+    offset: Array = np.concatenate([point.gap, none]) + prepared.interface.B @ imposed
     return offset
 
 
@@ -169,31 +216,51 @@ def _right_hand_side(prepared: Prepared, point: LoadPoint) -> Array:
 
 def _start(prepared: Prepared, state: State) -> PathState:
     """The state in the scaled units of the law; at the very beginning overlaps press first."""
-    condensed, rows, active = prepared.condensed, prepared.condensed.active_rows, prepared.condensed.active
-    b = _right_hand_side(prepared, state.point)
-    half = len(rows) // 2
+    condensed, rows, active, law = (
+        prepared.condensed,
+        prepared.condensed.active_rows,
+        prepared.condensed.active,
+        prepared.law,
+    )
+    b, n = _right_hand_side(prepared, state.point), law.pairs
     h = condensed.root * np.concatenate([state.gap, state.tangential])[rows]
     if not state.forces.any() and not state.displacement.any():
-        touching = bool((h[:half] >= 0.0).all())
-        return initial_state(prepared.plane_law, b, motion=h if touching else None)
+        motion = h if bool((h[:n] >= 0.0).all()) else None
+        return (
+            at_rest(law, b, motion=motion) if isinstance(law, SpatialProblem) else initial_state(law, b, motion=motion)
+        )
     r, status = state.forces[rows] / condensed.root, state.status[active]
-    # friction that has risen since leaves some to spare
-    spare = (status > STICK) & (np.abs(r[half:]) < (1.0 - _SPENT) * prepared.plane_law.bound.at(r[:half]))
+    if isinstance(law, CoulombProblem):  # friction that has risen since leaves some to spare
+        spare = (status > STICK) & (np.abs(r[n:]) < (1.0 - _SPENT) * law.bound.at(r[:n]))
+        status = np.where(spare, STICK, status)
     return PathState(
         b=b,
         h=h,
         r=r,
-        state=np.where(spare, STICK, status),
-        anchor=h[half:],
-        slip=condensed.root[half:] * state.slip[active],
+        state=status,
+        anchor=h[n:],
+        slip=condensed.root[n:] * state.slip[_along(prepared)],
         dissipation=state.dissipation[active],
     )
 
 
 def _visited(
-    prepared: Prepared, span: Span, state: State, start: PathState, segment: Segment, end: LoadPoint, *, whole: bool
+    prepared: Prepared,
+    span: Span,
+    state: State,
+    start: PathState,
+    segment: Segment,
+    end: LoadPoint,
+    *,
+    whole: bool,
+    every: bool,
 ) -> tuple[Snapshot, ...]:
-    """The states at the start, at every event and at the end, with work and displacement where they are ``whole``."""
+    """The states at the start, at every event and at the end, with work and displacement where they are ``whole``.
+
+    Parameters
+    ----------
+    every : whether pieces are increments, whose ends are shown too
+    """
     last, since, losses, found = state, 0.0, _losses(segment), []
     if start.r.any() and not state.forces.any():
         pressed = _recovered(prepared, state, state.point, start)
@@ -201,6 +268,10 @@ def _visited(
         found.append(Snapshot(load_factor=span.factor(0.0), what="start", state=last))
     reached = segment.pieces[-1].factor
     visited = {event.factor: event.state for event in segment.events if 0.0 < event.factor < reached}
+    happens = set(visited)
+    if every:
+        ends = {piece.factor: piece.state for piece in segment.pieces[1:-1] if piece.state is not None}
+        visited = dict(sorted((ends | visited).items()))
     for factor, now in {**visited, reached: segment.end}.items():
         s = 1.0 if factor == reached else factor / reached
         point, recovered = state.point.towards(end, s), whole or s == 1.0
@@ -210,7 +281,7 @@ def _visited(
             last, since = here, factor
         else:
             here = _on_the_way(prepared, last, point, now)
-        what = span.ends if s == 1.0 else "event"
+        what = span.ends if s == 1.0 else "event" if factor in happens else "increment"
         found.append(Snapshot(load_factor=span.factor(s), what=what, state=here, whole=recovered, worked=recovered))
     return tuple(found)
 
@@ -223,13 +294,13 @@ def _losses(segment: Segment) -> list[tuple[float, float]]:
 def _on_the_way(prepared: Prepared, last: State, point: LoadPoint, now: PathState) -> State:
     """The contacts at an event; the bodies are not looked at."""
     condensed, n = prepared.condensed, len(prepared.interface)
-    rows, active, half = condensed.active_rows, condensed.active, len(condensed.root) // 2
-    forces, moved = point.given.copy(), np.full(2 * n, np.nan)
+    rows, active = condensed.active_rows, condensed.active
+    forces, moved = point.given.copy(), np.full(prepared.interface.directions * n, np.nan)
     forces[rows] = condensed.root * now.r
     moved[rows] = now.h / condensed.root
     status, slip, dissipation = np.full(n, OPEN), last.slip.copy(), last.dissipation.copy()
     status[active], status[prepared.interface.tied] = plain(now.state), STICK
-    slip[active] = now.slip / condensed.root[half:]
+    slip[_along(prepared)] = now.slip / condensed.root[now.pairs :]
     dissipation[active] = now.dissipation
     return replace(
         last,
@@ -253,7 +324,7 @@ def _recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState
     reduced = condensed.reduce(free_load(prepared, point))
     free = condensed.displacement(reduced, moved[rows], seen.forces[rows], offset[rows])
     displacement = T @ free + imposed
-    outside = np.setdiff1d(np.arange(2 * n), rows)
+    outside = np.setdiff1d(np.arange(len(moved)), rows)
     moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
     moved[n:] -= last.tangential
     forces, ties = seen.forces.copy(), condensed.ties
@@ -284,8 +355,14 @@ def _balanced(prepared: Prepared, last: State, here: State, lost: float) -> Stat
 
 
 def _tangential(prepared: Prepared, h: Array) -> Array:
-    half = len(h) // 2
-    return h[half:] / prepared.condensed.root[half:]
+    """Tangential displacements of the active pairs, length."""
+    n = prepared.law.pairs
+    return h[n:] / prepared.condensed.root[n:]
+
+
+def _along(prepared: Prepared) -> BoolArray:
+    """((d - 1) n,) Tangential rows of the active pairs."""
+    return np.tile(prepared.condensed.active, prepared.interface.directions - 1)
 
 
 def _events(prepared: Prepared, span: Span, segment: Segment) -> tuple[PairEvent, ...]:

@@ -221,9 +221,9 @@ def _start(prepared: Prepared, state: State) -> Array | IntArray | None:
     condensed, rows = prepared.condensed, prepared.condensed.active_rows
     if not state.forces.any():
         return None
-    if prepared.interface.directions == 2:
+    if isinstance(prepared.law, CoulombProblem):
         pressing = state.forces[rows] / condensed.root
-        return prepared.plane_law.bound.coded(state.status[condensed.active], pressing[: len(rows) // 2])
+        return prepared.law.bound.coded(state.status[condensed.active], pressing[: len(rows) // 2])
     still = np.concatenate([state.gap, np.zeros_like(state.tangential)])[rows]
     start: Array = state.forces[rows] / condensed.root - condensed.root * still
     return start

@@ -28,7 +28,8 @@ class Snapshot:
     what : happens there
     state : its displacement and external forces hold only where it is ``whole``, its work where it is ``worked``; gaps
         of pairs that the law is not asked of are NaN where it is neither
-    whole : whether the displacement of the bodies is kept
+    whole : whether the displacement of the bodies is there
+    kept : whether it is one of the results
     worked : whether it was recovered
     """
 
@@ -36,6 +37,7 @@ class Snapshot:
     what: What
     state: State
     whole: bool = True
+    kept: bool = False
     worked: bool = True
 
     def light(self) -> Snapshot:
@@ -70,10 +72,20 @@ class Leg:
     notes: tuple[str, ...] = ()
 
 
-def lightened(leg: Leg) -> Leg:
-    """A leg that keeps the displacement of the bodies only at times asked for, and where it ends."""
-    kept = tuple(shot if shot.what == "asked" else shot.light() for shot in leg.snapshots)
-    return replace(leg, snapshots=kept)
+def lightened(leg: Leg, *, every: bool, end: bool, heated: bool) -> Leg:
+    """A leg that keeps the displacement of the bodies only where it was asked for, and where it ends.
+
+    Parameters
+    ----------
+    every : asked for wherever it is known
+    end : asked for at the end
+    heated : displacements that were not asked for are needed for the work of temperatures
+    """
+    shots = []
+    for i, shot in enumerate(leg.snapshots, start=1):
+        kept = shot.whole and (every or shot.what == "asked" or (end and i == len(leg.snapshots)))
+        shots.append(replace(shot, kept=True) if kept else shot if heated else shot.light())
+    return replace(leg, snapshots=tuple(shots))
 
 
 def joined(legs: Sequence[Leg]) -> Leg:

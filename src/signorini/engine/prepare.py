@@ -124,19 +124,6 @@ class Prepared(Examined):
         return self.law_or_none
 
     @property
-    def plane_law(self) -> CoulombProblem:
-        """The law of a plane model.
-
-        Raises
-        ------
-        InputError
-            In space, where there is no exact path.
-        """
-        if isinstance(self.law, SpatialProblem):
-            raise InputError("an exact path is for plane models; expected path = 'increments'", where=("step",))
-        return self.law
-
-    @property
     def limited(self) -> bool:
         """Whether pairs that seemed too far apart were left out."""
         return not (self.bodies.active | self.bodies.settled).all()

@@ -238,7 +238,8 @@ def _instants(
             what=snapshot.what,
             contacts=contacts,
             work=snapshot.state.work - leg.before.work + heat(snapshot.state) - begun if snapshot.worked else np.nan,
-            displacement=frozen(prepared.space.at_nodes(snapshot.state.displacement)) if snapshot.whole else None,
+            displacement=frozen(prepared.space.at_nodes(snapshot.state.displacement)) if snapshot.kept else None,
+            factors=dict(snapshot.state.point.factors),
         )
         if cycle + 1 < len(cycle_ends) and snapshot.load_factor == cycle_ends[cycle]:
             low, high, cycle = slip, slip, cycle + 1

@@ -13,6 +13,7 @@ from signorini.clock import Clock
 from signorini.engine.automatic import follow_automatically
 from signorini.engine.enter import relaxed, switched
 from signorini.engine.exact import follow_exactly
+from signorini.engine.fields import refuse_fields
 from signorini.engine.increments import follow_increments, measured
 from signorini.engine.leg import Leg, Snapshot, joined, lightened
 from signorini.engine.prepare import Prepared, prepare
@@ -40,7 +41,7 @@ INTERRUPTED = "interrupted"
 """Status of a history that was stopped from outside."""
 
 _BEHIND_A_JUMP = 10  # increments
-_ENOUGH = 16  # increments of a straight part in space where none were asked for
+_ENOUGH = 16  # in space, where no increments were asked for: none needs to be shorter than 1/16 of a straight part
 
 
 def solve(
@@ -65,6 +66,7 @@ def solve_prepared(
     Pairs that were left out as too far apart are looked at after every increment; where one has met the other side, or
     nothing was found without them, everything is solved again with all pairs.
     """
+    refuse_fields(prepared.model)
     begin = _begin(prepared, start)
     history = _follow(prepared, begin, wellposed)
     if prepared.limited and not history.solved and history.status != INTERRUPTED:
@@ -191,7 +193,8 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
     heated = any(load.temperature is not None for load in prepared.model.loads)
     for span, point in spans(stage, state.point, end):
         leg = _leg(prepared, stage, span, state, point)
-        legs = [joined([*legs, leg if heated or stage.step.at == "events" else lightened(leg)])]
+        leg = lightened(leg, every=stage.step.at == "events", end=span.asked, heated=heated)
+        legs = [joined([*legs, leg])]
         state = leg.after
         if span.cycle:
             cycle_ends.append(span.factor(1.0))
@@ -201,22 +204,20 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
 def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPoint) -> Leg:
     """Follow a straight part of a step as asked; where nothing was asked, exactly if there is Coulomb friction.
 
-    In space, where there is no exact path, in increments that are doubled until the answer stays, up to 16.
+    In space, where the exact cone has no exact path, in increments to events, more of them until the answer stays.
     Where the exact path that nobody asked for ends in a jump or is lost, it is followed in increments, and the notes
     say so: what they reach behind a jump is a candidate.
     """
-    step, interface = stage.step, prepared.interface
+    step, interface, whole = stage.step, prepared.interface, stage.step.at == "events"
     rubbing = bool((interface.rubs & ~interface.sticks & ~prepared.absent).any())
     if step.path != "exact" and (step.path is not None or step.increments is not None or not rubbing):
         if step.increments == "auto":
-            return follow_automatically(prepared, step.tolerance, stage.name, span, state, end)
+            return follow_automatically(prepared, step.tolerance, stage.name, span, state, end, whole=whole)
         return follow_increments(prepared, _increments(step, span, stage), stage.name, span, state, end)
     if step.path is None and prepared.interface.directions == 3:
-        return follow_automatically(prepared, step.tolerance, stage.name, span, state, end, enough=_ENOUGH)
+        return follow_automatically(prepared, step.tolerance, stage.name, span, state, end, enough=_ENOUGH, whole=whole)
     try:
-        return follow_exactly(
-            prepared, stage.name, span, state, end, whole=step.at == "events", jumps=step.follows_jumps
-        )
+        return follow_exactly(prepared, stage.name, span, state, end, whole=whole, jumps=step.follows_jumps)
     except SolveFailed as failure:
         if step.path == "exact" or step.jump == "stop":
             raise

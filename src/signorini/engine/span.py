@@ -25,6 +25,7 @@ class Span:
     low, high : parts of the step, 0 .. 1
     ends : what is at its end: "segment" of the loads, a time "asked" for, or a "jump"
     cycle : number of the cycle that ends here, 0 where none does
+    asked : whether its end, not that of the step, was asked for
     """
 
     number: int
@@ -32,6 +33,7 @@ class Span:
     high: float
     ends: Literal["segment", "asked", "jump"]
     cycle: int = 0
+    asked: bool = False
 
     def part(self, t: float) -> float:
         """Of the step, at the part t of this span."""
@@ -52,9 +54,9 @@ def spans(stage: Stage, start: LoadPoint, end: LoadPoint) -> Iterator[tuple[Span
     count, step = len(stage.ends), stage.step
     kinks = [(j / count, "segment") for j in range(1, count + 1)]
     asked = step.at if isinstance(step.at, tuple) else ()
-    asked = tuple(part for part in asked if min(abs(part - kink) for kink, _ in kinks) > _SAME)
+    between = tuple(part for part in asked if min(abs(part - kink) for kink, _ in kinks) > _SAME)
     low = 0.0
-    for high, what in sorted([*kinks, *((part, "asked") for part in asked)]):
+    for high, what in sorted([*kinks, *((part, "asked") for part in between)]):
         j = min(int(np.ceil(high * count - _SAME)), count) - 1
         first = stage.ends[j - 1] if j else start.factors
         t = high * count - j if what == "asked" else 1.0
@@ -64,7 +66,14 @@ def spans(stage: Stage, start: LoadPoint, end: LoadPoint) -> Iterator[tuple[Span
         finished = what == "segment" and (j + 1) % step.segments == 0
         cycle = (j + 1) // step.segments if finished else 0
         yield (
-            Span(number=stage.number, low=low, high=high, ends="asked" if what == "asked" else "segment", cycle=cycle),
+            Span(
+                number=stage.number,
+                low=low,
+                high=high,
+                ends="asked" if what == "asked" else "segment",
+                cycle=cycle,
+                asked=high < 1.0 and any(abs(part - high) <= _SAME for part in asked),
+            ),
             point,
         )
         low = high

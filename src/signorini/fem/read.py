@@ -115,6 +115,7 @@ def read_facets(path: str | Path, dimension: int, name: str = "") -> tuple[Array
     path = Path(path)
     if not path.is_file():
         raise InputError(f"there is no file '{path}'", where=("file",))
+    complete_meshio()
     found = _read(path)
     named, cells = _named_parts(found, path)
     wanted, higher = (_LINES, NODES_PER_CELL) if dimension == 1 else (NODES_PER_PLANE_CELL, NODES_PER_SOLID_CELL)

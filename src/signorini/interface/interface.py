@@ -171,7 +171,7 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
         adhesion=data("adhesion"),
         shear_limit=data("most_shear"),
         anisotropy=anisotropy_of(model, axes, index),
-        facets=np.where(np.isfinite(friction), facets, 0),
+        facets=np.where(np.isinf(friction) & np.isinf(data("most_shear")), 0, facets),
         normal_compliance=data("normal_compliance"),
         tangential_compliance=np.maximum(data("tangential_compliance"), _of_shared_nodes(space, model, node, friction)),
         tied=data("tied").astype(bool),

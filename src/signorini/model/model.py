@@ -335,16 +335,24 @@ class Model:
             self._check_contact_names(i, step)
             self._check_support_names(i, step)
             if step.path == "exact" and self.kind == "3d":
-                raise InputError(
-                    'is "exact", which is for plane models; in space expected increments, a number or "auto"',
-                    where=("step", i, "path"),
-                )
+                self._check_facets(i)
         unused = [name for name in names if name not in used]
         if unused:
             raise InputError(
                 f"no step's scale names '{unused[0]}': it would never act. Expected a factor for it in a step",
                 where=("step",),
             )
+
+    def _check_facets(self, i: int) -> None:
+        """In space a path is exact where no section of a friction cone is smooth."""
+        for contact in self.contacts:
+            slips = not contact.coulomb or contact.friction not in (0.0, "stick", "tied")
+            if slips and not contact.facets:
+                raise InputError(
+                    f"is \"exact\", but friction on the exact cone of contact '{contact.label}' turns between events; "
+                    'expected facets there, or increments, a number or "auto"',
+                    where=("step", i, "path"),
+                )
 
     def _check_contact_names(self, i: int, step: Step) -> None:
         known = [contact.label for contact in self.contacts]

@@ -27,8 +27,8 @@ class Step:
         A list of m factors makes m straight segments of equal length, each ending at one of them; all lists of a step
         are equally long, and a single number beside them is reached in equal parts. None: everything goes to 1
     repeat : how many times the segments are gone through, one cycle after the other
-    at : parts of the step (0 .. 1) at whose end the full results are kept too, or "events": wherever a pair changes
-        its state on an exact path
+    at : parts of the step (0 .. 1) at whose end the full results are kept too; a number n: every n-th of the step; or
+        "events": wherever a pair changes its state on an exact path
     friction : contact to its coefficient from here on, a number, two where the contact has a ``friction_axis``, or
         "stick". What slips because of that slips at once, before the loads of the step
     interference : contact to its overlap at the end of the step, length; it grows linearly over the step
@@ -38,12 +38,13 @@ class Step:
     release : supports that let go from here on: their forces go linearly to zero over the step
     hold : supports that hold again, each node where it is at that moment; what they prescribe is added from there on
     restore : supports that hold again and take the nodes to where they prescribe linearly over the step
-    increments : equal parts in which every segment is solved, or "auto": 1, 2, 4, ... until the contact forces change
-        less than ``tolerance``; None leaves it to ``path``
+    increments : equal parts in which every segment is solved, or "auto": more and more until the contact forces
+        change less than ``tolerance``, in space such as end at events; None leaves it to ``path``
     tolerance : of "auto", relative to the largest contact force
-    path : "increments", or "exact": from event to event (a pair closes, opens, slips, sticks), without any step size.
-        None chooses: "increments" where their number is given or nothing rubs (one is exact then), otherwise "exact",
-        in space up to 16 increments as with "auto"; the notes say what they left
+    path : "increments", or "exact": from event to event (a pair closes, opens, slips, sticks), without any step size;
+        in space for contacts with ``facets``. None chooses: "increments" where their number is given or nothing rubs
+        (one is exact then), otherwise "exact", in space increments as with "auto", some tens at most, and the notes
+        say what they left
     jump : where an exact path has no gradual continuation, "stop" there, or "follow" the equilibria to the next one at
         that load, which is called a candidate. None stops where the path is asked to be exact, otherwise follows
 
@@ -56,7 +57,7 @@ class Step:
     name: str = ""
     scale: Mapping[str, float | Sequence[float]] | None = None
     repeat: int = 1
-    at: Sequence[float] | Literal["events"] = ()
+    at: Sequence[float] | int | Literal["events"] = ()
     friction: Mapping[str, float | tuple[float, float] | Literal["stick"]] = field(default_factory=dict)
     interference: Mapping[str, float] = field(default_factory=dict)
     inactive: Sequence[str] = ()
@@ -175,8 +176,11 @@ def _coefficient(value: Any, name: str) -> float | tuple[float, float] | str:
 def _times(at: Any) -> tuple[float, ...] | str:
     if at == "events":
         return "events"
+    if isinstance(at, int) and not isinstance(at, bool) and at > 0:
+        return tuple(k / at for k in range(1, at + 1))
     if isinstance(at, str) or not isinstance(at, Sequence):
-        raise InputError(f'is {at!r}; expected a list of parts of the step between 0 and 1, or "events"', where=("at",))
+        expected = 'a list of parts of the step between 0 and 1, a number of equal parts, or "events"'
+        raise InputError(f"is {at!r}; expected {expected}", where=("at",))
     times = [number(part, ("at", i), above=0.0) for i, part in enumerate(at)]
     late = [i for i, part in enumerate(times) if part > 1.0]
     if late:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 import tempfile
 import time
 from collections.abc import Mapping, Sequence
@@ -21,17 +22,18 @@ from signorini.output.frd import write_frd
 from signorini.output.instants import write_history
 from signorini.output.replacing import replacing
 from signorini.output.rows import write_rows
-from signorini.output.series import series
+from signorini.output.series import FIELDS, frames, write_series
 from signorini.output.summary import summary
 from signorini.output.surface import write_surfaces
 from signorini.output.vtu import write_step
 from signorini.solution.history import History
 
 _OURS = re.compile(
-    r"(summary\.json|(contact|history)\.csv|state\.npz|solution(_\d{4,})?\.vtu|contact\.vtu|solution\.(pvd|h5|frd|dat)|"
+    r"(summary\.json|(contact|history)\.csv|state\.npz|solution(_\d{4,})?\.vtu|contact\.(vtu|pvd)|"
+    r"solution\.(pvd|h5|frd|dat)|"
     r"(contact|stress|mesh|view|history)\.png)"
 )
-
+_FIELD = re.compile(r"(solution|contact)_\d{4,}_\d{4,}\.vtu")
 
 ARCHIVE = "solution.h5"
 """The whole history, in a result folder."""
@@ -84,12 +86,25 @@ def publish(
             names = _write_fields(history, aside, tables)
         seconds = clock.seconds | {"total": time.perf_counter() - started}
         write_summary(history, aside / "summary.json", seconds)
-        for old in folder.iterdir():
-            if _OURS.fullmatch(old.name):
-                old.unlink()
+        _clear(folder)
         for file in [*names, "summary.json"]:
+            (folder / file).parent.mkdir(exist_ok=True)
             os.replace(aside / file, folder / file)
     return [folder / file for file in [*names, "summary.json"]]
+
+
+def _clear(folder: Path) -> None:
+    """Remove what an earlier run has left, and nothing else."""
+    for old in folder.iterdir():
+        if _OURS.fullmatch(old.name):
+            old.unlink()
+    fields = folder / FIELDS
+    if fields.is_dir():
+        for old in fields.iterdir():
+            if _FIELD.fullmatch(old.name):
+                old.unlink()
+        if not any(fields.iterdir()):
+            fields.rmdir()
 
 
 def write_drawn(history: History, folder: Path) -> None:
@@ -97,7 +112,7 @@ def write_drawn(history: History, folder: Path) -> None:
     write_rows(history, folder / "contact.csv")
     write_step(history.model, history.last, folder / "solution.vtu")
     if history.model.dimension == 3 and history.model.contacts:
-        write_surfaces(history, folder / SURFACES)
+        write_surfaces(history.model, history.last.contacts, folder / SURFACES)
     write_summary(history, folder / "summary.json", history.timings)
 
 
@@ -114,16 +129,15 @@ def _write_fields(history: History, folder: Path, tables: Sequence[Table] | None
         return []
     write_rows(history, folder / "contact.csv")
     names = ["contact.csv"]
-    if len(history.steps) > 1:
-        parts = [f"solution_{number:04d}.vtu" for number in range(1, len(history.steps) + 1)]
-        for part, step in zip(parts, history.steps, strict=True):
-            write_step(history.model, step, folder / part)
-        (folder / "solution.pvd").write_text(series(parts) + "\n", encoding="utf-8")
-        names += [*parts, "solution.pvd"]
-    if history.model.dimension == 3 and history.model.contacts:
-        write_surfaces(history, folder / SURFACES)
+    model, states = history.model, frames(history)
+    if len(states) > 1:
+        names += write_series(model, states, folder)
+        shutil.copyfile(folder / f"solution_{len(history.steps):04d}.vtu", folder / "solution.vtu")
+    else:
+        write_step(model, history.last, folder / "solution.vtu")
+    if model.dimension == 3 and model.contacts:
+        write_surfaces(model, history.last.contacts, folder / SURFACES)
         names.append(SURFACES)
-    write_step(history.model, history.last, folder / "solution.vtu")
     write_history(history, folder / "history.csv")
     names += ["solution.vtu", "history.csv"]
     if history.end is not None:

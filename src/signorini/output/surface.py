@@ -3,20 +3,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from signorini.model.model import Model
 from signorini.output.replacing import replacing
-from signorini.solution.history import History
+from signorini.solution.results import ContactResult
 from signorini.solution.surface import contact_faces, status_codes
 
 _KINDS = {3: "triangle", 4: "quad"}
 
 
-def write_surfaces(history: History, path: Path) -> None:
-    """Write the nonmortar sides of all contacts at the end of the last step, on the undeformed mesh.
+def write_surfaces(model: Model, results: Sequence[ContactResult], path: Path) -> None:
+    """Write the nonmortar sides of all contacts in one state, on the undeformed mesh.
 
     Point arrays: ``pressure``, ``traction`` (friction on the nonmortar body, a vector), ``slip`` (accumulated, a
     vector), ``gap``, ``area``, ``normal``, ``status`` (0 open, 1 stick, 2 slip) and ``node``. Cell array: ``contact``
@@ -24,11 +26,10 @@ def write_surfaces(history: History, path: Path) -> None:
     """
     import meshio
 
-    results = history.last.contacts
     start = np.cumsum([0, *(len(result.node) for result in results)])
     blocks, owner = [], []
     for i, result in enumerate(results):
-        faces = contact_faces(history.model, result)
+        faces = contact_faces(model, result)
         if len(faces):
             blocks.append((_KINDS[faces.shape[1]], start[i] + faces))
             owner.append(np.full(len(faces), i))
@@ -47,7 +48,7 @@ def write_surfaces(history: History, path: Path) -> None:
             "area": joined([result.area for result in results]),
             "normal": joined([result.normals for result in results]),
             "status": joined([status_codes(result) for result in results]),
-            "node": history.model.mesh.labels[joined([result.node for result in results])],
+            "node": model.mesh.labels[joined([result.node for result in results])],
         },
         cell_data={"contact": owner},
     )

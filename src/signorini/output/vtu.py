@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.fem.space import make_space
+from signorini.fem.space import Space, make_space
 from signorini.fem.stress import BodyStress, body_stresses
 from signorini.formats import complete_meshio
 from signorini.model.model import Model
@@ -29,20 +30,30 @@ def write_vtu(history: History, path: Path) -> None:
 
 
 def write_step(model: Model, step: StepResult, path: Path) -> None:
-    """Write the end of a step as a VTU file.
+    """Write the end of a step as a VTU file; see :func:`write_fields`."""
+    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
+    write_fields(space, model, step.displacement, step.factors, path)
+
+
+def write_fields(space: Space, model: Model, displacement: Array, factors: Mapping[str, float], path: Path) -> None:
+    """Write displacements and the stresses that follow from them as a VTU file.
 
     The points of the bodies come one body after the other, in the order of the model, so that stresses of bodies that
     share nodes are not averaged. Point arrays: ``displacement`` (3 components, length), ``stress`` (xx, yy, zz, xy, yz,
     xz, force per area, tension positive; axisymmetric: x is the radius, y the axis, zz the hoop stress),
     ``von_mises`` and ``node`` (number in the mesh or deck). Cell array:
     ``body`` (0, 1, ... in the order of the model).
+
+    Parameters
+    ----------
+    space : of the model's mesh
+    displacement : (n, d) length
+    factors : load factors by name, for the temperatures
     """
     import meshio
 
     complete_meshio()
-    stresses = body_stresses(
-        make_space(model.mesh, axisymmetric=model.axisymmetric), model, step.displacement, step.factors
-    )
+    stresses = body_stresses(space, model, displacement, factors)
     nodes = np.concatenate([part.nodes for part in stresses])
     stress = np.concatenate([part.stress for part in stresses])
     blocks, body = _cells(model, stresses)
@@ -50,7 +61,7 @@ def write_step(model: Model, step: StepResult, path: Path) -> None:
         _three(model.mesh.points[nodes]),
         blocks,
         point_data={
-            "displacement": _three(step.displacement[nodes]),
+            "displacement": _three(displacement[nodes]),
             "stress": stress,
             "von_mises": np.concatenate([part.von_mises for part in stresses]),
             "node": model.mesh.labels[nodes],

@@ -15,8 +15,9 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
+from signorini.formats import complete_meshio
 from signorini.plot.curve import Curve, make_curve
-from signorini.plot.patch import Patch, halved
+from signorini.plot.patch import Patch, padded_faces
 from signorini.plot.skin import Skin, make_skin
 
 # corners and nodes between them, in the order around a cell
@@ -94,6 +95,7 @@ class ResultFolder:
         """``solution.vtu``."""
         import meshio
 
+        complete_meshio()
         file = self._file("solution.vtu")
         found = meshio.read(file)
         d = 3 if self.solid else 2
@@ -125,18 +127,16 @@ class ResultFolder:
 
         found, last = meshio.read(self._file("contact.vtu")), self.summary["steps"][-1]
         data, patches = found.point_data, []
-        faces = zip(found.cells, found.cell_data["contact"], strict=True)
-        cut = [(halved(block.data), owner) for block, owner in faces]
-        triangles = [(cells, np.tile(owner, len(cells) // len(owner))) for cells, owner in cut]
+        faces = np.concatenate([padded_faces(block.data) for block in found.cells])
+        owner = np.concatenate(found.cell_data["contact"])
         for i, contact in enumerate(last["contacts"]):
-            own = np.vstack([cells[owner == i] for cells, owner in triangles if (owner == i).any()])
-            nodes, index = np.unique(own, return_inverse=True)
+            nodes, index = np.unique(faces[owner == i], return_inverse=True)
             patches.append(
                 Patch(
                     contact=contact["name"],
                     step=last["name"],
                     points=found.points[nodes],
-                    triangles=index.reshape(-1, 3),
+                    faces=index.reshape(-1, 4),
                     pressure=data["pressure"][nodes],
                     shear=data["traction"][nodes],
                     status=data["status"][nodes],

@@ -31,7 +31,7 @@ class Patch:
     ----------
     contact, step : names
     points : (n, 3) undeformed, length
-    triangles : (m, 3) indices of them
+    faces : (m, 4) indices of them, around the faces; a triangle has its last one twice
     pressure : (n,) force per area
     shear : (n, 3) friction on the nonmortar body, force per area
     status : (n,) 0 open, 1 stick, 2 slip
@@ -40,7 +40,7 @@ class Patch:
     contact: str
     step: str
     points: Array
-    triangles: IntArray
+    faces: IntArray
     pressure: Array
     shear: Array
     status: IntArray
@@ -59,7 +59,7 @@ def patches_of(history: History, step: StepResult) -> list[Patch]:
             contact=result.name,
             step=step.name,
             points=result.points,
-            triangles=halved(contact_faces(history.model, result)),
+            faces=padded_faces(contact_faces(history.model, result)),
             pressure=result.pressure,
             shear=result.shear,
             status=status_codes(result),
@@ -68,9 +68,9 @@ def patches_of(history: History, step: StepResult) -> list[Patch]:
     ]
 
 
-def halved(faces: IntArray) -> IntArray:
-    """Faces (m, 3) or (m, 4) as triangles."""
-    return faces if faces.shape[1] == 3 else np.vstack([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]])
+def padded_faces(faces: IntArray) -> IntArray:
+    """Faces (m, 3) or (m, 4) as quadrangles, (m, 4): a triangle has its last node twice."""
+    return faces if faces.shape[1] == 4 else faces[:, [0, 1, 2, 2]]
 
 
 def draw_patches(patches: Sequence[Patch], title: str) -> Figure:
@@ -97,9 +97,10 @@ def _plane(patch: Patch) -> tuple[Array, Array]:
 def _pressure(figure: Figure, axes: Axes, patch: Patch) -> None:
     from matplotlib.tri import Triangulation
 
-    x, y = _plane(patch)
-    surface = Triangulation(x, y, patch.triangles)
-    shown = axes.tripcolor(surface, patch.pressure, shading="gouraud", cmap="viridis", vmin=0.0)
+    points, triangles, pressure = _quartered(patch)
+    a, b = patch.axes
+    surface = Triangulation(points[:, a], points[:, b], triangles)
+    shown = axes.tripcolor(surface, pressure, shading="gouraud", cmap="viridis", vmin=0.0)
     bar = figure.colorbar(shown, ax=axes, shrink=0.85, pad=0.02)
     bar.set_label("pressure, force per area", fontsize=10, color=INK)
     bar.outline.set_visible(False)
@@ -107,12 +108,25 @@ def _pressure(figure: Figure, axes: Axes, patch: Patch) -> None:
     axes.set_title(f"{patch.contact}, end of step '{patch.step}'", fontsize=10, color=INK, loc="left")
 
 
+def _quartered(patch: Patch) -> tuple[Array, IntArray, Array]:
+    """Points, triangles and pressures with every quadrangle cut from its middle, so that no diagonal is preferred."""
+    flat = patch.faces[:, 2] == patch.faces[:, 3]
+    quads, count = patch.faces[~flat], len(patch.points)
+    middle = count + np.arange(len(quads))
+    cut = [np.column_stack([quads[:, k], quads[:, (k + 1) % 4], middle]) for k in range(4)]
+    points = np.concatenate([patch.points, patch.points[quads].mean(axis=1)])
+    pressure = np.concatenate([patch.pressure, patch.pressure[quads].mean(axis=1)])
+    return points, np.concatenate([patch.faces[flat, :3], *cut]), pressure
+
+
 def _status(axes: Axes, patch: Patch) -> None:
+    from matplotlib.collections import PolyCollection
     from matplotlib.patches import Patch as Swatch
 
     x, y = _plane(patch)
     names = ("open", "stick", "slip")
-    axes.triplot(x, y, patch.triangles, color="#d8d8d4", lw=0.3, zorder=0)
+    outlines = np.stack([x, y], axis=1)[patch.faces]
+    axes.add_collection(PolyCollection(list(outlines), facecolors="none", edgecolors="#d0d0cc", lw=0.5, zorder=0))
     size = _marker(patch)
     handles = []
     for code, name in enumerate(names):
@@ -129,7 +143,9 @@ def _status(axes: Axes, patch: Patch) -> None:
         axes.quiver(x[some], y[some], patch.shear[some, a], patch.shear[some, b], color=INK, width=0.003, zorder=2)
     words = "status and friction on the nonmortar body" if len(rubbed) else "status"
     axes.set_title(words, fontsize=10, color=INK, loc="left")
-    axes.legend(handles=handles, fontsize=8.5, frameon=True, framealpha=0.92, edgecolor="none", loc="upper right")
+    axes.legend(
+        handles=handles, fontsize=9, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=len(handles)
+    )
 
 
 def _marker(patch: Patch) -> float:

@@ -8,13 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from signorini.arrays import Array
+from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.plot.field import drawn_factor
 from signorini.plot.files import ResultFolder
 from signorini.plot.patch import Patch
 from signorini.plot.shots import Shot, contact_shot, whole_shot
-from signorini.plot.skin import Skin
 from signorini.plot.style import INK
 
 _SIDE = 1000  # pixels of a panel
@@ -87,7 +86,7 @@ def _stress(plotter: Any, pyvista: Any, folder: ResultFolder, shot: Shot) -> Non
     moved = skin.values(folder.grid.displacement)
     factor = drawn_factor(float(np.ptp(shot.frame(skin.points), axis=0).max()), moved)
     points = skin.points + factor * moved
-    surface = _surface(pyvista, skin, points)
+    surface = _surface(pyvista, skin.pieces, points)
     surface["von Mises stress"] = stress = skin.values(folder.grid.von_mises)
     limits = (0.0, float(stress.max()) or 1.0)
     plotter.add_mesh(surface, cmap="viridis", clim=limits, scalar_bar_args=_BAR, **_SURFACE)
@@ -99,10 +98,10 @@ def _stress(plotter: Any, pyvista: Any, folder: ResultFolder, shot: Shot) -> Non
 def _contact(plotter: Any, pyvista: Any, folder: ResultFolder, shot: Shot) -> None:
     """The pressure on the contact surface, undeformed, and the friction on it."""
     points = shot.skin.points
-    plotter.add_mesh(_surface(pyvista, shot.skin.part(~shot.contact), points), color=_BODY, **_SURFACE)
+    plotter.add_mesh(_surface(pyvista, shot.skin.part(~shot.contact).pieces, points), color=_BODY, **_SURFACE)
     _edges(plotter, pyvista, shot, points, "#404040", 0.25)
     (patch,) = [patch for patch in folder.patches if f"'{patch.contact}'" in shot.title]
-    surface = pyvista.PolyData.from_regular_faces(patch.points, patch.triangles)
+    surface = _surface(pyvista, patch.faces, patch.points)
     surface["pressure"] = patch.pressure
     limits = (0.0, float(patch.pressure.max()) or 1.0)
     plotter.add_mesh(surface, cmap="OrRd", clim=limits, lighting=False, scalar_bar_args=_BAR)
@@ -110,11 +109,11 @@ def _contact(plotter: Any, pyvista: Any, folder: ResultFolder, shot: Shot) -> No
     _look(plotter, pyvista, shot, points, shot.title)
 
 
-def _surface(pyvista: Any, skin: Skin, points: Array) -> Any:
-    flat = skin.pieces[:, 2] == skin.pieces[:, 3]
-    quads, triangles = skin.pieces[~flat], skin.pieces[flat, :3]
-    faces = [np.insert(cells, 0, cells.shape[1], axis=1).ravel() for cells in (quads, triangles)]
-    return pyvista.PolyData(points, np.concatenate(faces))
+def _surface(pyvista: Any, faces: IntArray, points: Array) -> Any:
+    """Faces (m, 4), of which triangles have their last point twice."""
+    flat = faces[:, 2] == faces[:, 3]
+    parts = [np.insert(cells, 0, cells.shape[1], axis=1).ravel() for cells in (faces[~flat], faces[flat, :3])]
+    return pyvista.PolyData(points, np.concatenate(parts))
 
 
 def _edges(plotter: Any, pyvista: Any, shot: Shot, points: Array, colour: str, opacity: float) -> None:

@@ -170,6 +170,7 @@ class Instant:
         touching, dissipation counts from the beginning of the step
     work : since the beginning of the step, NaN where the bodies were not looked at
     displacement : (nodes, d) length, at times asked for, and everywhere where ``at = "events"``; otherwise None
+    factors : load factors by name
     """
 
     load_factor: float
@@ -177,6 +178,7 @@ class Instant:
     contacts: tuple[ContactResult, ...]
     work: float
     displacement: Array | None
+    factors: Mapping[str, float]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 
@@ -120,6 +122,49 @@ def _mindlin(*, spacing: float, shift: float) -> Iterator[Check]:
     ):
         yield Check(
             case=case, quantity=quantity, computed=computed, reference=reference, tolerance=tolerance, source=source
+        )
+
+
+def mindlin_cycle() -> Iterator[Check]:
+    """B05: pulled back and forth by 0.7 mu P, in increments that end at events; 7 cells to the contact radius."""
+    yield from _cycle(spacing=0.14, facets=0, loop=1e-2)
+
+
+def mindlin_cycle_exact() -> Iterator[Check]:
+    """The same on an exact path, on a cone of 16 facets."""
+    yield from _cycle(spacing=0.14, facets=16, loop=1e-9)
+
+
+def _cycle(*, spacing: float, facets: int, loop: float) -> Iterator[Check]:
+    """What a cycle dissipates, the area of its loop, and where slip has turned halfway back.
+
+    Parameters
+    ----------
+    loop : tolerance of what holds to rounding on an exact path
+    """
+    path: Literal["exact"] | None = "exact" if facets else None
+    steps = [
+        Step(name="press", scale={"press": 1.0}, increments=1),
+        Step(name="pull", scale={"pull": _PULL}, path=path),
+        Step(name="cycle", scale={"pull": [-_PULL, _PULL]}, repeat=2, at=[0.125], path=path),
+    ]
+    model = equal_half_spaces([Step()], spacing=spacing)
+    contact = replace(model.contacts[0], facets=facets, friction_axis=(1.0, 0.0, 0.0))
+    step = solve(replace(model, contacts=[contact], steps=steps)).last
+    halfway = next(instant for instant in step.instants if instant.what == "asked").contacts[0]
+    stuck = np.sqrt(2.0 * halfway.area[halfway.status == "stick"].sum() / np.pi)
+    turned = float(np.cbrt(1.0 - 0.5 * _PULL)) * CONTACT_RADIUS
+    _, second = step.cycles
+    way = f"{facets} facets, exact path" if facets else "increments to events"
+    case, source = f"Mindlin, cycles, node distance {spacing:g} a, {way}", "Johnson (1985), section 7.4"
+    for quantity, computed, reference, tolerance, words in (
+        ("loss of a cycle", second.dissipation, EQUAL.loss(_PULL * EQUAL.most) / 2.0, 0.02, source),
+        ("area of the loop / loss", second.work / second.dissipation, 1.0, loop, "first law"),
+        ("second cycle: change of forces", second.change, 0.0, loop, "the loop closes"),
+        ("counter-slip: radius of what sticks at Q = 0", float(stuck), turned, spacing / 2.0, source),
+    ):
+        yield Check(
+            case=case, quantity=quantity, computed=computed, reference=reference, tolerance=tolerance, source=words
         )
 
 

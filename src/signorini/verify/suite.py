@@ -62,6 +62,7 @@ QUICK: tuple[Case, ...] = (
     space.ball_on_plane,
     space.ball_on_block,
     space.mindlin,
+    space.mindlin_cycle,
     space.press_fit,
     rates.smooth_contact,
 )
@@ -74,6 +75,7 @@ SLOW: tuple[Case, ...] = (
     space.balls_refined,
     space.punch,
     space.mindlin_refined,
+    space.mindlin_cycle_exact,
     rates.smooth_contact_refined,
     rates.corners,
 )

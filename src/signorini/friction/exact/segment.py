@@ -40,11 +40,15 @@ class Breakpoint:
     ----------
     factor : part of the segment behind
     h, r : (2n,) as in `PathState`
+    state : the whole state, in space, where a piece is an increment
+    tried : increments tried to find where it ends, in space
     """
 
     factor: float
     h: Array
     r: Array
+    state: PathState | None = None
+    tried: int = 0
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -20,7 +20,7 @@ PRESSED = "the load presses: one increment from zero slip"
 
 @dataclass(frozen=True, kw_only=True)
 class PathState:
-    """One instant of a history, in the scaled units of the problem.
+    """One instant of a history, in the scaled units of the problem; in space with 3n and 2n instead of 2n and n rows.
 
     Attributes
     ----------

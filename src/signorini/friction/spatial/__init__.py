@@ -7,6 +7,7 @@ Pairs have three rows: n normals, n first tangents, n second tangents. `solve_sp
 
 from signorini.friction.spatial.certificate import Violations, certify, natural_residual, violations
 from signorini.friction.spatial.faceted import decoded, faceted_lcp
+from signorini.friction.spatial.follow import StopSettings, at_rest, follow_stopping
 from signorini.friction.spatial.law import OPEN, SLIP, STICK, split, states
 from signorini.friction.spatial.problem import SpatialProblem, from_compliance
 from signorini.friction.spatial.result import LimitLoad, SpatialResult
@@ -20,10 +21,13 @@ __all__ = [
     "SpatialProblem",
     "SpatialResult",
     "SpatialSettings",
+    "StopSettings",
     "Violations",
+    "at_rest",
     "certify",
     "decoded",
     "faceted_lcp",
+    "follow_stopping",
     "from_compliance",
     "limit_load",
     "natural_residual",

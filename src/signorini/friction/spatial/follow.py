@@ -1,0 +1,330 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Follow a straight segment of the load history in space in increments that end where something happens.
+
+Between two events (a pair opens, closes, starts to slip, or its friction reaches the end of an edge of its section)
+motions and forces are linear in the load where sections are polygons: an increment that ends at every event is exact.
+On smooth sections friction turns while a pair slips; there increments are short enough for a small turn of it.
+
+A short increment shows the rates behind an event; extended in a straight line they tell the next event; the increment
+up to there is solved for afresh and certified.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray, frozen
+from signorini.errors import InputError
+from signorini.friction.exact.segment import Breakpoint, Event, Jump, Outcome, Segment, What
+from signorini.friction.exact.state import PathState
+from signorini.friction.spatial.law import OPEN, SLIP, STICK
+from signorini.friction.spatial.pieces import columns, held_until, lasts, spare, turned
+from signorini.friction.spatial.problem import SpatialProblem
+from signorini.friction.spatial.result import SpatialResult
+from signorini.friction.spatial.solve import SpatialSettings, solve_spatial
+
+SHORTEST = 1e-12
+"""Part of the segment below which an increment counts as none."""
+
+_FIRST = 2.0**-6  # part of the segment that is tried first
+_PROBE = 2.0**-4  # part of the last increment that shows the rates behind an event
+_LEAST = 2.0**-10  # part of the segment that does
+_GROWTH, _FINER = 0.5, 2.0**-4  # of what is behind, and of the shortest: what increments at the beginning may be
+_SHRINK = 0.9  # of the estimated part up to an event: short of it
+_SAME, _LATE = 1e-12, 1e-3  # part of an increment by which it may miss an event; the latter after some tries
+_PATIENCE = 4  # tries
+_ROUNDING = 1e-9  # part of an increment: what comes so late does not happen in it
+_LOST = 1e-7  # part of the segment: where not even that has a solution nothing goes on gradually
+_TRIES = 60  # at one increment
+_QUICK = SpatialSettings(swept_rounds=2, proximal_rounds=0, springs=())
+
+
+@dataclass(frozen=True, kw_only=True)
+class StopSettings:
+    """How increments are chosen; all dimensionless.
+
+    Attributes
+    ----------
+    shortest : part of the segment that an increment need not undercut whatever happens in it, less of it at the
+        beginning; 0: every event ends one
+    turn : largest angle by which friction on a smooth section turns in an increment longer than that
+    width : of zero for a gap, a force or the friction to spare, relative to the data
+    most : increments; more are no answer
+    """
+
+    shortest: float = 0.0
+    turn: float = 0.05
+    width: float = 1e-10
+    most: int = 20000
+
+
+def follow_stopping(
+    problem: SpatialProblem, start: PathState, b_end: Array, *, settings: StopSettings | None = None
+) -> Segment:
+    """Follow the load from ``start.b`` straight to ``b_end``, as `signorini.friction.exact.follow` does in the plane.
+
+    Parameters
+    ----------
+    problem : the problem; its own b is not used
+    start : where the history stands
+    b_end : (3n,) load at the end of the segment
+    settings : how increments are chosen
+
+    Returns
+    -------
+    Segment
+        Exact where every section is a polygon and ``shortest`` is 0. ``pivots`` counts the increments tried.
+
+    Raises
+    ------
+    InputError
+        Where shapes do not fit.
+
+    Examples
+    --------
+    One pair, pressed by 1 and pulled sideways by up to 1 across an octagon of friction: slips at 0.5.
+
+    >>> problem = SpatialProblem(
+    ...     W=0.5 * np.eye(3), b=np.zeros(3), friction=[0.5], motions=np.zeros((3, 0)), scale=1.0, facets=8
+    ... )
+    >>> pressed = follow_stopping(problem, at_rest(problem, np.zeros(3)), np.array([-0.5, 0.0, 0.0]))
+    >>> pulled = follow_stopping(problem, pressed.end, np.array([-0.5, 0.5, 0.0]))
+    >>> [(round(event.factor, 12), event.what) for event in pulled.events], (pulled.end.h.round(12) + 0.0).tolist()
+    ([(0.5, 'slips')], [0.0, 0.5, 0.0])
+    """
+    walk = _Walk(problem, start, np.asarray(b_end, dtype=np.float64), settings or StopSettings())
+    while walk.factor < 1.0:
+        failure = walk.advance()
+        if failure:
+            return walk.ended(failure)
+    return walk.segment("followed", None, f"followed through {len(walk.events)} events")
+
+
+def at_rest(problem: SpatialProblem, b: Array, *, motion: Array | None = None) -> PathState:
+    """The start of a history: forces zero, or, where the load presses already, one increment from zero slip.
+
+    Parameters
+    ----------
+    problem : the problem; its own b is not used
+    b : (3n,) load at the start
+    motion : (3n,) motions without forces; where not given those of the load, of bodies that supports hold
+    """
+    n = problem.pairs
+    posed = replace(problem, b=frozen(b))
+    h = posed.free_motion if motion is None else motion
+    if (motion is None and problem.floating) or h[:n].min(initial=0.0) < -1e-10 * (problem.scale or 1.0):
+        result = solve_spatial(posed)
+        if not result.solved:
+            raise InputError(f"presses at the start, and no equilibrium was found: {result.message}", where=("b",))
+        h, r = _split(result)
+        slip = np.where(np.tile(result.state == OPEN, 2), 0.0, h[n:])
+        spent = np.maximum(-(columns(r[n:]) * columns(slip)).sum(axis=1), 0.0)
+        return PathState(b=b, h=h, r=r, state=result.state, anchor=h[n:], slip=slip, dissipation=spent)
+    h = np.concatenate([np.maximum(h[:n], 0.0), h[n:]])
+    none = np.zeros(2 * n)
+    return PathState(b=b, h=h, r=np.zeros(3 * n), state=np.full(n, OPEN), anchor=h[n:], slip=none, dissipation=none[:n])
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Trial:
+    """An increment that was solved.
+
+    Attributes
+    ----------
+    step : part of the segment
+    after : the state at its end
+    result : of the solver
+    until : part of it up to which the law holds on a straight way
+    each : (n,) the same of every pair
+    turn : largest angle by which friction turns
+    """
+
+    step: float
+    after: PathState
+    result: SpatialResult
+    until: float
+    each: Array
+    turn: float
+
+
+class _Walk:
+    """One straight way of the load, gone increment by increment."""
+
+    def __init__(self, problem: SpatialProblem, start: PathState, b_end: Array, settings: StopSettings) -> None:
+        for name, b in (("start", start.b), ("b_end", b_end)):
+            if b.shape != (3 * problem.pairs,) or not np.isfinite(b).all():
+                raise InputError(f"is of shape {b.shape}; expected {(3 * problem.pairs,)} numbers", where=(name,))
+        self.problem, self.start, self.b_end, self.settings = problem, start, b_end, settings
+        self.width = settings.width * (problem.scale or 1.0)
+        self.now, self.factor, self.last = start, 0.0, _FIRST / _PROBE
+        self.events: list[Event] = []
+        self.pieces = [Breakpoint(factor=0.0, h=start.h, r=start.r)]
+        self.tried, self.residual = 0, 0.0
+        self.smooth = bool(((problem.mu > 0).any(axis=1) & (problem.sides == 0)).any())
+        self.refused: SpatialResult | None = None
+
+    def advance(self) -> str:
+        """One increment; why there is none, or nothing."""
+        if len(self.pieces) > self.settings.most:
+            return f"{self.settings.most} increments end at factor {self.factor:.12g}"
+        shortest = self._shortest
+        step = min(max(_PROBE * self.last, _LEAST, shortest), 1.0 - self.factor)
+        tried, best = self.tried, None
+        inner: _Trial | None = None
+        words, longest = "", 1.0 - self.factor
+        for number in range(_TRIES):
+            late = _LATE if self.smooth and number >= _PATIENCE else _SAME
+            trial = self._trial(step, shortest)
+            if isinstance(trial, SpatialResult):
+                words, longest = trial.message, step
+                if self.refused is None or self.refused.outcome != "no_equilibrium":
+                    self.refused = trial
+                if step <= _LOST or (best is not None and step <= best.step * (1.0 + _LATE)):
+                    break
+                step = step / 16.0 if best is None else 0.5 * (best.step + step)
+            elif trial.until >= 1.0 - late and trial.turn <= self.settings.turn:
+                best, inner = trial, inner or trial
+                step = trial.step * self._room(trial, inner.after.state)
+                step = step if step < longest or longest >= 1.0 - self.factor else 0.5 * (trial.step + longest)
+                if min(step, 1.0 - self.factor) <= trial.step * (1.0 + late):
+                    break
+                step = min(step, 1.0 - self.factor)
+            elif trial.step <= shortest:
+                best = inner = trial
+                break
+            else:
+                words, longest = f"pairs {np.flatnonzero(trial.each <= trial.until).tolist()} act", step
+                step = self._nearer(trial, shortest, best)
+                if best is not None and step <= best.step * (1.0 + late):
+                    break
+            if step < SHORTEST:
+                break
+        if best is None or inner is None:
+            return f"at factor {self.factor:.12g}: no increment, however short, goes on gradually ({words})"
+        exact = best.until >= 1.0 - _ROUNDING
+        after = self._settled(best, inner.after.state if exact else best.after.state)
+        self._enter(best, after, self.tried - tried)
+        return ""
+
+    def _nearer(self, trial: _Trial, shortest: float, best: _Trial | None) -> float:
+        """The part to try after one in which something has happened, or friction has turned too far."""
+        limit = self.settings.turn
+        aim = _SHRINK * limit / trial.turn if trial.turn > limit else 1.0
+        if trial.until < 1.0:
+            aim = min(aim, trial.until * (_SHRINK if best is None else 1.0))
+        return max(aim * trial.step, shortest if best is None else best.step)
+
+    def _settled(self, trial: _Trial, state: IntArray) -> PathState:
+        """The end of a piece, where pairs may be on the verge of another state, in the states inside it.
+
+        What slips from an event in the piece on does so under the friction at its end.
+        """
+        now, end, n = self.now, trial.after, self.problem.pairs
+        closed, sticks = state != OPEN, np.tile(state == STICK, 2)
+        h = np.concatenate([np.where(closed, 0.0, end.h[:n]), np.where(sticks, now.h[n:], end.h[n:])])
+        r = np.where(np.tile(closed, 3), end.r, 0.0)
+        moved = np.where(np.tile(closed, 2), h[n:] - now.h[n:], 0.0)
+        late = (trial.each < 1.0 - _ROUNDING) & (now.state != OPEN)
+        rubbing = np.where(np.tile(late, 2), r[n:], 0.5 * (r[n:] + now.r[n:]))
+        lost = -(columns(rubbing) * columns(moved)).sum(axis=1)
+        return replace(
+            end, h=h, r=r, state=state, anchor=h[n:], slip=now.slip + moved, dissipation=now.dissipation + lost
+        )
+
+    def _room(self, trial: _Trial, state: IntArray) -> float:
+        """How much longer than the trial the increment may be: up to the next event, and to the turn allowed."""
+        times = lasts(self.problem, self.now, replace(trial.after, state=state), self.width)
+        if trial.turn > 0.0:
+            times = min(times, max(1.0, _SHRINK * self.settings.turn / trial.turn))
+        return max(times, self._shortest / trial.step)
+
+    @property
+    def _shortest(self) -> float:
+        """What an increment need not undercut here: little at the beginning, where contact grows and friction turns."""
+        whole = self.settings.shortest
+        return min(whole, max(_GROWTH * self.factor, _FINER * whole), 1.0 - self.factor)
+
+    def _trial(self, step: float, shortest: float) -> _Trial | SpatialResult:
+        """The increment of a part of the segment, or the answer that it has no solution."""
+        now, n, problem = self.now, self.problem.pairs, self.problem
+        factor = self.factor + step
+        if factor >= 1.0 - SHORTEST:
+            factor, step = 1.0, 1.0 - self.factor
+        b = self.b_end if factor == 1.0 else (1.0 - factor) * self.start.b + factor * self.b_end
+        origin = np.concatenate([np.zeros(n), now.h[n:]])
+        increment = replace(problem, b=frozen(b + problem.W @ origin - origin))
+        self.tried += 1
+        y = None if not now.r.any() else now.r - np.concatenate([now.h[:n], np.zeros(2 * n)])
+        result = solve_spatial(increment, y, settings=_QUICK if step > shortest else None)
+        if not result.solved:
+            return result
+        h, r = _split(result)
+        slip = result.slip
+        until = held_until(increment, now, h, r, slip, self.width)
+        least = float(until.min(initial=1.0))
+        return _Trial(
+            step=step,
+            after=replace(now, b=b, h=h + origin, r=r, state=result.state),
+            result=result,
+            until=least,
+            each=until,
+            turn=turned(increment, now, r, slip, self.width),
+        )
+
+    def _enter(self, trial: _Trial, after: PathState, tried: int) -> None:
+        """Go on from the end of an increment; what is in another state than before changed at its beginning."""
+        old, new = self.now.state, after.state
+        kinds: tuple[tuple[What, Array], ...] = (
+            ("opens", (old != OPEN) & (new == OPEN)),
+            ("closes", (old == OPEN) & (new != OPEN)),
+            ("sticks", (old == SLIP) & (new == STICK)),
+            ("slips", (old == STICK) & (new == SLIP)),
+        )
+        for what, which in kinds:
+            pairs = tuple(int(k) for k in np.flatnonzero(which))
+            if pairs:
+                self.events.append(
+                    Event(factor=self.factor, pairs=pairs, what=what, state=replace(self.now, state=new))
+                )
+        self.factor = 1.0 if self.factor + trial.step >= 1.0 - SHORTEST else self.factor + trial.step
+        self.now, self.last = after, trial.step
+        self.pieces.append(Breakpoint(factor=self.factor, h=after.h, r=after.r, state=after, tried=tried))
+        self.residual = max(self.residual, trial.result.residual)
+
+    def ended(self, message: str) -> Segment:
+        """The segment up to a jump, where it is proved that loads pull bodies away, or to where nothing was found."""
+        if self.refused is None or self.refused.outcome != "no_equilibrium":
+            return self.segment("not_found", None, message)
+        n, r = self.problem.pairs, self.now.r
+        pressed = r[:n] > self.width
+        spent = pressed & (spare(self.problem, r) <= self.width)
+        jump = Jump(
+            factor=self.factor,
+            pairs=tuple(int(k) for k in np.flatnonzero(spent)),
+            proof=self.refused.message,
+            gross_sliding=bool(pressed.any() and spent[pressed].all()),
+        )
+        return self.segment("jump", jump, message)
+
+    def segment(self, outcome: Outcome, jump: Jump | None, message: str) -> Segment:
+        """All that is known now."""
+        return Segment(
+            end=self.now,
+            events=tuple(self.events),
+            pieces=tuple(self.pieces),
+            outcome=outcome,
+            jump=jump,
+            pivots=self.tried,
+            factorisations=0,
+            updates=0,
+            residual=self.residual,
+            message=message,
+        )
+
+
+def _split(result: SpatialResult) -> tuple[Array, Array]:
+    """Motions and forces of an answer, each (3n,)."""
+    h = np.concatenate([result.gap, result.slip.T.ravel()])
+    return h, np.concatenate([result.normal_force, result.tangential_force.T.ravel()])
