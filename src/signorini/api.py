@@ -27,7 +27,7 @@ from signorini.output.archive import read_archive, write_archive
 from signorini.output.checkpoint import read_checkpoint, write_checkpoint
 from signorini.output.folder import ARCHIVE, write_drawn
 from signorini.output.frd import write_frd
-from signorini.output.picture import write_pixels
+from signorini.output.picture import check_png, write_pixels
 from signorini.output.replacing import replacing
 from signorini.output.series import write_pvd
 from signorini.output.table import history_table
@@ -147,9 +147,10 @@ class Solution(History):
         InputError
             If PyVista is not installed, the model is plane, no step was finished, or the name ends otherwise.
         """
+        target = check_png(Path(path))
         with tempfile.TemporaryDirectory() as name:
             write_drawn(self, Path(name))
-            write_pixels(render_view(ResultFolder(path=Path(name))), Path(path))
+            write_pixels(render_view(ResultFolder(path=Path(name))), target)
 
     def plot_escape(self) -> Figure:
         """Draw the motion along which bodies run away, where no equilibrium was found because of it.

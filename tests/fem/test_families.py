@@ -216,6 +216,15 @@ def test_cells_that_do_not_fit(make, message):
         make_space(make())
 
 
+@pytest.mark.parametrize("far", [1e15, -1e20, 1e160])
+@pytest.mark.parametrize("axis", [0, 1])
+def test_a_node_that_leaves_no_digits_to_the_others(far, axis):
+    points = np.array(SQUARES.points)
+    points[3, axis] = far
+    with pytest.raises(InputError, match=r"node 4 at \(.*\) is more than 1e\+12 times as far away as cell \d+ is long"):
+        make_space(changed(SQUARES, points=points))
+
+
 def test_a_quarter_point_is_allowed():
     make_space(_moved_middle((-0.25, 0.0)))
 

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fields along paths: exact where the cells are, per body, and points outside are told."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from families import FAMILIES, MIXED, block
 
 import signorini as sg
 from signorini.fem.path import along
+from signorini.fem.solids import extruded
 from signorini.fem.space import make_space
 from signorini.model.mesh import join
 
@@ -35,6 +38,38 @@ def test_a_disk_of_cells_of_many_sizes(family):
     slope = np.array([[0.2, 0.1], [-0.4, -0.3]])
     result = along(make_space(mesh), model_of(mesh), mesh.points @ slope.T, points, body="disk")
     np.testing.assert_allclose(result.displacement, points @ slope.T, atol=1e-12)
+
+
+def solid(family):
+    """A crooked block of one family of cells in space."""
+    grid = np.linspace(0.0, 1.0, 4)
+    raised = {"wedge": "triangle", "wedge15": "triangle6"}
+    if family in raised:
+        mesh = extruded(sg.rectangle(nx=3, ny=3, cells=raised[family]), z=[0.0, 0.4, 1.0])
+    else:
+        mesh = sg.box(x=grid, y=grid, z=grid, cells=family)
+    x, y, z = mesh.points.T
+    bent = 0.02 * np.column_stack([np.sin(3.0 * y + z), np.sin(4.0 * z), np.sin(3.0 * x)])
+    return replace(mesh, points=mesh.points + bent)
+
+
+SOLIDS = ("tetra", "tetra10", "hexahedron", "hexahedron20", "hexahedron27", "wedge", "wedge15")
+
+
+@pytest.mark.parametrize("family", SOLIDS)
+def test_linear_fields_in_space(family):
+    mesh = solid(family)
+    points = np.random.default_rng(3).uniform(0.05, 0.95, (100, 3))
+    slope = np.array([[0.2, 0.1, 0.0], [-0.4, -0.3, 0.1], [0.3, 0.0, 0.2]])
+    result = along(make_space(mesh), model_of(mesh, "3d"), mesh.points @ slope.T, points, body=next(iter(mesh.bodies)))
+    np.testing.assert_allclose(result.displacement, points @ slope.T, atol=1e-12)
+    np.testing.assert_allclose(result.stress, np.tile(result.stress[0], (len(points), 1)), atol=1e-11)
+
+
+def test_points_need_as_many_coordinates_as_the_body():
+    mesh = solid("tetra")
+    with pytest.raises(sg.InputError, match="points have 2 coordinates; expected 3"):
+        along(make_space(mesh), model_of(mesh, "3d"), np.zeros_like(mesh.points), [(0.5, 0.5)], body="block")
 
 
 def test_bodies_that_touch_keep_their_own_stress():

@@ -13,12 +13,13 @@ from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, one_of
 from signorini.fem.space import Block, Space, shape_functions
 from signorini.fem.stress import body_stresses
-from signorini.model.mesh import CORNERS
 from signorini.model.model import Model
 
 _OUTSIDE = 1e-6  # of a cell: how far a point may lie beside its body, and is taken to its edge
 _NEWTON = 20
 _SETTLED = 1e-14  # of a cell: a last step
+_OBLIQUE = {"triangle": 2, "tetra": 3, "wedge": 2}
+"""How many reference coordinates add up to 1 at most; the others reach 1 each."""
 _BENT = 1.3  # of the distance of the farthest node: how far a bent edge may reach
 
 
@@ -29,9 +30,9 @@ class PathResult:
     Attributes
     ----------
     body : its name
-    points : (n, 2) undeformed coordinates, length
+    points : (n, d) undeformed coordinates, length
     distance : (n,) along the path from its first point, length
-    displacement : (n, 2) length
+    displacement : (n, d) length
     stress : (n, 6) force per area: xx, yy, zz, xy, yz, xz; axisymmetric: radial, axial, hoop and their shear
     """
 
@@ -55,8 +56,8 @@ def along(
 
     Parameters
     ----------
-    displacement : (nodes, 2) length
-    points : (n, 2) coordinates in the undeformed body, length
+    displacement : (nodes, d) length
+    points : (n, d) coordinates in the undeformed body, length
     body : the stress is that of this body, also where it touches another
     factors : load factors by name, for the temperatures
 
@@ -72,7 +73,9 @@ def along(
     found = body_stresses(space, model, displacement, factors)[names.index(body)]
     stress = np.zeros((len(space.mesh.points), 6))
     stress[found.nodes] = found.stress
-    moved, stressed = np.zeros((len(points), 2)), np.zeros((len(points), 6))
+    if points.shape[1] != space.dimension:
+        raise InputError(f"points have {points.shape[1]} coordinates; expected {space.dimension}")
+    moved, stressed = np.zeros_like(points), np.zeros((len(points), 6))
     for block, index, cells, values in _located(space, model, points, names.index(body)):
         moved[index] = np.einsum("nk,nki->ni", values, displacement[block.cells[cells]])
         stressed[index] = np.einsum("nk,nki->ni", values, stress[block.cells[cells]])
@@ -127,9 +130,11 @@ def _candidates(corners: Array, points: Array) -> tuple[IntArray, IntArray]:
 
 
 def _inverse(block: Block, corners: Array, points: Array) -> tuple[Array, Array]:
-    """Reference coordinates (n, 2) of points in cells by Newton's method, and how far outside they are, (n,)."""
-    triangle = CORNERS[block.family] == 3
-    at = np.full((len(points), 2), 1.0 / 3.0 if triangle else 0.5)
+    """Reference coordinates (n, d) of points in cells by Newton's method, and how far outside they are, (n,)."""
+    d = points.shape[1]
+    oblique = next((axes for family, axes in _OBLIQUE.items() if block.family.startswith(family)), 0)
+    middle = np.where(np.arange(d) < oblique, 1.0 / (1.0 + oblique), 0.5)
+    at = np.tile(middle, (len(points), 1))
     for _ in range(_NEWTON):
         values, gradients = shape_functions(block.family, at.T)
         miss = points - np.einsum("nk,nki->ni", values, corners)
@@ -137,8 +142,8 @@ def _inverse(block: Block, corners: Array, points: Array) -> tuple[Array, Array]
         last, at = at, np.clip(at + np.einsum("nij,nj->ni", np.linalg.pinv(J), miss), -2.0, 3.0)
         if np.abs(at - last).max(initial=0.0) < _SETTLED:
             break
-    edges = [-at[:, 0], -at[:, 1], at.sum(axis=1) - 1.0] if triangle else [-at, at - 1.0]
-    outside = np.column_stack(edges).max(axis=1)
+    far = at[:, :oblique].sum(axis=1, keepdims=True) - 1.0
+    outside = np.hstack([-at, far, at[:, oblique:] - 1.0]).max(axis=1)
     values, _ = shape_functions(block.family, at.T)
     size = np.ptp(corners, axis=1).max(axis=1) if len(corners) else np.empty(0)
     miss = np.linalg.norm(points - np.einsum("nk,nki->ni", values, corners), axis=1)

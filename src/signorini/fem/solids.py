@@ -60,7 +60,7 @@ def box(*, x: ArrayLike, y: ArrayLike, z: ArrayLike, cells: SolidCells = "hexahe
 
 
 def extruded(mesh: Mesh, *, z: ArrayLike) -> Mesh:
-    """A plane mesh raised along z; its boundaries become walls, "bottom" and "top" are added.
+    """A plane mesh raised along z; its boundaries become walls, "bottom" and "top" replace any of these names.
 
     Quadrilaterals become hexahedra of the same order ("quad8" has 20 nodes, "quad9" 27), triangles wedges ("triangle6"
     with 15 nodes).

@@ -20,6 +20,8 @@ from signorini.model.mesh import CORNERS, Mesh
 ON_AXIS = 1e-10
 """Of the largest radius: nodes of axisymmetric bodies that are nearer are on the axis."""
 
+_DIGITS = 1e12  # how many times the shortest edge of a cell a mesh may extend
+
 
 @dataclass(frozen=True)
 class _Element:
@@ -220,6 +222,7 @@ def make_space(mesh: Mesh, *, axisymmetric: bool = False, obstacles: int = 0, li
     space = Space(mesh=mesh, blocks=tuple(blocks), obstacles=obstacles, linked=linked)
     if space.dimension == 2 and any(nodes.shape[1] > CORNERS[family] for family, nodes in mesh.cells.items()):
         check_conforming(mesh, space.edges)
+    _check_extent(space)
     _check_shapes(space)
     return space
 
@@ -303,6 +306,24 @@ def _check_radii(mesh: Mesh) -> None:
             f"node {mesh.labels[node]} has the radius {radii[node]:g}; expected x = r >= 0 in an axisymmetric model",
             where=("mesh", "points"),
         )
+
+
+def _check_extent(space: Space) -> None:
+    """A node far away, where a slip of the pen puts it, leaves no digits to the others."""
+    points = space.mesh.points
+    used = points[space.used_nodes]
+    extent = float(np.ptp(used / _DIGITS, axis=0).max())
+    for block in space.blocks:
+        edges = np.abs(points[block.cells[:, 1]] - points[block.cells[:, 0]]).max(axis=1)
+        if (shortest := float(edges.min())) < extent:
+            far = space.used_nodes[np.argmax(np.abs(used - np.median(used, axis=0)).max(axis=1))]
+            where = tuple(float(x) for x in points[far])
+            raise InputError(
+                f"node {space.mesh.labels[far]} at {where} is more than {_DIGITS:.0e} times as far away as cell "
+                f"{space.mesh.cell_labels[block.first + int(np.argmin(edges))]} is long ({shortest:.3g}); expected "
+                "nodes whose places differ in the digits that numbers have",
+                where=("mesh",),
+            )
 
 
 def _check_shapes(space: Space) -> None:

@@ -12,6 +12,19 @@ from signorini.errors import InputError
 from signorini.output.replacing import replacing
 
 
+def check_png(path: Path) -> Path:
+    """Look at the name before anything is drawn.
+
+    Raises
+    ------
+    InputError
+        If it does not end in ``.png``.
+    """
+    if path.suffix.lower() != ".png":
+        raise InputError(f"is '{path}'; expected a name that ends in .png", where=("path",))
+    return path
+
+
 def write_pixels(pixels: NDArray[np.uint8], path: Path) -> None:
     """Write pixels (height, width, 3) as ``*.png``.
 
@@ -22,7 +35,5 @@ def write_pixels(pixels: NDArray[np.uint8], path: Path) -> None:
     """
     from matplotlib.image import imsave
 
-    if path.suffix.lower() != ".png":
-        raise InputError(f"is '{path}'; expected a name that ends in .png", where=("path",))
-    with replacing(path) as aside:
+    with replacing(check_png(path)) as aside:
         imsave(aside, pixels)
