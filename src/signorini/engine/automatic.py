@@ -41,7 +41,8 @@ def follow_automatically(
 
     Parameters
     ----------
-    tolerance : largest change of a contact force from one number to the next, of the largest force
+    tolerance : largest change from one number to the next: of a contact force, of the largest one; and of what friction
+        dissipates, of the work done on the way
     where : name of the step, for messages
     enough : number at which to stop whatever it still changes, and to say so; None: go on to 4096
     whole : whether the displacement of the bodies is recovered at every event, in space
@@ -63,9 +64,10 @@ def follow_automatically(
             coarse, number = None, more * number
             continue
         if coarse is not None:
-            size = float(np.abs(fine.after.forces).max(initial=0.0)) or 1.0
-            change = float(np.abs(fine.after.forces - coarse.after.forces).max(initial=0.0)) / size
+            change, spent = _changes(coarse, fine)
             note = f"{words}: {fewer} change contact forces by {change:.1e} of the largest"
+            if spent > change:
+                change, note = spent, f"{note} and dissipation by {spent:.1e} of the work"
             if change <= tolerance:
                 return replace(fine, path="increments", notes=(note,))
             if enough is not None and number >= enough:
@@ -76,6 +78,13 @@ def follow_automatically(
         'tolerance, or path = "exact"',
         status="not_found",
     )
+
+
+def _changes(coarse: Leg, fine: Leg) -> tuple[float, float]:
+    """By how much two ways between the same loads differ: in contact forces and in what friction dissipates."""
+    forces, size = fine.after.forces - coarse.after.forces, np.abs(fine.after.forces).max(initial=0.0)
+    spent, work = (fine.after.dissipation - coarse.after.dissipation).sum(), fine.after.work - fine.before.work
+    return float(np.abs(forces).max(initial=0.0) / (size or 1.0)), float(abs(spent) / (abs(work) or 1.0))
 
 
 def _followed(

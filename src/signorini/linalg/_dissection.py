@@ -32,7 +32,7 @@ LEAST, MOST = 0.25, 0.7
 """Share of a piece that a cut leaves on either side; share up to which moves make a side grow."""
 IMBALANCE = 0.3
 """A cut that leaves nothing on one side may be this share thinner than one through the middle."""
-PASSES, PATIENCE = 4, 50
+PASSES, PATIENCE = 8, 200
 """Passes of moves, and moves in vain (besides a quarter of the separator) before a pass ends."""
 GAINS = 20
 """Buckets of moves: they shorten the separator by 1, 0, -1, ..."""
@@ -110,7 +110,7 @@ def dissect(indptr: Int32Array, indices: Int32Array, along: Int32Array, first: i
             count = shorter
         order[high - count : high] = separator[:count]
         near = 0
-        for k in range(directions):
+        for k in range(directions if size > LARGE else first):
             near = _partition(along[k, low:high], label, base, other)
         stack.append((low, low + near))
         stack.append((low + near, high - count))

@@ -16,7 +16,7 @@ from signorini.linalg import _symbolic
 from signorini.linalg.ordering import nested_dissection, unknowns
 from signorini.linalg.system import Int32Array, NodeGraph, System, node_graph
 
-RELAX = (8, 0.8, 24, 0.3, 0.02)
+RELAX = (8, 0.8, 24, 0.3, 0.05)
 """When supernodes are joined though zeros are stored for it; see `_symbolic.supernodes`. Found by measurement."""
 
 
