@@ -11,9 +11,7 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import Array
-
-CORNERS = {3: 3, 4: 4, 6: 3, 8: 4, 9: 4}
-"""Number of corners by number of nodes."""
+from signorini.fem.faces import CORNERS
 
 _TRIANGLE = np.array([[0.0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
 _SQUARE = np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1], [0, -1], [1, 0], [0, 1], [-1, 0], [0, 0]])

@@ -9,10 +9,11 @@ from scipy.spatial import KDTree
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
+from signorini.fem.faces import CORNERS
 from signorini.interface.coupling import Coupling, picked, point_coupling
 from signorini.interface.matching import match_nodes
 from signorini.interface.spatial.candidates import FACING
-from signorini.interface.spatial.faces import CORNERS, shapes_at
+from signorini.interface.spatial.faces import shapes_at
 from signorini.interface.spatial.projection import meet
 from signorini.interface.spatial.surface import Block, Surface, search_distance
 

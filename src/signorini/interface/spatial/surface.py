@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, IntArray, frozen
 from signorini.errors import InputError
-from signorini.interface.spatial.faces import CORNERS, node_places, pieces, shapes_at, slopes_at
+from signorini.fem.faces import CORNERS
+from signorini.interface.spatial.faces import node_places, pieces, shapes_at, slopes_at
 
 _RULE = 3
 
