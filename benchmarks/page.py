@@ -3,10 +3,14 @@
 
 from __future__ import annotations
 
+import json
 import os
 import platform
+import subprocess
+import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 PAGE = Path(__file__).parent.parent / "docs" / "performance.md"
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
@@ -14,6 +18,15 @@ ONE_THREAD["MKL_THREADING_LAYER"] = "SEQUENTIAL"  # one thread of the other laye
 KEEP_MEMORY = {"MALLOC_MMAP_MAX_": "0", "MALLOC_TRIM_THRESHOLD_": str(10**12)}
 """The C library's settings to hand no memory back: otherwise whichever solve comes after a long pause pays for new
 pages, which on a virtual machine cost as much as the computing. All codes gain."""
+
+
+def measured(module: str, dofs: int) -> list[dict[str, Any]]:
+    """What a benchmark prints as JSON about one size, ``--one --dofs``, in a process of its own on one thread."""
+    command = [sys.executable, "-m", module, "--one", "--dofs", str(dofs)]
+    environment = {**os.environ, **ONE_THREAD, **KEEP_MEMORY}
+    done = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=environment)
+    rows: list[dict[str, Any]] = json.loads(done.stdout)
+    return rows
 
 
 def table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:

@@ -8,9 +8,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
-import subprocess
-import sys
 import time
 from typing import Any
 
@@ -29,15 +26,6 @@ HEAD = (
     "with assembly",
     "memory GB",
 )
-
-
-def measure(dofs: int) -> list[dict[str, Any]]:
-    """The rows of one size, from a process of its own."""
-    command = [sys.executable, "-m", "benchmarks.ratio", "--one", "--dofs", str(dofs)]
-    environment = {**os.environ, **page.ONE_THREAD, **page.KEEP_MEMORY}
-    done = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=environment)
-    rows: list[dict[str, Any]] = json.loads(done.stdout)
-    return rows
 
 
 def row(found: dict[str, Any]) -> list[object]:
@@ -64,7 +52,7 @@ def main() -> None:
     if options.one:
         print(json.dumps(list(cylinder(options.dofs[0], timer=time.process_time))))
         return
-    found = [row for dofs in options.dofs for row in measure(dofs)]
+    found = [row for dofs in options.dofs for row in page.measured("benchmarks.ratio", dofs)]
     backends = ", ".join(dict.fromkeys(row["backend"] for row in found))
     text = (
         f"{page.table(HEAD, [row(each) for each in found])}\n\nCPU seconds, one thread, {backends}, {page.machine()}."

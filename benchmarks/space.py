@@ -8,9 +8,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
-import subprocess
-import sys
 import time
 from typing import Any
 
@@ -38,10 +35,7 @@ HEAD = (
 
 def measure(dofs: int) -> list[dict[str, Any]]:
     """The rows of one size, from a process of its own."""
-    command = [sys.executable, "-m", "benchmarks.space", "--one", "--dofs", str(dofs)]
-    environment = {**os.environ, **page.ONE_THREAD, **page.KEEP_MEMORY}
-    done = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=environment)
-    rows: list[dict[str, Any]] = json.loads(done.stdout)
+    rows = page.measured("benchmarks.space", dofs)
     for row in rows:
         print(f"{row['name']}, {row['dofs']} unknowns: {row['ratio']:.2f}", flush=True)
     return rows
