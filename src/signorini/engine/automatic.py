@@ -53,7 +53,7 @@ def follow_automatically(
         If an increment has no certified solution however short, or 4096 are not enough.
     """
     coarse: Leg | None = None
-    change, number = np.inf, 1
+    changes, number = "the answer, where one is found", 1
     more, fewer = (2, "half as many") if prepared.interface.directions == 2 else (4, "a quarter as many")
     while number <= MOST:
         try:
@@ -64,27 +64,26 @@ def follow_automatically(
             coarse, number = None, more * number
             continue
         if coarse is not None:
-            change, spent = _changes(coarse, fine)
-            note = f"{words}: {fewer} change contact forces by {change:.1e} of the largest"
-            if spent > change:
-                change, note = spent, f"{note} and dissipation by {spent:.1e} of the work"
+            change, changes = _change(coarse, fine)
+            note = f"{words}: {fewer} change {changes}"
             if change <= tolerance:
                 return replace(fine, path="increments", notes=(note,))
             if enough is not None and number >= enough:
                 return replace(fine, path="increments", notes=(f"{note}; {_MORE}",))
         coarse, number = fine, more * number
     raise SolveFailed(
-        f"{where}: {MOST} increments still change contact forces by {change:.1e} of the largest; expected a larger "
-        'tolerance, or path = "exact"',
+        f'{where}: {MOST} increments still change {changes}; expected a larger tolerance, or path = "exact"',
         status="not_found",
     )
 
 
-def _changes(coarse: Leg, fine: Leg) -> tuple[float, float]:
-    """By how much two ways between the same loads differ: in contact forces and in what friction dissipates."""
+def _change(coarse: Leg, fine: Leg) -> tuple[float, str]:
+    """By how much two ways between the same loads differ at most, and in words."""
     forces, size = fine.after.forces - coarse.after.forces, np.abs(fine.after.forces).max(initial=0.0)
     spent, work = (fine.after.dissipation - coarse.after.dissipation).sum(), fine.after.work - fine.before.work
-    return float(np.abs(forces).max(initial=0.0) / (size or 1.0)), float(abs(spent) / (abs(work) or 1.0))
+    change, lost = float(np.abs(forces).max(initial=0.0) / (size or 1.0)), float(abs(spent) / (abs(work) or 1.0))
+    words = f"contact forces by {change:.1e} of the largest"
+    return max(change, lost), f"{words} and dissipation by {lost:.1e} of the work" if lost > change else words
 
 
 def _followed(
