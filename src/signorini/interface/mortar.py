@@ -15,6 +15,7 @@ from signorini.fem.line import line_shapes
 from signorini.interface.coupling import Coupling, FacetGaps
 from signorini.interface.dual import dual_functions
 from signorini.interface.overlap import Overlaps, interpolate, parameter
+from signorini.interface.tilt import turned
 
 _COVERED = 1e-8  # of the full weight of a node: with less it carries no pair
 _POINTS = {2: 2, 3: 8}  # of Gauss on every piece, by nodes of the facets; two suffice for straight linear facets
@@ -76,7 +77,7 @@ def _facet_gaps(points: Array, nonmortar: Boundary, mortar: Boundary, overlaps: 
     at = np.column_stack([overlaps.low, 0.5 * (overlaps.low + overlaps.high), overlaps.high])
     one = interpolate(points[nonmortar.facets[overlaps.first]], parameter(overlaps.own, at))
     two = interpolate(points[mortar.facets[overlaps.second]], parameter(overlaps.other, at))
-    gap = np.einsum("pqd,pd->pq", two - one, nonmortar.normals[overlaps.first])
+    gap = np.einsum("pqd,pd->pq", two - one, overlaps.outward)
     order = np.lexsort([overlaps.low, overlaps.first])
     gap, (facet, start) = gap[order], np.unique(overlaps.first[order], return_index=True)
     end = np.append(start[1:], len(order)) - 1
@@ -95,7 +96,7 @@ def _whole(points: Array, side: Boundary) -> Overlaps:
     length = np.linalg.norm(chord, axis=1)
     own = np.einsum("pad,pd->pa", ends - ends[:, :1], chord / length[:, None])
     facet = np.arange(len(ends))
-    return Overlaps(first=facet, second=facet, low=np.zeros(len(ends)), high=length, own=own, other=own)
+    return Overlaps(first=facet, second=facet, outward=side.normals, low=np.zeros(len(ends)), high=length, own=own, other=own)
 
 
 def _quadrature(
@@ -112,7 +113,8 @@ def _quadrature(
     along = np.einsum("pqa,pad->pqd", slopes, corners)
     weights = half * share / np.abs(np.einsum("pqa,pa->pq", slopes, overlaps.own)) * measure(interpolate(corners, s))
     inward = np.stack([-along[..., 1], along[..., 0]], axis=-1)
-    return at, weights[..., None] * inward
+    tilted = turned(inward, side.normals[overlaps.first][:, None], overlaps.outward[:, None])
+    return at, weights[..., None] * tilted
 
 
 def _duals(side: Boundary, overlaps: Overlaps, at: Array, areas: Array) -> tuple[Array, Array]:
