@@ -189,7 +189,7 @@ def _couple(
 ) -> tuple[Coupling, str]:
     """The coupling of two meshed sides, and its name."""
     if side.dimension == 3:
-        return _couple_in_space(space, side, mortar, contact, where)
+        return _couple_in_space(space, side, mortar, contact, where, _share(space, model, side, mortar))
     points, count = space.mesh.points, len(space.mesh.points)
     linear = not (side.quadratic or mortar.quadratic)
     if contact.coupling == "nodes" or (contact.coupling == "auto" and linear):
@@ -202,12 +202,24 @@ def _couple(
     if contact.coupling == "node-to-segment":
         areas = -nodal_normal_areas(model, side)
         return node_to_segment(points, side, mortar, areas, contact.search, where), "node-to-segment"
-    overlaps = find_overlaps(points, side, mortar, contact.search, where)
+    overlaps = find_overlaps(points, side, mortar, contact.search, where, _share(space, model, side, mortar))
     return mortar_coupling(points, side, mortar, overlaps, partial(measure, model), where), "mortar"
 
 
+def _share(space: Space, model: Model, *sides: Boundary) -> float:
+    """Of the first of two sides in the stiffness of both, 0 to 1: of the moduli of the bodies there."""
+    moduli = np.array([body.material.smallest_modulus for body in model.bodies])
+    found = []
+    for side in sides:
+        on = np.zeros(len(space.mesh.points), np.bool_)
+        on[side.nodes] = True
+        touching = np.concatenate([on[block.cells].any(axis=1) for block in space.blocks])
+        found.append(float(moduli[np.unique(model.body_of_cells()[touching])].mean()))
+    return found[0] / sum(found)
+
+
 def _couple_in_space(
-    space: Space, side: Boundary, mortar: Boundary, contact: Contact, where: Where
+    space: Space, side: Boundary, mortar: Boundary, contact: Contact, where: Where, share: float
 ) -> tuple[Coupling, str]:
     """The same for faces."""
     own, other = (spatial.make_surface(space.mesh.points, boundary.facets) for boundary in (side, mortar))
