@@ -36,10 +36,11 @@ def mortar_coupling(
 
         int psi_k N_j n dA  on the nonmortar,  - int psi_k N_l^mortar n dA  on the mortar side,
 
-    n the normal of the nonmortar side where it is. The psi_k sum to 1, so that a uniform pressure passes exactly, also
-    where the sides are curved: on the nonmortar side as ``int N_j n dA``, on the mortar side as its own where the two
-    coincide. Facets see each other across their chords: of linear facets the forces of every pair are in balance, with
-    their moments. On linear facets only the pair's own node bears its forces. Quadratic facets have pairs at their
+    n the normal of the nonmortar side where it is, turned where the sides are tilted against each other (see
+    :mod:`signorini.interface.tilt`). The psi_k sum to 1, so that a uniform pressure passes exactly, also where the
+    sides are curved: on the nonmortar side as ``int N_j n dA``, on the mortar side as its own where the two coincide.
+    Facets see each other along these normals: of linear facets the forces of every pair are in balance, with their
+    moments. On linear facets only the pair's own node bears its forces. Quadratic facets have pairs at their
     corners only (their own dual functions oscillate).
 
     Parameters
@@ -73,7 +74,7 @@ def mortar_coupling(
 
 
 def _facet_gaps(points: Array, nonmortar: Boundary, mortar: Boundary, overlaps: Overlaps) -> FacetGaps:
-    """Gaps across the chords of the facets that anything is opposite, at the ends and in the middle of every piece."""
+    """Gaps on the facets that anything is opposite, at the ends and in the middle of every piece."""
     at = np.column_stack([overlaps.low, 0.5 * (overlaps.low + overlaps.high), overlaps.high])
     one = interpolate(points[nonmortar.facets[overlaps.first]], parameter(overlaps.own, at))
     two = interpolate(points[mortar.facets[overlaps.second]], parameter(overlaps.other, at))
@@ -96,13 +97,15 @@ def _whole(points: Array, side: Boundary) -> Overlaps:
     length = np.linalg.norm(chord, axis=1)
     own = np.einsum("pad,pd->pa", ends - ends[:, :1], chord / length[:, None])
     facet = np.arange(len(ends))
-    return Overlaps(first=facet, second=facet, outward=side.normals, low=np.zeros(len(ends)), high=length, own=own, other=own)
+    return Overlaps(
+        first=facet, second=facet, outward=side.normals, low=np.zeros(len(ends)), high=length, own=own, other=own
+    )
 
 
 def _quadrature(
     points: Array, side: Boundary, overlaps: Overlaps, measure: Callable[[Array], Array], opposite: int
 ) -> tuple[Array, Array]:
-    """Places along the chords (p, q), and normals into the body times arc length times the measure, (p, q, 2)."""
+    """Places in the pieces (p, q), and normals into the body times arc length times the measure, (p, q, 2)."""
     count = side.facets.shape[1]
     where, share = np.polynomial.legendre.leggauss(_POINTS[max(count, opposite)])
     half = 0.5 * (overlaps.high - overlaps.low)[:, None]
@@ -138,7 +141,7 @@ def _own_forces(
 
 
 def _shapes(places: Array, at: Array) -> Array:
-    """Shape functions (p, q, 2 or 3) of facets where they have given places along the chords."""
+    """Shape functions (p, q, 2 or 3) of facets at given places in the pieces."""
     s = parameter(places, at)
     values: Array = line_shapes(places.shape[1], s.ravel())[0].reshape(*s.shape, places.shape[1])
     return values

@@ -231,7 +231,7 @@ def _couple_in_space(
             raise InputError(reason, where=where)
     if contact.coupling == "node-to-segment":
         return spatial.node_to_face(own, other, search=contact.search, where=where), "node-to-segment"
-    return spatial.mortar_coupling(own, other, search=contact.search, where=where), "mortar"
+    return spatial.mortar_coupling(own, other, share=share, search=contact.search, where=where), "mortar"
 
 
 def _refuse_no_normal(space: Space, coupling: Coupling, where: Where) -> None:
