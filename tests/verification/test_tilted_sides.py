@@ -90,7 +90,7 @@ def test_forces_of_every_pair_balance_with_their_moments_in_the_plane():
     space = make_space(mesh)
     sides = [boundary(space, name, ()) for name in ("upper.arc", "lower.arc")]
     overlaps = find_overlaps(mesh.points, *sides, 0.5, ())
-    coupling = mortar_coupling(mesh.points, *sides, overlaps, lambda x: np.ones(x.shape[:-1]), ())
+    coupling = mortar_coupling(mesh.points, *sides, overlaps, lambda x, *_: np.ones(x.shape[:-1]), ())
     assert np.abs(coupling.normals[:, 0]).max() < 0.1  # their own are tilted by up to 45 degrees and more
     np.testing.assert_allclose(moments(coupling, mesh.points), 0.0, atol=1e-14)
 

@@ -26,7 +26,7 @@ def mortar_coupling(
     nonmortar: Boundary,
     mortar: Boundary,
     overlaps: Overlaps,
-    measure: Callable[[Array], Array],
+    measure: Callable[[Array, IntArray, IntArray], Array],
     where: Where,
 ) -> Coupling:
     """Weigh both sides with the functions dual to the hats of the nonmortar corner nodes.
@@ -47,7 +47,7 @@ def mortar_coupling(
     ----------
     points : (n, 2) of all nodes
     overlaps : of the two sides
-    measure : thickness, or circumference, at points (..., 2)
+    measure : thickness, or circumference, over which cells of both sides (p,) touch at points (p, q, 2), (p, q)
 
     Raises
     ------
@@ -58,7 +58,7 @@ def mortar_coupling(
     ----------
     Wohlmuth (2000), SIAM J. Numer. Anal. 38:989; Popp, Wohlmuth, Gee, Wall (2012), SIAM J. Sci. Comput. 34:B421.
     """
-    at, areas = _quadrature(points, nonmortar, overlaps, measure, mortar.facets.shape[1])
+    at, areas = _quadrature(points, nonmortar, mortar, overlaps, measure)
     _, multiplier = _duals(nonmortar, overlaps, at, areas)
     corners, n = nonmortar.facets[:, :2], len(points)
     vectors = np.zeros((n, 2))
@@ -103,18 +103,23 @@ def _whole(points: Array, side: Boundary) -> Overlaps:
 
 
 def _quadrature(
-    points: Array, side: Boundary, overlaps: Overlaps, measure: Callable[[Array], Array], opposite: int
+    points: Array,
+    side: Boundary,
+    other: Boundary,
+    overlaps: Overlaps,
+    measure: Callable[[Array, IntArray, IntArray], Array],
 ) -> tuple[Array, Array]:
     """Places in the pieces (p, q), and normals into the body times arc length times the measure, (p, q, 2)."""
     count = side.facets.shape[1]
-    where, share = np.polynomial.legendre.leggauss(_POINTS[max(count, opposite)])
+    where, share = np.polynomial.legendre.leggauss(_POINTS[max(count, other.facets.shape[1])])
     half = 0.5 * (overlaps.high - overlaps.low)[:, None]
     at = overlaps.low[:, None] + half * (1.0 + where)
     s = parameter(overlaps.own, at)
     slopes = line_shapes(count, s.ravel())[1].reshape(*s.shape, count)
     corners = points[side.facets[overlaps.first]]
     along = np.einsum("pqa,pad->pqd", slopes, corners)
-    weights = half * share / np.abs(np.einsum("pqa,pa->pq", slopes, overlaps.own)) * measure(interpolate(corners, s))
+    across = measure(interpolate(corners, s), side.cells[overlaps.first], other.cells[overlaps.second])
+    weights = half * share / np.abs(np.einsum("pqa,pa->pq", slopes, overlaps.own)) * across
     inward = np.stack([-along[..., 1], along[..., 0]], axis=-1)
     tilted = turned(inward, side.normals[overlaps.first][:, None], overlaps.outward[:, None])
     return at, weights[..., None] * tilted
@@ -154,8 +159,8 @@ def _spread(rows: IntArray, columns: IntArray, multiplier: Array, shapes: Array,
     return tuple(sp.csr_array((part.ravel(), (i, j)), shape=(n, n)) for part in values)
 
 
-def _full(points: Array, side: Boundary, measure: Callable[[Array], Array]) -> Array:
+def _full(points: Array, side: Boundary, measure: Callable[[Array, IntArray, IntArray], Array]) -> Array:
     """``int psi_k`` of every node of the mesh if all facets were covered, (n,)."""
     whole = _whole(points, side)
-    share, _ = _duals(side, whole, *_quadrature(points, side, whole, measure, 2))
+    share, _ = _duals(side, whole, *_quadrature(points, side, side, whole, measure))
     return np.bincount(side.facets[:, :2].ravel(), share.ravel(), len(points)).astype(float)

@@ -119,8 +119,8 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
         model = Model(
             _mesh(grid, sections, places),
             kind=kind,
-            thickness=_thickness(sections, kind),
-            bodies=[_body(section, grid) for section in sections],
+            thickness=_thickness(sections[0], kind),
+            bodies=[_body(section, grid, _thickness(sections[0], kind), kind) for section in sections],
             supports=conditions.supports,
             loads=conditions.loads,
             contacts=[pair.contact for pair in contacts],
@@ -181,16 +181,6 @@ def _kind(grid: Grid) -> Kind:
     return first.type.kind
 
 
-def _thickness(sections: Sequence[Section], kind: str) -> float:
-    for section in sections if kind not in ("axisymmetric", "3d") else ():
-        if section.thickness != sections[0].thickness:
-            raise section.block.error(
-                f"the thickness is {section.thickness:g}, but {sections[0].thickness:g} in line "
-                f"{sections[0].block.line}; expected one thickness for all"
-            )
-    return 1.0 if kind in ("axisymmetric", "3d") else sections[0].thickness  # CalculiX: the angle that it cuts out
-
-
 def _mesh(grid: Grid, sections: Sequence[Section], places: Places) -> Mesh:
     """Cells family by family; their numbers and the bodies follow."""
     cells: dict[str, IntArray] = {}
@@ -214,8 +204,13 @@ def _mesh(grid: Grid, sections: Sequence[Section], places: Places) -> Mesh:
     )
 
 
-def _body(section: Section, grid: Grid) -> Body:
-    substance = section.substance
+def _thickness(section: Section, kind: Kind) -> float:
+    return 1.0 if kind in ("axisymmetric", "3d") else section.thickness  # CalculiX: the angle that it cuts out
+
+
+def _body(section: Section, grid: Grid, usual: float, kind: Kind) -> Body:
+    """Of a section; where its thickness is not the usual one, with its own."""
+    substance, thickness = section.substance, _thickness(section, kind)
     elastic, alpha = substance.elastic, substance.expansion or 0.0
     assert elastic is not None
     given: dict[str, Any] = {"density": substance.density or 0.0}
@@ -230,6 +225,7 @@ def _body(section: Section, grid: Grid) -> Body:
             section.name,
             replace(elastic, **given),
             formulation="incompatible" if incompatible else "standard",
+            thickness=None if thickness == usual else thickness,
         )
     except InputError as error:
         raise substance.block.error(str(error)) from error
