@@ -189,7 +189,7 @@ def _couple(
 ) -> tuple[Coupling, str]:
     """The coupling of two meshed sides, and its name."""
     if side.dimension == 3:
-        return _couple_in_space(space, side, mortar, contact, where)
+        return _couple_in_space(space, side, mortar, contact, where, _share(model, side, mortar))
     points, count = space.mesh.points, len(space.mesh.points)
     linear = not (side.quadratic or mortar.quadratic)
     if contact.coupling == "nodes" or (contact.coupling == "auto" and linear):
@@ -203,12 +203,19 @@ def _couple(
     if contact.coupling == "node-to-segment":
         areas = -nodal_contact_areas(model, side, facing_cells(side, mortar))
         return node_to_segment(points, side, mortar, areas, contact.search, where), "node-to-segment"
-    overlaps = find_overlaps(points, side, mortar, contact.search, where)
+    overlaps = find_overlaps(points, side, mortar, contact.search, where, _share(model, side, mortar))
     return mortar_coupling(points, side, mortar, overlaps, partial(contact_measure, model), where), "mortar"
 
 
+def _share(model: Model, *sides: Boundary) -> float:
+    """Of the first of two sides in the stiffness of both, 0 to 1: of the moduli of the cells there."""
+    moduli = np.array([body.material.smallest_modulus for body in model.bodies])[model.body_of_cells()]
+    first, second = (float(moduli[side.cells].mean()) for side in sides)
+    return first / (first + second)
+
+
 def _couple_in_space(
-    space: Space, side: Boundary, mortar: Boundary, contact: Contact, where: Where
+    space: Space, side: Boundary, mortar: Boundary, contact: Contact, where: Where, share: float
 ) -> tuple[Coupling, str]:
     """The same for faces."""
     own, other = (spatial.make_surface(space.mesh.points, boundary.facets) for boundary in (side, mortar))
@@ -220,7 +227,7 @@ def _couple_in_space(
             raise InputError(reason, where=where)
     if contact.coupling == "node-to-segment":
         return spatial.node_to_face(own, other, search=contact.search, where=where), "node-to-segment"
-    return spatial.mortar_coupling(own, other, search=contact.search, where=where), "mortar"
+    return spatial.mortar_coupling(own, other, share=share, search=contact.search, where=where), "mortar"
 
 
 def _refuse_no_normal(space: Space, coupling: Coupling, where: Where) -> None:
