@@ -25,7 +25,7 @@ from signorini.deck.inp.loading import Known, follow_steps
 from signorini.deck.inp.materials import Section, make_materials, make_sections
 from signorini.deck.inp.pairs import Pair, make_contacts, make_ties
 from signorini.deck.inp.places import Places
-from signorini.deck.inp.prints import make_tables
+from signorini.deck.inp.prints import make_prints
 from signorini.deck.inp.sets import make_sets
 from signorini.deck.inp.steps import DeckStep, split_steps
 from signorini.deck.inp.supported import refuse_unsupported
@@ -35,7 +35,7 @@ from signorini.model.body import Body
 from signorini.model.material import Orthotropic
 from signorini.model.mesh import NODES_PER_CELL, Mesh
 from signorini.model.model import Kind, Model
-from signorini.model.prints import Table
+from signorini.model.prints import Prints
 from signorini.model.step import Step
 
 _SMALL_SLIDING = "contact is treated as small sliding: pairs are found on the undeformed bodies"
@@ -55,14 +55,14 @@ class Built:
     places : keyword of every support, load, contact, body and step, by its path in the model
     notes : what differs from the deck, and what is left out
     unused_materials : names of materials that no section has
-    tables : that the steps ask for
+    prints : what the steps ask for
     """
 
     model: Model
     places: dict[Where, Block]
     notes: tuple[str, ...]
     unused_materials: tuple[str, ...]
-    tables: tuple[Table, ...]
+    prints: Prints
 
 
 def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increments: bool) -> Built:
@@ -136,7 +136,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
         model=model,
         places=where,
         notes=tuple(_notes(grid, steps, contacts, ignored, small_strain, deck_increments)),
-        tables=tuple(make_tables(steps, nodes, elements, model.mesh, contacts)),
+        prints=make_prints(steps, known, model.mesh, contacts),
         unused_materials=tuple(m.block.value("NAME") for m in materials.values() if id(m) not in used),
     )
 
