@@ -44,6 +44,11 @@ class Group:
         """(m, k) nodes."""
         return self.block.cells[self.index]
 
+    @property
+    def numbers(self) -> IntArray:
+        """(m,) of the cells among all."""
+        return self.block.first + self.index
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Kinematics:
@@ -154,7 +159,7 @@ def kinematics(space: Space, model: Model, group: Group, *, best: bool = False) 
     at = np.einsum("qk,mki->mqi", values, points)
     if model.axisymmetric:
         gradients = np.concatenate([gradients, (values / at[..., :1])[..., None]], axis=-1)
-    weights = np.abs(np.linalg.det(jacobians)) * measure(model, at)
+    weights = np.abs(np.linalg.det(jacobians)) * measure(model, at, group.numbers)
     weights = weights * (1.0 / len(values) if best else block.weights)
     if group.formulation == "incompatible":
         gradients = np.concatenate([gradients, mode_gradients(space, model, group)], axis=2)
@@ -180,7 +185,8 @@ def mode_gradients(space: Space, model: Model, group: Group) -> Array:
     determinants = np.linalg.det(jacobians)
     ratio = np.linalg.det(centre)[:, None] / determinants
     modes = np.einsum("mq,qpj,mji->mqpi", ratio, slopes, np.linalg.inv(centre))
-    weights = np.abs(determinants) * measure(model, np.einsum("qk,mki->mqi", block.values, points))
+    at = np.einsum("qk,mki->mqi", block.values, points)
+    weights = np.abs(determinants) * measure(model, at, group.numbers)
     modes -= np.einsum("mq,mqpi->mpi", weights, modes)[:, None] / weights.sum(axis=1)[:, None, None, None]
     if model.axisymmetric:
         modes = np.concatenate([modes, np.zeros((*modes.shape[:3], 1))], axis=-1)

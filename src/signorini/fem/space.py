@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 import skfem
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, among
 from signorini.errors import InputError
 from signorini.fem.edges import Edges, check_conforming, make_edges
 from signorini.fem.faces import HEXAHEDRON, Faces, make_faces
@@ -140,12 +140,17 @@ class Space:
     @cached_property
     def used_nodes(self) -> IntArray:
         """Nodes of any cell, sorted (a Gmsh file may hold others)."""
-        return np.unique(np.concatenate([block.cells.ravel() for block in self.blocks]))
+        return np.flatnonzero(self.used)
+
+    @cached_property
+    def used(self) -> BoolArray:
+        """(nodes,) Whether a node is one of any cell."""
+        return among([block.cells for block in self.blocks], len(self.mesh.points))
 
     @cached_property
     def loose_nodes(self) -> IntArray:
         """Nodes of no cell that equations name, sorted."""
-        return np.setdiff1d(self.linked, self.used_nodes)
+        return np.unique(self.linked[~self.used[self.linked]])
 
     @cached_property
     def node_of(self) -> Mapping[int, int]:
@@ -171,7 +176,7 @@ class Space:
     def volumes(self) -> tuple[Array, ...]:
         """Quadrature weights times ``|det dx/dX|``, (m, q) a block: area of each quadrature point."""
         return tuple(
-            np.abs(np.linalg.det(jacobian)) * block.weights
+            np.abs(determinants(jacobian)) * block.weights
             for jacobian, block in zip(self.jacobians, self.blocks, strict=True)
         )
 
@@ -180,8 +185,9 @@ class Space:
         return next(v for b, v in zip(self.blocks, self.volumes, strict=True) if b is block)
 
     def _jacobians(self, block: Block, gradients: Array) -> Array:
-        result: Array = np.einsum("mki,qkj->mqij", self.mesh.points[block.cells], gradients)
-        return result
+        cells, (points, nodes, d) = block.cells, gradients.shape
+        at = self.mesh.points.T[:, cells].reshape(-1, nodes) @ gradients.transpose(1, 0, 2).reshape(nodes, -1)
+        return at.reshape(d, len(cells), points, d).transpose(1, 2, 0, 3)
 
     def gradients(self, block: Block, at: Array) -> Array:
         """Shape function gradients in space, (m, q, k, d), where the reference gradients are ``at`` (q, k, d)."""
@@ -297,6 +303,20 @@ def _shape(element: skfem.Element, where: Array, order: IntArray) -> tuple[Array
     return values, gradients
 
 
+def determinants(matrices: Array) -> Array:
+    """Determinants (...) of many small matrices, (..., 2, 2) or (..., 3, 3).
+
+    Examples
+    --------
+    >>> determinants(np.array([[[2.0, 1.0], [0.0, 3.0]]])), determinants(2.0 * np.eye(3))
+    (array([6.]), array(8.))
+    """
+    m = np.moveaxis(matrices, (-2, -1), (0, 1))
+    if len(m) == 2:
+        return np.asarray(m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0])
+    return np.asarray((m[0] * np.cross(m[1], m[2], axis=0)).sum(axis=0))
+
+
 def _check_radii(mesh: Mesh) -> None:
     radii = mesh.points[:, 0]
     used = np.concatenate([cells.ravel() for cells in mesh.cells.values()])
@@ -329,11 +349,11 @@ def _check_extent(space: Space) -> None:
 def _check_shapes(space: Space) -> None:
     for block, inner in zip(space.blocks, space.jacobians, strict=True):
         outer = space._jacobians(block, block.corners)
-        determinants = np.linalg.det(np.concatenate([outer, inner], axis=1))
-        size = np.abs(determinants).max(axis=1)
+        volume = np.concatenate([determinants(outer), determinants(inner)], axis=1)
+        size, total = np.abs(volume).max(axis=1), volume.sum(axis=1)
         # clockwise cells are fine; a change of sign inside a cell, or no area, is not
-        bad = (np.abs(determinants.sum(axis=1)) < 1e-12 * size) | (size == 0.0)
-        bad |= (determinants * np.sign(determinants.sum(axis=1))[:, None]).min(axis=1) <= -1e-12 * size
+        bad = (np.abs(total) < 1e-12 * size) | (size == 0.0)
+        bad |= (volume * np.sign(total)[:, None]).min(axis=1) <= -1e-12 * size
         if bad.any():
             cell = int(np.nonzero(bad)[0][0])
             centre = tuple(float(x) for x in space.mesh.points[block.cells[cell]].mean(axis=0).round(6))

@@ -42,6 +42,7 @@ def summary(history: History, seconds: Mapping[str, float]) -> dict[str, Any]:
             "contact_pairs": history.pairs,
         },
         "bodies": [body.name for body in model.bodies],
+        "thicknesses": model.thicknesses,
         "timings": {phase: float(seconds.get(phase, 0.0)) for phase in PHASES},
         "backend": history.backend,
         "peak_memory_bytes": peak_memory(),

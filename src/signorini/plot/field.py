@@ -10,7 +10,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.plot.files import Grid, ResultFolder
-from signorini.plot.style import INK, STATUS_INK
+from signorini.plot.style import INK
 from signorini.solution.results import OPEN
 
 if TYPE_CHECKING:
@@ -68,17 +68,15 @@ def draw_mesh(folder: ResultFolder) -> Figure:
     handles: list[Artist] = [
         Patch(facecolor=BODIES[i % len(BODIES)], edgecolor="#7d7d7d", label=name) for i, name in enumerate(names)
     ]
-    last = str(len(folder.summary["steps"]))
     for axes in panels:
         for cells, body in zip(grid.cells, grid.body, strict=True):
             faces = [BODIES[i % len(BODIES)] for i in body]
             axes.add_collection(PolyCollection(list(grid.points[cells]), facecolors=faces, edgecolors="none"))
         _edges(axes, grid, grid.points, colour="#7d7d7d", alpha=1.0)
-        for status, colour in STATUS_INK.items():
-            own = [row for row in folder.rows if row["step"] == last and row["status"] == status]
-            x, y = [float(row["x"]) for row in own], [float(row["y"]) for row in own]
-            dots = axes.plot(x, y, "o", ms=4, color=colour, label=f"contact node, {status}", zorder=3)
-            handles += dots if own and axes is panels[-1] else []
+        for dots in folder.dots:
+            x, y = grid.points[np.isin(grid.node, dots.node)].T
+            drawn = axes.plot(x, y, "o", ms=4, color=dots.colour, label=dots.label, zorder=3)
+            handles += drawn if axes is panels[-1] else []
     figure.legend(handles=handles, fontsize=9, frameon=False, loc="outside lower center", ncols=len(handles))
     size = folder.summary["size"]
     words = f"{size['nodes']} nodes, {size['elements']} elements, {size['contact_pairs']} contact pairs"
@@ -109,8 +107,7 @@ def drawn_factor(size: float, displacement: Array) -> float:
 
 def _window(folder: ResultFolder, points: Array) -> Window | None:
     """The part around the closed contact nodes; None if that is much of the picture."""
-    last = str(len(folder.summary["steps"]))
-    closed = [int(row["node"]) for row in folder.rows if row["step"] == last and row["status"] != OPEN]
+    closed = [int(row["node"]) for row in folder.last_rows if row["status"] != OPEN]
     here = points[np.isin(folder.grid.node, closed)]
     size = float(np.ptp(points, axis=0).max())
     if not len(here):

@@ -179,6 +179,16 @@ def test_a_deck_of_many_nodes_is_read_in_bulk(tmp_path: Path) -> None:
     assert (model.kind, model.thickness) == ("plane stress", 0.5)
 
 
+def test_sections_have_their_own_thickness(tmp_path: Path) -> None:
+    """The upper block half as thick: twice as soft, and the blocks touch over its thickness."""
+    deck = edited(tmp_path, "ELSET=Upper, MATERIAL=Steel\n1.", "ELSET=Upper, MATERIAL=Steel\n.5")
+    model = sg.read(deck)
+    assert (model.thickness, model.thicknesses, model.bodies[0].thickness) == (1.0, [1.0, 0.5], None)
+    one, half = (sg.solve(sg.read(path)).steps[0].contacts[0] for path in (DECKS / "two_blocks.inp", deck))
+    assert half.area == pytest.approx(0.5 * one.area)
+    assert 0.5 * one.normal_force[1] < half.normal_force[1] < one.normal_force[1]
+
+
 def test_tied_surfaces_are_one_body(tmp_path: Path) -> None:
     """Tied blocks pulled apart deform as one: the same forces as a single mesh would carry."""
     tie = "*TIE, NAME=Glue, POSITION TOLERANCE=0.1\nSslave, Smaster\n*BOUNDARY\nBase, 1, 2"

@@ -26,7 +26,7 @@ from signorini.deck.inp.loading import Known, follow_steps
 from signorini.deck.inp.materials import Section, Substance, make_materials, make_sections
 from signorini.deck.inp.pairs import Pair, make_contacts, make_ties
 from signorini.deck.inp.places import Places
-from signorini.deck.inp.prints import make_tables
+from signorini.deck.inp.prints import make_prints
 from signorini.deck.inp.sets import make_sets
 from signorini.deck.inp.steps import DeckStep, split_steps
 from signorini.deck.inp.supported import refuse_unsupported
@@ -36,7 +36,7 @@ from signorini.model.body import Body
 from signorini.model.material import Orthotropic
 from signorini.model.mesh import NODES_PER_CELL, Mesh
 from signorini.model.model import Kind, Model
-from signorini.model.prints import Table
+from signorini.model.prints import Prints
 from signorini.model.step import Step
 
 _SMALL_SLIDING = "contact is treated as small sliding: pairs are found on the undeformed bodies"
@@ -56,14 +56,14 @@ class Built:
     places : keyword of every support, load, contact, body and step, by its path in the model
     notes : what differs from the deck, and what is left out
     unused_materials : names of materials that no section has
-    tables : that the steps ask for
+    prints : what the steps ask for
     """
 
     model: Model
     places: dict[Where, Block]
     notes: tuple[str, ...]
     unused_materials: tuple[str, ...]
-    tables: tuple[Table, ...]
+    prints: Prints
 
 
 def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increments: bool) -> Built:
@@ -121,8 +121,8 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
         model = Model(
             _mesh(grid, sections, places),
             kind=kind,
-            thickness=_thickness(sections, kind),
-            bodies=[_body(section, grid) for section in sections],
+            thickness=_thickness(sections[0], kind),
+            bodies=[_body(section, grid, _thickness(sections[0], kind), kind) for section in sections],
             supports=conditions.supports,
             loads=conditions.loads,
             contacts=[pair.contact for pair in contacts],
@@ -137,7 +137,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
         model=model,
         places=where,
         notes=tuple(_notes(grid, steps, contacts, ignored, small_strain, deck_increments)),
-        tables=tuple(make_tables(steps, nodes, elements, model.mesh, contacts)),
+        prints=make_prints(steps, known, model.mesh, contacts),
         unused_materials=_unused(materials, sections),
     )
 
@@ -182,16 +182,6 @@ def _kind(grid: Grid) -> Kind:
     return first.type.kind
 
 
-def _thickness(sections: Sequence[Section], kind: str) -> float:
-    for section in sections if kind not in ("axisymmetric", "3d") else ():
-        if section.thickness != sections[0].thickness:
-            raise section.block.error(
-                f"the thickness is {section.thickness:g}, but {sections[0].thickness:g} in line "
-                f"{sections[0].block.line}; expected one thickness for all"
-            )
-    return 1.0 if kind in ("axisymmetric", "3d") else sections[0].thickness  # CalculiX: the angle that it cuts out
-
-
 def _mesh(grid: Grid, sections: Sequence[Section], places: Places) -> Mesh:
     """Cells family by family; their numbers and the bodies follow."""
     cells: dict[str, IntArray] = {}
@@ -215,8 +205,13 @@ def _mesh(grid: Grid, sections: Sequence[Section], places: Places) -> Mesh:
     )
 
 
-def _body(section: Section, grid: Grid) -> Body:
-    substance = section.substance
+def _thickness(section: Section, kind: Kind) -> float:
+    return 1.0 if kind in ("axisymmetric", "3d") else section.thickness  # CalculiX: the angle that it cuts out
+
+
+def _body(section: Section, grid: Grid, usual: float, kind: Kind) -> Body:
+    """Of a section; where its thickness is not the usual one, with its own."""
+    substance, thickness = section.substance, _thickness(section, kind)
     elastic, alpha = substance.elastic, substance.expansion or 0.0
     assert elastic is not None
     given: dict[str, Any] = {"density": substance.density or 0.0}
@@ -231,6 +226,7 @@ def _body(section: Section, grid: Grid) -> Body:
             section.name,
             replace(elastic, **given),
             formulation="incompatible" if incompatible else "standard",
+            thickness=None if thickness == usual else thickness,
         )
     except InputError as error:
         raise substance.block.error(str(error)) from error
