@@ -212,9 +212,20 @@ def _add_interface(
 
 
 @njit(cache=True)
+def _any(y: Array, start: int, end: int) -> bool:
+    """Whether any row of y has an entry other than zero there."""
+    for c in range(len(y)):
+        for u in range(start, end):
+            if y[c, u] != 0.0:
+                return True
+    return False
+
+
+@njit(cache=True)
 def forward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) -> None:
     """Overwrite the inside of y, (k, n) with one load per row, by ``L_ii^-1 y``; the interface gathers what is left.
 
+    Fronts that neither a load nor anything eliminated before reaches are passed over: most loads act on a surface.
     `work` holds k numbers for every unknown below the largest front.
     """
     columns, n = y.shape
@@ -222,6 +233,8 @@ def forward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) ->
         a = fronts.unknown[fronts.first[t]]
         k = fronts.unknown[fronts.first[t + 1]] - a
         r = fronts.below[t]
+        if not _any(y, a, a + k):
+            continue
         top = factor.ctypes.data + 8 * fronts.panel[t]
         x = y.ctypes.data + 8 * a
         trsm(False, False, k, columns, top, k + r, x, n, s)
