@@ -38,6 +38,7 @@ _SHRINK = 0.9  # of the estimated part up to an event: short of it
 _SAME, _LATE = 1e-12, 1e-3  # part of an increment by which it may miss an event; the latter after some tries
 _PATIENCE = 4  # tries
 _ROUNDING = 1e-9  # part of an increment: what comes so late does not happen in it
+_LEAP = 3.0  # times what increments changed before, by their length: one in which something happens may hide a jump
 _LOST = 1e-7  # part of the segment: where not even that has a solution nothing goes on gradually
 _TRIES = 60  # at one increment
 _NEAR = 1e-6  # of the data: width of zero at an event that smooth sections make uncertain
@@ -174,6 +175,8 @@ class Walk:
         self.events: list[Event] = []
         self.pieces = [Breakpoint(factor=0.0, h=start.h, r=start.r)]
         self.tried, self.residual = 0, 0.0
+        # the most that an increment has changed by its length, and up to where every event ends one
+        self.fastest, self.careful = 0.0, 0.0
         self.smooth = bool(((problem.mu > 0).any(axis=1) & (problem.sides == 0)).any())
         self.refused: SpatialResult | None = None
         # the load as rates see it; what smooth sections know of an event is less sharp
@@ -193,6 +196,9 @@ class Walk:
         if found.proved:
             return replace(found, proof=f"{words}; {found.proof}")
         words = self.advance(patience=_TRIES)
+        if words and self.careful > self.factor:
+            self.careful, self.fastest = 0.0, np.inf
+            return self.go_on()
         return NoRates(proof=f"{words}; {found.proof}", proved=False) if words else None
 
     @property
@@ -236,9 +242,10 @@ class Walk:
         return min(times)
 
     def advance(self, *, patience: int) -> str:
-        """One increment; why there is none, or nothing. It is given up where so many were tried and pairs act in all."""
+        """One increment; why there is none, or nothing. Given up where so many were tried, and pairs act in all."""
         if len(self.pieces) > self.settings.most:
             return f"{self.settings.most} increments end at factor {self.factor:.12g}"
+        self.refused = None
         shortest = self._shortest
         step = min(max(_PROBE * self.last, _LEAST, shortest), 1.0 - self.factor)
         tried, best = self.tried, None
@@ -261,10 +268,12 @@ class Walk:
                 if min(step, 1.0 - self.factor) <= trial.step * (1.0 + late):
                     break
                 step = min(step, 1.0 - self.factor)
-            elif trial.step <= shortest:
+            elif trial.step <= shortest and not self._leaps(trial):
                 best = inner = trial
                 break
             else:
+                if trial.step <= shortest:  # a jump may be hidden in it: event by event
+                    self.careful, shortest = self.factor + trial.step, 0.0
                 words, longest = f"pairs {np.flatnonzero(trial.each <= trial.until).tolist()} act", step
                 if best is None and number >= patience:
                     break
@@ -305,6 +314,15 @@ class Walk:
             end, h=h, r=r, state=state, anchor=h[n:], slip=now.slip + moved, dissipation=now.dissipation + lost
         )
 
+    def _leaps(self, trial: _Trial) -> bool:
+        """Whether an increment in which something happens changes so much more than any before that it may jump."""
+        return self._speed(trial) > _LEAP * self.fastest > 0.0
+
+    def _speed(self, trial: _Trial) -> float:
+        """How much a trial changes, by its length."""
+        after, now = trial.after, self.now
+        return float(np.linalg.norm(after.h - now.h) + np.linalg.norm(after.r - now.r)) / trial.step
+
     def _room(self, trial: _Trial, state: IntArray) -> float:
         """How much longer than the trial the increment may be: up to the next event, and to the turn allowed."""
         times = max(1.0, lasts(self.problem, self.now, replace(trial.after, state=state), self.width))
@@ -315,7 +333,7 @@ class Walk:
     @property
     def _shortest(self) -> float:
         """What an increment need not undercut here: little at the beginning, where contact grows and friction turns."""
-        whole = self.settings.shortest
+        whole = 0.0 if self.factor < self.careful else self.settings.shortest
         return min(whole, max(_GROWTH * self.factor, _FINER * whole), 1.0 - self.factor)
 
     def _trial(self, step: float, shortest: float, ahead: Array | None = None) -> _Trial | SpatialResult:
@@ -360,6 +378,7 @@ class Walk:
                 self.events.append(
                     Event(factor=self.factor, pairs=pairs, what=what, state=replace(self.now, state=new))
                 )
+        self.fastest = max(self.fastest, self._speed(trial))
         self.factor = 1.0 if self.factor + trial.step >= 1.0 - SHORTEST else self.factor + trial.step
         self.now, self.last = after, trial.step
         self.pieces.append(Breakpoint(factor=self.factor, h=after.h, r=after.r, state=after, tried=tried))
