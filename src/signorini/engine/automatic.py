@@ -13,7 +13,7 @@ from typing import Literal
 
 import numpy as np
 
-from signorini.engine.exact import follow_to_events
+from signorini.engine.exact import follow_to_events, stored_energy
 from signorini.engine.increments import follow_increments
 from signorini.engine.leg import Leg
 from signorini.engine.prepare import Prepared
@@ -24,7 +24,7 @@ from signorini.solution.state import LoadPoint, State
 
 MOST = 4096
 """Increments of one straight part of a step; in space the part of it that they need not undercut."""
-_CERTAIN = 16  # increments on the way to a jump that stops a step
+_CERTAIN = 16  # increments on a way in space of which it is believed that it jumps, or that it does not
 _MORE = 'expected less? Give the step increments = "auto" or their number'
 
 
@@ -71,7 +71,7 @@ def follow_automatically(
         if coarse is not None:
             change, changes = _change(coarse, fine)
             note = f"{words}: {fewer} change {changes}"
-            if change <= tolerance:
+            if change <= tolerance and (number >= _CERTAIN or _defect(prepared, fine) <= tolerance):
                 return replace(fine, path="increments", notes=(*fine.notes, note))
             if enough is not None and number >= enough:
                 return replace(fine, path="increments", notes=(*fine.notes, f"{note}; {_MORE}"))
@@ -89,6 +89,17 @@ def _change(coarse: Leg, fine: Leg) -> tuple[float, str]:
     change, lost = float(np.abs(forces).max(initial=0.0) / (size or 1.0)), float(abs(spent) / (abs(work) or 1.0))
     words = f"contact forces by {change:.1e} of the largest"
     return max(change, lost), f"{words} and dissipation by {lost:.1e} of the work" if lost > change else words
+
+
+def _defect(prepared: Prepared, leg: Leg) -> float:
+    """Energy that a way in space neither stores nor dissipates, of its work: much where something was passed over."""
+    if prepared.interface.directions == 2:
+        return 0.0
+    before, after = leg.before, leg.after
+    work = after.work - before.work
+    stored = stored_energy(prepared, after) - stored_energy(prepared, before)
+    lost = float((after.dissipation - before.dissipation).sum()) + after.released - before.released
+    return abs(work - stored - lost) / (abs(work) or 1.0)
 
 
 def _followed(

@@ -9,7 +9,7 @@ from exact.path_samples import Springs, stiff
 
 from signorini.friction import OPEN, STICK
 from signorini.friction.exact import follow, initial_state, land
-from signorini.friction.spatial import SpatialProblem, at_rest, follow_stopping, land_spatial
+from signorini.friction.spatial import SpatialProblem, at_rest, certify, follow_stopping, land_spatial
 
 
 def turned_node(mu, facets, angle, **bounds):
