@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -32,6 +33,18 @@ def distinct(values: IntArray) -> IntArray:
     """
     found = np.sort(values, axis=None)
     return found[np.concatenate([np.ones(min(1, len(found)), bool), found[1:] != found[:-1]])]
+
+
+def among(lists: Iterable[IntArray], count: int) -> BoolArray:
+    """(count,) Whether any of the lists holds a number.
+
+    >>> among([np.array([3, 1]), np.array([[3, 0]])], 5)
+    array([ True,  True, False,  True, False])
+    """
+    found = np.zeros(count, bool)
+    for numbers in lists:
+        found[numbers] = True
+    return found
 
 
 def padded(values: Array, width: int) -> Array:

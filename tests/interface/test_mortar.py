@@ -32,7 +32,7 @@ def two_sides(upper, lower, angle=0.0):
     )
 
 
-def coupled(mesh, measure=lambda x: np.ones(x.shape[:-1])):
+def coupled(mesh, measure=lambda x, *_: np.ones(x.shape[:-1])):
     space = make_space(mesh)
     first, second = boundary(space, "upper.bottom", ()), boundary(space, "lower.top", ())
     overlaps = find_overlaps(mesh.points, first, second, None, ())
@@ -86,7 +86,7 @@ def test_a_measure_weighs_both_sides_alike():
     """On circles through the points: ``int N 2 pi r`` of the hats on both sides, exactly."""
     x = np.array([0.0, 0.4, 0.7, 1.0])
     mesh = two_sides([0, 0.3, 1.0], x)
-    _, other, coupling = coupled(mesh, lambda p: 2 * np.pi * p[..., 0])
+    _, other, coupling = coupled(mesh, lambda p, *_: 2 * np.pi * p[..., 0])
     order = other.nodes[np.argsort(mesh.points[other.nodes, 0])]
     h = np.diff(x)
     exact = np.zeros(4)

@@ -71,6 +71,7 @@ def _bodies(model: Model) -> Rows:
             body.name,
             str(body.material),
             *([_FORMULATIONS[body.formulation]] if body.formulation in _FORMULATIONS else []),
+            *([f"thickness {body.thickness:g}"] if body.thickness is not None else []),
             f"{len(model.mesh.bodies[body.name])} elements",
         )
         for body in model.bodies

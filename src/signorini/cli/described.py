@@ -32,8 +32,13 @@ def described(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str,
             "free_dofs": int(examined.constraints.transform.shape[1]),
         },
         "bodies": [
-            {"name": body.name, "material": str(body.material), "elements": len(mesh.bodies[body.name])}
-            for body in model.bodies
+            {
+                "name": body.name,
+                "material": str(body.material),
+                "thickness": thickness,
+                "elements": len(mesh.bodies[body.name]),
+            }
+            for body, thickness in zip(model.bodies, model.thicknesses, strict=True)
         ],
         "node_sets": {name: len(nodes) for name, nodes in mesh.nodes.items()},
         "surfaces": {name: len(facets) for name, facets in mesh.boundaries.items()},

@@ -78,7 +78,7 @@ def deck_bodies(data: Mapping[str, Any], materials: Mapping[str, Material]) -> l
     bodies = []
     for i, entry in enumerate(tables(data, "body")):
         where: Where = ("body", i)
-        check_keys(entry, where, known=["name", "material", "formulation"], needed=["name", "material"])
+        check_keys(entry, where, known=["name", "material", "formulation", "thickness"], needed=["name", "material"])
         name = text(entry["material"], (*where, "material"))
         if name not in materials:
             raise InputError(one_of(name, materials, "material"), where=(*where, "material"))

@@ -25,11 +25,13 @@ class Boundary:
         middle; in space corners, anticlockwise seen from outside, then middles
     points : (m, k, d) their coordinates, length
     nodes : (n,) sorted nodes
+    cells : (m,) numbers of the cells that they bound
     """
 
     facets: IntArray
     points: Array
     nodes: IntArray
+    cells: IntArray
 
     @property
     def dimension(self) -> int:
@@ -153,8 +155,8 @@ def boundary(space: Space, name: str, where: Where) -> Boundary:
     if not len(given):
         raise InputError(f"'{name}' is empty; expected a boundary with edges or faces", where=where)
     if space.dimension == 3:
-        facets = outer_faces(space.faces, given, len(points), name, where)
-        return Boundary(facets=facets, points=points[facets], nodes=np.unique(facets))
+        facets, cells = outer_faces(space.faces, given, len(points), name, where)
+        return Boundary(facets=facets, points=points[facets], nodes=np.unique(facets), cells=cells)
     empty = (points[given[:, 0]] == points[given[:, 1]]).all(axis=1)
     if empty.any():
         raise InputError(
@@ -174,7 +176,7 @@ def boundary(space: Space, name: str, where: Where) -> Boundary:
     if quadratic.any() and not quadratic.all():
         raise InputError(f"'{name}' belongs to linear and to quadratic cells; expected one order", where=where)
     facets = np.column_stack([ends, middle]) if quadratic.any() else ends
-    return Boundary(facets=facets, points=points[facets], nodes=np.unique(facets))
+    return Boundary(facets=facets, points=points[facets], nodes=np.unique(facets), cells=space.edges.cell[edge])
 
 
 def _edges(space: Space, facets: IntArray, name: str, where: Where) -> IntArray:

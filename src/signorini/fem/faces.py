@@ -76,8 +76,10 @@ def face_key(faces: IntArray, points: int) -> IntArray:
     return key
 
 
-def outer_faces(faces: Mapping[int, Faces], given: IntArray, points: int, name: str, where: Where) -> IntArray:
-    """The faces of a named boundary, (m, k), anticlockwise seen from outside, as their cells have them.
+def outer_faces(
+    faces: Mapping[int, Faces], given: IntArray, points: int, name: str, where: Where
+) -> tuple[IntArray, IntArray]:
+    """The faces of a named boundary, (m, k), anticlockwise seen from outside, and the cells that have them, (m,).
 
     Raises
     ------
@@ -111,7 +113,7 @@ def outer_faces(faces: Mapping[int, Faces], given: IntArray, points: int, name: 
         if np.any(foreign):
             said, there = (", ".join(map(str, nodes[np.argmax(foreign)] + 1)) for nodes in (given, own))
             raise InputError(f"'{name}' has a face of nodes {said}, but the cell has {there}", where=where)
-    return own
+    return own, every.cell[left]
 
 
 def _mirrored(points: Array, cells: IntArray) -> Array:

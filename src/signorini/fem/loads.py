@@ -52,7 +52,7 @@ def _on_mesh(space: Space, model: Model, load: Load, where: Where) -> Array:
     if load.force is not None:
         force = area / area.sum() * _given(load.force)
     elif load.pressure is not None:
-        force = -load.pressure * measure(model, side.at)[..., None] * side.outward
+        force = -load.pressure * measure(model, side.at, side.cells)[..., None] * side.outward
     else:
         force = area * np.array(load.traction)
     forces[side.nodes] = side.nodal(force)
@@ -79,9 +79,9 @@ def _body_forces(space: Space, model: Model, load: Load) -> Array:
     owner = model.body_of_cells()
     forces = np.zeros((len(space.mesh.points), space.dimension))
     for block, volumes in zip(space.blocks, space.volumes, strict=True):
-        here = owner[block.first : block.first + len(block.cells)] == index
+        here = np.flatnonzero(owner[block.first : block.first + len(block.cells)] == index)
         at = np.einsum("qk,mki->mqi", block.values, space.mesh.points[block.cells[here]])
-        weights = (volumes[here] * measure(model, at))[..., None]
+        weights = (volumes[here] * measure(model, at, block.first + here))[..., None]
         density = _density(load, model.bodies[index].material.density, at, model.axisymmetric)
         np.add.at(forces, block.cells[here], np.einsum("qk,mqi->mki", block.values, weights * density))
     return forces.ravel()

@@ -5,24 +5,40 @@ from __future__ import annotations
 
 import numpy as np
 
-from signorini.arrays import Array
+from signorini.arrays import Array, IntArray
 from signorini.fem.boundary import Boundary
 from signorini.model.model import Model
 
 
-def measure(model: Model, points: Array) -> Array:
-    """Length perpendicular to the plane that belongs to points (..., 2): the thickness, or ``2 pi r``, (...).
+def measure(model: Model, points: Array, cells: IntArray) -> Array:
+    """Length perpendicular to the plane that belongs to points of cells: the thickness, or ``2 pi r``, (m, q).
 
     Integrals over a body or a boundary are those over the plane times this.
+
+    Parameters
+    ----------
+    points : (m, q, d)
+    cells : (m,) numbers of the cells that they are in
     """
     if model.axisymmetric:
         return 2.0 * np.pi * np.asarray(points)[..., 0]
-    return np.full(np.shape(points)[:-1], float(model.thickness))
+    return np.broadcast_to(model.cell_thickness[cells][:, None], np.shape(points)[:-1])
+
+
+def contact_measure(model: Model, points: Array, one: IntArray, other: IntArray) -> Array:
+    """The same for points where two bodies touch, (m, q): bodies lie on one middle plane, so the thinner one's.
+
+    Parameters
+    ----------
+    one, other : (m,) numbers of the cells opposite each other
+    """
+    smaller: Array = np.minimum(measure(model, points, one), measure(model, points, other))
+    return smaller
 
 
 def facet_areas(model: Model, side: Boundary) -> Array:
     """Area that belongs to each quadrature point of the facets, (m, q)."""
-    areas: Array = side.weights * measure(model, side.at)
+    areas: Array = side.weights * measure(model, side.at, side.cells)
     return areas
 
 
@@ -35,6 +51,12 @@ def nodal_areas(model: Model, side: Boundary) -> Array:
     return side.nodal(facet_areas(model, side))
 
 
-def nodal_normal_areas(model: Model, side: Boundary) -> Array:
-    """``int N_k n dS`` of every node of a boundary with the outward normals, (k, d) in the order of its nodes."""
-    return side.nodal(side.outward * measure(model, side.at)[..., None])
+def nodal_contact_areas(model: Model, side: Boundary, opposite: IntArray) -> Array:
+    """``int N_k n dS`` of every node of a side in contact, (k, d) in the order of its nodes, n its outward normals.
+
+    Parameters
+    ----------
+    opposite : (m,) numbers of the cells that its facets touch
+    """
+    across = contact_measure(model, side.at, side.cells, opposite)
+    return side.nodal(side.outward * across[..., None])

@@ -32,7 +32,7 @@ def nodes_at(space: Space, on: Place, where: Where, *, completed: bool = True) -
         nodes = space.mesh.nodes_of(on)
         if completed and on in space.mesh.boundaries and _corners_only(space, on):
             nodes = boundary(space, on, where).nodes
-        loose = np.setdiff1d(nodes, np.union1d(space.used_nodes, space.loose_nodes))
+        loose = np.setdiff1d(nodes[~space.used[nodes]], space.loose_nodes)
         if len(loose):
             raise InputError(f"'{on}' holds node {space.mesh.labels[loose[0]]}, which belongs to no cell", where=where)
         return nodes

@@ -10,7 +10,7 @@ import scipy.linalg
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, among
 from signorini.fem.obstacles import arm
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
@@ -73,22 +73,19 @@ def make_parts(space: Space, model: Model) -> tuple[Part, ...]:
     graph = sp.csr_array((np.ones(len(rows), np.int8), (rows, columns)), shape=(count, count))
     _, piece = connected_components(graph, directed=False)
     body_of_cell = model.body_of_cells()
-    body_of_node = [
-        np.unique(
-            np.concatenate(
-                [piece[b.cells[body_of_cell[b.first : b.first + len(b.cells)] == i, 0]] for b in space.blocks]
-            )
+    pieces_of = [
+        among(
+            [piece[b.cells[body_of_cell[b.first : b.first + len(b.cells)] == i, 0]] for b in space.blocks],
+            int(piece.max()) + 1,
         )
         for i in range(len(model.bodies))
     ]
     parts = []
-    for number in np.unique(piece[space.used_nodes]):
-        nodes = np.nonzero(piece == number)[0]
+    for i in np.flatnonzero(among([piece[space.used_nodes]], int(piece.max()) + 1)):
+        nodes = np.nonzero(piece == i)[0]
         parts.append(
             Part(
-                bodies=tuple(
-                    body.name for body, pieces in zip(model.bodies, body_of_node, strict=True) if number in pieces
-                ),
+                bodies=tuple(body.name for body, own in zip(model.bodies, pieces_of, strict=True) if own[i]),
                 nodes=nodes,
                 centre=points[nodes].mean(axis=0),
                 size=float(np.linalg.norm(np.ptp(points[nodes], axis=0)) / 2.0),

@@ -10,10 +10,11 @@ from functools import cached_property
 import numpy as np
 import skfem
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, among
 from signorini.errors import InputError
 from signorini.fem.edges import Edges, check_conforming, make_edges
 from signorini.fem.faces import HEXAHEDRON, Faces, make_faces
+from signorini.fem.jacobian import determinants, jacobians
 from signorini.fem.wedge import QuadraticWedge
 from signorini.model.mesh import CORNERS, Mesh
 
@@ -140,12 +141,17 @@ class Space:
     @cached_property
     def used_nodes(self) -> IntArray:
         """Nodes of any cell, sorted (a Gmsh file may hold others)."""
-        return np.unique(np.concatenate([block.cells.ravel() for block in self.blocks]))
+        return np.flatnonzero(self.used)
+
+    @cached_property
+    def used(self) -> BoolArray:
+        """(nodes,) Whether a node is one of any cell."""
+        return among([block.cells for block in self.blocks], len(self.mesh.points))
 
     @cached_property
     def loose_nodes(self) -> IntArray:
         """Nodes of no cell that equations name, sorted."""
-        return np.setdiff1d(self.linked, self.used_nodes)
+        return np.unique(self.linked[~self.used[self.linked]])
 
     @cached_property
     def node_of(self) -> Mapping[int, int]:
@@ -165,28 +171,19 @@ class Space:
     @cached_property
     def jacobians(self) -> tuple[Array, ...]:
         """``dx/dX`` at the quadrature points, (m, q, d, d) a block."""
-        return tuple(self._jacobians(block, block.gradients) for block in self.blocks)
+        return tuple(jacobians(self.mesh.points[block.cells], block.gradients) for block in self.blocks)
 
     @cached_property
     def volumes(self) -> tuple[Array, ...]:
         """Quadrature weights times ``|det dx/dX|``, (m, q) a block: area of each quadrature point."""
         return tuple(
-            np.abs(np.linalg.det(jacobian)) * block.weights
+            np.abs(determinants(jacobian)) * block.weights
             for jacobian, block in zip(self.jacobians, self.blocks, strict=True)
         )
 
     def volumes_of(self, block: Block) -> Array:
         """Area of each quadrature point of a block, (m, q)."""
         return next(v for b, v in zip(self.blocks, self.volumes, strict=True) if b is block)
-
-    def _jacobians(self, block: Block, gradients: Array) -> Array:
-        result: Array = np.einsum("mki,qkj->mqij", self.mesh.points[block.cells], gradients)
-        return result
-
-    def gradients(self, block: Block, at: Array) -> Array:
-        """Shape function gradients in space, (m, q, k, d), where the reference gradients are ``at`` (q, k, d)."""
-        result: Array = np.einsum("qkj,mqji->mqki", at, np.linalg.inv(self._jacobians(block, at)))
-        return result
 
     def at_nodes(self, values: Array) -> Array:
         """Values of all dofs (dofs,) at the nodes, (nodes, d), without those of obstacles."""
@@ -328,12 +325,12 @@ def _check_extent(space: Space) -> None:
 
 def _check_shapes(space: Space) -> None:
     for block, inner in zip(space.blocks, space.jacobians, strict=True):
-        outer = space._jacobians(block, block.corners)
-        determinants = np.linalg.det(np.concatenate([outer, inner], axis=1))
-        size = np.abs(determinants).max(axis=1)
+        outer = jacobians(space.mesh.points[block.cells], block.corners)
+        volume = np.concatenate([determinants(outer), determinants(inner)], axis=1)
+        size, total = np.abs(volume).max(axis=1), volume.sum(axis=1)
         # clockwise cells are fine; a change of sign inside a cell, or no area, is not
-        bad = (np.abs(determinants.sum(axis=1)) < 1e-12 * size) | (size == 0.0)
-        bad |= (determinants * np.sign(determinants.sum(axis=1))[:, None]).min(axis=1) <= -1e-12 * size
+        bad = (np.abs(total) < 1e-12 * size) | (size == 0.0)
+        bad |= (volume * np.sign(total)[:, None]).min(axis=1) <= -1e-12 * size
         if bad.any():
             cell = int(np.nonzero(bad)[0][0])
             centre = tuple(float(x) for x in space.mesh.points[block.cells[cell]].mean(axis=0).round(6))

@@ -26,7 +26,7 @@ def stiffness(space: Space, model: Model) -> sp.csr_array:
     blocks = []
     for group in groups(space, model):
         block = group.block
-        across = measure(model, np.einsum("qk,mki->mqi", block.values, space.mesh.points[group.cells]))
+        at = np.einsum("qk,mki->mqi", block.values, space.mesh.points[group.cells])
         blocks.append(
             Cells(
                 nodes=group.cells,
@@ -34,7 +34,7 @@ def stiffness(space: Space, model: Model) -> sp.csr_array:
                 weights=block.weights,
                 law=law,
                 material=group.body,
-                measure=across,
+                measure=measure(model, at, group.numbers),
                 shape_values=block.values,
                 modes=mode_gradients(space, model, group) if group.formulation == "incompatible" else None,
                 pressures=block.pressures if group.formulation == "mean dilatation" else None,

@@ -186,8 +186,10 @@ def _prescribed(space: Space, model: Model, links: Links, without: Collection[st
         dofs = space.obstacle_dofs(len(model.obstacles) + j)
         held[dofs[len(directions(d)) :]] = True
         held[dofs[[0, 2]]] |= model.axisymmetric
-    unused = space.dofs(np.setdiff1d(np.arange(len(space.mesh.points)), space.used_nodes)).ravel()
-    held[np.setdiff1d(unused, links.C.indices)] = True
+    loose = np.zeros(total, bool)
+    loose[: d * len(space.used)] = np.repeat(~space.used, d)
+    loose[links.C.indices] = False
+    held |= loose
     held[axis_dofs] = True
     return _Prescribed(held=held, owner=owner, values=prescribed)
 

@@ -35,8 +35,8 @@ class Coupling:
 
     A unit pressure of pair k alone, of the shape psi_k, puts forces ``int psi_k N_j n dA`` on the nodes j of the
     nonmortar side and minus ``int psi_k N_l n dA`` on those of the mortar side, with the normals n that the nonmortar
-    side has there, not with a mean of them. Virtual work makes the same numbers the weights of the gap:
-    ``gap_k = sum_ji forces_kji x_ji / area_k``.
+    side has there (between both sides where they are tilted against each other), not with a mean of them. Virtual work
+    makes the same numbers the weights of the gap: ``gap_k = sum_ji forces_kji x_ji / area_k``.
 
     Attributes
     ----------

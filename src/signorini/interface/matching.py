@@ -9,6 +9,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from signorini.arrays import Array, IntArray
+from signorini.fem.boundary import Boundary
 
 # of the tributary length: how far a partner may lie beside the normal
 _BESIDE = 0.05
@@ -79,6 +80,13 @@ def match_nodes(points: Array, nonmortar: Side, mortar: Side, labels: IntArray) 
             "outward normals point the same way"
         )
     return partner, ""
+
+
+def facing_cells(side: Boundary, other: Boundary) -> IntArray:
+    """For every facet of a side the cell of the nearest facet of the other, (m,)."""
+    _, nearest = KDTree(other.points.mean(axis=1)).query(side.points.mean(axis=1))
+    cells: IntArray = other.cells[nearest]
+    return cells
 
 
 def _nearest(points: Array, of: IntArray, among: IntArray) -> IntArray:

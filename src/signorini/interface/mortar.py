@@ -15,6 +15,7 @@ from signorini.fem.line import line_shapes
 from signorini.interface.coupling import Coupling, FacetGaps
 from signorini.interface.dual import dual_functions
 from signorini.interface.overlap import Overlaps, interpolate, parameter
+from signorini.interface.tilt import turned
 
 _COVERED = 1e-8  # of the full weight of a node: with less it carries no pair
 _POINTS = {2: 2, 3: 8}  # of Gauss on every piece, by nodes of the facets; two suffice for straight linear facets
@@ -25,7 +26,7 @@ def mortar_coupling(
     nonmortar: Boundary,
     mortar: Boundary,
     overlaps: Overlaps,
-    measure: Callable[[Array], Array],
+    measure: Callable[[Array, IntArray, IntArray], Array],
     where: Where,
 ) -> Coupling:
     """Weigh both sides with the functions dual to the hats of the nonmortar corner nodes.
@@ -35,17 +36,18 @@ def mortar_coupling(
 
         int psi_k N_j n dA  on the nonmortar,  - int psi_k N_l^mortar n dA  on the mortar side,
 
-    n the normal of the nonmortar side where it is. The psi_k sum to 1, so that a uniform pressure passes exactly, also
-    where the sides are curved: on the nonmortar side as ``int N_j n dA``, on the mortar side as its own where the two
-    coincide. Facets see each other across their chords: of linear facets the forces of every pair are in balance, with
-    their moments. On linear facets only the pair's own node bears its forces. Quadratic facets have pairs at their
+    n the normal of the nonmortar side where it is, turned where the sides are tilted against each other (see
+    :mod:`signorini.interface.tilt`). The psi_k sum to 1, so that a uniform pressure passes exactly, also where the
+    sides are curved: on the nonmortar side as ``int N_j n dA``, on the mortar side as its own where the two coincide.
+    Facets see each other along these normals: of linear facets the forces of every pair are in balance, with their
+    moments. On linear facets only the pair's own node bears its forces. Quadratic facets have pairs at their
     corners only (their own dual functions oscillate).
 
     Parameters
     ----------
     points : (n, 2) of all nodes
     overlaps : of the two sides
-    measure : thickness, or circumference, at points (..., 2)
+    measure : thickness, or circumference, over which cells of both sides (p,) touch at points (p, q, 2), (p, q)
 
     Raises
     ------
@@ -56,7 +58,7 @@ def mortar_coupling(
     ----------
     Wohlmuth (2000), SIAM J. Numer. Anal. 38:989; Popp, Wohlmuth, Gee, Wall (2012), SIAM J. Sci. Comput. 34:B421.
     """
-    at, areas = _quadrature(points, nonmortar, overlaps, measure, mortar.facets.shape[1])
+    at, areas = _quadrature(points, nonmortar, mortar, overlaps, measure)
     _, multiplier = _duals(nonmortar, overlaps, at, areas)
     corners, n = nonmortar.facets[:, :2], len(points)
     vectors = np.zeros((n, 2))
@@ -72,11 +74,11 @@ def mortar_coupling(
 
 
 def _facet_gaps(points: Array, nonmortar: Boundary, mortar: Boundary, overlaps: Overlaps) -> FacetGaps:
-    """Gaps across the chords of the facets that anything is opposite, at the ends and in the middle of every piece."""
+    """Gaps on the facets that anything is opposite, at the ends and in the middle of every piece."""
     at = np.column_stack([overlaps.low, 0.5 * (overlaps.low + overlaps.high), overlaps.high])
     one = interpolate(points[nonmortar.facets[overlaps.first]], parameter(overlaps.own, at))
     two = interpolate(points[mortar.facets[overlaps.second]], parameter(overlaps.other, at))
-    gap = np.einsum("pqd,pd->pq", two - one, nonmortar.normals[overlaps.first])
+    gap = np.einsum("pqd,pd->pq", two - one, overlaps.outward)
     order = np.lexsort([overlaps.low, overlaps.first])
     gap, (facet, start) = gap[order], np.unique(overlaps.first[order], return_index=True)
     end = np.append(start[1:], len(order)) - 1
@@ -95,24 +97,32 @@ def _whole(points: Array, side: Boundary) -> Overlaps:
     length = np.linalg.norm(chord, axis=1)
     own = np.einsum("pad,pd->pa", ends - ends[:, :1], chord / length[:, None])
     facet = np.arange(len(ends))
-    return Overlaps(first=facet, second=facet, low=np.zeros(len(ends)), high=length, own=own, other=own)
+    return Overlaps(
+        first=facet, second=facet, outward=side.normals, low=np.zeros(len(ends)), high=length, own=own, other=own
+    )
 
 
 def _quadrature(
-    points: Array, side: Boundary, overlaps: Overlaps, measure: Callable[[Array], Array], opposite: int
+    points: Array,
+    side: Boundary,
+    other: Boundary,
+    overlaps: Overlaps,
+    measure: Callable[[Array, IntArray, IntArray], Array],
 ) -> tuple[Array, Array]:
-    """Places along the chords (p, q), and normals into the body times arc length times the measure, (p, q, 2)."""
+    """Places in the pieces (p, q), and normals into the body times arc length times the measure, (p, q, 2)."""
     count = side.facets.shape[1]
-    where, share = np.polynomial.legendre.leggauss(_POINTS[max(count, opposite)])
+    where, share = np.polynomial.legendre.leggauss(_POINTS[max(count, other.facets.shape[1])])
     half = 0.5 * (overlaps.high - overlaps.low)[:, None]
     at = overlaps.low[:, None] + half * (1.0 + where)
     s = parameter(overlaps.own, at)
     slopes = line_shapes(count, s.ravel())[1].reshape(*s.shape, count)
     corners = points[side.facets[overlaps.first]]
     along = np.einsum("pqa,pad->pqd", slopes, corners)
-    weights = half * share / np.abs(np.einsum("pqa,pa->pq", slopes, overlaps.own)) * measure(interpolate(corners, s))
+    across = measure(interpolate(corners, s), side.cells[overlaps.first], other.cells[overlaps.second])
+    weights = half * share / np.abs(np.einsum("pqa,pa->pq", slopes, overlaps.own)) * across
     inward = np.stack([-along[..., 1], along[..., 0]], axis=-1)
-    return at, weights[..., None] * inward
+    tilted = turned(inward, side.normals[overlaps.first][:, None], overlaps.outward[:, None])
+    return at, weights[..., None] * tilted
 
 
 def _duals(side: Boundary, overlaps: Overlaps, at: Array, areas: Array) -> tuple[Array, Array]:
@@ -136,7 +146,7 @@ def _own_forces(
 
 
 def _shapes(places: Array, at: Array) -> Array:
-    """Shape functions (p, q, 2 or 3) of facets where they have given places along the chords."""
+    """Shape functions (p, q, 2 or 3) of facets at given places in the pieces."""
     s = parameter(places, at)
     values: Array = line_shapes(places.shape[1], s.ravel())[0].reshape(*s.shape, places.shape[1])
     return values
@@ -149,8 +159,8 @@ def _spread(rows: IntArray, columns: IntArray, multiplier: Array, shapes: Array,
     return tuple(sp.csr_array((part.ravel(), (i, j)), shape=(n, n)) for part in values)
 
 
-def _full(points: Array, side: Boundary, measure: Callable[[Array], Array]) -> Array:
+def _full(points: Array, side: Boundary, measure: Callable[[Array, IntArray, IntArray], Array]) -> Array:
     """``int psi_k`` of every node of the mesh if all facets were covered, (n,)."""
     whole = _whole(points, side)
-    share, _ = _duals(side, whole, *_quadrature(points, side, whole, measure, 2))
+    share, _ = _duals(side, whole, *_quadrature(points, side, side, whole, measure))
     return np.bincount(side.facets[:, :2].ravel(), share.ravel(), len(points)).astype(float)

@@ -12,6 +12,7 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary
 from signorini.fem.line import line_shapes
+from signorini.interface.tilt import normals_between, turns
 
 FACING = -0.05  # cosine between outward normals: from here on two facets look at each other
 _EMPTY = 1e-12  # of the length of a facet: a shorter piece is none
@@ -19,17 +20,19 @@ _EMPTY = 1e-12  # of the length of a facet: a shorter piece is none
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Overlaps:
-    """Pieces of facets opposite each other, measured along the chord of the nonmortar facet.
+    """Pieces of facets opposite each other, measured across the normal along which they see each other.
 
     Attributes
     ----------
     first, second : (p,) facets of the nonmortar and of the mortar side
+    outward : (p, 2) that normal, out of the nonmortar body: of the facet's chord, or between both sides
     low, high : (p,) where the piece begins and ends, length from the first node of the nonmortar facet
-    own, other : (p, 2 or 3) places of the nodes of both facets along the chord, length
+    own, other : (p, 2 or 3) places of the nodes of both facets, length
     """
 
     first: IntArray
     second: IntArray
+    outward: Array
     low: Array
     high: Array
     own: Array
@@ -64,13 +67,16 @@ def interpolate(points: Array, s: Array) -> Array:
     return found
 
 
-def find_overlaps(points: Array, nonmortar: Boundary, mortar: Boundary, search: float | None, where: Where) -> Overlaps:
-    """Pieces of facets that look at each other along the normals of the nonmortar side.
+def find_overlaps(
+    points: Array, nonmortar: Boundary, mortar: Boundary, search: float | None, where: Where, share: float = 0.5
+) -> Overlaps:
+    """Pieces of facets that look at each other, along the normals between both sides where these are tilted.
 
     Parameters
     ----------
     points : (n, 2) of all nodes
     search : how far apart they can be, length; None: half the size of the smaller side
+    share : of the nonmortar side in the stiffness of both, see :mod:`signorini.interface.tilt`
 
     Raises
     ------
@@ -80,13 +86,36 @@ def find_overlaps(points: Array, nonmortar: Boundary, mortar: Boundary, search: 
     search = search_distance(points, nonmortar, mortar, search)
     first, second = _near(points, nonmortar, mortar, search)
     facing = np.sum(nonmortar.normals[first] * mortar.normals[second], axis=1) < FACING
-    found, distance = _pieces(points, nonmortar, mortar, first, second)
-    there = (found.high - found.low > _EMPTY * nonmortar.lengths[first]) & (np.abs(distance) <= search)
-    chosen = there & facing
-    if not chosen.any():
+    found, distance = _pieces(points, nonmortar, mortar, first, second, nonmortar.normals)
+    there = _within(found, distance, search, nonmortar.lengths)
+    if not (there & facing).any():
         raise _apart(points, nonmortar, mortar, first[there], search, where)
-    found, distance = _take(found, chosen), distance[chosen]
+    found, distance = _take(found, there & facing), distance[there & facing]
+    seen = _take(found, _nearest_layer(found, np.abs(distance), nonmortar.lengths))
+    outward = _between(nonmortar, mortar, seen, share)
+    found, distance = _pieces(points, nonmortar, mortar, first[facing], second[facing], outward)
+    there = _within(found, distance, search, nonmortar.lengths)
+    found, distance = _take(found, there), distance[there]
     return _take(found, _nearest_layer(found, np.abs(distance), nonmortar.lengths))
+
+
+def _within(found: Overlaps, distance: Array, search: float, lengths: Array) -> BoolArray:
+    """Pieces that have a length and are near enough."""
+    return (found.high - found.low > _EMPTY * lengths[found.first]) & (np.abs(distance) <= search)
+
+
+def _between(nonmortar: Boundary, mortar: Boundary, seen: Overlaps, share: float) -> Array:
+    """(m, 2) Outward normals along which the facets of the nonmortar side see what is opposite."""
+    own, other = (turns(side.normals, _at_nodes(side)) for side in (nonmortar, mortar))
+    np.maximum.at(own, seen.first, other[seen.second])
+    opposite = np.zeros_like(nonmortar.normals)
+    np.add.at(opposite, seen.first, (seen.high - seen.low)[:, None] * mortar.normals[seen.second])
+    return normals_between(nonmortar.normals, opposite, own, share)
+
+
+def _at_nodes(side: Boundary) -> Array:
+    """(m, k, 2) Mean normals of a side at the nodes of its facets."""
+    return side.nodal_normals[np.searchsorted(side.nodes, side.facets)]
 
 
 def search_distance(points: Array, nonmortar: Boundary, mortar: Boundary, search: float | None) -> float:
@@ -111,22 +140,19 @@ def _near(points: Array, nonmortar: Boundary, mortar: Boundary, search: float) -
 
 
 def _pieces(
-    points: Array, nonmortar: Boundary, mortar: Boundary, first: IntArray, second: IntArray
+    points: Array, nonmortar: Boundary, mortar: Boundary, first: IntArray, second: IntArray, outward: Array
 ) -> tuple[Overlaps, Array]:
-    """Pieces of all pairs, empty ones included, and the distances at their middles along the nonmortar normals."""
-    one, two = points[nonmortar.facets[first]], points[mortar.facets[second]]
-    chord = one[:, 1] - one[:, 0]
-    length = np.linalg.norm(chord, axis=1)
-    along = chord / length[:, None]
+    """Pieces of all pairs, empty ones included, and the distances at their middles along normals (m, 2)."""
+    one, two, normal = points[nonmortar.facets[first]], points[mortar.facets[second]], outward[first]
+    along = np.column_stack([-normal[:, 1], normal[:, 0]])
     own, other = (np.einsum("pad,pd->pa", x - one[:, :1], along) for x in (one, two))
     low = np.maximum(0.0, other[:, :2].min(axis=1))
-    high = np.minimum(length, other[:, :2].max(axis=1))
+    high = np.minimum(own[:, 1], other[:, :2].max(axis=1))
     middle = np.maximum(0.5 * (low + high), 0.0)[:, None]
-    outward = np.column_stack([along[:, 1], -along[:, 0]])
-    with np.errstate(divide="ignore", invalid="ignore"):  # a facet across the chord has no piece
+    with np.errstate(divide="ignore", invalid="ignore"):  # a facet along the normal has no piece
         across = interpolate(two, parameter(other, middle)) - interpolate(one, parameter(own, middle))
-        distance = np.nan_to_num(np.einsum("pqd,pd->p", across, outward), nan=np.inf)
-    return Overlaps(first=first, second=second, low=low, high=high, own=own, other=other), distance
+        distance = np.nan_to_num(np.einsum("pqd,pd->p", across, normal), nan=np.inf)
+    return Overlaps(first=first, second=second, outward=normal, low=low, high=high, own=own, other=other), distance
 
 
 def _nearest_layer(found: Overlaps, distance: Array, lengths: Array) -> BoolArray:

@@ -12,7 +12,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary, boundary
-from signorini.fem.measure import facet_areas, measure, nodal_areas, nodal_normal_areas
+from signorini.fem.measure import contact_measure, facet_areas, nodal_areas, nodal_contact_areas
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface import spatial
@@ -20,7 +20,7 @@ from signorini.interface.corners import corner_coupling
 from signorini.interface.coupling import Coupling, FacetGaps, picked, point_coupling
 from signorini.interface.frames import in_symmetry_planes, symmetric_partners
 from signorini.interface.gaps import initial_gaps, normal_gap, refuse_deep_overlap, resolved, without_chords
-from signorini.interface.matching import match_nodes
+from signorini.interface.matching import facing_cells, match_nodes
 from signorini.interface.mortar import mortar_coupling
 from signorini.interface.overlap import find_overlaps
 from signorini.interface.segments import node_to_segment
@@ -189,7 +189,7 @@ def _couple(
 ) -> tuple[Coupling, str]:
     """The coupling of two meshed sides, and its name."""
     if side.dimension == 3:
-        return _couple_in_space(space, side, mortar, contact, where)
+        return _couple_in_space(space, side, mortar, contact, where, _share(model, side, mortar))
     points, count = space.mesh.points, len(space.mesh.points)
     linear = not (side.quadratic or mortar.quadratic)
     if contact.coupling == "nodes" or (contact.coupling == "auto" and linear):
@@ -198,16 +198,24 @@ def _couple(
             raise InputError(reason, where=where)
         if not reason:
             relative = sp.csr_array(picked(side.nodes, count) - picked(partner, count))
-            return point_coupling(side.nodes, -nodal_normal_areas(model, side), relative), "nodes"
+            areas = -nodal_contact_areas(model, side, facing_cells(side, mortar))
+            return point_coupling(side.nodes, areas, relative), "nodes"
     if contact.coupling == "node-to-segment":
-        areas = -nodal_normal_areas(model, side)
+        areas = -nodal_contact_areas(model, side, facing_cells(side, mortar))
         return node_to_segment(points, side, mortar, areas, contact.search, where), "node-to-segment"
-    overlaps = find_overlaps(points, side, mortar, contact.search, where)
-    return mortar_coupling(points, side, mortar, overlaps, partial(measure, model), where), "mortar"
+    overlaps = find_overlaps(points, side, mortar, contact.search, where, _share(model, side, mortar))
+    return mortar_coupling(points, side, mortar, overlaps, partial(contact_measure, model), where), "mortar"
+
+
+def _share(model: Model, *sides: Boundary) -> float:
+    """Of the first of two sides in the stiffness of both, 0 to 1: of the moduli of the cells there."""
+    moduli = np.array([body.material.smallest_modulus for body in model.bodies])[model.body_of_cells()]
+    first, second = (float(moduli[side.cells].mean()) for side in sides)
+    return first / (first + second)
 
 
 def _couple_in_space(
-    space: Space, side: Boundary, mortar: Boundary, contact: Contact, where: Where
+    space: Space, side: Boundary, mortar: Boundary, contact: Contact, where: Where, share: float
 ) -> tuple[Coupling, str]:
     """The same for faces."""
     own, other = (spatial.make_surface(space.mesh.points, boundary.facets) for boundary in (side, mortar))
@@ -219,7 +227,7 @@ def _couple_in_space(
             raise InputError(reason, where=where)
     if contact.coupling == "node-to-segment":
         return spatial.node_to_face(own, other, search=contact.search, where=where), "node-to-segment"
-    return spatial.mortar_coupling(own, other, search=contact.search, where=where), "mortar"
+    return spatial.mortar_coupling(own, other, share=share, search=contact.search, where=where), "mortar"
 
 
 def _refuse_no_normal(space: Space, coupling: Coupling, where: Where) -> None:

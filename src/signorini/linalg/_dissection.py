@@ -26,6 +26,8 @@ Int32Array = NDArray[np.int32]
 
 LEAF = 8
 """Pieces up to this many vertices are not cut."""
+SMALL = 30
+"""Pieces up to this many vertices are cut, but the cut is not refined: it would gain less than it takes."""
 LARGE = 2000
 """Pieces up to this many vertices are cut along the first directions only."""
 LEAST, MOST = 0.25, 0.7
@@ -102,7 +104,7 @@ def dissect(indptr: Int32Array, indices: Int32Array, along: Int32Array, first: i
         count = _separate(indptr, indices, along[chosen, low:high], cut, thinner, label, base, separator)
         sides = np.array([cut, size - cut])
         sides[thinner] -= count
-        for _ in range(PASSES):
+        for _ in range(PASSES if size > SMALL else 0):
             passed += 1
             shorter = _refine(indptr, indices, label, base, sides, separator, count, moves, passed)
             if shorter == count:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from signorini.checks import choice, text
+from signorini.checks import choice, number, text
 from signorini.errors import InputError
 from signorini.model.material import Elastic, Material, Orthotropic
 
@@ -21,6 +21,8 @@ class Body:
     material : what it is made of
     formulation : of its cells: "standard"; "incompatible": linear quadrilaterals with two modes more a cell, hexahedra
         with three, so that thin bodies bend as they should; "mean dilatation" for nearly incompressible materials
+    thickness : out of plane, length, of plane models; None is the model's. Bodies lie on one middle plane, so that
+        two touch over the smaller of their thicknesses
 
     Examples
     --------
@@ -31,9 +33,12 @@ class Body:
     name: str
     material: Material
     formulation: Literal["standard", "incompatible", "mean dilatation"] = "standard"
+    thickness: float | None = None
 
     def __post_init__(self) -> None:
         text(self.name, ("name",))
         if not isinstance(self.material, Elastic | Orthotropic):
             raise InputError(f"is {self.material!r}; expected an Elastic or Orthotropic material", where=("material",))
         choice(self.formulation, ("standard", "incompatible", "mean dilatation"), ("formulation",), "formulation")
+        if self.thickness is not None:
+            number(self.thickness, ("thickness",), above=0.0)

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from signorini.arrays import IntArray
+from signorini.arrays import Array, IntArray
 from signorini.checks import choice, number
 from signorini.errors import InputError, one_of
 from signorini.model.body import Body
@@ -36,7 +36,7 @@ class Model:
     mesh : the mesh; its names are what the rest speaks of
     kind : "plane strain", "plane stress" or "axisymmetric": coordinates are then the radius and the height, forces and
         areas are for the whole circumference; a mesh in space is "3d". Empty (default) is "plane strain" or "3d"
-    thickness : of plane models, length; forces and areas are for this thickness
+    thickness : of plane models, length; forces and areas are for this thickness; bodies may have one of their own
     bodies : every cell of the mesh belongs to exactly one
     supports, foundations, loads, contacts : see :class:`Support`, :class:`Foundation`, :class:`Load`,
         :class:`Contact`
@@ -86,11 +86,8 @@ class Model:
         if (self.kind == "3d") != (self.dimension == 3):
             raise InputError(f"is '{self.kind}', but the mesh has {self.dimension} coordinates", where=("kind",))
         number(self.thickness, ("thickness",), above=0.0)
-        if self.thickness != 1.0 and self.kind in ("axisymmetric", "3d"):
-            what = "an axisymmetric model has none: forces and areas are for the circumference"
-            if self.kind == "3d":
-                what = "a model in space has none"
-            raise InputError(f"is {self.thickness:g}; {what}", where=("thickness",))
+        if self.thickness != 1.0:
+            self._refuse_thickness(self.thickness, ("thickness",))
         for part, kind in (
             ("bodies", Body),
             ("supports", Support),
@@ -145,6 +142,23 @@ class Model:
             owner[self.mesh.bodies[body.name]] = i
         return owner
 
+    @property
+    def thicknesses(self) -> list[float]:
+        """Of every body, length; 1 in models that have none."""
+        return [self.thickness if body.thickness is None else body.thickness for body in self.bodies]
+
+    @property
+    def cell_thickness(self) -> Array:
+        """The same of every cell, (m,)."""
+        return np.array(self.thicknesses)[self.body_of_cells()]
+
+    def _refuse_thickness(self, found: float, where: tuple[str | int, ...]) -> None:
+        what = "an axisymmetric model has none: forces and areas are for the circumference"
+        if self.kind == "3d":
+            what = "a model in space has none"
+        if self.kind in ("axisymmetric", "3d"):
+            raise InputError(f"is {found:g}; {what}", where=where)
+
     def _check_bodies(self) -> None:
         known = self.mesh.bodies
         if not self.bodies:
@@ -154,6 +168,8 @@ class Model:
             if body.name not in known:
                 raise InputError(one_of(body.name, known, "body"), where=("body", i, "name"))
             count[known[body.name]] += 1
+            if body.thickness is not None:
+                self._refuse_thickness(body.thickness, ("body", i, "thickness"))
             if self.dimension == 3 and isinstance(body.material, Orthotropic) and not body.material.solid:
                 raise InputError("has no G13 and G23; a model in space needs them", where=("body", i, "material"))
         if (count == 1).all():

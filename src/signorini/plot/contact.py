@@ -10,7 +10,7 @@ import numpy as np
 
 from signorini.plot.curve import Curve, closed_range, curves_of
 from signorini.plot.patch import draw_patches, patches_of
-from signorini.plot.style import BOUND, INK, PRESSURE, STATUS_COLOURS, TRACTION, dress
+from signorini.plot.style import BOUND, INK, PLAIN, PRESSURE, STATUS_COLOURS, TRACTION, dress
 from signorini.solution.history import History
 from signorini.solution.results import STICK
 
@@ -89,7 +89,7 @@ def shade_status(axes: Axes, curve: Curve) -> list[Patch]:
         axes.axvspan(edges[start], edges[end], color=STATUS_COLOURS[str(curve.status[start])], lw=0, zorder=0)
     present = [name for name in STATUS_COLOURS if (curve.status == name).any()]
     if curve.friction == 0.0:
-        words = {"open": "open", "slip": "closed (no friction)"}
+        words = {"open": "open", "slip": PLAIN}
     else:
         words = {"open": "open", STICK: "stick", "slip": "slip"}
     return [Patch(color=STATUS_COLOURS[name], label=words.get(name, name)) for name in present]

@@ -19,6 +19,11 @@ from signorini.formats import complete_meshio
 from signorini.plot.curve import Curve, make_curve
 from signorini.plot.patch import Patch, padded_faces
 from signorini.plot.skin import Skin, make_skin
+from signorini.plot.style import PLAIN, STATUS_INK
+from signorini.plot.walls import Wall, read_walls
+from signorini.solution.results import SLIP
+
+_TRACTIONS = ("traction_1", "traction_2")
 
 # corners and nodes between them, in the order around a cell
 _AROUND = {
@@ -58,6 +63,21 @@ class Grid:
         return np.vstack([cells[:, corners] for cells in self.cells for corners in _triangles(cells.shape[1])])
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Dots:
+    """Contact nodes that do the same.
+
+    Attributes
+    ----------
+    label, colour : in a picture
+    node : (n,) numbers in the mesh
+    """
+
+    label: str
+    colour: str
+    node: IntArray
+
+
 @dataclass(frozen=True, kw_only=True)
 class ResultFolder:
     """The files that ``signorini run`` leaves, read when asked for.
@@ -83,6 +103,31 @@ class ResultFolder:
         """``contact.csv``."""
         with self._file("contact.csv").open(newline="", encoding="utf-8") as file:
             return list(csv.DictReader(file))
+
+    @cached_property
+    def last_rows(self) -> list[dict[str, str]]:
+        """Rows of the contact nodes after the last step."""
+        last = str(len(self.summary["steps"]))
+        return [row for row in self.rows if row["step"] == last]
+
+    @property
+    def dots(self) -> list[Dots]:
+        """The contact nodes after the last step by what they do."""
+        rough = {row["contact"] for row in self.last_rows if any(float(row[name]) for name in _TRACTIONS)}
+        kinds: dict[tuple[str, str], list[int]] = {}
+        for row in self.last_rows:
+            words = PLAIN if row["status"] == SLIP and row["contact"] not in rough else row["status"]
+            kinds.setdefault((words, STATUS_INK[row["status"]]), []).append(int(row["node"]))
+        order = list(STATUS_INK.values())
+        return [
+            Dots(label=f"contact node, {words}", colour=colour, node=np.array(nodes))
+            for (words, colour), nodes in sorted(kinds.items(), key=lambda kind: (order.index(kind[0][1]), kind[0][0]))
+        ]
+
+    @cached_property
+    def walls(self) -> list[Wall]:
+        """Rigid obstacles of a plane model."""
+        return read_walls(self.summary)
 
     @cached_property
     def instants(self) -> list[dict[str, str]]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.plot.style import INK, STATUS_INK
+from signorini.plot.style import INK, PLAIN, STATUS_INK
 from signorini.solution.history import History
 from signorini.solution.results import StepResult
 from signorini.solution.surface import contact_faces, status_codes
@@ -135,7 +135,7 @@ def _status(axes: Axes, patch: Patch) -> None:
             colour = STATUS_INK[name]
             axes.scatter(x[own], y[own], s=size, color=colour, alpha=0.6, edgecolors="none", zorder=1)
             plain = name == "slip" and not patch.shear.any()
-            handles.append(Swatch(color=colour, alpha=0.6, label="closed, without friction" if plain else name))
+            handles.append(Swatch(color=colour, alpha=0.6, label=PLAIN if plain else name))
     a, b = patch.axes
     rubbed = np.nonzero(np.linalg.norm(patch.shear, axis=1) > 0.0)[0]
     if len(rubbed):

@@ -96,12 +96,6 @@ def contact_shot(folder: ResultFolder) -> Shot | None:
     return Shot(title=title, skin=skin.part(own), camera=camera, focus=focus, contact=facing[own])
 
 
-def last_rows(folder: ResultFolder) -> list[dict[str, str]]:
-    """Rows of the contact nodes after the last step."""
-    last = str(len(folder.summary["steps"]))
-    return [row for row in folder.rows if row["step"] == last]
-
-
 def _stressed(folder: ResultFolder) -> Array:
     """Mean square of the stress on every face, (f,)."""
     skin = folder.skin
@@ -112,7 +106,7 @@ def _stressed(folder: ResultFolder) -> Array:
 
 def _contact(folder: ResultFolder, skin: Skin) -> tuple[str, IntArray, BoolArray]:
     """Of the contact that presses most its name, its closed points, and which faces are its own, (f,)."""
-    rows = [row for row in last_rows(folder) if row["status"] != OPEN]
+    rows = [row for row in folder.last_rows if row["status"] != OPEN]
     faces = np.zeros(len(skin.body), bool)
     if not rows:
         return "", np.zeros(0, np.int64), faces
@@ -124,7 +118,7 @@ def _contact(folder: ResultFolder, skin: Skin) -> tuple[str, IntArray, BoolArray
         found[: len(number)] = np.isin(number, [int(row["node"]) for row in chosen if row["contact"] == name])
         return found
 
-    every = points(last_rows(folder))
+    every = points(folder.last_rows)
     faces = np.bincount(skin.edge_face, weights=every[skin.edges[:, 0]], minlength=len(faces)) >= _CORNERS
     own = np.zeros(len(skin.points), bool)
     own[skin.pieces[faces[skin.face]]] = True

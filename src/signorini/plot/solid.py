@@ -13,8 +13,8 @@ from signorini.plot.camera import Camera
 from signorini.plot.field import BODIES, drawn_factor
 from signorini.plot.files import ResultFolder
 from signorini.plot.paint import Paint, paint_skin
-from signorini.plot.shots import Shot, last_rows, make_shots
-from signorini.plot.style import INK, STATUS_INK
+from signorini.plot.shots import Shot, make_shots
+from signorini.plot.style import INK
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -77,14 +77,12 @@ def draw_solid_mesh(folder: ResultFolder) -> Figure:
         Patch(facecolor=BODIES[i % len(BODIES)], edgecolor="#7d7d7d", label=name) for i, name in enumerate(names)
     ]
     seen = shots[-1].inside(skin.points)
-    for status, colour in STATUS_INK.items():
-        nodes = [int(row["node"]) for row in last_rows(folder) if row["status"] == status]
+    for dots in folder.dots:
         own = seen[seen < len(grid.node)]
-        own = own[np.isin(grid.node[own], nodes)]
+        own = own[np.isin(grid.node[own], dots.node)]
         if len(own):
-            panels[-1].plot(*shots[-1].camera.across(skin.points[own]).T, "o", ms=3.5, color=colour, zorder=3)
-            words = f"contact node, {status}"
-            handles.append(Line2D([], [], marker="o", ls="", ms=4, color=colour, label=words))
+            panels[-1].plot(*shots[-1].camera.across(skin.points[own]).T, "o", ms=3.5, color=dots.colour, zorder=3)
+            handles.append(Line2D([], [], marker="o", ls="", ms=4, color=dots.colour, label=dots.label))
     figure.legend(handles=handles, fontsize=9, frameon=False, loc="outside lower center", ncols=len(handles))
     size = folder.summary["size"]
     words = f"{size['nodes']} nodes, {size['elements']} elements, {size['contact_pairs']} contact pairs"

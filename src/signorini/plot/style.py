@@ -12,6 +12,8 @@ PRESSURE, TRACTION, BOUND = "#1b4f8a", "#c4451c", "#c4451c"
 STATUS_COLOURS = {"open": "#f1f1ef", "stick": "#cfe3f5", "slip": "#fbe3c6"}
 STATUS_INK = {"open": "#9a9a96", "stick": "#2f78b7", "slip": "#dd8a1f"}
 INK = "#333333"
+PLAIN = "closed, without friction"
+"""What "slip" means where there is no friction."""
 
 
 def dress(axes: Axes) -> None:

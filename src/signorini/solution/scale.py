@@ -30,7 +30,7 @@ class Scale:
 
 
 def data_scale(model: Model, loads: Mapping[str, Array], constraints: Constraints, interface: Interface) -> Scale:
-    """Sizes over the whole load history: ``length = force / (E thickness)``, E of the softest body.
+    """Sizes over the whole load history: ``length = force / (E thickness)`` of the body where that is softest.
 
     Of axisymmetric bodies half the largest radius stands for the thickness: contact bears on a part of it.
 
@@ -45,7 +45,8 @@ def data_scale(model: Model, loads: Mapping[str, Array], constraints: Constraint
     moved = [largest[name] * float(np.abs(u).max()) for name, u in constraints.prescribed.items()]
     overlaps = [overlap for stage in history for overlap in stage.interference.values()]
     length = max([*moved, *overlaps, float(np.max(-interface.gap, initial=0.0))])
-    across = 0.5 * float(model.mesh.points[:, 0].max()) if model.axisymmetric else model.thickness
-    stiffness = min(body.material.smallest_modulus for body in model.bodies) * across
+    radius = 0.5 * float(model.mesh.points[:, 0].max())
+    across = [radius] * len(model.bodies) if model.axisymmetric else model.thicknesses
+    stiffness = min(body.material.smallest_modulus * width for body, width in zip(model.bodies, across, strict=True))
     force = max(force, stiffness * length) or stiffness
     return Scale(force=force, length=force / stiffness)

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Common part of two plane pieces of faces, and integrals over it; compiled.
 
-A nonmortar piece spans a plane; a mortar piece is projected on it along its normal. Both are convex polygons there and
-are clipped (Sutherland, Hodgman 1974); the common polygon is cut into triangles from its centroid.
+Both pieces are projected along the normal that they see each other along: that of the nonmortar piece, or one between
+both. They are convex polygons there and are clipped (Sutherland, Hodgman 1974); the common polygon is cut into
+triangles from its centroid. Where faces are curved, a line along that normal tells which of their points are opposite.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from numba import njit
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.interface.spatial.faces import shapes, slopes
+from signorini.interface.spatial.projection import land
 
 _EMPTY = 1e-14
 _STEPS = 30
@@ -29,21 +31,33 @@ def _cross(a: Array, b: Array, out: Array) -> float:
 
 
 @njit(cache=True)
-def _plane(piece: Array, axes: Array, centre: Array, flat: Array) -> float:
-    """Axes (3, 3: two along, the normal), centre, and plane coordinates (c, 2) of a piece; its area."""
-    c = len(piece)
-    for e in range(3):
-        centre[e] = 0.0
-        for a in range(c):
-            centre[e] += piece[a, e] / c
+def _upright(piece: Array, normal: Array) -> None:
+    """Unit normal of a piece, from its diagonals."""
     along, across = np.empty(3), np.empty(3)
     for e in range(3):
-        along[e], across[e] = piece[2, e] - piece[0, e], piece[c - 1, e] - piece[1, e]
-    size = _cross(along, across, axes[2])
-    length = math.sqrt(along[0] ** 2 + along[1] ** 2 + along[2] ** 2)
+        along[e], across[e] = piece[2, e] - piece[0, e], piece[len(piece) - 1, e] - piece[1, e]
+    size = _cross(along, across, normal)
     for e in range(3):
-        axes[2, e] /= size
-        axes[0, e] = along[e] / length
+        normal[e] /= size
+
+
+@njit(cache=True)
+def _plane(piece: Array, normal: Array, axes: Array, centre: Array, flat: Array) -> float:
+    """Axes (3, 3: two across a unit normal, the normal), centre, and coordinates (c, 2) of a piece across it; its area
+    as seen along the normal.
+    """
+    c, size = len(piece), 0.0
+    for e in range(3):
+        centre[e], axes[2, e] = 0.0, normal[e]
+        for a in range(c):
+            centre[e] += piece[a, e] / c
+        size += (piece[2, e] - piece[0, e]) * normal[e]
+    length = 0.0
+    for e in range(3):
+        axes[0, e] = piece[2, e] - piece[0, e] - size * normal[e]
+        length += axes[0, e] ** 2
+    for e in range(3):
+        axes[0, e] /= math.sqrt(length)
     _cross(axes[2], axes[0], axes[1])
     _flatten(piece, axes, centre, flat)
     return _area(flat, c)
@@ -117,21 +131,36 @@ def _common(flat: Array, c: int, other: Array, o: int, polygon: Array, spare: Ar
 
 
 @njit(cache=True)
-def overlap_areas(first: Array, second: Array, i: IntArray, j: IntArray) -> tuple[Array, Array]:
+def _height(piece: Array, at: Array, direction: Array, normal: Array) -> float:
+    """How far along a direction from a point the plane of a piece is."""
+    _upright(piece, normal)
+    c, cosine, height = len(piece), 0.0, 0.0
+    for e in range(3):
+        middle = 0.0
+        for a in range(c):
+            middle += piece[a, e] / c
+        cosine += normal[e] * direction[e]
+        height += normal[e] * (middle - at[e])
+    return height / cosine
+
+
+@njit(cache=True)
+def overlap_areas(first: Array, second: Array, normals: Array, i: IntArray, j: IntArray) -> tuple[Array, Array]:
     """Area of the common part of pairs of pieces, and the distance from the first to the second over its centroid.
 
     Parameters
     ----------
     first, second : (p, 3 or 4, 3) corners of the pieces of both sides
+    normals : (p, 3) unit normals along which the first pieces see the second
     i, j : (k,) the pairs
     """
     c, o = first.shape[1], second.shape[1]
     axes, centre, flat, other = np.empty((3, 3)), np.empty(3), np.empty((4, 2)), np.empty((4, 2))
     polygon, spare = np.empty((16, 2)), np.empty((16, 2))
-    along, across, normal = np.empty(3), np.empty(3), np.empty(3)
+    at, normal = np.empty(3), np.empty(3)
     area, distance = np.zeros(len(i)), np.zeros(len(i))
     for k in range(len(i)):
-        whole = _plane(first[i[k]], axes, centre, flat)
+        whole = _plane(first[i[k]], normals[i[k]], axes, centre, flat)
         _flatten(second[j[k]], axes, centre, other)
         count = _common(flat, c, other, o, polygon, spare)
         if count < 3:
@@ -141,17 +170,9 @@ def overlap_areas(first: Array, second: Array, i: IntArray, j: IntArray) -> tupl
             continue
         area[k] = common
         x, y = _middle(polygon, count)
-        piece, upright, height = second[j[k]], 0.0, 0.0
         for e in range(3):
-            along[e], across[e] = piece[2, e] - piece[0, e], piece[o - 1, e] - piece[1, e]
-        _cross(along, across, normal)
-        for e in range(3):
-            middle = 0.0
-            for a in range(o):
-                middle += piece[a, e] / o
-            upright += normal[e] * axes[2, e]
-            height += normal[e] * (middle - centre[e] - x * axes[0, e] - y * axes[1, e])
-        distance[k] = height / upright
+            at[e] = centre[e] + x * axes[0, e] + y * axes[1, e]
+        distance[k] = _height(second[j[k]], at, axes[2], normal) - _height(first[i[k]], at, axes[2], normal)
     return area, distance
 
 
@@ -207,12 +228,34 @@ def _true_area(nodes: Array, place: Array, D: Array, normal: Array) -> float:
 
 
 @njit(cache=True)
+def _point(nodes: Array, N: Array, point: Array) -> None:
+    """Where a face is that has shape functions N, into ``point``."""
+    for e in range(3):
+        point[e] = 0.0
+        for a in range(len(nodes)):
+            point[e] += N[a] * nodes[a, e]
+
+
+@njit(cache=True)
+def _turn(vector: Array, before: Array, after: Array) -> None:
+    """Turn a vector, in place, by what turns one unit vector into another; see `signorini.interface.tilt.turned`."""
+    both, same, own = 0.0, 1.0, 0.0
+    for e in range(3):
+        both += (before[e] + after[e]) * vector[e]
+        same += before[e] * after[e]
+        own += before[e] * vector[e]
+    for e in range(3):
+        vector[e] += 2.0 * own * after[e] - both / same * (before[e] + after[e])
+
+
+@njit(cache=True)
 def integrate(
     first: Array,
     first_nodes: Array,
     first_places: Array,
+    normals: Array,
     second: Array,
-    second_count: int,
+    second_nodes: Array,
     second_places: Array,
     i: IntArray,
     j: IntArray,
@@ -227,31 +270,33 @@ def integrate(
 
     With N the hats of the corners, N_j all functions of the nonmortar face, N_l those of the mortar face, at the same
     Gauss points: ``mass = int N N``, ``own = int N N_j n``, ``other = int N N_l n``. The area and its outward normal n
-    are those of the nonmortar face itself, curved as it is.
+    are those of the nonmortar face itself, curved as it is, n turned as its piece is to the given normal.
 
     Parameters
     ----------
     first, second : (p, 3 or 4, 3) corners of the pieces, piece after piece of every face
-    first_nodes : (m, c, 3) nodes of the nonmortar faces
+    first_nodes, second_nodes : (m, c, 3) nodes of the faces
     first_places, second_places : (s, 3 or 4, 2) reference coordinates of the pieces of a face
-    second_count : nodes of a mortar face
+    normals : (p, 3) unit normals along which the first pieces see the second
     i, j : (k,) pairs of pieces
     rule, weights : (q, 3) barycentric coordinates and weights of a quadrature of the triangle, which sum to 1
     mass, own : (m, corners, corners), (m, corners, c, 3), added to
-    other : (k, corners, second_count, 3), added to
+    other : (k, corners, c of the mortar faces, 3), added to
     chosen : (k,) pairs to integrate
     """
-    c, o, nodes = first.shape[1], second.shape[1], first_nodes.shape[1]
+    c, o, nodes, count_2 = first.shape[1], second.shape[1], first_nodes.shape[1], second_nodes.shape[1]
     s_1, s_2 = len(first_places), len(second_places)
+    curved = nodes > c or count_2 > o
     axes, centre, flat, projected = np.empty((3, 3)), np.empty(3), np.empty((4, 2)), np.empty((4, 2))
     polygon, spare = np.empty((16, 2)), np.empty((16, 2))
     hats, N, M, D = np.empty(4), np.empty(9), np.empty(9), np.empty((2, 9))
-    here, there, normal = np.empty(2), np.empty(2), np.empty(3)
+    here, there, normal, upright, point = np.empty(2), np.empty(2), np.empty(3), np.empty(3), np.empty(3)
     for k in range(len(i)):
         if not chosen[k]:
             continue
         face = i[k] // s_1
-        whole = _plane(first[i[k]], axes, centre, flat)
+        _upright(first[i[k]], upright)
+        whole = _plane(first[i[k]], normals[i[k]], axes, centre, flat)
         _flatten(second[j[k]], axes, centre, projected)
         count = _common(flat, c, projected, o, polygon, spare)
         m_x, m_y = _middle(polygon, count)
@@ -268,9 +313,13 @@ def integrate(
                 _inside(projected, o, x, y, second_places[j[k] % s_2], there)
                 share = weights[g] * triangle / stretch
                 w = share * _true_area(first_nodes[face], here, D, normal)
+                _turn(normal, upright, axes[2])
                 shapes(c, here[0], here[1], hats)
                 shapes(nodes, here[0], here[1], N)
-                shapes(second_count, there[0], there[1], M)
+                if curved:
+                    _point(first_nodes[face], N, point)
+                    land(point, axes[2], second_nodes[j[k] // s_2], there)
+                shapes(count_2, there[0], there[1], M)
                 for e in range(c):
                     for f in range(c):
                         mass[face, e, f] += w * hats[e] * hats[f]
@@ -278,5 +327,5 @@ def integrate(
                         force = share * hats[e] * normal[d]
                         for f in range(nodes):
                             own[face, e, f, d] += force * N[f]
-                        for f in range(second_count):
+                        for f in range(count_2):
                             other[k, e, f, d] += force * M[f]

@@ -16,6 +16,7 @@ from signorini.interface.spatial.candidates import near_pairs, nearest_layers
 from signorini.interface.spatial.clip import integrate, overlap_areas
 from signorini.interface.spatial.faces import pieces
 from signorini.interface.spatial.surface import Block, Surface, reference_rule, search_distance
+from signorini.interface.tilt import normals_between
 
 _COVERED = 1e-8  # of the full weight of a node: with less it carries no pair
 _DEGREE = {3: 1, 4: 2, 6: 2, 8: 3, 9: 4}  # of the shape functions, by nodes of a face
@@ -24,15 +25,18 @@ _MANY = 8  # Gauss points a direction where functions are no polynomials: exact 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Overlaps:
-    """Pairs of pieces of one nonmortar and one mortar block."""
+    """Pairs of pieces of one nonmortar and one mortar block, and how large their common parts are."""
 
     mortar: Block
     i: IntArray
     j: IntArray
+    area: Array
     chosen: BoolArray
 
 
-def mortar_coupling(nonmortar: Surface, mortar: Surface, *, search: float | None = None, where: Where = ()) -> Coupling:
+def mortar_coupling(
+    nonmortar: Surface, mortar: Surface, *, share: float = 0.5, search: float | None = None, where: Where = ()
+) -> Coupling:
     """Weigh both sides with the functions dual to the hats of the nonmortar corner nodes.
 
     On the covered part of every nonmortar face, ``psi = diag(int N) (int N N^T)^-1 N``, N the hats of its corners, so
@@ -42,11 +46,13 @@ def mortar_coupling(nonmortar: Surface, mortar: Surface, *, search: float | None
 
     The psi_k sum to 1: uniform pressure passes exactly, on the mortar side where the two coincide. Quadratic faces have
     pairs at their corners only (their own dual functions oscillate); for clipping four plane pieces stand for each of
-    them. Areas and normals are those of the nonmortar faces themselves, warped or curved as they are.
+    them, but the points that are opposite each other are on the faces themselves. Areas and normals are those of the
+    nonmortar faces, warped or curved as they are, the normals turned where the sides are tilted against each other.
 
     Parameters
     ----------
     nonmortar, mortar : the sides, on the same array of points; the coarser one is the better nonmortar side
+    share : of the nonmortar side in the stiffness of both, see :mod:`signorini.interface.tilt`
     search : how far apart faces can be along their normal, length; None: half the size of the smaller side
     where : what errors call the contact
 
@@ -76,7 +82,11 @@ def mortar_coupling(nonmortar: Surface, mortar: Surface, *, search: float | None
     full[nonmortar.nodes] = nonmortar.nodal_areas
     keeps, gives = ([sp.csr_array((n, n)) for _ in range(3)] for _ in range(2))
     for block in nonmortar.blocks:
-        own, other = _block_integrals(block, _overlaps(block, mortar, reach), n)
+        seen = _overlaps(block, mortar, reach, _normals(block))
+        normals = _between(nonmortar, mortar, block, seen, share)
+        if (normals != _normals(block)).any():
+            seen = _overlaps(block, mortar, reach, normals)
+        own, other = _block_integrals(block, seen, normals, n)
         keeps = [one + two for one, two in zip(keeps, own, strict=True)]
         gives = [one + two for one, two in zip(gives, other, strict=True)]
     vectors = np.column_stack([part.sum(axis=1) for part in keeps])
@@ -97,29 +107,50 @@ def _corners(block: Block) -> Array:
     return np.ascontiguousarray(corners.reshape(-1, *corners.shape[2:]))
 
 
-def _overlaps(block: Block, mortar: Surface, search: float) -> list[_Overlaps]:
-    """Pairs of pieces that are opposite each other, by blocks of the mortar side."""
+def _normals(block: Block) -> Array:
+    """(p, 3) Outward unit normals of all pieces of a block."""
+    corners = _corners(block)
+    normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, -1] - corners[:, 1])
+    return np.asarray(normals / np.linalg.norm(normals, axis=1, keepdims=True))
+
+
+def _overlaps(block: Block, mortar: Surface, search: float, normals: Array) -> list[_Overlaps]:
+    """Pairs of pieces that are opposite each other along normals (p, 3), by blocks of the mortar side."""
     first = _corners(block)
     found = []
     for other in mortar.blocks:
         second = _corners(other)
         i, j = near_pairs(first, second, search)
-        found.append((other, i, j, *overlap_areas(first, second, i, j)))
+        found.append((other, i, j, *overlap_areas(first, second, normals, i, j)))
     i, area, distance = (np.concatenate([part[k] for part in found]) for k in (1, 3, 4))
     order = np.argsort(i, kind="stable")
     chosen = np.empty(len(i), np.bool_)
     # the pieces of a quadratic face are triangles or quadrilaterals in space, plane or nearly so
     spans = np.cross(first[:, 2] - first[:, 0], first[:, -1] - first[:, 1])
-    whole = 0.5 * np.linalg.norm(spans, axis=1)
+    whole = 0.5 * np.abs(np.sum(spans * normals, axis=1))
     chosen[order] = nearest_layers(area[order], distance[order], i[order], whole, search)
     result, start = [], 0
-    for other, i, j, *_ in found:
-        result.append(_Overlaps(mortar=other, i=i, j=j, chosen=chosen[start : start + len(i)]))
+    for other, i, j, area, _ in found:
+        result.append(_Overlaps(mortar=other, i=i, j=j, area=area, chosen=chosen[start : start + len(i)]))
         start += len(i)
     return result
 
 
-def _block_integrals(block: Block, overlaps: list[_Overlaps], n: int) -> tuple[list[sp.csr_array], list[sp.csr_array]]:
+def _between(nonmortar: Surface, mortar: Surface, block: Block, seen: list[_Overlaps], share: float) -> Array:
+    """(p, 3) Unit normals along which the pieces of a nonmortar block see what is opposite."""
+    own = _normals(block)
+    turn = np.repeat(nonmortar.turns(block), len(pieces(block.nodes_a_face)))
+    opposite = np.zeros_like(own)
+    for part in seen:
+        i, j, area = part.i[part.chosen], part.j[part.chosen], part.area[part.chosen]
+        np.add.at(opposite, i, area[:, None] * _normals(part.mortar)[j])
+        np.maximum.at(turn, i, mortar.turns(part.mortar)[j // len(pieces(part.mortar.nodes_a_face))])
+    return normals_between(own, opposite, turn, share)
+
+
+def _block_integrals(
+    block: Block, overlaps: list[_Overlaps], normals: Array, n: int
+) -> tuple[list[sp.csr_array], list[sp.csr_array]]:
     """``int psi_k N_j n`` of the block itself and ``int psi_k N_l n`` of the other side, three of (n, n) each.
 
     The normals n of the faces point outward, psi_k is negative here: together they point into the body.
@@ -135,8 +166,9 @@ def _block_integrals(block: Block, overlaps: list[_Overlaps], n: int) -> tuple[l
             _corners(block),
             block.points,
             pieces(block.nodes_a_face),
+            normals,
             _corners(part.mortar),
-            count,
+            part.mortar.points,
             pieces(count),
             part.i,
             part.j,

@@ -10,7 +10,7 @@ from signorini.arrays import Array, IntArray
 from signorini.interface.spatial.faces import shapes, slopes
 
 _STEPS = 20
-_STILL = 1e-14
+_STILL = 1e-10  # of a reference face: the step after that is rounding
 
 
 @njit(cache=True)
@@ -35,6 +35,41 @@ def _step(first: Array, second: Array, third: Array, rhs: Array, out: Array) -> 
 
 
 @njit(cache=True)
+def land(point: Array, direction: Array, face: Array, place: Array) -> float:
+    """Signed distance from a point along a unit direction (3,) to a face, NaN where the line does not meet it.
+
+    Parameters
+    ----------
+    face : (c, 3) nodes
+    place : (2,) where Newton's method starts on the reference face; where the line meets it afterwards, if it does
+    """
+    c = face.shape[0]
+    N, D, off, step = np.empty(9), np.empty((2, 9)), np.empty(3), np.empty(3)
+    along, across, back = np.empty(3), np.empty(3), np.empty(3)
+    x, y, t = place[0], place[1], 0.0
+    for _ in range(_STEPS):
+        shapes(c, x, y, N)
+        slopes(c, x, y, D)
+        for e in range(3):
+            back[e] = -direction[e]
+            off[e] = point[e] - t * back[e]
+            along[e], across[e] = 0.0, 0.0
+            for a in range(c):
+                off[e] -= N[a] * face[a, e]
+                along[e] += D[0, a] * face[a, e]
+                across[e] += D[1, a] * face[a, e]
+        if not _step(along, across, back, off, step):
+            break
+        x, y, t = x + step[0], y + step[1], t + step[2]
+        if abs(x) + abs(y) > 1e3:
+            break
+        if abs(step[0]) + abs(step[1]) < _STILL:
+            place[0], place[1] = x, y
+            return t
+    return np.nan
+
+
+@njit(cache=True)
 def meet(points: Array, directions: Array, faces: Array, i: IntArray, j: IntArray) -> tuple[Array, Array]:
     """Reference place (k, 2) and signed distance (k,) where the line through a point meets a face; NaN where none.
 
@@ -45,29 +80,10 @@ def meet(points: Array, directions: Array, faces: Array, i: IntArray, j: IntArra
     i, j : (k,) pairs of a point and a face
     """
     c = faces.shape[1]
-    places, distance = np.full((len(i), 2), np.nan), np.full(len(i), np.nan)
-    N, D, off, step = np.empty(9), np.empty((2, 9)), np.empty(3), np.empty(3)
-    along, across, back = np.empty(3), np.empty(3), np.empty(3)
+    places, distance = np.empty((len(i), 2)), np.empty(len(i))
     for k in range(len(i)):
-        centre = 1.0 / 3.0 if c == 3 or c == 6 else 0.0
-        x, y, t = centre, centre, 0.0
-        for _ in range(_STEPS):
-            shapes(c, x, y, N)
-            slopes(c, x, y, D)
-            for e in range(3):
-                back[e] = -directions[i[k], e]
-                off[e] = points[i[k], e] - t * back[e]
-                along[e], across[e] = 0.0, 0.0
-                for a in range(c):
-                    off[e] -= N[a] * faces[j[k], a, e]
-                    along[e] += D[0, a] * faces[j[k], a, e]
-                    across[e] += D[1, a] * faces[j[k], a, e]
-            if not _step(along, across, back, off, step):
-                break
-            x, y, t = x + step[0], y + step[1], t + step[2]
-            if abs(x) + abs(y) > 1e3:
-                break
-            if abs(step[0]) + abs(step[1]) < _STILL:
-                places[k, 0], places[k, 1], distance[k] = x, y, t
-                break
+        places[k] = 1.0 / 3.0 if c == 3 or c == 6 else 0.0
+        distance[k] = land(points[i[k]], directions[i[k]], faces[j[k]], places[k])
+        if np.isnan(distance[k]):
+            places[k] = np.nan
     return places, distance

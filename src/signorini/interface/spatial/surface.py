@@ -13,6 +13,7 @@ from signorini.arrays import Array, IntArray, frozen
 from signorini.errors import InputError
 from signorini.fem.faces import CORNERS
 from signorini.interface.spatial.faces import node_places, pieces, shapes_at, slopes_at
+from signorini.interface.tilt import turns
 
 _RULE = 3
 
@@ -102,6 +103,12 @@ class Surface:
         length = np.linalg.norm(total, axis=1, keepdims=True)
         normals: Array = total / np.where(length > 0, length, 1.0)
         return normals
+
+    def turns(self, block: Block) -> Array:
+        """(m,) Angle by which the side turns from every face of a block to the next, see `interface.tilt.turns`."""
+        mean = block.outward(reference_rule(CORNERS[block.nodes_a_face])[0]).mean(axis=1)
+        mean /= np.linalg.norm(mean, axis=1, keepdims=True)
+        return turns(mean, self.nodal_normals[np.searchsorted(self.nodes, block.faces)])
 
     @cached_property
     def nodal_areas(self) -> Array:
