@@ -69,8 +69,8 @@ def _contact(model: Model, step: StepResult, table: Table, quantity: str, time: 
     contact = step.contacts[int(table.members[0])]
     sides = table.place
     if quantity == "CF":
-        forces, arms = padded(contact.forces, 3), padded(contact.points, 3)
-        total = np.concatenate([forces.sum(axis=0), np.cross(arms, forces).sum(axis=0)])
+        turn = np.atleast_1d(contact.moment(np.zeros(model.dimension)))
+        total = np.concatenate([padded(contact.forces, 3).sum(axis=0), np.zeros(3 - len(turn)), turn])
         yield from ("", f" statistics for {sides} and time {time:14.7E}", "")
         yield from ("   total surface force (fx,fy,fz) and moment about the origin (mx,my,mz)", "")
         yield f"   {_spelled(total)}"

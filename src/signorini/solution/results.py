@@ -29,6 +29,8 @@ class ContactResult:
     points : (n, d) undeformed coordinates
     normals, tangents : (n, d) unit vectors, in space (n, 2, 3) tangents with ``t1 x t2 = n``; the normal points from
         the mortar side into the nonmortar body
+    levers : (n, d, 1 or 3) moments about the origin of unit normal and tangential forces of every pair on the nonmortar
+        body, where these act (of quadratic facets not at the corners alone), length
     area : (n,) tributary area
     gap : (n,) length, 0 where closed; negative only as overlap of an interface with finite stiffness
     pressure : (n,) force per area, positive compressive
@@ -49,6 +51,7 @@ class ContactResult:
     points: Array
     normals: Array
     tangents: Array
+    levers: Array
     area: Array
     gap: Array
     pressure: Array
@@ -96,14 +99,17 @@ class ContactResult:
         return forces
 
     def moment(self, about: Sequence[float] | Array) -> Array:
-        """Resultant moment on the nonmortar body about a point (d,), force times length.
+        """Resultant moment on the nonmortar body about a point (d,), ``int (x - about) x t dA``, force times length.
 
-        A number in the plane, counterclockwise positive; (3,) in space.
+        Of the forces as they act on all nodes of the facets, so that it balances those of loads and supports. A number
+        in the plane, counterclockwise positive; (3,) in space.
         """
-        arm, forces = self.points - np.asarray(about, float), self.forces
-        if arm.shape[1] == 3:
-            return np.cross(arm, forces).sum(axis=0)
-        return np.asarray(arm[:, 0] @ forces[:, 1] - arm[:, 1] @ forces[:, 0])
+        tractions = np.column_stack([self.pressure, self.traction])
+        total = np.einsum("k,ki,kim->m", self.area, tractions, self.levers)
+        place, force = np.asarray(about, float), self.forces.sum(axis=0)
+        if len(place) == 3:
+            return np.asarray(total - np.cross(place, force))
+        return np.asarray(total[0] - place[0] * force[1] + place[1] * force[0])
 
     @property
     def extent(self) -> tuple[Array, Array] | None:
