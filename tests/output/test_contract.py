@@ -28,6 +28,7 @@ TOP = {
     "timings": dict,
     "backend": str,
     "peak_memory_bytes": int,
+    "obstacles": list,
     "steps": list,
 }
 SIZE = dict.fromkeys(("nodes", "elements", "dofs", "contact_pairs"), int)

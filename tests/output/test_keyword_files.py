@@ -12,6 +12,7 @@ from signorini.deck import load
 from signorini.fem.space import make_space
 from signorini.fem.stress import point_stresses
 from signorini.output.dat import write_dat
+from signorini.output.slave import tangents
 
 DECKS = Path(__file__).parents[1] / "deck" / "inp" / "decks"
 
@@ -67,7 +68,9 @@ def test_frd_holds_every_step(folder: Path) -> None:
         assert shown["DISP"][:, :2] == pytest.approx(step.displacement, rel=1e-5, abs=1e-12)
         contact = step.contacts[0]
         assert shown["CONTACT"][contact.node, 3] == pytest.approx(contact.pressure, rel=1e-5)
-        assert shown["CONTACT"][contact.node, 4] == pytest.approx(contact.traction, rel=1e-5, abs=1e-9)
+        # the normal is y, so that the first tangent is x as here; the shear stress is what the slave exerts
+        assert shown["CONTACT"][contact.node, 4] == pytest.approx(-contact.traction, rel=1e-5, abs=1e-9)
+        assert shown["CONTACT"][contact.node, 1] == pytest.approx(contact.slip, rel=1e-5, abs=1e-12)
         # what holds the base is what the supports report
         base = mesh.nodes["Base"]
         assert shown["FORC"][base, :2].sum(axis=0) == pytest.approx(step.reactions["Base"], rel=1e-4, abs=1e-3)
@@ -76,12 +79,12 @@ def test_frd_holds_every_step(folder: Path) -> None:
 def test_dat_holds_the_tables_that_are_asked_for(folder: Path) -> None:
     text = (folder / "solution.dat").read_text()
     assert text.count("S T E P") == 2  # what the first step asks for, the second goes on with
-    assert " displacements (vx,vy,vz) for set TOP and time  1.0000000E+00" in text
-    block = text.split("displacements (vx,vy,vz) for set TOP and time  2.0000000E+00")[1].split("\n\n")[1]
+    assert " displacements (vx,vy,vz) for set TOP and time  0.1000000E+01" in text
+    block = text.split("displacements (vx,vy,vz) for set TOP and time  0.2000000E+01")[1].split("\n\n")[1]
     rows = [line.split() for line in block.splitlines()]
     assert [row[0] for row in rows] == ["14", "15", "16"]
     assert np.array(rows, float)[:, 1:3] == pytest.approx(np.tile([0.01, -0.001], (3, 1)))
-    assert "contact stress (slave node,press,tang1,tang2) for slave set Sslave, master set Smaster" in text
+    assert " contact stress (slave node,press,tang1,tang2) for all contact elements and time 0.2000000E+01" in text
 
 
 def test_stresses_totals_and_contact_forces(tmp_path: Path) -> None:
@@ -91,8 +94,8 @@ def test_stresses_totals_and_contact_forces(tmp_path: Path) -> None:
     deck.write_text(text.replace("*END STEP", asked, 1))
     found = load(deck)
     solution = sg.solve(found.model)
-    assert found.tables is not None
-    write_dat(solution, found.tables, tmp_path / "x.dat")
+    assert found.prints is not None
+    write_dat(solution, found.prints, tmp_path / "x.dat")
     lines = (tmp_path / "x.dat").read_text().splitlines()
 
     def after(words: str) -> list[float]:
@@ -107,3 +110,91 @@ def test_stresses_totals_and_contact_forces(tmp_path: Path) -> None:
     stress = next(iter(point_stresses(make_space(model.mesh), model, solution.steps[0].displacement)))[1][2]
     assert row[0] == 30
     assert row[2:6] == pytest.approx(stress[0, :4], rel=1e-5, abs=1e-6)
+
+
+def asked(folder: Path, name: str, keywords: str, *changes: tuple[str, str]) -> tuple[sg.Solution, str]:
+    """Solution and ``.dat`` of a deck whose last step asks for tables."""
+    text = (DECKS / name).read_text()
+    for before, after in changes:
+        assert before in text
+        text = text.replace(before, after)
+    deck = folder / "deck.inp"
+    head, _, _ = text.rpartition("*END STEP")
+    deck.write_text(f"{head}{keywords}\n*END STEP\n")
+    found = load(deck)
+    solution = sg.solve(found.model)
+    assert found.prints is not None
+    write_dat(solution, found.prints, folder / "x.dat")
+    return solution, (folder / "x.dat").read_text()
+
+
+def rows_after(text: str, words: str) -> np.ndarray:
+    """The last table under a heading."""
+    block = text.rsplit(words, 1)[1].split("\n\n")[1]
+    return np.array([[float(word) for word in line.split()] for line in block.splitlines()])
+
+
+def test_tables_come_in_the_order_of_the_deck_and_forces_last(tmp_path: Path) -> None:
+    """A step that asks for nodes anew keeps what was asked of contacts."""
+    _, text = asked(
+        tmp_path,
+        "two_blocks.inp",
+        "*CONTACT PRINT, SLAVE=Sslave, MASTER=Smaster\nCF, CDIS\n*NODE PRINT, NSET=Base, TOTALS=YES\nRF\n",
+    )
+    last = text.split("S T E P")[2]
+    heads = [line.split("(")[0].strip() for line in last.splitlines() if "(" in line]
+    assert heads[:4] == ["relative contact displacement", "forces", "total force", "total surface force"]
+    assert "statistics for slave set SSLAVE, master set SMASTER and time  0.2000000E+01" in last
+
+
+def test_contact_pairs_that_do_not_exist_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(sg.InputError, match=r"no contact pair of 'Smaster' and 'Sslave'"):
+        asked(tmp_path, "two_blocks.inp", "*CONTACT PRINT, SLAVE=Smaster, MASTER=Sslave\nCF")
+
+
+def test_energies_of_springs_add_up_to_those_of_the_interface(tmp_path: Path) -> None:
+    soft = ("PRESSURE-OVERCLOSURE=HARD\n*FRICTION\n0.3", "PRESSURE-OVERCLOSURE=LINEAR\n1.E5\n*FRICTION\n0.3, 2.E4")
+    keywords = "*CONTACT PRINT, TOTALS=YES\nCELS, CDIS, CSTR\n"
+    solution, text = asked(tmp_path, "two_blocks.inp", keywords, soft)
+    energies = rows_after(text, "contact spring energy (slave node,energy)")
+    assert energies[:, 1].sum() == pytest.approx(solution.last.interface_energy, rel=1e-5)
+    assert rows_after(text, "total contact spring energy")[0, 0] == pytest.approx(energies[:, 1].sum(), rel=1e-5)
+    moved, stress = (rows_after(text, words) for words in ("contact displacement (", "contact stress ("))
+    assert stress[:, 1] == pytest.approx(-1e5 * moved[:, 1], rel=1e-5)  # overlap times stiffness
+
+
+def test_shear_and_sliding_have_one_sign_whichever_way_a_surface_faces(tmp_path: Path) -> None:
+    """CalculiX's axes: the upper block, dragged along x by more than it yields, exerts friction along x."""
+    _, text = asked(tmp_path, "two_blocks.inp", "*CONTACT PRINT, SLAVE=Sslave, MASTER=Smaster\nCDIS, CSTR, CFN, CFS\n")
+    moved, stress = (rows_after(text, words) for words in ("contact displacement (", "contact stress ("))
+    assert (moved[:, 2] > 0.005).all()
+    assert stress[:, 2] == pytest.approx(0.3 * stress[:, 1], rel=1e-5)
+    assert (stress[:, 3] == 0.0).all()
+    pressed = rows_after(text, "total normal surface force")[0]
+    dragged = rows_after(text, "total shear surface force")[0]
+    assert dragged[0] == pytest.approx(-0.3 * pressed[1], rel=1e-5)
+
+
+@pytest.mark.parametrize("normal", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (-1, 0, 0), (0, -1, 0), (0.6, 0.0, 0.8)])
+def test_tangents_of_calculix(normal: tuple[float, ...]) -> None:
+    """Unit vectors with the normal right-handed, the first along x where the surface allows."""
+    n = np.array(normal, float)
+    first, second = tangents(n[None])[0]
+    assert np.stack([first, second, n]) @ np.stack([first, second, n]).T == pytest.approx(np.eye(3))
+    assert np.cross(first, second) == pytest.approx(n)
+    assert first[2] == 1.0 if abs(n[0]) == 1.0 else first[0] > 0.0
+
+
+def test_a_node_of_rotation_shows_rotation_and_moment(tmp_path: Path) -> None:
+    changes = [("99, 1., 3.", "99, 1., 3.\n98, 1., 3."), ("REF NODE=99", "REF NODE=99, ROT NODE=98")]
+    solution, text = asked(tmp_path, "rigid.inp", "*NODE PRINT, NSET=Nall, TOTALS=YES\nU, RF", *changes)
+    (body,) = solution.last.rigid_bodies.values()
+    moved, forces = (
+        {int(row[0]): row[1:] for row in rows_after(text, words)} for words in ("displacements (vx", " forces (fx")
+    )
+    assert moved[98] == pytest.approx([0.0, 0.0, body.rotation], rel=1e-5)
+    assert moved[99] == pytest.approx([*body.displacement, 0.0], rel=1e-5, abs=1e-12)
+    assert forces[98] == pytest.approx([0.0, 0.0, 0.5])
+    assert forces[99][:2] == pytest.approx(body.force, abs=1e-6)
+    total = rows_after(text, "total force")[0]
+    assert total == pytest.approx([0.0, 0.0, 0.0], abs=1e-5)  # a moment is no part of it

@@ -65,4 +65,6 @@ def test_moments_of_the_contact_balance_all_others(build, given, body):
         other = moment(arm, force)
         size = np.abs(force).sum() * np.abs(arm).max()
         np.testing.assert_allclose(contact.moment(about) + other, 0.0, atol=1e-9 * size)
+        parts = [contact.moment(about, of) for of in ("pressure", "friction")]
+        np.testing.assert_allclose(sum(parts), contact.moment(about), atol=1e-12 * size)
         assert np.abs(other).max() > 1e-4 * size or not about.any()

@@ -47,7 +47,7 @@ def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: f
     folder = open_folder(Path(options.folder) if options.folder else Path("out", deck.path.stem))
     with progress(quiet=options.quiet or options.json, seconds=clock.seconds) as clock:
         history = _solve(deck, options, clock, start)
-        files = publish(history, folder, clock, started=started, tables=deck.tables)
+        files = publish(history, folder, clock, started=started, prints=deck.prints)
     if options.json:
         print((folder / "summary.json").read_text(encoding="utf-8"), end="")
     elif not options.quiet:

@@ -31,7 +31,7 @@ from signorini.deck.syntax import parse
 from signorini.deck.table import check_keys
 from signorini.errors import InputError, Where
 from signorini.model.model import Model
-from signorini.model.prints import Table
+from signorini.model.prints import Prints
 
 _KEYS = (
     "title",
@@ -62,7 +62,7 @@ class Deck:
     path : of the file, as the user spelled it
     lines : line of every key and table, from 1, by its path
     unused_materials : names of materials that no body is made of
-    tables : that a deck of keywords asks for; None for other decks
+    prints : what a deck of keywords asks for; None for other decks
     notes : how the model differs from what the deck asks for, and what was left out
     """
 
@@ -71,7 +71,7 @@ class Deck:
     lines: Mapping[Where, int]
     unused_materials: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
-    tables: tuple[Table, ...] | None = None
+    prints: Prints | None = None
 
     def locate(self, error: InputError) -> DeckError:
         """The same error with the line of the deck that caused it; for what is found after reading."""
@@ -132,7 +132,7 @@ def _keywords(built: Built, path: Path) -> KeywordDeck:
         lines={},
         unused_materials=built.unused_materials,
         notes=built.notes,
-        tables=built.tables,
+        prints=built.prints,
         places=built.places,
     )
 

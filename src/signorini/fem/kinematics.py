@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, IntArray
+from signorini.fem.jacobian import determinants, gradients_in_space, jacobians
 from signorini.fem.measure import measure
 from signorini.fem.space import Block, Space
 from signorini.model.model import Model
@@ -154,12 +155,12 @@ def kinematics(space: Space, model: Model, group: Group, *, best: bool = False) 
     """
     block, points = group.block, space.mesh.points[group.cells]
     values, reference = (block.stress_values, block.stress_gradients) if best else (block.values, block.gradients)
-    jacobians = np.einsum("mki,qkj->mqij", points, reference)
-    gradients = np.einsum("qkj,mqji->mqki", reference, np.linalg.inv(jacobians))
+    bent = jacobians(points, reference)
+    gradients = gradients_in_space(bent, reference)
     at = np.einsum("qk,mki->mqi", values, points)
     if model.axisymmetric:
         gradients = np.concatenate([gradients, (values / at[..., :1])[..., None]], axis=-1)
-    weights = np.abs(np.linalg.det(jacobians)) * measure(model, at, group.numbers)
+    weights = np.abs(determinants(bent)) * measure(model, at, group.numbers)
     weights = weights * (1.0 / len(values) if best else block.weights)
     if group.formulation == "incompatible":
         gradients = np.concatenate([gradients, mode_gradients(space, model, group)], axis=2)
@@ -178,15 +179,14 @@ def mode_gradients(space: Space, model: Model, group: Group) -> Array:
     Commun. Appl. Numer. Methods 7, 187.
     """
     block, points = group.block, space.mesh.points[group.cells]
-    jacobians = np.einsum("mki,qkj->mqij", points, block.gradients)
-    centre = jacobians.mean(axis=1)
+    bent = jacobians(points, block.gradients)
+    centre, volume = bent.mean(axis=1), determinants(bent)
     xi = block.values @ BRICKS[block.family]
     slopes = -2.0 * xi[:, :, None] * np.eye(xi.shape[1])
-    determinants = np.linalg.det(jacobians)
-    ratio = np.linalg.det(centre)[:, None] / determinants
+    ratio = determinants(centre)[:, None] / volume
     modes = np.einsum("mq,qpj,mji->mqpi", ratio, slopes, np.linalg.inv(centre))
     at = np.einsum("qk,mki->mqi", block.values, points)
-    weights = np.abs(determinants) * measure(model, at, group.numbers)
+    weights = np.abs(volume) * measure(model, at, group.numbers)
     modes -= np.einsum("mq,mqpi->mpi", weights, modes)[:, None] / weights.sum(axis=1)[:, None, None, None]
     if model.axisymmetric:
         modes = np.concatenate([modes, np.zeros((*modes.shape[:3], 1))], axis=-1)

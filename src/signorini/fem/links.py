@@ -60,7 +60,7 @@ def make_links(space: Space, model: Model) -> Links:
     Raises
     ------
     InputError
-        If places of an equation have different numbers of nodes, or a rigid body consists of one node.
+        If places of an equation have different numbers of nodes, or a rigid body that no equation names is one node.
     """
     parts = [_equation(space, model, i, equation) for i, equation in enumerate(model.equations)]
     parts += [_rigid(space, model, j) for j in range(len(model.rigid_bodies))]
@@ -140,8 +140,8 @@ def _rigid(space: Space, model: Model, j: int) -> tuple[IntArray, Array]:
         )
     else:
         nodes = nodes_at(space, body.on, where)
-    if len(nodes) < 2:
-        raise InputError("is one node; expected two or more", where=where)
+    if len(nodes) < 2 and not any(on == body.name for other in model.equations for on, _, _ in other.terms):
+        raise InputError("is one node, and no equation names it; expected two nodes or more", where=where)
     weights = carried(model, space.mesh.points[nodes], np.array(body.point))[:, :, : len(directions(d))]
     own, shared = space.dofs(nodes), place_dofs(space, model, body.name, where)[0]
     columns = np.concatenate([own[:, :, None], np.broadcast_to(shared, weights.shape)], axis=2)

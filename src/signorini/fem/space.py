@@ -14,6 +14,7 @@ from signorini.arrays import Array, BoolArray, IntArray, among
 from signorini.errors import InputError
 from signorini.fem.edges import Edges, check_conforming, make_edges
 from signorini.fem.faces import HEXAHEDRON, Faces, make_faces
+from signorini.fem.jacobian import determinants, jacobians
 from signorini.fem.wedge import QuadraticWedge
 from signorini.model.mesh import CORNERS, Mesh
 
@@ -170,7 +171,7 @@ class Space:
     @cached_property
     def jacobians(self) -> tuple[Array, ...]:
         """``dx/dX`` at the quadrature points, (m, q, d, d) a block."""
-        return tuple(self._jacobians(block, block.gradients) for block in self.blocks)
+        return tuple(jacobians(self.mesh.points[block.cells], block.gradients) for block in self.blocks)
 
     @cached_property
     def volumes(self) -> tuple[Array, ...]:
@@ -183,16 +184,6 @@ class Space:
     def volumes_of(self, block: Block) -> Array:
         """Area of each quadrature point of a block, (m, q)."""
         return next(v for b, v in zip(self.blocks, self.volumes, strict=True) if b is block)
-
-    def _jacobians(self, block: Block, gradients: Array) -> Array:
-        cells, (points, nodes, d) = block.cells, gradients.shape
-        at = self.mesh.points.T[:, cells].reshape(-1, nodes) @ gradients.transpose(1, 0, 2).reshape(nodes, -1)
-        return at.reshape(d, len(cells), points, d).transpose(1, 2, 0, 3)
-
-    def gradients(self, block: Block, at: Array) -> Array:
-        """Shape function gradients in space, (m, q, k, d), where the reference gradients are ``at`` (q, k, d)."""
-        result: Array = np.einsum("qkj,mqji->mqki", at, np.linalg.inv(self._jacobians(block, at)))
-        return result
 
     def at_nodes(self, values: Array) -> Array:
         """Values of all dofs (dofs,) at the nodes, (nodes, d), without those of obstacles."""
@@ -303,20 +294,6 @@ def _shape(element: skfem.Element, where: Array, order: IntArray) -> tuple[Array
     return values, gradients
 
 
-def determinants(matrices: Array) -> Array:
-    """Determinants (...) of many small matrices, (..., 2, 2) or (..., 3, 3).
-
-    Examples
-    --------
-    >>> determinants(np.array([[[2.0, 1.0], [0.0, 3.0]]])), determinants(2.0 * np.eye(3))
-    (array([6.]), array(8.))
-    """
-    m = np.moveaxis(matrices, (-2, -1), (0, 1))
-    if len(m) == 2:
-        return np.asarray(m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0])
-    return np.asarray((m[0] * np.cross(m[1], m[2], axis=0)).sum(axis=0))
-
-
 def _check_radii(mesh: Mesh) -> None:
     radii = mesh.points[:, 0]
     used = np.concatenate([cells.ravel() for cells in mesh.cells.values()])
@@ -348,7 +325,7 @@ def _check_extent(space: Space) -> None:
 
 def _check_shapes(space: Space) -> None:
     for block, inner in zip(space.blocks, space.jacobians, strict=True):
-        outer = space._jacobians(block, block.corners)
+        outer = jacobians(space.mesh.points[block.cells], block.corners)
         volume = np.concatenate([determinants(outer), determinants(inner)], axis=1)
         size, total = np.abs(volume).max(axis=1), volume.sum(axis=1)
         # clockwise cells are fine; a change of sign inside a cell, or no area, is not

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Literal
 
 from signorini.arrays import IntArray
@@ -11,21 +12,37 @@ from signorini.arrays import IntArray
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Table:
-    """One table at the end of one step.
+    """Tables of one place at the end of one step.
 
     Attributes
     ----------
     step : index of the step, from 0
     of : what has the values
-    place : name of the set or surfaces
-    members : indices of nodes or cells; of a contact its index
-    quantities : as decks spell them, in capitals: "U", "RF"; "S"; "CDIS", "CSTR", "CF"
-    totals : "no", "yes": the sum of forces too, "only"
+    place : name of the set; of contact forces the two surfaces
+    members : indices of nodes, cells or contacts
+    quantities : as decks spell them, in capitals: "U", "RF"; "S"; "CDIS", "CSTR", "CELS", "CF", "CFN", "CFS"
+    totals : "no", "yes": the sum too, "only"
+    rotations : nodes that stand for the rotation of a rigid body, with its name
     """
 
     step: int
-    of: Literal["nodes", "cells", "contact"]
+    of: Literal["nodes", "cells", "contacts"]
     place: str
     members: IntArray
     quantities: tuple[str, ...]
     totals: Literal["no", "yes", "only"] = "no"
+    rotations: Mapping[int, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Prints:
+    """All that a deck asks for.
+
+    Attributes
+    ----------
+    tables : in the order in which they are printed
+    times : (steps,) total time at the end of every step
+    """
+
+    tables: tuple[Table, ...]
+    times: tuple[float, ...]

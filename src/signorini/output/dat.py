@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence, Set
+import math
+from collections.abc import Iterator, Mapping, Set
 from pathlib import Path
 
 import numpy as np
@@ -12,28 +13,49 @@ from signorini.arrays import Array, IntArray, padded
 from signorini.fem.space import make_space
 from signorini.fem.stress import point_stresses
 from signorini.model.model import Model
-from signorini.model.prints import Table
+from signorini.model.prints import Prints, Table
 from signorini.output.replacing import replacing
+from signorini.output.slave import slave_energies, slave_values
 from signorini.solution.history import History
-from signorini.solution.results import StepResult
+from signorini.solution.results import ContactResult, ObstacleResult, Part, StepResult
+
+_FORCES = {"CF": "surface force", "CFN": "normal surface force", "CFS": "shear surface force"}
 
 
-def write_dat(history: History, tables: Sequence[Table], path: Path) -> None:
+def write_dat(history: History, prints: Prints, path: Path) -> None:
     """Write the tables of all finished steps; nodes and elements bear their numbers in the deck.
 
-    Values of elements are at the quadrature points of this package, not of CalculiX.
+    Values of elements are at the quadrature points of this package, not of CalculiX; those of contact are at the nodes
+    of the slave surfaces, as CalculiX has them for node-to-surface contact, see :mod:`signorini.output.slave`. Nodes
+    of rotation have the rotation of their rigid body as displacement and its moment as force.
     """
     with replacing(path) as aside, aside.open("w", encoding="utf-8", newline="\n") as file:
         for number, step in enumerate(history.steps):
-            own = [table for table in tables if table.step == number]
+            own = [table for table in prints.tables if table.step == number]
             if own:
-                file.write(f"\n{'':24s}S T E P {number + 1:7d}\n\n")
+                file.write(f"\n{'':24s}S T E P {number + 1:7d}\n\n\n{'':32s}INCREMENT {step.increments:5d}\n\n")
             for table in own:
-                file.writelines(f"{line}\n" for line in _lines(history.model, step, table, number + 1))
+                lines = _lines(history.model, step, table, fortran(prints.times[number]))
+                file.writelines(f"{line}\n" for line in lines)
 
 
-def _lines(model: Model, step: StepResult, table: Table, time: float) -> Iterator[str]:
-    end = f"for set {table.place} and time {time:14.7E}"
+def fortran(value: float) -> str:
+    """A number as Fortran's E14.7 has it.
+
+    >>> fortran(20.0), fortran(-0.75)
+    (' 0.2000000E+02', '-0.7500000E+00')
+    """
+    if value == 0.0:
+        return " 0.0000000E+00"
+    exponent = math.floor(math.log10(abs(value))) + 1
+    digits = round(abs(value) / 10.0 ** (exponent - 7))
+    if digits == 10**7:
+        digits, exponent = 10**6, exponent + 1
+    return f"{'-' if value < 0.0 else ' '}0.{digits:07d}E{exponent:+03d}"
+
+
+def _lines(model: Model, step: StepResult, table: Table, time: str) -> Iterator[str]:
+    end = f"for set {table.place} and time {time}"
     for quantity in table.quantities:
         if table.of == "nodes":
             yield from _nodes(model, step, table, quantity, end)
@@ -41,18 +63,29 @@ def _lines(model: Model, step: StepResult, table: Table, time: float) -> Iterato
             head = " stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz)"
             yield from ("", f"{head} {end}", "")
             yield from _stresses(model, step, set(table.members.tolist()))
+        elif quantity in _FORCES:
+            yield from _forces(step.contacts[int(table.members[0])], quantity, f"{table.place} and time {time}")
         else:
-            yield from _contact(model, step, table, quantity, time)
+            yield from _contacts(model, step, table, quantity, time)
 
 
 def _nodes(model: Model, step: StepResult, table: Table, quantity: str, end: str) -> Iterator[str]:
     values = step.displacement if quantity == "U" else step.external
     rows = padded(values[table.members], 3)
+    total = rows.sum(axis=0)
+    turned = np.flatnonzero(np.isin(table.members, list(table.rotations)))
+    for row in turned.tolist():
+        rows[row] = _turn(step.rigid_bodies, table.rotations[int(table.members[row])], quantity)
     if table.totals != "only" or quantity == "U":
         yield from ("", f" {'displacements (vx,vy,vz)' if quantity == 'U' else 'forces (fx,fy,fz)'} {end}", "")
         yield from _numbered(model.mesh.labels[table.members], rows)
     if table.totals != "no" and quantity == "RF":
-        yield from ("", f" total force (fx,fy,fz) {end}", "", f"      {_spelled(rows.sum(axis=0))}")
+        yield from ("", f" total force (fx,fy,fz) {end}", "", f"       {_spelled(total)}")
+
+
+def _turn(bodies: Mapping[str, ObstacleResult], name: str, quantity: str) -> Array:
+    """Rotation or moment of a rigid body, (3,); in the plane about z."""
+    return _about_z(bodies[name].rotation if quantity == "U" else bodies[name].moment)
 
 
 def _stresses(model: Model, step: StepResult, cells: Set[int]) -> Iterator[str]:
@@ -65,24 +98,61 @@ def _stresses(model: Model, step: StepResult, cells: Set[int]) -> Iterator[str]:
                 yield from (f"{labels[cell]:10d}{q:4d} {_spelled(values)}" for q, values in enumerate(points, start=1))
 
 
-def _contact(model: Model, step: StepResult, table: Table, quantity: str, time: float) -> Iterator[str]:
-    contact = step.contacts[int(table.members[0])]
-    sides = table.place
-    if quantity == "CF":
-        turn = np.atleast_1d(contact.moment(np.zeros(model.dimension)))
-        total = np.concatenate([padded(contact.forces, 3).sum(axis=0), np.zeros(3 - len(turn)), turn])
-        yield from ("", f" statistics for {sides} and time {time:14.7E}", "")
-        yield from ("   total surface force (fx,fy,fz) and moment about the origin (mx,my,mz)", "")
-        yield f"   {_spelled(total)}"
+def _contacts(model: Model, step: StepResult, table: Table, quantity: str, time: str) -> Iterator[str]:
+    """One table for all contacts."""
+    end = f"for all contact elements and time{time}"
+    pairs = [(model.contacts[i], step.contacts[i]) for i in table.members.tolist()]
+    labels = model.mesh.labels[np.concatenate([result.node for _, result in pairs])]
+    if quantity == "CELS":
+        energies = np.concatenate([slave_energies(*pair) for pair in pairs])
+        if table.totals != "only":
+            yield from ("", f" contact spring energy (slave node,energy) {end}", "")
+            yield from _numbered(labels, energies[:, None])
+        if table.totals != "no":
+            total = _spelled(np.array([energies.sum()]))
+            yield from ("", f" total contact spring energy for time {time}", "", f"       {total}")
         return
+    values = np.concatenate([slave_values(*pair) for pair in pairs])
     if quantity == "CDIS":
-        head = "relative contact displacement (slave node,normal,tang1,tang2)"
-        columns = (contact.gap, padded(contact.slip, 2))
+        yield from ("", f" relative contact displacement (slave node,normal,tang1,tang2) {end}", "")
+        yield from _numbered(labels, values[:, :3])
     else:
-        head = "contact stress (slave node,press,tang1,tang2)"
-        columns = (contact.pressure, padded(contact.traction, 2))
-    yield from ("", f" {head} for {sides} and time {time:14.7E}", "")
-    yield from _numbered(model.mesh.labels[contact.node], np.column_stack(columns))
+        yield from ("", f" contact stress (slave node,press,tang1,tang2) {end}", "")
+        yield from _numbered(labels, values[:, 3:])
+
+
+def _forces(contact: ContactResult, quantity: str, end: str) -> Iterator[str]:
+    """Resultants on the slave body."""
+    pressure, shear = contact.normal_force, contact.tangential_force
+    force = _in_space({"CF": pressure + shear, "CFN": pressure, "CFS": shear}[quantity])
+    area = np.where(contact.closed, contact.area, 0.0)
+    share = area / max(float(area.sum()), np.finfo(float).tiny)
+    middle, outward = share @ contact.points, _in_space(-share @ contact.normals)
+    of: dict[str, Part] = {"CF": "all", "CFN": "pressure", "CFS": "friction"}
+    about = [_about_z(contact.moment(origin, of[quantity])) for origin in (0.0 * middle, middle)]
+    centre = _in_space(middle)
+    normal = float(force @ outward)
+    sizes = np.array([area.sum(), normal, np.linalg.norm(force - normal * outward)])
+    which = "and moment" if quantity == "CF" else "and its moment"
+    yield from ("", "", f" statistics for {end}")
+    for head, row in (
+        (f"total {_FORCES[quantity]} (fx,fy,fz) {which} about the origin (mx,my,mz)", np.append(force, about[0])),
+        ("center of gravity and mean normal", np.append(centre, outward)),
+        ("moment about the center of gravity(mx,my,mz)", about[1]),
+        ("area,  normal force (+ = tension) and shear force (size)", sizes),
+    ):
+        yield from ("", f"   {head}", "", f"   {_spelled(row)}")
+
+
+def _about_z(turn: float | Array) -> Array:
+    """(3,) A rotation or moment, in the plane a number."""
+    value = np.atleast_1d(turn)
+    return value if len(value) == 3 else np.array([0.0, 0.0, value[0]])
+
+
+def _in_space(vector: Array) -> Array:
+    """(3,) A vector (d,)."""
+    return padded(vector[None], 3)[0]
 
 
 def _numbered(labels: IntArray, rows: Array) -> Iterator[str]:

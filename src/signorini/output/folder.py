@@ -9,12 +9,12 @@ import re
 import shutil
 import tempfile
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 from signorini.clock import Clock
 from signorini.errors import InputError
-from signorini.model.prints import Table
+from signorini.model.prints import Prints
 from signorini.output.archive import write_archive
 from signorini.output.checkpoint import write_checkpoint
 from signorini.output.dat import write_dat
@@ -60,7 +60,7 @@ def open_folder(path: Path) -> Path:
 
 
 def publish(
-    history: History, folder: Path, clock: Clock, *, started: float, tables: Sequence[Table] | None = None
+    history: History, folder: Path, clock: Clock, *, started: float, prints: Prints | None = None
 ) -> list[Path]:
     """Write a history, finished or not, in place of whatever an earlier run left in the folder.
 
@@ -72,7 +72,7 @@ def publish(
     history : with no finished step, only a summary is written, which says why
     folder : that :func:`open_folder` opened
     clock : its seconds go into the summary, and those of the output are added to it
-    tables : that a deck of keywords asks for: what its users expect is written too, ``.frd`` and, if there are any,
+    prints : what a deck of keywords asks for: what its users expect is written too, ``.frd`` and, if there are tables,
         ``.dat``
     started : ``time.perf_counter()`` at the beginning of the run
 
@@ -83,7 +83,7 @@ def publish(
     with tempfile.TemporaryDirectory(dir=folder, prefix=".writing-") as name:
         aside = Path(name)
         with clock.phase("output"):
-            names = _write_fields(history, aside, tables)
+            names = _write_fields(history, aside, prints)
         seconds = clock.seconds | {"total": time.perf_counter() - started}
         write_summary(history, aside / "summary.json", seconds)
         _clear(folder)
@@ -123,7 +123,7 @@ def write_summary(history: History, path: Path, seconds: Mapping[str, float]) ->
         aside.write_text(words + "\n", encoding="utf-8")
 
 
-def _write_fields(history: History, folder: Path, tables: Sequence[Table] | None) -> list[str]:
+def _write_fields(history: History, folder: Path, prints: Prints | None) -> list[str]:
     """Rows and fields of the finished steps; their names."""
     if not history.steps:
         return []
@@ -145,10 +145,10 @@ def _write_fields(history: History, folder: Path, tables: Sequence[Table] | None
         names.append("state.npz")
     write_archive(history, folder / ARCHIVE)
     names.append(ARCHIVE)
-    if tables is not None:
-        write_frd(history, folder / "solution.frd")
+    if prints is not None:
+        write_frd(history, folder / "solution.frd", prints.times)
         names.append("solution.frd")
-    if tables:
-        write_dat(history, tables, folder / "solution.dat")
+    if prints is not None and prints.tables:
+        write_dat(history, prints, folder / "solution.dat")
         names.append("solution.dat")
     return names

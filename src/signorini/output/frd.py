@@ -14,6 +14,7 @@ from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
 from signorini.model.model import Model
 from signorini.output.replacing import replacing
+from signorini.output.slave import slave_values
 from signorini.solution.history import History
 from signorini.solution.results import StepResult
 
@@ -26,13 +27,18 @@ _TYPES = {
 # in .frd the upright edges come before those of the top
 _UPRIGHT = {20: [*range(12), *range(16, 20), *range(12, 16)], 15: [*range(9), *range(12, 15), *range(9, 12)]}
 _TENSOR = (("SXX", 1, 1), ("SYY", 2, 2), ("SZZ", 3, 3), ("SXY", 1, 2), ("SYZ", 2, 3), ("SZX", 3, 1))
+_LEAST = 1e-99
 _CONTACT = ("COPEN", "CSLIP1", "CSLIP2", "CPRESS", "CSHEAR1", "CSHEAR2")
 
 
-def write_frd(history: History, path: Path) -> None:
+def write_frd(history: History, path: Path, times: Sequence[float] = ()) -> None:
     """Write the end of every step: DISP, FORC, STRESS (averaged at nodes) and CONTACT on the nonmortar nodes.
 
     Nodes and elements keep their numbers in the mesh or deck.
+
+    Parameters
+    ----------
+    times : (steps,) at the end of every step; without them its number
 
     Raises
     ------
@@ -41,11 +47,11 @@ def write_frd(history: History, path: Path) -> None:
     """
     _ = history.last
     with replacing(path) as aside, aside.open("w", encoding="ascii", errors="replace", newline="\n") as file:
-        for lines in _document(history):
+        for lines in _document(history, times or range(1, len(history.steps) + 1)):
             file.write(lines)
 
 
-def _document(history: History) -> Iterator[str]:
+def _document(history: History, times: Sequence[float]) -> Iterator[str]:
     model = history.model
     mesh = model.mesh
     used = np.unique(np.concatenate([cells.ravel() for cells in mesh.cells.values()]))
@@ -65,7 +71,8 @@ def _document(history: History) -> Iterator[str]:
         for name, parts, values in _fields(model, step, used):
             count += 1
             yield f"    1PSTEP{count:26d}{number:12d}{number:12d}\n"
-            yield f"  100CL{100 + number:5d}{float(number):12.5E}{len(used):12d}{'':20s}0{number:5d}{'':10s} 1\n"
+            time = float(times[number - 1])
+            yield f"  100CL{100 + number:5d}{time:12.5E}{len(used):12d}{'':20s}0{number:5d}{'':10s} 1\n"
             yield f" -4  {name:8s}{len(parts):5d}    1\n" + "".join(parts)
             yield _records(labels, values) + " -3\n"
     yield " 9999\n"
@@ -99,11 +106,9 @@ def _fields(model: Model, step: StepResult, used: IntArray) -> Iterator[tuple[st
     yield "STRESS", tensor, stress
     if step.contacts:
         values = np.zeros((len(model.mesh.points), 6))
-        for contact in step.contacts:
-            for column, found in ((0, contact.gap), (1, contact.slip), (3, contact.pressure), (4, contact.traction)):
-                values[contact.node, column : column + _width(found)] = found.reshape(len(contact.node), -1)
-        parts = [f" -5  {name:8s}    1    4{i:5d}{j:5d}\n" for name, (_, i, j) in zip(_CONTACT, _TENSOR, strict=True)]
-        yield "CONTACT", parts, values[used]
+        for contact, result in zip(model.contacts, step.contacts, strict=True):
+            values[result.node] = slave_values(contact, result)
+        yield "CONTACT", [f" -5  {name:8s}    1    1    0    0\n" for name in _CONTACT], values[used]
 
 
 def _vector(letter: str) -> list[str]:
@@ -114,10 +119,6 @@ def _vector(letter: str) -> list[str]:
 def _records(labels: IntArray, values: Array) -> str:
     """One line a node."""
     line = " -1%10d" + "%12.5E" * values.shape[1]
-    rows: Sequence[Sequence[float]] = values.tolist()
+    # exponents of three digits would not leave room for a sign
+    rows: Sequence[Sequence[float]] = np.where(np.abs(values) < _LEAST, 0.0, values).tolist()
     return "".join(line % (label, *row) + "\n" for label, row in zip(labels.tolist(), rows, strict=True))
-
-
-def _width(values: Array) -> int:
-    """Components of values of pairs: one, or two in space."""
-    return 1 if values.ndim == 1 else values.shape[1]

@@ -13,6 +13,7 @@ from signorini.arrays import Array
 from signorini.memory import peak_memory
 from signorini.model.contact import Contact
 from signorini.model.model import Model
+from signorini.model.obstacle import Obstacle
 from signorini.solution.certificate import Certificate
 from signorini.solution.history import PHASES, History
 from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, ObstacleResult, StepResult
@@ -43,12 +44,25 @@ def summary(history: History, seconds: Mapping[str, float]) -> dict[str, Any]:
         },
         "bodies": [body.name for body in model.bodies],
         "thicknesses": model.thicknesses,
+        "obstacles": _shapes(model),
         "timings": {phase: float(seconds.get(phase, 0.0)) for phase in PHASES},
         "backend": history.backend,
         "peak_memory_bytes": peak_memory(),
         "well_posedness": _well_posedness(history),
         "steps": [_step(model, step) for step in history.steps],
     }
+
+
+def _shapes(model: Model) -> list[dict[str, Any]]:
+    """Of plane models the rigid obstacles as they are given, those without a name at rest."""
+    if model.dimension == 3:
+        return []
+    known = [(obstacle.name, obstacle.shape, obstacle.about) for obstacle in model.obstacles]
+    known += [("", c.mortar, (0.0, 0.0)) for c in model.contacts if isinstance(c.mortar, Obstacle)]
+    return [
+        {"name": name, "shape": type(shape).__name__.lower(), "about": list(about), **asdict(shape)}
+        for name, shape, about in known
+    ]
 
 
 def _well_posedness(history: History) -> dict[str, Any] | None:

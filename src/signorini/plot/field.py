@@ -11,6 +11,7 @@ import numpy as np
 from signorini.arrays import Array, BoolArray
 from signorini.plot.files import Grid, ResultFolder
 from signorini.plot.style import INK
+from signorini.plot.walls import Wall, draw_walls
 from signorini.solution.results import OPEN
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
 BODIES = ("#e4ecf4", "#f6ead9", "#e3efe2", "#f0e3ec", "#ececea")
 _MOST = 0.4  # of the size of the bodies: a window larger than this shows nothing new
+_EDGE, _ROOM = 0.02, 0.06  # of the size of the bodies: what is shown around them, and with obstacles
 Window = tuple[Array, Array]  # lower left and upper right corner
 _SEEN = 0.01  # of the size of what is shown: displacements at least as large are drawn as they are
 
@@ -41,11 +43,13 @@ def draw_stress(folder: ResultFolder) -> Figure:
     top, largest = float(grid.von_mises[inside].max()), float(grid.von_mises.max())
     levels = np.linspace(0.0, max(top, 1e-300), 25)
     mesh = Triangulation(moved[:, 0], moved[:, 1], grid.triangles)
-    figure, panels = _canvas(moved, window)
+    figure, panels = _canvas(moved, window, folder.walls)
     for axes in panels:
         extend = "max" if largest > top else "neither"
         field = axes.tricontourf(mesh, grid.von_mises, levels=levels, cmap="viridis", extend=extend)
         _edges(axes, grid, moved, colour="#ffffff", alpha=0.35)
+        if factor == 1.0:  # otherwise bodies are not drawn where obstacles have stopped them
+            draw_walls(axes, folder.walls, moved=True)
     bar = figure.colorbar(field, ax=panels, shrink=0.85, pad=0.02, spacing="proportional")
     beyond = f" (elsewhere up to {largest:.4g})" if largest > top else ""
     bar.set_label(f"von Mises stress, force per area{beyond}", fontsize=10, color=INK)
@@ -63,7 +67,7 @@ def draw_mesh(folder: ResultFolder) -> Figure:
     from matplotlib.patches import Patch
 
     grid = folder.grid
-    figure, panels = _canvas(grid.points, _window(folder, grid.points))
+    figure, panels = _canvas(grid.points, _window(folder, grid.points), folder.walls)
     names = folder.summary.get("bodies", [])
     handles: list[Artist] = [
         Patch(facecolor=BODIES[i % len(BODIES)], edgecolor="#7d7d7d", label=name) for i, name in enumerate(names)
@@ -73,6 +77,7 @@ def draw_mesh(folder: ResultFolder) -> Figure:
             faces = [BODIES[i % len(BODIES)] for i in body]
             axes.add_collection(PolyCollection(list(grid.points[cells]), facecolors=faces, edgecolors="none"))
         _edges(axes, grid, grid.points, colour="#7d7d7d", alpha=1.0)
+        draw_walls(axes, folder.walls, moved=False)
         for dots in folder.dots:
             x, y = grid.points[np.isin(grid.node, dots.node)].T
             drawn = axes.plot(x, y, "o", ms=4, color=dots.colour, label=dots.label, zorder=3)
@@ -126,7 +131,7 @@ def _inside(window: Window | None, points: Array) -> BoolArray:
     return np.asarray(((points >= window[0]) & (points <= window[1])).all(axis=1))
 
 
-def _canvas(points: Array, window: Window | None) -> tuple[Figure, list[Axes]]:
+def _canvas(points: Array, window: Window | None, walls: list[Wall]) -> tuple[Figure, list[Axes]]:
     """A figure of the shape of the bodies, with a second panel for the window if there is one."""
     from matplotlib.figure import Figure
 
@@ -145,7 +150,7 @@ def _canvas(points: Array, window: Window | None) -> tuple[Figure, list[Axes]]:
         panels[1].set_xlim(low[0], high[0])
         panels[1].set_ylim(low[1], high[1])
         panels[0].indicate_inset((*low, *(high - low)), edgecolor=INK, lw=1.0, alpha=0.9)
-    margin = 0.02 * max(width, height)
+    margin = (_ROOM if walls else _EDGE) * max(width, height)
     panels[0].set_xlim(points[:, 0].min() - margin, points[:, 0].max() + margin)
     panels[0].set_ylim(points[:, 1].min() - margin, points[:, 1].max() + margin)
     for axes in panels:

@@ -20,6 +20,7 @@ from signorini.plot.curve import Curve, make_curve
 from signorini.plot.patch import Patch, padded_faces
 from signorini.plot.skin import Skin, make_skin
 from signorini.plot.style import PLAIN, STATUS_INK
+from signorini.plot.walls import Wall, read_walls
 from signorini.solution.results import SLIP
 
 _TRACTIONS = ("traction_1", "traction_2")
@@ -122,6 +123,11 @@ class ResultFolder:
             Dots(label=f"contact node, {words}", colour=colour, node=np.array(nodes))
             for (words, colour), nodes in sorted(kinds.items(), key=lambda kind: (order.index(kind[0][1]), kind[0][0]))
         ]
+
+    @cached_property
+    def walls(self) -> list[Wall]:
+        """Rigid obstacles of a plane model."""
+        return read_walls(self.summary)
 
     @cached_property
     def instants(self) -> list[dict[str, str]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from signorini.solution.certificate import Certificate
 from signorini.trace import Attempt
 
 OPEN, STICK, SLIP = "open", "stick", "slip"
+Part = Literal["all", "pressure", "friction"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -98,15 +100,16 @@ class ContactResult:
         forces: Array = self.area[:, None] * (self.pressure[:, None] * self.normals + self.shear)
         return forces
 
-    def moment(self, about: Sequence[float] | Array) -> Array:
+    def moment(self, about: Sequence[float] | Array, of: Part = "all") -> Array:
         """Resultant moment on the nonmortar body about a point (d,), ``int (x - about) x t dA``, force times length.
 
         Of the forces as they act on all nodes of the facets, so that it balances those of loads and supports. A number
-        in the plane, counterclockwise positive; (3,) in space.
+        in the plane, counterclockwise positive; (3,) in space; of all of them, of the pressure or of the friction.
         """
-        tractions = np.column_stack([self.pressure, self.traction])
+        parts = [0.0 if of == skipped else 1.0 for skipped in ("friction", "pressure")]
+        tractions = np.column_stack([parts[0] * self.pressure, parts[1] * self.traction])
         total = np.einsum("k,ki,kim->m", self.area, tractions, self.levers)
-        place, force = np.asarray(about, float), self.forces.sum(axis=0)
+        place, force = np.asarray(about, float), parts[0] * self.normal_force + parts[1] * self.tangential_force
         if len(place) == 3:
             return np.asarray(total - np.cross(place, force))
         return np.asarray(total[0] - place[0] * force[1] + place[1] * force[0])

@@ -255,3 +255,56 @@ def test_gaps_are_adjusted(tmp_path: Path, adjust: str, given: tuple[object, obj
     if adjust == "Touching":
         with pytest.raises(DeckError, match="does not hold all nodes of the slave surface"):
             load(deck)
+
+
+MIXED = """*NODE
+1,0,0
+2,1,0
+3,1,1
+4,0,1
+11,3,0
+12,4,0
+13,4,1
+14,3,1
+15,3.5,0
+16,4,0.5
+17,3.5,1
+18,3,0.5
+*ELEMENT,TYPE=CPS4,ELSET=L
+1,1,2,3,4
+*ELEMENT,TYPE=CPS8,ELSET=Q
+2,11,12,13,14,15,16,17,18
+*ELSET,ELSET=A
+L,Q
+*SURFACE,NAME=S
+A,S3
+*MATERIAL,NAME=M
+*ELASTIC
+100.,0.
+*SOLID SECTION,ELSET=A,MATERIAL=M
+*BOUNDARY
+1,1,2
+2,2
+11,1,2
+12,2
+15,2
+"""
+
+
+def test_one_load_on_linear_and_quadratic_elements(tmp_path: Path) -> None:
+    """Both squares are pressed by one line of the deck, and by a surface that holds both."""
+    for load_words in ("*DLOAD\nA,P3,2.\n", "*DSLOAD\nS,P,2.\n"):
+        path = tmp_path / "deck.inp"
+        path.write_text(f"{MIXED}*STEP\n*STATIC\n{load_words}*END STEP\n")
+        model = sg.read(path)
+        step = sg.solve(model).last
+        top = model.mesh.points[:, 1] == 1.0
+        np.testing.assert_allclose(step.displacement[top, 1], -0.02, rtol=1e-12)
+
+
+def test_a_contact_surface_is_of_one_kind(tmp_path: Path) -> None:
+    path = tmp_path / "deck.inp"
+    pair = "*SURFACE INTERACTION,NAME=I\n*CONTACT PAIR,INTERACTION=I\nS,S\n"
+    path.write_text(f"{MIXED}{pair}*STEP\n*STATIC\n*END STEP\n")
+    with pytest.raises(DeckError, match=r"deck.inp:\d+: surface 'S' has faces of 2 kinds"):
+        load(path)

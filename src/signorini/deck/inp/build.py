@@ -16,16 +16,17 @@ from signorini.deck.inp.amplitudes import make_amplitudes
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.changes import make_changes
 from signorini.deck.inp.conditions import Conditions, make_conditions
+from signorini.deck.inp.couplings import make_couplings
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.grid import Grid, make_grid
 from signorini.deck.inp.interactions import make_interactions
 from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS
 from signorini.deck.inp.links import link_places, make_equations, make_rigid_bodies
 from signorini.deck.inp.loading import Known, follow_steps
-from signorini.deck.inp.materials import Section, make_materials, make_sections
+from signorini.deck.inp.materials import Section, Substance, make_materials, make_sections
 from signorini.deck.inp.pairs import Pair, make_contacts, make_ties
 from signorini.deck.inp.places import Places
-from signorini.deck.inp.prints import make_tables
+from signorini.deck.inp.prints import make_prints
 from signorini.deck.inp.sets import make_sets
 from signorini.deck.inp.steps import DeckStep, split_steps
 from signorini.deck.inp.supported import refuse_unsupported
@@ -35,7 +36,7 @@ from signorini.model.body import Body
 from signorini.model.material import Orthotropic
 from signorini.model.mesh import NODES_PER_CELL, Mesh
 from signorini.model.model import Kind, Model
-from signorini.model.prints import Table
+from signorini.model.prints import Prints
 from signorini.model.step import Step
 
 _SMALL_SLIDING = "contact is treated as small sliding: pairs are found on the undeformed bodies"
@@ -55,14 +56,14 @@ class Built:
     places : keyword of every support, load, contact, body and step, by its path in the model
     notes : what differs from the deck, and what is left out
     unused_materials : names of materials that no section has
-    tables : that the steps ask for
+    prints : what the steps ask for
     """
 
     model: Model
     places: dict[Where, Block]
     notes: tuple[str, ...]
     unused_materials: tuple[str, ...]
-    tables: tuple[Table, ...]
+    prints: Prints
 
 
 def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increments: bool) -> Built:
@@ -96,10 +97,11 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
     sections = make_sections(outside, elements, materials, grid)
     interactions = make_interactions(outside)
     contacts = make_contacts(outside, interactions, surfaces, nodes, edges)
-    contacts += make_ties(outside, surfaces, contacts)
+    contacts += make_ties(outside, surfaces, edges, contacts)
     places = Places(edges, surfaces, nodes)
     rigid = make_rigid_bodies(outside, nodes, elements, grid, places)
-    equations = make_equations(outside, nodes, rigid, kind)
+    rigid, equations = make_couplings(outside, rigid, nodes, surfaces, edges, grid, places)
+    equations += make_equations(outside, nodes, rigid, kind)
     known = Known(
         nodes=nodes,
         elements=elements,
@@ -131,13 +133,12 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
         )
     except InputError as error:
         raise located(error, where, path) from error
-    used = {id(section.substance) for section in sections}
     return Built(
         model=model,
         places=where,
         notes=tuple(_notes(grid, steps, contacts, ignored, small_strain, deck_increments)),
-        tables=tuple(make_tables(steps, nodes, elements, model.mesh, contacts)),
-        unused_materials=tuple(m.block.value("NAME") for m in materials.values() if id(m) not in used),
+        prints=make_prints(steps, known, model.mesh, contacts),
+        unused_materials=_unused(materials, sections),
     )
 
 
@@ -251,6 +252,11 @@ def _where(
     places |= {("support", i): conditions.blocks[s.label] for i, s in enumerate(conditions.supports)}
     places |= {("load", i): conditions.blocks[load.label] for i, load in enumerate(conditions.loads)}
     return places | {("step", i): step.block for i, step in enumerate(steps)}
+
+
+def _unused(materials: Mapping[str, Substance], sections: Sequence[Section]) -> tuple[str, ...]:
+    used = {id(section.substance) for section in sections}
+    return tuple(substance.block.value("NAME") for substance in materials.values() if id(substance) not in used)
 
 
 def _title(outside: Sequence[Placed]) -> str:

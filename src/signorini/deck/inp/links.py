@@ -98,12 +98,8 @@ def make_rigid_bodies(
         block.choice("POSITION", ("INPUT",), "INPUT")
         label, members = _members(item, nodes, elements, grid)
         block.value("REF NODE", "a node")
-        reference, turning = (_single(item, key, nodes) for key in ("REF NODE", "ROT NODE"))
-        for other in found:
-            if {reference, turning} & {other.reference, other.turning} - {-1}:
-                raise block.error(
-                    f"has a node in common with the rigid body of line {other.block.line}: its REF NODE or ROT NODE"
-                )
+        reference, turning = (named_node(item, key, nodes) for key in ("REF NODE", "ROT NODE"))
+        refuse_shared(block, (reference, turning), found)
         if turning in members:
             members = members[members != turning]
         on = places.at_nodes(distinct(np.append(members, reference)), label)
@@ -134,7 +130,7 @@ def _members(item: Placed, nodes: Sets, elements: Sets, grid: Grid) -> tuple[str
     return found[0][0], distinct(np.concatenate([members for _, members in found]))
 
 
-def _single(item: Placed, key: str, nodes: Sets) -> int:
+def named_node(item: Placed, key: str, nodes: Sets) -> int:
     """The node that a parameter names, -1 without it."""
     block = item.block
     if key not in block.parameters:
@@ -143,6 +139,15 @@ def _single(item: Placed, key: str, nodes: Sets) -> int:
     if len(members) != 1:
         raise block.error(f"{key}: '{label}' holds {len(members)} nodes; expected one")
     return int(members[0])
+
+
+def refuse_shared(block: Block, own: tuple[int, ...], others: Sequence[DeckRigid]) -> None:
+    """Reference nodes, -1 for none, that another rigid body or coupling has too, stop."""
+    for other in others:
+        if set(own) & {other.reference, other.turning} - {-1}:
+            raise block.error(
+                f"has a node in common with the rigid body of line {other.block.line}: its REF NODE or ROT NODE"
+            )
 
 
 def make_equations(placed: Sequence[Placed], nodes: Sets, rigid: Sequence[DeckRigid], kind: str) -> list[DeckEquation]:

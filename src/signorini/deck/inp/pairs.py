@@ -64,7 +64,7 @@ def make_contacts(
         if not block.has_data:
             raise block.error("has no data line; expected the slave and the master surface")
         for row in block.rows():
-            slave, master = (_side(item, row, i, surfaces) for i in (0, 1))
+            slave, master = (_side(item, row, i, surfaces, edges) for i in (0, 1))
             faces = edges.ends[surfaces.keys[slave.upper()]]
             given = _adjusted(block, nodes, item, distinct(faces[faces >= 0]))
             if (slave, master) in clearances:
@@ -83,7 +83,7 @@ def make_contacts(
     return found
 
 
-def make_ties(placed: list[Placed], surfaces: Surfaces, contacts: Sequence[Pair]) -> list[Pair]:
+def make_ties(placed: list[Placed], surfaces: Surfaces, edges: Edges, contacts: Sequence[Pair]) -> list[Pair]:
     """Read all ``*TIE`` keywords: surfaces that neither slip nor open; initial gaps count as filled.
 
     Raises
@@ -104,7 +104,7 @@ def make_ties(placed: list[Placed], surfaces: Surfaces, contacts: Sequence[Pair]
                 raise block.error("POSITION TOLERANCE: expected a distance > 0")
             given["search"] = reach
         for row in block.rows():
-            slave, master = (_side(item, row, i, surfaces) for i in (0, 1))
+            slave, master = (_side(item, row, i, surfaces, edges) for i in (0, 1))
             name = _label(slave, master, [*contacts, *found])
             found.append(Pair(contact=Contact(slave, master, friction="tied", name=name, **given), block=block))
     return found
@@ -115,10 +115,16 @@ def _label(slave: str, master: str, others: Sequence[Pair]) -> str:
     return slave if not any(other.contact.nonmortar == slave for other in others) else f"{slave} on {master}"
 
 
-def _side(item: Placed, row: Row, i: int, surfaces: Surfaces) -> str:
+def _side(item: Placed, row: Row, i: int, surfaces: Surfaces, edges: Edges) -> str:
     name = surfaces.find(row.text(i, "a surface"), item.scope, row)
-    if not len(surfaces.keys[name.upper()]):
+    keys = surfaces.keys[name.upper()]
+    if not len(keys):
         raise row.error(f"surface '{name}' has no edge of an element")
+    kinds = len(edges.by_kind(keys))
+    if kinds > 1:
+        raise row.error(
+            f"surface '{name}' has faces of {kinds} kinds, by corners or order; expected one kind, or a pair for each"
+        )
     return name
 
 

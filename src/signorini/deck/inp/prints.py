@@ -11,58 +11,96 @@ import numpy as np
 from signorini.arrays import IntArray
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.flatten import Placed
+from signorini.deck.inp.loading import Known
 from signorini.deck.inp.pairs import Pair
 from signorini.deck.inp.sets import Sets
 from signorini.deck.inp.steps import DeckStep
 from signorini.model.mesh import Mesh
-from signorini.model.prints import Table
+from signorini.model.prints import Prints, Table
 
-_KNOWN = {"NODE PRINT": ("U", "RF"), "EL PRINT": ("S",), "CONTACT PRINT": ("CDIS", "CSTR", "CF")}
-_SAME = {"CDISP": "CDIS", "CSTRESS": "CSTR", "CFN": "CF", "CFS": "CF"}
+_OF: dict[str, Literal["nodes", "cells", "contacts"]] = {
+    "NODE PRINT": "nodes",
+    "EL PRINT": "cells",
+    "CONTACT PRINT": "contacts",
+}
+_KNOWN = {"nodes": ("U", "RF"), "cells": ("S",), "contacts": ("CDIS", "CSTR", "CELS", "CF", "CFN", "CFS")}
+_FORCES = ("CF", "CFN", "CFS")
+_SAME = {"CDISP": "CDIS", "CSTRESS": "CSTR"}
 
 
-def make_tables(
-    steps: Sequence[DeckStep], nodes: Sets, elements: Sets, mesh: Mesh, contacts: Sequence[Pair]
-) -> Iterator[Table]:
-    """``*NODE PRINT`` (U, RF), ``*EL PRINT`` (S) and ``*CONTACT PRINT`` (CDIS, CSTR, CF); others are left out.
+def make_prints(steps: Sequence[DeckStep], known: Known, mesh: Mesh, contacts: Sequence[Pair]) -> Prints:
+    """``*NODE PRINT`` (U, RF), ``*EL PRINT`` (S) and ``*CONTACT PRINT`` (CDIS, CSTR, CELS, CF, CFN, CFS).
+
+    In the order in which CalculiX prints them: as asked for, forces of contacts last. Other quantities are left out.
 
     Raises
     ------
     DeckError
-        For a set that does not exist.
+        For a set or a contact pair that does not exist.
     """
     order = np.argsort(mesh.cell_labels)
-    cell_of = order[np.searchsorted(mesh.cell_labels[order], elements.numbering.labels)]
-    asked: dict[str, list[Placed]] = {}
+    cell_of = order[np.searchsorted(mesh.cell_labels[order], known.elements.numbering.labels)]
+    asked: list[Placed] = []
+    tables: list[Table] = []
     for k, step in enumerate(steps):
-        for keyword in _KNOWN:
-            anew = [item for item in step.placed if item.block.keyword == keyword]
-            if anew:
-                asked[keyword] = anew
-        for keyword, items in asked.items():
-            for item in items:
-                quantities = _quantities(item.block, _KNOWN[keyword])
-                if not quantities:
-                    continue
-                if keyword == "CONTACT PRINT":
-                    for i, pair in enumerate(contacts):
-                        place = f"slave set {pair.contact.nonmortar}, master set {pair.contact.mortar}"
-                        yield Table(
-                            step=k, of="contact", place=place, members=np.array([i]), quantities=quantities, totals="no"
-                        )
-                    continue
-                of: Literal["nodes", "cells"] = "nodes" if keyword == "NODE PRINT" else "cells"
-                place, members = _members(
-                    item, "NSET" if of == "nodes" else "ELSET", nodes if of == "nodes" else elements
-                )
-                yield Table(
-                    step=k,
-                    of=of,
-                    place=place.upper(),
-                    members=members if of == "nodes" else np.sort(cell_of[members]),
-                    quantities=quantities,
-                    totals=_totals(item.block),
-                )
+        anew = [item for item in step.placed if item.block.keyword in _OF]
+        words = {item.block.keyword for item in anew}
+        asked = [item for item in asked if item.block.keyword not in words] + anew
+        own = [table for item in asked for table in _tables(k, item, known, cell_of, contacts)]
+        tables += sorted(own, key=lambda table: bool(set(table.quantities) & set(_FORCES)))
+    return Prints(tables=tuple(tables), times=tuple(step.end for step in steps))
+
+
+def _tables(k: int, item: Placed, known: Known, cell_of: IntArray, contacts: Sequence[Pair]) -> Iterator[Table]:
+    """What one keyword asks for in step k."""
+    of = _OF[item.block.keyword]
+    quantities = _quantities(item.block, _KNOWN[of])
+    if of == "contacts":
+        yield from _contact_tables(k, item, quantities, known, contacts)
+    elif quantities:
+        nodes = of == "nodes"
+        place, members = _members(item, "NSET" if nodes else "ELSET", known.nodes if nodes else known.elements)
+        yield Table(
+            step=k,
+            of=of,
+            place=place.upper(),
+            members=members if nodes else np.sort(cell_of[members]),
+            quantities=quantities,
+            totals=_totals(item.block),
+            rotations={rigid.turning: rigid.body.name for rigid in known.rigid if nodes and rigid.turning >= 0},
+        )
+
+
+def _contact_tables(
+    k: int, item: Placed, quantities: Sequence[str], known: Known, contacts: Sequence[Pair]
+) -> Iterator[Table]:
+    """Nodal values of all contact pairs in one table each, and the forces of the pair that is named, or of all."""
+    every = [i for i, pair in enumerate(contacts) if pair.block.keyword == "CONTACT PAIR"]
+    nodal = tuple(word for word in quantities if word not in _FORCES)
+    forces = tuple(word for word in quantities if word in _FORCES)
+    if every and nodal:
+        members = np.array(every)
+        totals = _totals(item.block)
+        yield Table(step=k, of="contacts", place="all", members=members, quantities=nodal, totals=totals)
+    named = _named(item, known, every, contacts) if forces else []
+    for quantity in forces:
+        for i in named:
+            sides = contacts[i].contact.nonmortar.upper(), str(contacts[i].contact.mortar).upper()
+            place = "slave set {}, master set {}".format(*sides)
+            yield Table(step=k, of="contacts", place=place, members=np.array([i]), quantities=(quantity,))
+
+
+def _named(item: Placed, known: Known, every: Sequence[int], contacts: Sequence[Pair]) -> Sequence[int]:
+    """Contact pairs of ``SLAVE=`` and ``MASTER=``; without them all."""
+    block = item.block
+    given = [key for key in ("SLAVE", "MASTER") if key in block.parameters]
+    if not given:
+        return every
+    sides = tuple(known.surfaces.find(block.value(key, "a surface"), item.scope, block) for key in ("SLAVE", "MASTER"))
+    found = [i for i in every if (contacts[i].contact.nonmortar, contacts[i].contact.mortar) == sides]
+    if not found:
+        raise block.error(f"there is no contact pair of '{sides[0]}' and '{sides[1]}'")
+    return found
 
 
 def _members(item: Placed, key: str, sets: Sets) -> tuple[str, IntArray]:

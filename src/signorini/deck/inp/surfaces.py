@@ -13,6 +13,7 @@ from signorini.deck.inp.flatten import Placed, Scope
 from signorini.deck.inp.grid import Grid
 from signorini.deck.inp.sets import Sets
 from signorini.errors import one_of
+from signorini.model.mesh import CORNERS
 
 FACES = 6
 """Room for the faces of an element: face k of element e has the key ``FACES * e + k - 1``."""
@@ -31,8 +32,10 @@ class Edges:
 
     def __init__(self, grid: Grid) -> None:
         count = sum(len(group.index) for group in grid.groups)
+        self._quadratic = np.zeros(count, bool)
         self.ends = np.full((FACES * count, _WIDEST if grid.groups[0].type.kind == "3d" else 2), -1)
         for group in grid.groups:
+            self._quadratic[group.index] = CORNERS[group.type.family] < group.type.nodes
             for face, places in enumerate(group.type.faces):
                 self.ends[FACES * group.index + face, : len(places)] = group.nodes[:, places]
         there = np.nonzero(self.ends[:, 0] >= 0)[0]
@@ -45,14 +48,14 @@ class Edges:
         self.outer[there] = ~shared
 
     def facets(self, keys: IntArray) -> list[IntArray]:
-        """Nodes of faces, (m, k) for each number of nodes k that occurs."""
+        """Nodes of faces, (m, k), apart by kind: the number of their nodes, and the order of their elements."""
         parts = [self.ends[own] for own in self.by_kind(keys)]
         return [part[:, : int((part[0] >= 0).sum())] for part in parts]
 
     def by_kind(self, keys: IntArray) -> list[IntArray]:
-        """Faces apart by the number of their nodes."""
-        widths = (self.ends[keys] >= 0).sum(axis=1)
-        return [keys[widths == width] for width in distinct(widths)]
+        """Faces apart by the number of their nodes, and in the plane by the order of their elements."""
+        kinds = 2 * (self.ends[keys] >= 0).sum(axis=1) + self._quadratic[keys // FACES]
+        return [keys[kinds == kind] for kind in distinct(kinds)]
 
     def keys(self, elements: IntArray, face: str, at: Row, name: str) -> IntArray:
         """Keys of one face, as ``S2`` or ``P2``, of elements."""

@@ -7,6 +7,7 @@ from signorini.deck.inp.keywords import HARMLESS, MODEL_WORDS, STEP_WORDS, STRUC
 
 _PARAMETERS = (
     "AUGMENTED LAGRANGE",
+    "CONSTRAINT NAME",
     "CONVERT SDI",
     "ELASTIC SLIP",
     "EXTENSION ZONE",

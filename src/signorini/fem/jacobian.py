@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Jacobians of many cells at once, their determinants, and gradients in space."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from signorini.arrays import Array
+
+
+def jacobians(points: Array, reference: Array) -> Array:
+    """``dx/dX`` of cells, (m, q, d, d).
+
+    Parameters
+    ----------
+    points : (m, k, d) the nodes of the cells, length
+    reference : (q, k, d) gradients of the shape functions at points of the reference cell
+    """
+    (cells, nodes, d), count = points.shape, len(reference)
+    along = points.transpose(2, 0, 1).reshape(-1, nodes) @ reference.transpose(1, 0, 2).reshape(nodes, -1)
+    return along.reshape(d, cells, count, d).transpose(1, 2, 0, 3)
+
+
+def determinants(matrices: Array) -> Array:
+    """Determinants (...) of many small matrices, (..., 2, 2) or (..., 3, 3).
+
+    Examples
+    --------
+    >>> determinants(np.array([[[2.0, 1.0], [0.0, 3.0]]])), determinants(2.0 * np.eye(3))
+    (array([6.]), array(8.))
+    """
+    rows = np.moveaxis(matrices, (-2, -1), (0, 1))
+    return np.asarray((rows[0] * _cofactors(rows)[0]).sum(axis=0))
+
+
+def gradients_in_space(matrices: Array, reference: Array) -> Array:
+    """Gradients of shape functions in space, ``grad N = (dx/dX)^-T grad_X N``, (m, q, k, d).
+
+    Parameters
+    ----------
+    matrices : (m, q, d, d) Jacobians
+    reference : (q, k, d) gradients at those points of the reference cell
+
+    Examples
+    --------
+    >>> gradients_in_space(np.array([[[[2.0, 1.0], [0.0, 4.0]]]]), np.array([[[1.0, 0.0], [0.0, 1.0]]])).tolist()
+    [[[[0.5, -0.125], [0.0, 0.25]]]]
+    """
+    rows = np.moveaxis(matrices, (-2, -1), (0, 1))
+    cofactors = _cofactors(rows)
+    inverse = cofactors / (rows[0] * cofactors[0]).sum(axis=0)
+    found = np.empty((*matrices.shape[:2], *reference.shape[1:]))
+    for i, column in enumerate(inverse):
+        found[..., i] = sum(part[..., None] * reference[..., j] for j, part in enumerate(column))
+    return found
+
+
+def _cofactors(rows: Array) -> Array:
+    """Cofactors of matrices (d, d, ...), in their places; d = 2 or 3."""
+    if len(rows) == 2:
+        return np.stack([np.stack([rows[1, 1], -rows[1, 0]]), np.stack([-rows[0, 1], rows[0, 0]])])
+    return np.stack([np.cross(rows[(i + 1) % 3], rows[(i + 2) % 3], axis=0) for i in range(3)])
