@@ -47,6 +47,7 @@ QUICK: tuple[Case, ...] = (
     scalar.scalar_signorini,
     one_node.one_node,
     one_node.one_node_path,
+    one_node.one_node_path_in_space,
     bounded.shear_limits,
     cylinder.paper_mesh,
     cylinder.refined,
