@@ -18,6 +18,8 @@ from signorini.bench.cubes import blocks
 
 LARGE = 200_000
 """Unknowns from which one run has to do."""
+REPEATS = 15
+"""Of shorter runs, as many as fit into some twenty seconds."""
 PHASES = ("factorisation", "condensation", "complementarity", "recovery")
 HEAD = (
     "problem",
@@ -76,7 +78,7 @@ def main() -> None:
     options = parser.parse_args()
     if options.one:
         (dofs,) = options.dofs
-        print(json.dumps(list(blocks(dofs, timer=time.process_time, repeats=1 if dofs > LARGE else 3))))
+        print(json.dumps(list(blocks(dofs, timer=time.process_time, repeats=1 if dofs > LARGE else REPEATS))))
         return
     found = [row for dofs in options.dofs for row in measure(dofs)]
     backends = ", ".join(dict.fromkeys(row["backend"] for row in found))

@@ -317,3 +317,34 @@ def test_mistakes_are_told_with_their_place(gmsh_files, surface, said):
     with pytest.raises(InputError) as caught:
         sg.read(gmsh_files / "deck.toml")
     assert said in str(caught.value)
+
+
+SHELL = """lc = 0.7;
+Point(1) = {0, 0, 0, lc}; Point(2) = {2, 0, 0, lc}; Point(3) = {2, 1, 0.5, lc}; Point(4) = {0, 1, 0.5, lc};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1}; Physical Surface("ramp") = {1};
+"""
+
+
+def test_surfaces_and_profiles_of_geometries_and_universal_files(tmp_path):
+    """A ramp meshed by Gmsh from its geometry, and the same mesh as a universal file."""
+    gmsh = pytest.importorskip("gmsh")
+    (tmp_path / "ramp.geo").write_text(SHELL)
+    gmsh.initialize(interruptible=False)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.open(str(tmp_path / "ramp.geo"))
+        gmsh.model.mesh.generate(2)
+        gmsh.write(str(tmp_path / "ramp.unv"))
+    finally:
+        gmsh.finalize()
+    normal = np.array([0.0, -0.5, 1.0]) / np.hypot(1.0, 0.5)
+    for name in ("ramp.geo", "ramp.unv"):
+        ramp = sg.read_surface(tmp_path / name, boundary="ramp")
+        distance, normals = ramp.nearest(np.array([[1.0, 0.5, 0.25]]) + 0.3 * normal)
+        assert distance == pytest.approx([0.3])
+        np.testing.assert_allclose(normals, normal[None], atol=1e-12)
+    points = "Point(1) = {0, 0, 0, 1}; Point(2) = {3, 0, 0, 1};"
+    (tmp_path / "edge.geo").write_text(f'{points} Line(1) = {{1, 2}}; Physical Curve("edge") = {{1}};\n')
+    points = np.array(sg.read_profile(tmp_path / "edge.geo", boundary="edge").points)
+    assert points[[0, -1]].tolist() == [[0.0, 0.0], [3.0, 0.0]]

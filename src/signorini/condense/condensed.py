@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -14,11 +15,12 @@ from scipy.linalg import lapack
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.clock import Clock
 from signorini.condense.basis import Basis, make_basis
-from signorini.condense.parts import Parts, make_parts, mirror
+from signorini.condense.parts import make_parts, mirror
+from signorini.condense.response import ByNodes, Response, keep_pairs
 from signorini.condense.ties import Ties, make_ties
 from signorini.interface.interface import Interface
-from signorini.linalg.protocol import Factorisation, Reduced
-from signorini.linalg.registry import factorise
+from signorini.linalg.protocol import Factorisation, NotPositiveDefinite, Reduced
+from signorini.linalg.registry import factorise, takes_borders
 
 # of the size of a row of B: below it supports hold what the row sees
 _HELD = 1e-12
@@ -45,7 +47,7 @@ class Condensed:
 
     Attributes
     ----------
-    factorisation : of the bodies, with the contact dofs last
+    response : how the bodies answer, through what their factorisation keeps last
     A : (d a, d a) compliance of the a active pairs, without their rigid motion
     W : (d a, d a) symmetric, spectrum in [0, 1]
     motions : (d a, k) the rigid motions as the pairs see them, B_c Z, scaled
@@ -56,10 +58,9 @@ class Condensed:
     compliance : (d a,) of the interface, C, length per force
     ties : tied pairs, which are no unknowns of the law: all displacements here leave them at rest
     B : (d a, m) relative displacements of the active pairs in terms of them, B_c
-    rigid : (m, k) rigid motions of the contact dofs, Z
     """
 
-    factorisation: Factorisation
+    response: Response
     A: Array
     W: Array
     motions: Array
@@ -70,10 +71,13 @@ class Condensed:
     B: sp.csr_array
     compliance: Array
     ties: Ties
-    rigid: Array
-    _parts: Parts
     _basis: Basis
     _leaning: Array
+
+    @property
+    def factorisation(self) -> Factorisation:
+        """Of the bodies."""
+        return self.response.factorisation
 
     @property
     def name(self) -> str:
@@ -91,21 +95,21 @@ class Condensed:
         return len(self.root) // max(1, int(self.active.sum()))
 
     def reduce(self, f: Array) -> Reduced:
-        """Loads (z,) on the free displacements, condensed onto the contact dofs."""
-        return self.factorisation.reduce(f)
+        """Loads (z,) on the free displacements, condensed onto what is kept."""
+        return self.response.reduce(f)
 
-    def right_hand_side(self, f_c: Array, offset: Array) -> Array:
+    def right_hand_side(self, load: Array, offset: Array) -> Array:
         """b of ``G h - W r = b``, scaled.
 
         Parameters
         ----------
-        f_c : (m,) condensed load
+        load : condensed, see `reduce`
         offset : (d a,) h_0, length: initial gaps and minus the tangential displacements of the step before, each plus
             the relative displacement that supports prescribe
         """
         basis = self._basis
-        resultant = basis.coefficients(self.rigid.T @ f_c)
-        free = self.root * (self.B @ self._parts.solve(f_c) + offset) - self._leaning @ resultant
+        resultant = basis.coefficients(self.response.resultant(load))
+        free = self.root * (self.response.moved(load) + offset) - self._leaning @ resultant
         free -= basis.R @ (basis.R.T @ free)
         b: Array = free - self.W @ free + basis.R @ resultant
         return b
@@ -114,11 +118,13 @@ class Condensed:
         """Free displacements (z,) under a load and the solution h, r (d a,), in the units of the problem."""
         if not len(self.dofs):
             return reduced.expand(reduced.load)
-        moved = self._parts.solve(reduced.load + self.B.T @ r)
-        if self.rigid.shape[1]:
-            left = self.root * (h - self.compliance * r - offset - self.B @ moved)
-            moved += self.rigid @ scipy.linalg.solve_triangular(self._basis.triangle, self._basis.R.T @ left)
-        return reduced.expand(moved)
+
+        def travel(moved: Array) -> Array:
+            left = self.root * (h - self.compliance * r - offset - moved)
+            motion: Array = scipy.linalg.solve_triangular(self._basis.triangle, self._basis.R.T @ left)
+            return motion
+
+        return self.response.displacement(reduced, r, travel)
 
     def among(self, kept: BoolArray) -> Condensed:
         """The same bodies with fewer pairs; no sparse matrix is factorised again.
@@ -133,14 +139,16 @@ class Condensed:
             If they do not.
         """
         rows = np.tile(kept[self.active], self.directions)
-        root, compliance, B = self.root[rows], self.compliance[rows], self.B[rows]
+        root, compliance = self.root[rows], self.compliance[rows]
+        response = self.response.among(rows)
         return replace(
             self,
+            response=response,
             active=self.active & kept,
             root=root,
-            B=B,
+            B=self.B[rows],
             compliance=compliance,
-            **_image(self._parts, self.rigid, B, root, compliance),
+            **_image(response, root, compliance),
         )
 
     @property
@@ -193,16 +201,24 @@ def condense(
     ties = make_ties(B, np.nonzero(interface.rows(interface.tied) & (size > _HELD))[0])
     B = B[np.nonzero(interface.rows(active))[0]]
     dofs = np.unique(np.concatenate([B.indices, ties.B.indices]))
+    response: Response | None = None
     with clock.phase("factorisation"):
-        factorisation = factorise(K, dofs, nodes=nodes, points=points, backend=backend)
+        if interface.directions == 3 and B.shape[0] and not len(ties.rows) and takes_borders(backend):
+            at = points[interface.node[active]]
+            with suppress(NotPositiveDefinite):  # the contact may still hold what moves
+                response = keep_pairs(K, B, nodes, points, at=at, rigid=rigid, backend=backend)
+        if response is None:
+            factorisation = factorise(K, dofs, nodes=nodes, points=points, backend=backend)
     with clock.phase("condensation"):
         B_c, K_c = sp.csr_array(B[:, dofs]), sp.csr_array(K[dofs][:, dofs])
         root = np.sqrt(_interface_stiffness(K_c, B_c, interface, np.flatnonzero(active)))
         compliance = (interface.compliance / interface.areas)[interface.rows(active)]
-        size = float(K_c.diagonal().mean()) if len(dofs) else 1.0
-        parts = make_parts(factorisation.schur(), ties.B[:, dofs].toarray(), rigid[dofs], size=size)
+        if response is None:
+            size = float(K_c.diagonal().mean()) if len(dofs) else 1.0
+            parts = make_parts(factorisation.schur(), ties.B[:, dofs].toarray(), rigid[dofs], size=size)
+            response = ByNodes(factorisation=factorisation, parts=parts, B=B_c, rigid=rigid[dofs])
         return Condensed(
-            factorisation=factorisation,
+            response=response,
             active=active,
             held=held,
             root=root,
@@ -210,17 +226,15 @@ def condense(
             B=B_c,
             compliance=compliance,
             ties=ties,
-            rigid=rigid[dofs],
-            _parts=parts,
-            **_image(parts, rigid[dofs], B_c, root, compliance),
+            **_image(response, root, compliance),
         )
 
 
-def _image(parts: Parts, rigid: Array, B_c: sp.csr_array, root: Array, compliance: Array) -> dict[str, Any]:
+def _image(response: Response, root: Array, compliance: Array) -> dict[str, Any]:
     """A, W and the rigid motions that go with them, scaled by the roots of D."""
-    motions = root[:, None] * (B_c @ rigid)
+    motions = root[:, None] * response.motions
     basis = make_basis(motions)
-    A = parts.compliance(B_c)
+    A = response.compliance()
     A *= root
     A *= root[:, None]
     A[np.diag_indices_from(A)] += root**2 * compliance

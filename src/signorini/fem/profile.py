@@ -53,7 +53,7 @@ def mesh_profile(mesh: Mesh, name: str, *, fillet: float = 0.0, flip: bool = Fal
 
 
 def read_profile(path: str | Path, *, boundary: str = "", fillet: float = 0.0, flip: bool = False) -> Profile:
-    """Read a profile: edges of a mesh in the plane, in any format that meshio reads.
+    """Read a profile: edges of a mesh in the plane, in any format that :func:`read_mesh` reads.
 
     Parameters
     ----------

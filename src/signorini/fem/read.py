@@ -58,16 +58,7 @@ def read_mesh(path: str | Path) -> Mesh:
     path = Path(path)
     if not path.is_file():
         raise InputError(f"there is no file '{path}'", where=("mesh", "file"))
-    complete_meshio()
-    if path.suffix.lower() == UNV:
-        found = read_unv(path)
-    elif path.suffix.lower() == GEOMETRY:
-        with tempfile.TemporaryDirectory() as folder:
-            mesh_geometry(path, Path(folder, "mesh.msh"))
-            found = _read(Path(folder, "mesh.msh"))
-    else:
-        found = _read(path)
-    name_families(found)
+    found = _opened(path)
     points = np.asarray(found.points, float)
     solid = any(block.type in NODES_PER_SOLID_CELL for block in found.cells)
     if points.shape[1] == 3 and not solid:
@@ -100,7 +91,7 @@ def read_facets(path: str | Path, dimension: int, name: str = "") -> tuple[Array
 
     Parameters
     ----------
-    path : any format that meshio reads
+    path : any format that :func:`read_mesh` reads
     name : of the facets, by default all
 
     Returns
@@ -115,8 +106,7 @@ def read_facets(path: str | Path, dimension: int, name: str = "") -> tuple[Array
     path = Path(path)
     if not path.is_file():
         raise InputError(f"there is no file '{path}'", where=("file",))
-    complete_meshio()
-    found = _read(path)
+    found = _opened(path)
     named, cells = _named_parts(found, path)
     wanted, higher = (_LINES, NODES_PER_CELL) if dimension == 1 else (NODES_PER_PLANE_CELL, NODES_PER_SOLID_CELL)
     known = {key for family in wanted for key in named[family]}
@@ -196,6 +186,21 @@ def _surfaces(named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntAr
                     f"'{name}' holds faces of several kinds; expected one kind a boundary", where=("mesh", "boundaries")
                 )
             found[name] = np.vstack(cells[family])[index]
+    return found
+
+
+def _opened(path: Path) -> meshio.Mesh:
+    """What a file holds, with its groups by name."""
+    complete_meshio()
+    if path.suffix.lower() == UNV:
+        found = read_unv(path)
+    elif path.suffix.lower() == GEOMETRY:
+        with tempfile.TemporaryDirectory() as folder:
+            mesh_geometry(path, Path(folder, "mesh.msh"))
+            found = _read(Path(folder, "mesh.msh"))
+    else:
+        found = _read(path)
+    name_families(found)
     return found
 
 

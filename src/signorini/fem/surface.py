@@ -61,7 +61,7 @@ def mesh_surface(mesh: Mesh, name: str, *, flip: bool = False) -> Surface:
 
 
 def read_surface(path: str | Path, *, boundary: str = "", flip: bool = False) -> Surface:
-    """Read a rigid surface in space: STL, or faces of a mesh in any format that meshio reads.
+    """Read a rigid surface in space: STL, or faces of a mesh in any format that :func:`read_mesh` reads.
 
     Parameters
     ----------

@@ -19,6 +19,9 @@ from signorini.linalg.system import Int32Array
 LARGE = 1e9
 """Operations of a front from which several threads share it: tens of milliseconds of one thread."""
 
+TILE = 64
+"""Rows and columns that are mirrored at a time, so that they stay in the cache."""
+
 
 @njit(cache=True)
 def factorise_fronts(
@@ -171,13 +174,15 @@ def _pack(work: Array, r: int, left: Array) -> None:
 
 @njit(cache=True)
 def _add_condensed(work: Array, target: Int32Array, r: int, condensed: Array) -> None:
-    """Add a lower triangle, (r, r) by columns, to the lower triangle of the condensed matrix."""
+    """Add a lower triangle, (r, r) by columns, to the upper one of the condensed matrix: along its rows."""
     for c in range(r):
+        v = target[c]
         for i in range(c, r):
-            u, v = target[i], target[c]
-            if u < v:
-                u, v = v, u
-            condensed[u, v] += work[c * r + i]
+            u = target[i]
+            if v <= u:
+                condensed[v, u] += work[c * r + i]
+            else:
+                condensed[u, v] += work[c * r + i]
 
 
 @njit(cache=True)
@@ -190,17 +195,20 @@ def _add_interface(
     slot: Int32Array,
     condensed: Array,
 ) -> None:
-    """Add K_cc to the condensed matrix and mirror its lower triangle."""
+    """Add K_cc to the condensed matrix and mirror its upper triangle."""
     inside = len(order) - len(slot)
     for u in range(len(slot)):
         row = order[inside + u]
         for p in range(indptr[row], indptr[row + 1]):
             i = place[indices[p]]
             if i >= inside and slot[i - inside] <= slot[u]:
-                condensed[slot[u], slot[i - inside]] += data[p]
-    for u in range(len(slot)):
-        for v in range(u):
-            condensed[v, u] = condensed[u, v]
+                condensed[slot[i - inside], slot[u]] += data[p]
+    m = len(slot)
+    for first in range(0, m, TILE):
+        for begin in range(0, first + 1, TILE):
+            for u in range(first, min(first + TILE, m)):
+                for v in range(begin, min(begin + TILE, u)):
+                    condensed[u, v] = condensed[v, u]
 
 
 @njit(cache=True)

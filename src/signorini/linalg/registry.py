@@ -24,6 +24,19 @@ AUTOMATIC = "multifrontal"
 """What "auto" stands for. Measured on one thread it is never behind PARDISO, in the plane or in space
 (`benchmarks/linalg.py`), and it needs nothing that has to be installed apart."""
 
+BORDERED = frozenset({"multifrontal"})
+"""Back ends whose interface may be a border, rows without stiffness of their own: `signorini.linalg.border`. Others
+factorise a matrix with the interface in it and have to lift it."""
+
+
+def takes_borders(backend: str) -> bool:
+    """Whether the interface may be a border.
+
+    >>> takes_borders("auto"), takes_borders("superlu")
+    (True, False)
+    """
+    return (AUTOMATIC if backend == "auto" else backend) in BORDERED
+
 
 def factorise(
     K: Any,

@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import KW_ONLY, dataclass
-from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -148,7 +147,7 @@ class Model:
         """Of every body, length; 1 in models that have none."""
         return [self.thickness if body.thickness is None else body.thickness for body in self.bodies]
 
-    @cached_property
+    @property
     def cell_thickness(self) -> Array:
         """The same of every cell, (m,)."""
         return np.array(self.thicknesses)[self.body_of_cells()]

@@ -158,3 +158,76 @@ def test_friction_has_a_largest_traction(tmp_path: Path) -> None:
     deck.write_text(TWO_BLOCKS.replace("*FRICTION", "*FRICTION, TAUMAX=0."))
     with pytest.raises(DeckError, match=r"\*FRICTION: TAUMAX=0.: expected a traction > 0"):
         sg.read(deck)
+
+
+PULL = "*STEP\n*STATIC\n*BOUNDARY\nTop, 2, 2, -0.001\n*CLOAD\n16, 1, 40.\n*END STEP\n"
+
+
+def test_fixed_nodes_stay_where_they_are_and_go_on_from_there(tmp_path: Path) -> None:
+    """Node 13 is free, frozen, and taken on to a displacement; its load is gone meanwhile."""
+    model = read(
+        tmp_path,
+        PULL.replace("16, 1", "13, 1")
+        + "*STEP\n*STATIC\n*BOUNDARY, FIXED\n13, 1\n*CLOAD, OP=NEW\n*END STEP\n"
+        + "*STEP\n*STATIC\n*BOUNDARY\n13, 1, 1, 2.E-4\n*END STEP\n"
+        + "*STEP\n*STATIC\n*BOUNDARY, FIXED\n13, 1, 1\n*BOUNDARY\nTop, 2, 2, -0.0015\n*END STEP\n",
+    )
+    free, frozen, moved, stays = (step.displacement for step in sg.solve(model).steps)
+    row = int(np.flatnonzero(model.mesh.labels == 13)[0])
+    assert free[row, 0] != 0.0
+    assert frozen[row, 0] == pytest.approx(free[row, 0], rel=1e-10)
+    assert moved[row, 0] == pytest.approx(2e-4, rel=1e-10)
+    assert stays[row, 0] == pytest.approx(2e-4, rel=1e-10)
+    held = sg.solve(model).steps[1].reactions
+    assert any(abs(force[0]) > 1.0 for name, force in held.items() if name not in ("Base", "Top"))
+
+
+def test_fixed_keeps_what_an_amplitude_has_reached(tmp_path: Path) -> None:
+    """Also where the same card takes all other supports away."""
+    model = read(
+        tmp_path,
+        "*STEP\n*STATIC\n*BOUNDARY, AMPLITUDE=Half\nTop, 2, 2, -0.001\n*END STEP\n"
+        "*STEP\n*STATIC\n*BOUNDARY, OP=NEW, FIXED\nBase, 1, 2\nTop, 1, 2\n*END STEP\n",
+        before="*AMPLITUDE, NAME=Half\n0., 0., 1., 0.5\n",
+    )
+    assert [(step.scale or {})["Top u2"] for step in model.steps] == pytest.approx([0.5, 0.5])
+    first, second = sg.solve(model).steps
+    np.testing.assert_allclose(second.displacement, first.displacement, atol=1e-15)
+    assert not any(step.hold or step.release for step in model.steps)
+
+
+@pytest.mark.parametrize(
+    ("card", "said"),
+    [
+        ("*BOUNDARY, FIXED\nTop, 2, 2, 0.1", "FIXED goes with no displacement, 0.1"),
+        ("*BOUNDARY, FIXED, AMPLITUDE=A\nTop, 2", "FIXED goes with no AMPLITUDE"),
+    ],
+)
+def test_fixed_has_no_value(tmp_path: Path, card: str, said: str) -> None:
+    with pytest.raises(DeckError, match=said):
+        read(tmp_path, f"{PULL}*STEP\n*STATIC\n{card}\n*END STEP\n", before="*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n")
+
+
+def test_fixed_as_calculix_has_it(tmp_path: Path) -> None:
+    """A cube pulled, frozen, taken on, then held by what OP=NEW freezes: the last table of ccx 2.20."""
+    corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    nodes = "".join(f"{k}, {x}., {y}., {z}.\n" for k, (x, y, z) in enumerate(corners, start=1))
+    steps = (
+        "*BOUNDARY\n5, 3, 3, 0.002\n*CLOAD\n7, 1, 10.\n6, 2, 3.",
+        "*BOUNDARY, FIXED\nHEAD, 1, 1\n5, 3, 3\n*CLOAD, OP=NEW\n6, 2, 1.",
+        "*BOUNDARY\n7, 1, 1, 0.02",
+        "*BOUNDARY, OP=NEW, FIXED\nBASE, 1, 3\n7, 1, 2\n*CLOAD, OP=NEW\n6, 3, 1.",
+    )
+    deck = tmp_path / "cube.inp"
+    deck.write_text(
+        f"*NODE\n{nodes}*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*NSET, NSET=BASE\n1, 2, 3, 4\n"
+        "*NSET, NSET=HEAD\n5, 6, 7, 8\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*SOLID SECTION, ELSET=E, MATERIAL=M\n"
+        "*BOUNDARY\nBASE, 1, 3\n" + "".join(f"*STEP\n*STATIC\n{step}\n*END STEP\n" for step in steps)
+    )
+    expected = [
+        [-1.163051e-03, 9.827500e-03, 1.855409e-03],
+        [-4.676990e-03, -5.216645e-03, 3.789408e-03],
+        [2.000000e-02, -6.643350e-03, -5.782905e-03],
+        [1.200954e-02, 8.203944e-03, 2.498264e-03],
+    ]
+    np.testing.assert_allclose(sg.solve(sg.read(deck)).last.displacement[4:], expected, atol=1e-8)

@@ -12,7 +12,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray, distinct
 from signorini.deck.inp.block import Block
-from signorini.deck.inp.course import Course, Pattern, unique_label
+from signorini.deck.inp.course import Course, Hold, Pattern, unique_label
 from signorini.deck.inp.links import STRIDE, DeckRigid, component
 from signorini.deck.inp.loading import Courses, Known
 from signorini.deck.inp.materials import Section
@@ -33,14 +33,14 @@ class Conditions:
     supports, loads : of the model
     blocks : the keyword of each support and load, by label
     factors : label to its pattern, of what moves or loads
-    present : label of a support that some step takes away or brings to whether it holds, step by step
+    holds : label of a support that some step takes away, brings or freezes to what it holds at, step by step
     """
 
     supports: list[Support] = field(default_factory=list)
     loads: list[Load] = field(default_factory=list)
     blocks: dict[str, Block] = field(default_factory=dict)
     factors: dict[str, Pattern] = field(default_factory=dict)
-    present: dict[str, tuple[bool, ...]] = field(default_factory=dict)
+    holds: dict[str, tuple[Hold, ...]] = field(default_factory=dict)
 
     def label(self, name: str) -> str:
         """The name, or with a number behind it if another support or load bears it."""
@@ -53,8 +53,8 @@ class Conditions:
         self.blocks[support.label] = pattern.block
         if support.moves:
             self.factors[support.label] = pattern
-        if not all(pattern.present):
-            self.present[support.label] = pattern.present
+        if any(hold != "value" for hold in pattern.holds):
+            self.holds[support.label] = pattern.holds
 
     def add_load(self, pattern: Pattern, **given: Any) -> None:
         """Add a load under a name of its own."""
@@ -77,13 +77,13 @@ class Conditions:
         }
 
     def switched(self, k: int) -> dict[str, Any]:
-        """Supports that step k takes away (`release`) and brings back (`restore`), as a step of the model has them."""
+        """Supports that step k takes away, freezes and takes to their values, as a step of the model has them."""
         found: dict[str, Any] = {}
-        for key, on in (("release", False), ("restore", True)):
+        for key, hold in (("release", ""), ("hold", "place"), ("restore", "value")):
             names = tuple(
                 label
-                for label, present in self.present.items()
-                if present[k] is on and (present[k - 1] if k else True) is not on
+                for label, holds in self.holds.items()
+                if holds[k] == hold and (holds[k - 1] if k else "value") != hold
             )
             if names:
                 found[key] = names
@@ -144,7 +144,7 @@ def _apart(pattern: Pattern, known: Known) -> tuple[Pattern, list[tuple[DeckRigi
 def _supports(course: Course, places: Places, conditions: Conditions, known: Known) -> None:
     """Supports at rest hold all directions of a place at once; those that move are one a direction."""
     dimension = known.dimension
-    resting: dict[tuple[str, tuple[bool, ...]], list[Pattern]] = {}
+    resting: dict[tuple[str, tuple[Hold, ...]], list[Pattern]] = {}
     for whole in course.patterns():
         pattern, rigid = _apart(whole, known)
         for item, index, value in rigid:
@@ -153,7 +153,7 @@ def _supports(course: Course, places: Places, conditions: Conditions, known: Kno
             name = item.body.name
             conditions.add_support(pattern, on=name, u=u, name=f"{name} {words[index]}")
         if not any(pattern.shares):
-            resting.setdefault((pattern.label, pattern.present), []).append(pattern)
+            resting.setdefault((pattern.label, pattern.holds), []).append(pattern)
             continue
         for value, slots in _by_value(pattern):
             for axis in range(dimension):

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -14,6 +15,10 @@ from signorini.deck.inp.block import Block
 from signorini.deck.inp.steps import DeckStep
 
 _SAME = 1e-9  # of a factor: a smaller jump is none
+
+Hold = Literal["", "value", "place"]
+"""What a slot is held at in a step: nothing, a value, or the place where the step finds it."""
+_NOTHING: tuple[float, int, Hold] = (0.0, 0, "")  # magnitude, amplitude, hold of a slot without a value
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -28,7 +33,7 @@ class Pattern:
     values : (m,) the largest of each slot, with its sign
     shares : (steps,) magnitudes in the steps, as parts of the largest
     amplitudes : (steps,) the amplitude in each step, or None
-    present : (steps,) whether there is a value at all
+    holds : (steps,) what the slots are held at
     """
 
     label: str
@@ -37,7 +42,7 @@ class Pattern:
     values: Array
     shares: tuple[float, ...]
     amplitudes: tuple[Amplitude | None, ...]
-    present: tuple[bool, ...]
+    holds: tuple[Hold, ...]
 
     def at_end(self, k: int, steps: Sequence[DeckStep]) -> float:
         """The factor at the end of step k; before the first, 0."""
@@ -68,12 +73,13 @@ class Course:
     """Values of slots (a node and a direction, an edge) step by step: they stay until they are changed or removed."""
 
     def __init__(self) -> None:
-        self._now: dict[int, tuple[float, int, int]] = {}  # slot to magnitude, amplitude, source
+        self._now: dict[int, tuple[float, int, int, Hold]] = {}  # slot to magnitude, amplitude, source, hold
         self._before: set[int] = set()  # slots set in an earlier step, which a new value replaces
         self._amplitudes: list[Amplitude | None] = [None]
         self._sources: list[tuple[str, Block]] = []
         self._first: dict[int, int] = {}  # slot to the source that set it first
-        self._ends: list[dict[int, tuple[float, int]]] = []  # by step: slot to magnitude and amplitude
+        self._ends: list[dict[int, tuple[float, int, Hold]]] = []  # by step: slot to magnitude, amplitude, hold
+        self._reached: dict[int, float] = {}  # values at the end of the last step
 
     def put(
         self, slots: IntArray, value: float, label: str, block: Block, amplitude: Amplitude | None, *, adds: bool
@@ -85,31 +91,46 @@ class Course:
         for slot in slots.tolist():
             old = now.get(slot)
             base = old[0] if adds and old is not None and slot not in before else 0.0
-            now[slot] = (base + value, index, source)
+            now[slot] = (base + value, index, source, "value")
             before.discard(slot)
+            self._first.setdefault(slot, source)
+
+    def freeze(self, slots: IntArray, label: str, block: Block) -> None:
+        """Hold slots where the last step left them: at the value that it took them to, or in whatever place."""
+        source = self._source(label, block)
+        for slot in slots.tolist():
+            known = not self._ends or slot in self._reached
+            self._now[slot] = (self._reached.get(slot, 0.0), 0, source, "value" if known else "place")
+            self._before.discard(slot)
             self._first.setdefault(slot, source)
 
     def clear(self) -> None:
         """Remove every value (``OP=NEW``)."""
         self._now = {}
 
-    def end_step(self) -> None:
+    def end_step(self, step: DeckStep) -> None:
         """Note what there is at the end of a step."""
-        self._ends.append({slot: (magnitude, index) for slot, (magnitude, index, _) in self._now.items()})
+        self._ends.append({slot: (magnitude, index, hold) for slot, (magnitude, index, _, hold) in self._now.items()})
         self._before = set(self._now)
+        ends = [
+            1.0 if amplitude is None else amplitude.at(step.end if amplitude.total else step.period)
+            for amplitude in self._amplitudes
+        ]
+        valued = [(slot, now) for slot, now in self._now.items() if now[3] == "value"]
+        self._reached = {slot: magnitude * ends[index] for slot, (magnitude, index, _, _) in valued}
 
     def patterns(self) -> Iterator[Pattern]:
         """Slots that change alike and bear one label, in the order in which the deck names them."""
-        groups: dict[tuple[int, tuple[float, ...], tuple[int, ...], tuple[bool, ...]], list[tuple[int, float]]] = {}
+        groups: dict[tuple[int, tuple[float, ...], tuple[int, ...], tuple[Hold, ...]], list[tuple[int, float]]] = {}
         labels: dict[str, int] = {}
         for slot, source in self._first.items():
-            history = [ends.get(slot, (0.0, 0)) for ends in self._ends]
-            size = max((value for value, _ in history), key=abs, default=0.0)
-            shares = tuple(round(value / size, 12) if size else 0.0 for value, _ in history)
+            history = [ends.get(slot, _NOTHING) for ends in self._ends]
+            size = max((value for value, _, _ in history), key=abs, default=0.0)
+            shares = tuple(round(value / size, 12) if size else 0.0 for value, _, _ in history)
             named = labels.setdefault(self._sources[source][0], source)
-            key = (named, shares, tuple(index for _, index in history), tuple(slot in ends for ends in self._ends))
+            key = (named, shares, tuple(index for _, index, _ in history), tuple(hold for _, _, hold in history))
             groups.setdefault(key, []).append((slot, size))
-        for (source, shares, indices, present), members in groups.items():
+        for (source, shares, indices, holds), members in groups.items():
             label, block = self._sources[source]
             members.sort()
             yield Pattern(
@@ -119,7 +140,7 @@ class Course:
                 values=np.array([value for _, value in members]),
                 shares=shares,
                 amplitudes=tuple(self._amplitudes[index] for index in indices),
-                present=present,
+                holds=holds,
             )
 
     def _source(self, label: str, block: Block) -> int:

@@ -108,7 +108,7 @@ def follow_steps(model: list[Placed], steps: list[DeckStep], known: Known) -> Co
                     course.clear()
             readers[block.keyword](item, known, courses)
         for name in names:
-            getattr(courses, name).end_step()
+            getattr(courses, name).end_step(step)
     return courses
 
 
@@ -122,9 +122,11 @@ def _of(keyword: str, courses: Courses) -> tuple[Course, ...]:
 
 def _boundary(item: Placed, known: Known, courses: Courses) -> None:
     block = item.block
-    block.refuse_unknown(("OP", "AMPLITUDE", "TYPE"), ("LOAD CASE",))
+    block.refuse_unknown(("OP", "AMPLITUDE", "TYPE", "FIXED"), ("LOAD CASE",))
     block.choice("TYPE", ("DISPLACEMENT",), "DISPLACEMENT")
-    amplitude = find_amplitude(block, known.amplitudes)
+    amplitude, fixed = find_amplitude(block, known.amplitudes), "FIXED" in block.parameters
+    if fixed and amplitude is not None:
+        raise block.error("FIXED goes with no AMPLITUDE: nodes stay where they are")
     for row in block.rows():
         label, nodes = known.nodes.find(row.text(0, "a node or a node set"), item.scope, row)
         label = _HELD if label.startswith("node ") and label not in known.nodes else label
@@ -144,7 +146,12 @@ def _boundary(item: Placed, known: Known, courses: Courses) -> None:
         for axis in axes:
             if axis <= known.dimension:
                 slots = np.append(slots, STRIDE * rest + axis - 1)
-        courses.displacement.put(slots, value, label, block, amplitude, adds=False)
+        if fixed and value:
+            raise row.error(f"*BOUNDARY: FIXED goes with no displacement, {value:g}: nodes stay where they are")
+        if fixed:
+            courses.displacement.freeze(slots, label, block)
+        else:
+            courses.displacement.put(slots, value, label, block, amplitude, adds=False)
 
 
 def _cload(item: Placed, known: Known, courses: Courses) -> None:

@@ -26,6 +26,7 @@ import scipy.sparse as sp
 from scipy.linalg import lapack, lstsq
 
 from signorini.arrays import Array, IntArray
+from signorini.friction.interface import symmetric_product
 from signorini.friction.spatial.law import Tangent
 from signorini.friction.spatial.problem import SpatialProblem
 
@@ -78,8 +79,7 @@ class Equilibrium:
     def moved(self, r: Array, a: Array) -> Array:
         """(3n,) Motion h of the pairs under forces r and rigid motion a."""
         A, R = self.problem.interface.A, self.problem.interface.R
-        acting = np.flatnonzero(r)
-        return r[acting] @ A[acting] + self.alpha * r + self.offset + R @ a
+        return symmetric_product(A, r) + self.alpha * r + self.offset + R @ a
 
     def lacking(self, r: Array, a: Array) -> Array:
         """(k,) What the forces lack to balance the resultants."""

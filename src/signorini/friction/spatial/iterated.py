@@ -19,10 +19,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-import scipy.linalg
 import scipy.sparse as sp
+from scipy.linalg import solve_triangular
 
 from signorini.arrays import Array
+from signorini.friction.interface import symmetric_product
 from signorini.friction.spatial.equilibrium import Equilibrium, directions, prescribed
 from signorini.friction.spatial.law import Tangent
 
@@ -60,9 +61,9 @@ def iterate(equilibrium: Equilibrium, law: Tangent, r: Array, a: Array) -> tuple
     """
     problem = equilibrium.problem
     Z, Y, resisting = directions(problem.pairs, law)
-    Z, Y = sp.csr_array(Z), sp.csr_array(Y.T)
+    Z, Y, back = sp.csr_array(Z), sp.csr_array(Y.T), sp.csr_array(Y)
     fixed = np.concatenate([np.zeros(problem.pairs), law.fixed.T.ravel()])
-    across, R, W = resisting > 0, problem.interface.R, problem.W
+    across, A, R, W = resisting > 0, problem.interface.A, problem.interface.R, problem.W
     size = Z.shape[1]
 
     def lacking(x: Array) -> Array:
@@ -72,12 +73,12 @@ def iterate(equilibrium: Equilibrium, law: Tangent, r: Array, a: Array) -> tuple
 
     def product(x: Array) -> Array:
         force = Z @ x[:size]
-        motion = problem.interface.A @ force + R @ x[size:]
+        motion = symmetric_product(A, force) + R @ x[size:]
         return np.concatenate([Y @ motion + resisting * x[:size], R.T @ force])
 
     def precondition(y: Array) -> Array:
-        motion = Y.T @ np.where(across, 0.0, y[:size])
-        force = motion - W @ motion + R @ y[size:]
+        motion = back @ np.where(across, 0.0, y[:size])
+        force = motion - symmetric_product(W, motion) + R @ y[size:]
         return np.concatenate([np.where(across, y[:size], Y @ force), R.T @ motion])
 
     start = np.concatenate([_coordinates(law, r, problem.pairs), a])
@@ -114,26 +115,41 @@ def gmres(
     first = float(np.linalg.norm(rhs))
     if first <= tolerance:
         return np.zeros_like(rhs)
-    basis, images = [rhs / first], []
-    H = np.zeros((_MOST + 1, _MOST))
+    basis, images = np.empty((_MOST + 1, len(rhs))), np.empty((_MOST, len(rhs)))
+    basis[0] = rhs / first
+    triangle, turned = np.zeros((_MOST, _MOST)), np.zeros(_MOST + 1)
+    turned[0] = first
+    rotations: list[tuple[float, float]] = []
     for j in range(_MOST):
-        images.append(precondition(basis[j]))
-        new = product(images[j])
+        images[j] = precondition(basis[j])
+        new, Q = product(images[j]), basis[: j + 1]
+        column = np.zeros(j + 2)
         for _ in range(2):
-            Q = np.array(basis)
             part = Q @ new
             new = new - part @ Q
-            H[: j + 1, j] += part
-        H[j + 1, j] = np.linalg.norm(new)
-        target = np.zeros(j + 2)
-        target[0] = first
-        y = scipy.linalg.lstsq(H[: j + 2, : j + 1], target)[0]
-        left = float(np.linalg.norm(H[: j + 2, : j + 1] @ y - target))
-        if not np.isfinite(left):
+            column[: j + 1] += part
+        column[j + 1] = beyond = float(np.linalg.norm(new))
+        _rotate(column, rotations)
+        if not 0.0 < column[j] < np.inf:
             return None
-        if left <= tolerance:
-            return np.asarray(np.array(images).T @ y, dtype=np.float64)
-        if H[j + 1, j] <= 1e-14 * first:
+        cosine, sine = rotations[j]
+        triangle[: j + 1, j] = column[: j + 1]
+        turned[j], turned[j + 1] = cosine * turned[j], -sine * turned[j]
+        if abs(turned[j + 1]) <= tolerance:
+            y = solve_triangular(triangle[: j + 1, : j + 1], turned[: j + 1], check_finite=False)
+            return np.asarray(y @ images[: j + 1], dtype=np.float64)
+        if beyond <= 1e-14 * first:
             return None
-        basis.append(new / H[j + 1, j])
+        basis[j + 1] = new / beyond
     return None
+
+
+def _rotate(column: Array, rotations: list[tuple[float, float]]) -> None:
+    """Turn a new column of the Hessenberg matrix by the rotations before it, and by one more that clears its end."""
+    values: list[float] = column.tolist()
+    for i, (cosine, sine) in enumerate(rotations):
+        values[i], values[i + 1] = cosine * values[i] + sine * values[i + 1], cosine * values[i + 1] - sine * values[i]
+    length = float(np.hypot(values[-2], values[-1]))
+    rotations.append((values[-2] / length, values[-1] / length) if length > 0.0 else (1.0, 0.0))
+    values[-2:] = [length, 0.0]
+    column[:] = values
