@@ -227,7 +227,8 @@ def stored_energy(prepared: Prepared, state: State) -> float:
     """In the bodies and in compliant interfaces."""
     interface = prepared.interface
     forces = np.where(interface.rows(prepared.absent), 0.0, state.forces)
-    strain = float(state.displacement @ (prepared.K @ state.displacement))
+    u = state.displacement
+    strain = float(u @ (prepared.K @ u)) if u.any() else 0.0
     return 0.5 * (strain + float(forces**2 @ (interface.compliance / interface.areas)))
 
 

@@ -60,6 +60,7 @@ QUICK: tuple[Case, ...] = (
     elements.cantilever,
     elements.inside_bodies,
     solids.spheres,
+    solids.hollow,
     space.ball_on_plane,
     space.ball_on_block,
     space.mindlin,
