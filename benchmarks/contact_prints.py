@@ -37,6 +37,7 @@ _TABLES = (
     ("contact stress", "CSTR", ("pressure", "shear", "shear")),
     ("contact spring energy", "CELS", ("energy",)),
 )
+_SUMS = {"total CELS": ("energy",), "CF": ("force",) * 3, "area": ("area",)}
 _CONTACT = ("opening", "tangential", "tangential", "pressure", "shear", "shear")
 _WAYS = ("NODE TO SURFACE", "SURFACE TO SURFACE")
 _SHARP = 1e-9  # stress of the smoothing
@@ -87,6 +88,35 @@ def blocks(axis: int, sign: int, way: str) -> str:
     return "\n".join(lines) + "\n"
 
 
+def plates() -> str:
+    """Two plates of different thickness in plane stress, pressed and dragged.
+
+    Without contraction: CalculiX's plane elements are solids of that thickness, which would rub across the plane too.
+    """
+    across = 4
+    lines, top = ["*NODE, NSET=NALL"], 1001 + 2 * (across + 1)
+    for first, height in ((1, 0.0), (1001, 1.0)):
+        places = [(2.0 * i / across, height + 0.5 * j) for j in range(3) for i in range(across + 1)]
+        lines += [f"{first + n}, {x:.6f}, {y}" for n, (x, y) in enumerate(places)]
+    for name, first, number in (("LOW", 1, 1), ("UP", 1001, 1001)):
+        lines.append(f"*ELEMENT, TYPE=CPS4, ELSET={name}")
+        corners = [first + i + (across + 1) * j for j in (0, 1) for i in range(across)]
+        lines += [f"{number + e}, {n}, {n + 1}, {n + across + 2}, {n + across + 1}" for e, n in enumerate(corners)]
+    law = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n2.E6, 1.E-5\n*FRICTION\n0.3, 4.E5"
+    lines += [
+        f"*NSET, NSET=BASE, GENERATE\n1, {across + 1}\n*NSET, NSET=TOP, GENERATE\n{top}, {top + across}",
+        *("*SURFACE, NAME=SLAVE", *(f"{1001 + e}, S1" for e in range(across))),
+        *("*SURFACE, NAME=MASTER", *(f"{1 + across + e}, S3" for e in range(across))),
+        "*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.\n*SOLID SECTION, ELSET=LOW, MATERIAL=M\n2.",
+        f"*SOLID SECTION, ELSET=UP, MATERIAL=M\n0.5\n*SURFACE INTERACTION, NAME=RUB\n{law}",
+        "*CONTACT PAIR, INTERACTION=RUB, TYPE=SURFACE TO SURFACE\nSLAVE, MASTER\n*BOUNDARY\nBASE, 1, 2",
+    ]
+    for moves in ("TOP, 1\nTOP, 2, 2, -2.E-6", "TOP, 1, 1, 8.E-6"):
+        asked = "*CONTACT PRINT, FREQUENCY=1000, SLAVE=SLAVE, MASTER=MASTER\nCF\n*END STEP"
+        lines.append(f"*STEP, INC=1000\n*STATIC, DIRECT\n0.05, 1.\n*BOUNDARY\n{moves}\n{asked}")
+    return "\n".join(lines) + "\n"
+
+
 def sharp(text: str) -> str:
     """A deck whose springs of contact begin to act at once."""
     return re.sub(r"(?im)^(\*SURFACE *BEHAVIOR[^\n]*LINEAR[^\n]*\n *[-\d.EeDd+]+)[^\n]*", rf"\1, {_SHARP:.0E}", text)
@@ -104,6 +134,8 @@ def printed(path: Path) -> dict[str, Rows]:
         found["total CELS"] = {0: np.array([float(total)])}
     for force in re.findall(r"\n   total surface force [^\n]*\n\s*\n([^\n]*)", text):
         found["CF"] = {1: np.array(force.split(), float)[:3]}
+    for sizes in re.findall(r"\n   area, [^\n]*\n\s*\n([^\n]*)", text):
+        found["area"] = {1: np.array(sizes.split(), float)[:1]}
     return found
 
 
@@ -145,7 +177,7 @@ def compare(name: str, text: str, folder: Path) -> Iterator[tuple[str, int, floa
     if run_here(words):
         raise RuntimeError(f"{name}: this package did not finish")
     there, here = printed(folder / "deck.dat"), printed(folder / "out" / "solution.dat")
-    kinds = {name: columns for _, name, columns in _TABLES} | {"total CELS": ("energy",), "CF": ("force",) * 3}
+    kinds = {name: columns for _, name, columns in _TABLES} | _SUMS
     for table in there:
         if table in here:
             yield table, len(there[table]), apart(here[table], there[table], kinds[table])
@@ -180,6 +212,7 @@ def main() -> None:
         parser.error("there is no ccx; expected CalculiX on the path")
     sides = [(axis, sign) for axis in range(3) for sign in (1, -1)]
     decks = [(f"blocks, {way.lower()}", [blocks(*side, way) for side in sides]) for way in _WAYS]
+    decks.append(("plates of thickness 2 and 0.5", [plates()]))
     decks += [(name, [plain((options.folder / f"{name}.inp").read_text())]) for name in options.names]
     found = []
     for title, texts in decks:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
     from signorini.fem.profile import mesh_profile, read_profile
     from signorini.fem.read import read_mesh
-    from signorini.fem.solids import box
+    from signorini.fem.solids import box, extruded
     from signorini.fem.surface import mesh_surface, read_surface
     from signorini.model.body import Body
     from signorini.model.conditions import Foundation, Load, Support
@@ -67,6 +67,7 @@ __all__ = [
     "__version__",
     "annulus",
     "box",
+    "extruded",
     "half_disk",
     "join",
     "lcp",
@@ -91,7 +92,7 @@ _HOMES = {
     "signorini.fem.generators": ("annulus", "half_disk", "quarter_disk", "rectangle"),
     "signorini.fem.profile": ("mesh_profile", "read_profile"),
     "signorini.fem.read": ("read_mesh",),
-    "signorini.fem.solids": ("box",),
+    "signorini.fem.solids": ("box", "extruded"),
     "signorini.fem.surface": ("mesh_surface", "read_surface"),
     "signorini.model.body": ("Body",),
     "signorini.model.conditions": ("Foundation", "Load", "Support"),

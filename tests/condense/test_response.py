@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pairs kept instead of contact nodes: the same interface, and only where supports hold the bodies."""
+"""Pairs kept instead of contact nodes: the same interface, held or floating."""
 
 from dataclasses import replace
 from unittest.mock import Mock
@@ -10,11 +10,34 @@ import pytest
 from signorini.condense import condensed as module
 from signorini.condense.response import ByNodes, ByPairs
 from signorini.engine.prepare import prepare
-from signorini.engine.solve import solve
+from signorini.engine.solve import solve, solve_prepared
 from signorini.gallery.cubes import cubes
 from signorini.linalg import NotPositiveDefinite
+from signorini.model.conditions import Load, Support
 
-MODELS = {"matching": lambda: cubes(3), "not matching": lambda: cubes(4, 3)}
+
+def floating(model):
+    """The upper body, free to fall and to turn, pressed and pushed by a force on its top."""
+    return replace(
+        model,
+        supports=[model.supports[0]],
+        loads=[Load("upper.top", force=(0.001, 0.0, -0.01))],
+    )
+
+
+def guided(model):
+    """The upper body, held along x alone."""
+    return replace(model, supports=[model.supports[0], Support("upper.top", u=(0.018, None, None))])
+
+
+MODELS = {
+    "matching": lambda: cubes(3),
+    "not matching": lambda: cubes(4, 3),
+    "floating": lambda: floating(cubes(4, 3)),
+    "sliding": lambda: replace(
+        cubes(4, 3), supports=[cubes(1).supports[0], Support("upper.top", u=(0.018, None, None))]
+    ),
+}
 
 
 def by_nodes(monkeypatch, model):
@@ -29,29 +52,36 @@ def test_both_ways_give_the_same_interface(monkeypatch, name):
     pairs, nodes = prepare(model), by_nodes(monkeypatch, model)
     assert isinstance(pairs.condensed.response, ByPairs)
     assert isinstance(nodes.condensed.response, ByNodes)
+    T, rng = pairs.constraints.transform, np.random.default_rng(2)
     few = np.arange(len(pairs.interface)) % 3 > 0
     for one, two in ((pairs.condensed, nodes.condensed), (pairs.condensed.among(few), nodes.condensed.among(few))):
-        rng = np.random.default_rng(2)
-        f, (h, r, offset) = (
-            rng.standard_normal(pairs.constraints.transform.shape[1]),
-            rng.standard_normal((3, len(one.W))),
-        )
+        u, (r, offset) = rng.standard_normal(T.shape[1]), rng.standard_normal((2, len(one.W)))
+        B = (pairs.interface.B @ T)[one.active_rows]
+        f = T.T @ (pairs.K @ (T @ u)) - B.T @ r
+        h = B @ u + offset + one.compliance * r
         np.testing.assert_allclose(one.A, two.A, rtol=0, atol=1e-12 * np.abs(two.A).max())
         np.testing.assert_allclose(one.W, two.W, rtol=0, atol=1e-12)
         b = two.right_hand_side(two.reduce(f).load, offset)
         found = one.right_hand_side(one.reduce(f).load, offset)
         np.testing.assert_allclose(found, b, rtol=0, atol=1e-11 * np.abs(b).max())
-        u = two.displacement(two.reduce(f), h, r, offset)
-        np.testing.assert_allclose(
-            one.displacement(one.reduce(f), h, r, offset), u, rtol=0, atol=1e-11 * np.abs(u).max()
-        )
+        for way in (one, two):
+            np.testing.assert_allclose(way.displacement(way.reduce(f), h, r, offset), u, rtol=0, atol=1e-10)
 
 
-def test_bodies_that_contact_holds_keep_their_nodes():
+def test_tied_bodies_keep_their_nodes():
     model = cubes(3)
-    pressed = replace(model.supports[1], u=(0.018, 0.006, None))
+    tied = replace(model, contacts=[replace(model.contacts[0], friction="tied")])
     assert isinstance(prepare(model).condensed.response, ByPairs)
-    assert isinstance(prepare(replace(model, supports=[model.supports[0], pressed])).condensed.response, ByNodes)
+    assert isinstance(prepare(tied).condensed.response, ByNodes)
+
+
+def test_a_floating_body_is_pressed_alike(monkeypatch):
+    model = floating(cubes(4, 3))
+    expected = solve_prepared(by_nodes(monkeypatch, model)).last
+    found = solve(model).last
+    assert found.certificate.passed
+    size = np.abs(expected.displacement).max()
+    np.testing.assert_allclose(found.displacement, expected.displacement, rtol=0, atol=1e-10 * size)
 
 
 def test_what_moves_without_contact_is_condensed_by_its_nodes(monkeypatch):

@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Built-in meshes: areas, lengths, names, orientation, and refined meshes that keep the nodes of the coarse one."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial import KDTree
 
+from signorini.errors import InputError
 from signorini.fem.boundary import boundary
 from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
+from signorini.fem.solids import extruded
 from signorini.fem.space import make_space
 
 R = 8.0
@@ -124,3 +128,29 @@ def test_refined_meshes_are_nested_along_their_boundaries(make):
         tree = KDTree(fine.points[fine.nodes_of(name)])
         missing = tree.query(coarse.points[coarse.nodes_of(name)])[0].max()
         assert missing < 1e-12 * R, name
+
+
+def test_raised_meshes_keep_all_names():
+    plane = replace(rectangle(nx=2, cells="quad8"), nodes={"corner": np.array([0])})
+    mesh = extruded(plane, z=[0.0, 0.5, 2.0], ends=("front", "back"))
+    assert set(mesh.boundaries) == {*plane.boundaries, "front", "back"}
+    assert len(mesh.boundaries["left"]) == 2
+    np.testing.assert_array_equal(np.unique(mesh.points[mesh.boundaries["back"], 2]), [2.0])
+    corner = mesh.points[mesh.nodes["corner"]]
+    np.testing.assert_allclose(corner[:, :2], np.tile(plane.points[0], (5, 1)))
+    np.testing.assert_allclose(corner[:, 2], [0.0, 0.25, 0.5, 1.25, 2.0])
+
+
+@pytest.mark.parametrize(
+    ("ends", "said"),
+    [
+        (("front", "left"), r"ends\[1\]: 'left' is taken: the plane mesh has it"),
+        (("corner", "back"), r"ends\[0\]: 'corner' is taken"),
+        (("one", "one"), "ends: is .*; expected two names"),
+        (("", "back"), r"ends\[0\]"),
+    ],
+)
+def test_ends_of_raised_meshes_need_names_of_their_own(ends, said):
+    plane = replace(rectangle(), nodes={"corner": np.array([0])})
+    with pytest.raises(InputError, match=said):
+        extruded(plane, z=[0.0, 1.0], ends=ends)

@@ -45,7 +45,7 @@ def solid(family):
     grid = np.linspace(0.0, 1.0, 4)
     raised = {"wedge": "triangle", "wedge15": "triangle6"}
     if family in raised:
-        mesh = extruded(sg.rectangle(nx=3, ny=3, cells=raised[family]), z=[0.0, 0.4, 1.0])
+        mesh = extruded(sg.rectangle(nx=3, ny=3, cells=raised[family]), z=[0.0, 0.4, 1.0], ends=("low", "high"))
     else:
         mesh = sg.box(x=grid, y=grid, z=grid, cells=family)
     x, y, z = mesh.points.T

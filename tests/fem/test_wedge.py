@@ -21,7 +21,8 @@ STEEL = sg.Elastic(E=1000.0, nu=0.3, density=2.0)
 
 
 def wedges():
-    return extruded(rectangle(width=1.0, height=1.0, nx=2, ny=1, cells="triangle6"), z=[0, 0.5, 1.2])
+    plane = rectangle(width=1.0, height=1.0, nx=2, ny=1, cells="triangle6")
+    return extruded(plane, z=[0, 0.5, 1.2], ends=("low", "high"))
 
 
 def test_functions_hold_all_quadratics_and_have_their_slopes():
@@ -71,13 +72,13 @@ def test_files_keep_them(tmp_path: Path) -> None:
 def test_rotation_about_any_axis_in_space():
     """A force of mass times the square of the velocity times the arm of the middle; turned with everything else."""
     mesh, centre, axis = wedges(), np.array([0.2, -0.3, 0.4]), np.array([1.0, 2.0, -0.5])
-    held = [sg.Support("bottom", u=(0, 0, 0))]
+    held = [sg.Support("low", u=(0, 0, 0))]
     spun = sg.Load("block", centrifugal=3.0, centre=tuple(centre), axis=tuple(axis))
     model = sg.Model(mesh, bodies=[sg.Body("block", STEEL)], supports=held, loads=[spun])
     step = sg.solve(model).last
     arm = np.array([0.5, 0.5, 0.6]) - centre
     unit = axis / np.linalg.norm(axis)
-    np.testing.assert_allclose(step.reactions["bottom"], -2.0 * 1.2 * 9.0 * (arm - (arm @ unit) * unit), rtol=1e-10)
+    np.testing.assert_allclose(step.reactions["low"], -2.0 * 1.2 * 9.0 * (arm - (arm @ unit) * unit), rtol=1e-10)
     turn = Rotation.from_rotvec([0.4, -0.2, 0.9]).as_matrix()
     turned = replace(
         model,

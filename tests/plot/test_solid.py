@@ -22,7 +22,7 @@ FAMILIES = ["hexahedron", "hexahedron20", "hexahedron27", "tetra", "tetra10", "w
 def box(family):
     """Of the size 2.5 x 2 x 1.5."""
     if family == "wedge15":
-        return extruded(sg.rectangle(x=X, y=Y, cells="triangle6"), z=Z)
+        return extruded(sg.rectangle(x=X, y=Y, cells="triangle6"), z=Z, ends=("low", "high"))
     return sg.box(x=X, y=Y, z=Z, cells=family)
 
 

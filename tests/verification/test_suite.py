@@ -3,7 +3,7 @@
 
 import pytest
 
-from signorini.verify import fenet, hertz, patches, punches, rings, scalar
+from signorini.verify import fenet, hertz, patches, punches, rings, scalar, solids
 from signorini.verify.check import Check
 
 CASES = (
@@ -22,6 +22,7 @@ CASES = (
     rings.shrink_fits,
     rings.hollow_bodies,
     scalar.scalar_signorini,
+    solids.hollow,
 )
 
 

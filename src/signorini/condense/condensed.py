@@ -58,7 +58,6 @@ class Condensed:
     compliance : (d a,) of the interface, C, length per force
     ties : tied pairs, which are no unknowns of the law: all displacements here leave them at rest
     B : (d a, m) relative displacements of the active pairs in terms of them, B_c
-    rigid : (m, k) rigid motions of the contact dofs, Z
     """
 
     response: Response
@@ -72,7 +71,6 @@ class Condensed:
     B: sp.csr_array
     compliance: Array
     ties: Ties
-    rigid: Array
     _basis: Basis
     _leaning: Array
 
@@ -110,7 +108,7 @@ class Condensed:
             the relative displacement that supports prescribe
         """
         basis = self._basis
-        resultant = basis.coefficients(self.rigid.T @ load) if self.rigid.shape[1] else np.zeros(0)
+        resultant = basis.coefficients(self.response.resultant(load))
         free = self.root * (self.response.moved(load) + offset) - self._leaning @ resultant
         free -= basis.R @ (basis.R.T @ free)
         b: Array = free - self.W @ free + basis.R @ resultant
@@ -120,11 +118,13 @@ class Condensed:
         """Free displacements (z,) under a load and the solution h, r (d a,), in the units of the problem."""
         if not len(self.dofs):
             return reduced.expand(reduced.load)
-        moved = self.response.answer(reduced.load, r)
-        if self.rigid.shape[1]:
-            left = self.root * (h - self.compliance * r - offset - self.B @ moved)
-            moved += self.rigid @ scipy.linalg.solve_triangular(self._basis.triangle, self._basis.R.T @ left)
-        return reduced.expand(moved)
+
+        def travel(moved: Array) -> Array:
+            left = self.root * (h - self.compliance * r - offset - moved)
+            motion: Array = scipy.linalg.solve_triangular(self._basis.triangle, self._basis.R.T @ left)
+            return motion
+
+        return self.response.displacement(reduced, r, travel)
 
     def among(self, kept: BoolArray) -> Condensed:
         """The same bodies with fewer pairs; no sparse matrix is factorised again.
@@ -139,16 +139,16 @@ class Condensed:
             If they do not.
         """
         rows = np.tile(kept[self.active], self.directions)
-        root, compliance, B = self.root[rows], self.compliance[rows], self.B[rows]
+        root, compliance = self.root[rows], self.compliance[rows]
         response = self.response.among(rows)
         return replace(
             self,
             response=response,
             active=self.active & kept,
             root=root,
-            B=B,
+            B=self.B[rows],
             compliance=compliance,
-            **_image(response, self.rigid, B, root, compliance),
+            **_image(response, root, compliance),
         )
 
     @property
@@ -203,16 +203,10 @@ def condense(
     dofs = np.unique(np.concatenate([B.indices, ties.B.indices]))
     response: Response | None = None
     with clock.phase("factorisation"):
-        if (
-            interface.directions == 3
-            and B.shape[0]
-            and not rigid.shape[1]
-            and not len(ties.rows)
-            and takes_borders(backend)
-        ):
+        if interface.directions == 3 and B.shape[0] and not len(ties.rows) and takes_borders(backend):
             at = points[interface.node[active]]
             with suppress(NotPositiveDefinite):  # the contact may still hold what moves
-                response = keep_pairs(K, B, nodes, points, at=at, backend=backend)
+                response = keep_pairs(K, B, nodes, points, at=at, rigid=rigid, backend=backend)
         if response is None:
             factorisation = factorise(K, dofs, nodes=nodes, points=points, backend=backend)
     with clock.phase("condensation"):
@@ -222,7 +216,7 @@ def condense(
         if response is None:
             size = float(K_c.diagonal().mean()) if len(dofs) else 1.0
             parts = make_parts(factorisation.schur(), ties.B[:, dofs].toarray(), rigid[dofs], size=size)
-            response = ByNodes(factorisation=factorisation, parts=parts, B=B_c)
+            response = ByNodes(factorisation=factorisation, parts=parts, B=B_c, rigid=rigid[dofs])
         return Condensed(
             response=response,
             active=active,
@@ -232,14 +226,13 @@ def condense(
             B=B_c,
             compliance=compliance,
             ties=ties,
-            rigid=rigid[dofs],
-            **_image(response, rigid[dofs], B_c, root, compliance),
+            **_image(response, root, compliance),
         )
 
 
-def _image(response: Response, rigid: Array, B_c: sp.csr_array, root: Array, compliance: Array) -> dict[str, Any]:
+def _image(response: Response, root: Array, compliance: Array) -> dict[str, Any]:
     """A, W and the rigid motions that go with them, scaled by the roots of D."""
-    motions = root[:, None] * (B_c @ rigid)
+    motions = root[:, None] * response.motions
     basis = make_basis(motions)
     A = response.compliance()
     A *= root

@@ -1,22 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How the bodies answer loads and forces of the pairs, through what their factorisation keeps: contact nodes or pairs.
 
-Contact nodes are always possible: see :mod:`signorini.condense.parts`. Where supports hold all bodies K can be
-factorised as a whole, and what is kept may be the forces of the pairs,
+Contact nodes are always possible: see :mod:`signorini.condense.parts`. Or the forces of the pairs are kept, as a border
 
     [ K   B^T ]
     [ B    0  ]    which condenses to    -B K^-1 B^T:
 
 the compliance of the pairs comes straight out of the factorisation. No dense matrix of the contact nodes of a body is
 inverted, and where meshes do not match fewer unknowns are kept. The contact nodes are eliminated like any others.
+
+Either way springs hold what nothing but contact resists, with as many forces as there are rigid motions, so that under
+balanced loads they carry nothing: what the bodies answer to those is right but for a rigid motion.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Protocol, Self
 
 import numpy as np
+import scipy.linalg
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
@@ -33,20 +37,31 @@ class Response(Protocol):
     def factorisation(self) -> Factorisation:
         """Of the bodies, with what is kept last."""
 
+    @property
+    def motions(self) -> Array:
+        """(d a, k) Relative displacements of the pairs under the rigid motions that nothing but contact resists."""
+
     def reduce(self, f: Array) -> Reduced:
         """Condense loads (z,) on the free displacements onto what is kept."""
 
     def moved(self, load: Array) -> Array:
         """(d a,) Relative displacements of the pairs under a condensed load alone."""
 
-    def answer(self, load: Array, r: Array) -> Array:
-        """What is kept, under a condensed load and forces r (d a,) of the pairs: for `Reduced.expand`."""
+    def resultant(self, load: Array) -> Array:
+        """(k,) Work of a condensed load on the rigid motions."""
 
     def compliance(self) -> Array:
         """Relative displacements of the pairs per force, (d a, d a), symmetric to the last digit; a new array."""
 
+    def displacement(self, reduced: Reduced, r: Array, travel: Travel) -> Array:
+        """Free displacements (z,) under a load, forces r (d a,) of the pairs and the rigid motion of `travel`."""
+
     def among(self, rows: BoolArray) -> Self:
         """The same with some of the (d a,) rows alone."""
+
+
+Travel = Callable[[Array], Array]
+"""Rigid motion (k,) beyond given relative displacements (d a,) of the pairs."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -57,11 +72,19 @@ class ByNodes:
     ----------
     parts : the condensed bodies
     B : (d a, m) relative displacements of the pairs in terms of the contact dofs
+    rigid : (m, k) rigid motions of those
     """
 
     factorisation: Factorisation
     parts: Parts
     B: sp.csr_array
+    rigid: Array
+
+    @property
+    def motions(self) -> Array:
+        """(d a, k) Rigid motions as the pairs see them."""
+        seen: Array = self.B @ self.rigid
+        return seen
 
     def reduce(self, f: Array) -> Reduced:
         """Condense loads (z,) onto the contact dofs."""
@@ -72,13 +95,20 @@ class ByNodes:
         moved: Array = self.B @ self.parts.solve(load)
         return moved
 
-    def answer(self, load: Array, r: Array) -> Array:
-        """Displacements (m,) of the contact dofs."""
-        return self.parts.solve(load + self.B.T @ r)
+    def resultant(self, load: Array) -> Array:
+        """(k,) Work of a condensed load on the rigid motions."""
+        return self.rigid.T @ load
 
     def compliance(self) -> Array:
         """Relative displacements per force, (d a, d a)."""
         return self.parts.compliance(self.B)
+
+    def displacement(self, reduced: Reduced, r: Array, travel: Travel) -> Array:
+        """Free displacements (z,)."""
+        moved = self.parts.solve(reduced.load + self.B.T @ r)
+        if self.rigid.shape[1]:
+            moved += self.rigid @ travel(self.B @ moved)
+        return reduced.expand(moved)
 
     def among(self, rows: BoolArray) -> ByNodes:
         """The same with some rows alone."""
@@ -89,42 +119,62 @@ class ByNodes:
 class ByPairs:
     """The forces of the pairs are kept, with the opposite sign.
 
+    A condensed load is the displacements that it causes, with the opposite sign, and its resultants.
+
     Attributes
     ----------
     rows : (d a,) those of the pairs that the law is asked of among all kept
+    B : (d a, z) their relative displacements in terms of the free displacements
+    rigid : (z, k) rigid motions of those
     """
 
     factorisation: Factorisation
     rows: IntArray
+    B: sp.csr_array
+    rigid: Array
+
+    @property
+    def motions(self) -> Array:
+        """(d a, k) Rigid motions as the pairs see them."""
+        seen: Array = self.B @ self.rigid
+        return seen
 
     def reduce(self, f: Array) -> Reduced:
-        """Condense loads (z,): what is left are the displacements that they cause, with the opposite sign."""
+        """Condense loads (z,)."""
         m = self.factorisation.m
         reduced = self.factorisation.reduce(np.concatenate([f, np.zeros(m)]))
-        return Reduced(reduced.load, lambda kept: reduced.expand(kept)[:-m])
+        load = np.concatenate([reduced.load, self.rigid.T @ f])
+        return Reduced(load, lambda kept: reduced.expand(kept)[:-m])
 
     def moved(self, load: Array) -> Array:
         """(d a,) Relative displacements under a condensed load alone."""
         return -load[self.rows]
 
-    def answer(self, load: Array, r: Array) -> Array:
-        """The forces of all pairs kept, with the opposite sign."""
-        kept = np.zeros_like(load)
-        kept[self.rows] = -r
-        return kept
+    def resultant(self, load: Array) -> Array:
+        """(k,) Work of a condensed load on the rigid motions."""
+        return load[self.factorisation.m :]
 
     def compliance(self) -> Array:
         """Relative displacements per force, (d a, d a)."""
         condensed = self.factorisation.schur()
         return -(condensed if len(self.rows) == len(condensed) else condensed[np.ix_(self.rows, self.rows)])
 
+    def displacement(self, reduced: Reduced, r: Array, travel: Travel) -> Array:
+        """Free displacements (z,)."""
+        kept = np.zeros(self.factorisation.m)
+        kept[self.rows] = -r
+        z = reduced.expand(kept)
+        return z + self.rigid @ travel(self.B @ z) if self.rigid.shape[1] else z
+
     def among(self, rows: BoolArray) -> ByPairs:
         """The same with some rows alone."""
-        return replace(self, rows=self.rows[rows])
+        return replace(self, rows=self.rows[rows], B=self.B[rows])
 
 
-def keep_pairs(K: sp.csr_array, B: sp.csr_array, nodes: IntArray, points: Array, *, at: Array, backend: str) -> ByPairs:
-    """Factorise bodies that supports hold.
+def keep_pairs(
+    K: sp.csr_array, B: sp.csr_array, nodes: IntArray, points: Array, *, at: Array, rigid: Array, backend: str
+) -> ByPairs:
+    """Factorise bodies that are not tied.
 
     Parameters
     ----------
@@ -133,12 +183,13 @@ def keep_pairs(K: sp.csr_array, B: sp.csr_array, nodes: IntArray, points: Array,
     nodes : (z,) node of each free displacement
     points : (nodes, d) where the nodes are
     at : (a, d) where the pairs are
+    rigid : (z, k) rigid motions that supports do not resist
     backend : of the factorisation, "auto" or a name
 
     Raises
     ------
     NotPositiveDefinite
-        If anything moves without resistance.
+        If anything else moves without resistance.
 
     Examples
     --------
@@ -150,6 +201,7 @@ def keep_pairs(K: sp.csr_array, B: sp.csr_array, nodes: IntArray, points: Array,
     ...     np.array([0, 1]),
     ...     np.zeros((2, 1)),
     ...     at=np.zeros((1, 1)),
+    ...     rigid=np.zeros((2, 0)),
     ...     backend="auto",
     ... )
     >>> kept.compliance().tolist(), kept.moved(kept.reduce(np.array([1.0, 0.0])).load).tolist()
@@ -158,10 +210,21 @@ def keep_pairs(K: sp.csr_array, B: sp.csr_array, nodes: IntArray, points: Array,
     m, n = B.shape
     pair = len(points) + np.tile(np.arange(len(at)), m // max(1, len(at)))
     factorisation = factorise(
-        bordered(K, B),
+        bordered(_held(K, rigid), B),
         np.arange(n, n + m),
         nodes=np.concatenate([nodes, pair]),
         points=np.concatenate([points, at]),
         backend=backend,
     )
-    return ByPairs(factorisation=factorisation, rows=np.arange(m))
+    return ByPairs(factorisation=factorisation, rows=np.arange(m), B=B, rigid=rigid)
+
+
+def _held(K: sp.csr_array, rigid: Array) -> sp.csr_array:
+    """K with a spring on one dof for each rigid motion, dofs that are far apart."""
+    if not rigid.shape[1]:
+        return K
+    basis = scipy.linalg.qr(rigid, mode="economic")[0]
+    dofs = scipy.linalg.qr(basis.T, mode="economic", pivoting=True)[2][: rigid.shape[1]]
+    springs = np.zeros(K.shape[0])
+    springs[dofs] = K.diagonal().mean()
+    return sp.csr_array(K + sp.diags_array(springs))

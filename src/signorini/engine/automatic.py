@@ -3,16 +3,17 @@
 
 In the plane 1, 2, 4, ... equal ones. In space they end at events (a pair opens, closes or starts to slip), on the exact
 cone too, unless that would make them shorter than 1, 1/4, 1/16, ... of the way; where friction turns little and nothing
-happens they are longer. Where that way is lost they are equal as in the plane.
+happens they are longer. Where that way is lost they are equal as in the plane. Jumps on it are followed, or end it.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 
-from signorini.engine.exact import follow_to_events
+from signorini.engine.exact import follow_to_events, stored_energy
 from signorini.engine.increments import follow_increments
 from signorini.engine.leg import Leg
 from signorini.engine.prepare import Prepared
@@ -23,6 +24,7 @@ from signorini.solution.state import LoadPoint, State
 
 MOST = 4096
 """Increments of one straight part of a step; in space the part of it that they need not undercut."""
+_CERTAIN = 16  # increments on a way in space of which it is believed that it jumps, or that it does not
 _MORE = 'expected less? Give the step increments = "auto" or their number'
 
 
@@ -36,6 +38,7 @@ def follow_automatically(
     *,
     enough: int | None = None,
     whole: bool = False,
+    jump: Literal["stop", "follow"] | None = None,
 ) -> Leg:
     """Follow a straight part of a step in more and more increments, each time from its beginning.
 
@@ -46,6 +49,7 @@ def follow_automatically(
     where : name of the step, for messages
     enough : number at which to stop whatever it still changes, and to say so; None: go on to 4096
     whole : whether the displacement of the bodies is recovered at every event, in space
+    jump : what to do at a jump, in space: stop, follow it to its landing, or None to go on without
 
     Raises
     ------
@@ -57,19 +61,20 @@ def follow_automatically(
     more, fewer = (2, "half as many") if prepared.interface.directions == 2 else (4, "a quarter as many")
     while number <= MOST:
         try:
-            fine, words = _followed(prepared, number, where, span, state, end, whole)
+            fine, words = _followed(prepared, number, where, span, state, end, whole, jump)
         except SolveFailed as failure:
-            if failure.status == "no_equilibrium" or more * number > MOST:
+            certain = failure.status == "no_equilibrium" or (failure.status == "jump" and number >= _CERTAIN)
+            if certain or more * number > MOST:
                 raise
             coarse, number = None, more * number
             continue
         if coarse is not None:
             change, changes = _change(coarse, fine)
             note = f"{words}: {fewer} change {changes}"
-            if change <= tolerance:
-                return replace(fine, path="increments", notes=(note,))
+            if change <= tolerance and (number >= _CERTAIN or _defect(prepared, fine) <= tolerance):
+                return replace(fine, path="increments", notes=(*fine.notes, note))
             if enough is not None and number >= enough:
-                return replace(fine, path="increments", notes=(f"{note}; {_MORE}",))
+                return replace(fine, path="increments", notes=(*fine.notes, f"{note}; {_MORE}"))
         coarse, number = fine, more * number
     raise SolveFailed(
         f'{where}: {MOST} increments still change {changes}; expected a larger tolerance, or path = "exact"',
@@ -86,12 +91,37 @@ def _change(coarse: Leg, fine: Leg) -> tuple[float, str]:
     return max(change, lost), f"{words} and dissipation by {lost:.1e} of the work" if lost > change else words
 
 
+def _defect(prepared: Prepared, leg: Leg) -> float:
+    """Energy that a way in space neither stores nor dissipates, of its work: much where something was passed over."""
+    if prepared.interface.directions == 2:
+        return 0.0
+    before, after = leg.before, leg.after
+    work = after.work - before.work
+    stored = stored_energy(prepared, after) - stored_energy(prepared, before)
+    lost = float((after.dissipation - before.dissipation).sum()) + after.released - before.released
+    return abs(work - stored - lost) / (abs(work) or 1.0)
+
+
 def _followed(
-    prepared: Prepared, number: int, where: str, span: Span, state: State, end: LoadPoint, whole: bool
+    prepared: Prepared,
+    number: int,
+    where: str,
+    span: Span,
+    state: State,
+    end: LoadPoint,
+    whole: bool,
+    jump: Literal["stop", "follow"] | None,
 ) -> tuple[Leg, str]:
     """A way in at most so many increments, and their number in words."""
+    notes: tuple[str, ...] = ()
     if prepared.interface.directions == 3 and not isinstance(prepared.bodies, Bodies):
-        leg = follow_to_events(prepared, number, where, span, state, end, whole=whole)
-        if leg is not None:
+        try:
+            leg = follow_to_events(prepared, number, where, span, state, end, whole=whole, jumps=jump == "follow")
             return leg, f"{len(leg.trace)} increments to events, none needs to be shorter than 1/{number}"
-    return follow_increments(prepared, number, where, span, state, end), f"{number} increments"
+        except SolveFailed as failure:
+            if failure.status == "jump" and jump == "stop":
+                raise
+            if failure.status == "jump":
+                notes = (f"{failure}; followed in {number} increments to what is a candidate",)
+    leg = follow_increments(prepared, number, where, span, state, end)
+    return replace(leg, notes=notes), f"{number} increments"

@@ -19,7 +19,7 @@ from signorini.errors import SolveFailed
 from signorini.friction.exact import Breakpoint, Landing, PathState, Segment, follow, initial_state, land
 from signorini.friction.law import OPEN, STICK
 from signorini.friction.problem import CoulombProblem
-from signorini.friction.spatial import SpatialProblem, StopSettings, at_rest, follow_stopping
+from signorini.friction.spatial import SpatialProblem, StopSettings, at_rest, follow_stopping, land_spatial
 from signorini.solution.results import PairEvent
 from signorini.solution.state import LoadPoint, State, next_state
 from signorini.trace import Attempt
@@ -56,50 +56,73 @@ def follow_exactly(
     """
     prepared.clock.increment(f"{where}, event by event")
     refuse_overlap(prepared, _offset(prepared, end)[: len(prepared.interface)], where)
+    return _beyond_jumps(prepared, where, span, state, end, whole=whole, jumps=jumps)
+
+
+def _beyond_jumps(
+    prepared: Prepared,
+    where: str,
+    span: Span,
+    state: State,
+    end: LoadPoint,
+    *,
+    whole: bool,
+    jumps: bool,
+    stops: StopSettings | None = None,
+) -> Leg:
+    """Leg after leg, from one jump to the next; parameters as of `follow_exactly` and of `_followed`."""
+    path: Literal["exact", "increments"] = "exact" if stops is None else "increments"
     legs: list[Leg] = []
     while True:
         with prepared.clock.phase("complementarity"):
             start = _start(prepared, state)
-            segment = _followed(prepared.law, start, _right_hand_side(prepared, end))
+            segment = _followed(prepared.law, start, _right_hand_side(prepared, end), stops)
         if segment.followed:
-            legs.append(_leg(prepared, where, span, state, start, segment, end, whole=whole))
-            return joined(legs)
+            leg = _leg(prepared, where, span, state, start, segment, end, whole=whole, path=path)
+            return joined([*legs, _each(leg, segment) if stops else leg])
         lost = _lost(prepared, where, span, segment)
-        law = prepared.law
-        can_land = jumps and len(legs) < _JUMPS and isinstance(law, CoulombProblem)
-        landing = land(law, start, segment) if can_land and isinstance(law, CoulombProblem) else None
+        landing = _landing(prepared.law, start, segment, stops) if jumps and len(legs) < _JUMPS else None
         if segment.jump is None or landing is None:
             raise lost if not jumps or segment.jump is None else SolveFailed(f"{lost}; {_NO_LANDING}", status="jump")
         limit = state.point.towards(end, segment.jump.factor)
         before = replace(span, high=span.part(segment.jump.factor), ends="jump")
-        legs.append(_leg(prepared, where, before, state, start, segment, limit, whole=whole))
+        leg = _leg(prepared, where, before, state, start, segment, limit, whole=whole, path=path)
+        legs.append(_each(leg, segment) if stops else leg)
         legs.append(_landed(prepared, where, before, legs[-1].after, landing))
         state, span = legs[-1].after, replace(span, low=before.high)
 
 
 def follow_to_events(
-    prepared: Prepared, number: int, where: str, span: Span, state: State, end: LoadPoint, *, whole: bool = False
-) -> Leg | None:
+    prepared: Prepared,
+    number: int,
+    where: str,
+    span: Span,
+    state: State,
+    end: LoadPoint,
+    *,
+    whole: bool = False,
+    jumps: bool = False,
+) -> Leg:
     """Follow a straight part of a step in space in increments that end at events.
 
     Parameters
     ----------
     number : an increment need not be shorter than 1 / number of the span, whatever happens in it
-    where, span, whole : see `follow_exactly`
+    where, span, whole, jumps : see `follow_exactly`
 
-    Returns
-    -------
-    None where the way is lost
+    Raises
+    ------
+    SolveFailed
+        As `follow_exactly` does.
     """
     prepared.clock.increment(f"{where}, increments to events")
     refuse_overlap(prepared, _offset(prepared, end)[: len(prepared.interface)], where)
     stops = StopSettings(shortest=1.0 / number, turn=_TURN / number**0.5)
-    with prepared.clock.phase("complementarity"):
-        start = _start(prepared, state)
-        segment = _followed(prepared.law, start, _right_hand_side(prepared, end), stops)
-    if not segment.followed:
-        return None
-    leg = _leg(prepared, where, span, state, start, segment, end, whole=whole, path="increments")
+    return _beyond_jumps(prepared, where, span, state, end, whole=whole, jumps=jumps, stops=stops)
+
+
+def _each(leg: Leg, segment: Segment) -> Leg:
+    """A leg that tells of each increment of a segment."""
     return replace(leg, trace=tuple((_attempt(piece),) for piece in segment.pieces[1:]))
 
 
@@ -114,6 +137,15 @@ def _followed(
     if isinstance(law, SpatialProblem):
         return follow_stopping(law, start, b, settings=stops)
     return follow(law, start, b)
+
+
+def _landing(
+    law: CoulombProblem | SpatialProblem, start: PathState, segment: Segment, stops: StopSettings | None
+) -> Landing | None:
+    """Where a jump lands, in the plane or in space."""
+    if isinstance(law, SpatialProblem):
+        return land_spatial(law, start, segment, settings=stops)
+    return land(law, start, segment)
 
 
 def _leg(
@@ -195,7 +227,8 @@ def stored_energy(prepared: Prepared, state: State) -> float:
     """In the bodies and in compliant interfaces."""
     interface = prepared.interface
     forces = np.where(interface.rows(prepared.absent), 0.0, state.forces)
-    strain = float(state.displacement @ (prepared.K @ state.displacement))
+    u = state.displacement
+    strain = float(u @ (prepared.K @ u)) if u.any() else 0.0
     return 0.5 * (strain + float(forces**2 @ (interface.compliance / interface.areas)))
 
 

@@ -286,7 +286,8 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
         K = stiffness(examined.space, model)
         for springs in examined.constraints.springs.values():
             K = sp.csr_array(K + springs.T @ springs)
-    made = _made(examined, K, _near(examined), backend, clock)
+        near = _near(examined)
+    made = _made(examined, K, near, backend, clock)
     return replace(made, released=released_by_step(model)[0])
 
 

@@ -265,6 +265,7 @@ def _surface(prepared: Prepared, i: int) -> _Surface:
         "points": frozen(prepared.model.mesh.points[interface.node[own]]),
         "normals": frozen(interface.normals[own]),
         "tangents": frozen(interface.tangents[own, 0] if interface.directions == 2 else interface.tangents[own]),
+        "levers": frozen(interface.moments.reshape(interface.directions, len(interface), -1)[:, own].swapaxes(0, 1)),
         "area": frozen(interface.area[own]),
     }
     return _Surface(name=prepared.model.contacts[i].label, own=own, fixed=fixed)

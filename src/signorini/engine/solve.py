@@ -209,13 +209,16 @@ def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPo
     say so: what they reach behind a jump is a candidate.
     """
     step, interface, whole = stage.step, prepared.interface, stage.step.at == "events"
+    jump = "follow" if step.follows_jumps else step.jump
     rubbing = bool((interface.rubs & ~interface.sticks & ~prepared.absent).any())
     if step.path != "exact" and (step.path is not None or step.increments is not None or not rubbing):
         if step.increments == "auto":
-            return follow_automatically(prepared, step.tolerance, stage.name, span, state, end, whole=whole)
+            return follow_automatically(prepared, step.tolerance, stage.name, span, state, end, whole=whole, jump=jump)
         return follow_increments(prepared, _increments(step, span, stage), stage.name, span, state, end)
     if step.path is None and prepared.interface.directions == 3:
-        return follow_automatically(prepared, step.tolerance, stage.name, span, state, end, enough=_ENOUGH, whole=whole)
+        return follow_automatically(
+            prepared, step.tolerance, stage.name, span, state, end, enough=_ENOUGH, whole=whole, jump=jump
+        )
     try:
         return follow_exactly(prepared, stage.name, span, state, end, whole=whole, jumps=step.follows_jumps)
     except SolveFailed as failure:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, IntArray
-from signorini.checks import choice, vector
+from signorini.checks import choice, text, vector
 from signorini.errors import InputError, Where
 from signorini.fem.faces import HEXAHEDRON, make_faces
 from signorini.model.mesh import NODES_PER_SOLID_CELL, Mesh
@@ -59,8 +59,8 @@ def box(*, x: ArrayLike, y: ArrayLike, z: ArrayLike, cells: SolidCells = "hexahe
     return Mesh(points=plain.points, cells=plain.cells, bodies=plain.bodies, boundaries=_sides(plain))
 
 
-def extruded(mesh: Mesh, *, z: ArrayLike) -> Mesh:
-    """A plane mesh raised along z; its boundaries become walls, "bottom" and "top" replace any of these names.
+def extruded(mesh: Mesh, *, z: ArrayLike, ends: tuple[str, str] = ("bottom", "top")) -> Mesh:
+    """A plane mesh raised along z: its bodies become solids, its boundaries their walls, its nodes upright lines.
 
     Quadrilaterals become hexahedra of the same order ("quad8" has 20 nodes, "quad9" 27), triangles wedges ("triangle6"
     with 15 nodes).
@@ -69,20 +69,33 @@ def extruded(mesh: Mesh, *, z: ArrayLike) -> Mesh:
     ----------
     mesh : with two coordinates, of "quad", "quad8", "quad9", "triangle" or "triangle6"
     z : increasing heights of the layers, length
+    ends : names of the boundaries across z, the lower and the upper one
 
     Raises
     ------
     InputError
-        If the mesh is of other cells, or heights do not increase.
+        If the mesh is of other cells, heights do not increase, or a boundary or node set has the name of an end.
 
     Examples
     --------
     >>> from signorini.fem.generators import annulus
     >>> extruded(annulus(inner=1, outer=2, n_radial=1, n_angular=4), z=[0, 1])
     Mesh(16 nodes, 4 hexahedrons; bodies: ring; boundaries: inner, outer, bottom, top)
+
+    A rectangle has a bottom and a top of its own:
+
+    >>> from signorini.fem.generators import rectangle
+    >>> extruded(rectangle(nx=2), z=[0, 0.5, 1], ends=("front", "back"))
+    Mesh(18 nodes, 4 hexahedrons; bodies: block; boundaries: bottom, top, left, right, front, back)
     """
     if mesh.points.shape[1] != 2 or len(mesh.cells) != 1 or not set(mesh.cells) <= set(_RAISED):
         raise InputError(f"is {mesh!r}; expected plane cells of one family of {', '.join(_RAISED)}", where=("mesh",))
+    names = tuple(text(name, ("ends", i)) for i, name in enumerate(ends))
+    if len(set(names)) != 2:
+        raise InputError(f"is {ends!r}; expected two names", where=("ends",))
+    for i, name in enumerate(names):
+        if name in (*mesh.boundaries, *mesh.nodes):
+            raise InputError(f"'{name}' is taken: the plane mesh has it; expected another name", where=("ends", i))
     ((plane, cells),) = mesh.cells.items()
     family = _RAISED[plane]
     step = 1 if family in ("hexahedron", "wedge") else 2
@@ -104,7 +117,7 @@ def extruded(mesh: Mesh, *, z: ArrayLike) -> Mesh:
         corners = np.hstack([edges[:, :2], edges[:, 1::-1] + step * n])
         walls[name] = np.concatenate([corners + n * k for k in layers])
     corners = cells[:, : 3 if family.startswith("wedge") else 4]
-    walls |= {"bottom": corners, "top": corners + n * (len(heights) - 1)}
+    walls |= {names[0]: corners, names[1]: corners + n * (len(heights) - 1)}
     used, compact = np.unique(raised, return_inverse=True)  # hexahedra of 20 nodes have none inside faces
     first = mesh.number_of_cells * np.arange(len(layers))[:, None]
     return Mesh(
@@ -112,6 +125,7 @@ def extruded(mesh: Mesh, *, z: ArrayLike) -> Mesh:
         cells={family: compact.reshape(raised.shape)},
         bodies={name: (own + first).ravel() for name, own in mesh.bodies.items()},
         boundaries={name: np.searchsorted(used, faces) for name, faces in walls.items()},
+        nodes={name: np.flatnonzero(np.isin(used % n, own)) for name, own in mesh.nodes.items()},
     )
 
 

@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whole spheres, not paraboloids: a quarter of the half below the equator, pressed on a plane or on another."""
+"""Whole spheres, not paraboloids: solid ones pressed on a plane or on another, and a hollow one in two parts."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 
 from signorini.arrays import Array
 from signorini.fem.generators import Cells, target
 from signorini.fem.solids import extruded
+from signorini.fem.tetrahedra import tetrahedra
 from signorini.gallery.half_planes import graded
 from signorini.model.body import Body
-from signorini.model.conditions import Support
+from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
 from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh, join
@@ -21,6 +23,9 @@ from signorini.model.obstacle import Plane
 
 RADIUS, MATERIAL = 50.0, Elastic(E=20000.0, nu=0.3)
 """Of the equal spheres."""
+
+WALL = {"inner": 20.0, "outer": 40.0, "pressure": 25.0, "E": 2000.0, "nu": 0.3}
+"""Of the hollow sphere, as :func:`signorini.reference.lame.hollow_sphere` takes it; it is cut in two at radius 30."""
 
 _CAP = np.pi / 3.0  # of the sphere, from the pole: what the flat side of a cylinder of cells becomes
 
@@ -78,6 +83,49 @@ def equal_spheres(*, approach: float, n: int = 4, other: int | None = None, cell
         supports=supports,
         contacts=[contact],
     )
+
+
+def hollow_spheres(*, n: tuple[int, int], layers: int = 2, cells: Cells | Literal["tetra10"] = "quad8") -> Model:
+    """An eighth of a hollow sphere of two parts under a pressure inside: radii 20, 30 and 40.
+
+    Parameters
+    ----------
+    n : cells along half an edge of an octant, of the inner and the outer part
+    layers : of either, from inside to outside
+    cells : "quad" (hexahedra of 8 nodes), "quad8" (20), "quad9" (27), or "tetra10", six to a hexahedron
+    """
+    middle = 0.5 * (WALL["inner"] + WALL["outer"])
+    parts = {
+        "inner": _octant(WALL["inner"], middle, n[0], layers, cells),
+        "outer": _octant(middle, WALL["outer"], n[1], layers, cells),
+    }
+    supports = []
+    for name in parts:
+        supports += [Support(f"{name}.start", u=(None, 0.0, None)), Support(f"{name}.end", u=(0.0, None, None))]
+        supports.append(Support(f"{name}.outer", u=(None, None, 0.0)))
+    return Model(
+        join(parts),
+        title="Hollow sphere in two parts",
+        bodies=[Body(name, Elastic(E=WALL["E"], nu=WALL["nu"])) for name in parts],
+        supports=supports,
+        loads=[Load("inner.bottom", pressure=WALL["pressure"])],
+        contacts=[Contact("inner.top", "outer.bottom", name="interface")],
+    )
+
+
+def _octant(inner: float, outer: float, n: int, layers: int, cells: Cells | Literal["tetra10"]) -> Mesh:
+    """An eighth of a shell between two radii: a quarter of a disk, its radius the angle from the z axis."""
+    plane: Cells = "quad9" if cells == "tetra10" else cells
+    disk = target(radii=np.linspace(0.45, 1.0, n + 1), n=n, cells=plane)
+    mesh = extruded(disk, z=np.linspace(inner, outer, layers + 1))
+    if cells == "tetra10":
+        mesh = tetrahedra(mesh)
+    x, y, radius = mesh.points.T
+    reach = np.hypot(x, y)
+    polar = 0.5 * np.pi * reach
+    turned = np.divide(np.sin(polar), reach, out=np.zeros_like(reach), where=reach > 0)
+    height = np.where(reach > 1.0 - 1e-9, 0.0, np.cos(polar))
+    return replace(mesh, points=radius[:, None] * np.column_stack([x * turned, y * turned, height]))
 
 
 def _rounded(points: Array, radius: float) -> Array:

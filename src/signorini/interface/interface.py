@@ -18,6 +18,7 @@ from signorini.fem.supports import Constraints
 from signorini.interface.cone import effort
 from signorini.interface.coupling import along
 from signorini.interface.frames import along_tangents, tangents
+from signorini.interface.moments import moments_of_rows
 from signorini.interface.pairing import Pairs, Sides, make_pairs
 from signorini.interface.spatial.frames import ALONG
 from signorini.model.contact import ratios
@@ -45,6 +46,7 @@ class Interface:
     normals : (n, d) unit vectors
     tangents : (n, d - 1, d) unit vectors
     node : (n,) nodes on the nonmortar side
+    moments : (d n, 1 or 3) moments about the origin of unit forces of every row of B on the nonmortar side, length
     contact : (n,) index of the contact that a pair belongs to
     friction : (n,) Coulomb's coefficient, the largest where it differs by direction, infinite where it sticks
     adhesion, shear_limit : (n,) tractions of :mod:`signorini.bound`, force per area, along the direction of the largest
@@ -62,6 +64,7 @@ class Interface:
     normals: Array
     tangents: Array
     node: IntArray
+    moments: Array
     contact: IntArray
     friction: Array
     adhesion: Array
@@ -159,13 +162,16 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
     _refuse_no_fibre(space, model, node, index, normals, mirrored)
     friction = friction_of(space, model, node, index)
     facets = np.array([contact.facets for contact in model.contacts], np.int64)[index]
+    B = _relative_rows(space, model, parts, normals, axes, still)
+    own = [part.own for part in parts]
     return Interface(
-        B=_relative_rows(space, model, parts, normals, axes, still),
+        B=B,
         gap=_joined([part.gap for part in parts], (0,)),
         area=area,
         normals=normals,
         tangents=axes,
         node=node,
+        moments=moments_of_rows(B, space.mesh.points, own, np.tile(index, space.dimension)),
         contact=index,
         friction=friction,
         adhesion=data("adhesion"),

@@ -55,6 +55,7 @@ class Pairs:
 
     Attributes
     ----------
+    own : (m,) nodes of the nonmortar side
     coupling : with the normals in the planes of symmetry
     gap : (k,)
     sliding : as ``coupling.forces`` for the tangential part; it differs on planes of symmetry in 2D
@@ -63,6 +64,7 @@ class Pairs:
     obstacle : number of the moving obstacle that is the other side, otherwise -1
     """
 
+    own: IntArray
     coupling: Coupling
     gap: Array
     sliding: tuple[sp.csr_array, ...]
@@ -121,6 +123,7 @@ def _on_obstacle(
     one = normal_gap(coupling, side.nodes, normals, np.ones(len(distance)))
     gap = resolved(normal_gap(coupling, side.nodes, normals, distance), coupling)
     return Pairs(
+        own=side.nodes,
         coupling=coupling,
         gap=initial_gaps(gap, contact, one),
         sliding=coupling.forces,
@@ -171,6 +174,7 @@ def _on_side(
     partner = symmetric_partners(space, constraints, coupling.nodes, coupling.normals, mortar.nodes)
     coupling = replace(coupling, forces=_without_removed(seen, coupling.normal_areas, partner))
     return Pairs(
+        own=side.nodes,
         coupling=coupling,
         gap=initial_gaps(gap, contact, one),
         sliding=_mirrored(coupling, partner.max(axis=1)) if plane else coupling.forces,

@@ -45,8 +45,9 @@ class Step:
         in space for contacts with ``facets``. None chooses: "increments" where their number is given or nothing rubs
         (one is exact then), otherwise "exact", in space increments as with "auto", some tens at most, and the notes
         say what they left
-    jump : where an exact path has no gradual continuation, "stop" there, or "follow" the equilibria to the next one at
-        that load, which is called a candidate. None stops where the path is asked to be exact, otherwise follows
+    jump : where an exact path, in space also one in increments that end at events, has no gradual continuation, "stop"
+        there, or "follow" the equilibria to the next one at that load, which is called a candidate. None stops where
+        the path is asked to be exact, otherwise follows
 
     Examples
     --------

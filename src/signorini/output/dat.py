@@ -17,7 +17,7 @@ from signorini.model.prints import Prints, Table
 from signorini.output.replacing import replacing
 from signorini.output.slave import slave_energies, slave_values
 from signorini.solution.history import History
-from signorini.solution.results import ContactResult, ObstacleResult, StepResult
+from signorini.solution.results import ContactResult, ObstacleResult, Part, StepResult
 
 _FORCES = {"CF": "surface force", "CFN": "normal surface force", "CFS": "shear surface force"}
 
@@ -85,8 +85,7 @@ def _nodes(model: Model, step: StepResult, table: Table, quantity: str, end: str
 
 def _turn(bodies: Mapping[str, ObstacleResult], name: str, quantity: str) -> Array:
     """Rotation or moment of a rigid body, (3,); in the plane about z."""
-    value = np.atleast_1d(bodies[name].rotation if quantity == "U" else bodies[name].moment)
-    return value if len(value) == 3 else np.array([0.0, 0.0, value[0]])
+    return _about_z(bodies[name].rotation if quantity == "U" else bodies[name].moment)
 
 
 def _stresses(model: Model, step: StepResult, cells: Set[int]) -> Iterator[str]:
@@ -124,14 +123,14 @@ def _contacts(model: Model, step: StepResult, table: Table, quantity: str, time:
 
 def _forces(contact: ContactResult, quantity: str, end: str) -> Iterator[str]:
     """Resultants on the slave body."""
-    pressure = contact.area[:, None] * contact.pressure[:, None] * contact.normals
-    shear = contact.area[:, None] * contact.shear
-    forces = padded({"CF": pressure + shear, "CFN": pressure, "CFS": shear}[quantity], 3)
-    force = forces.sum(axis=0)
-    points, area = padded(contact.points, 3), np.where(contact.closed, contact.area, 0.0)
+    pressure, shear = contact.normal_force, contact.tangential_force
+    force = _in_space({"CF": pressure + shear, "CFN": pressure, "CFS": shear}[quantity])
+    area = np.where(contact.closed, contact.area, 0.0)
     share = area / max(float(area.sum()), np.finfo(float).tiny)
-    centre, outward = share @ points, -share @ padded(contact.normals, 3)
-    about = [np.cross(points - origin, forces).sum(axis=0) for origin in (np.zeros(3), centre)]
+    middle, outward = share @ contact.points, _in_space(-share @ contact.normals)
+    of: dict[str, Part] = {"CF": "all", "CFN": "pressure", "CFS": "friction"}
+    about = [_about_z(contact.moment(origin, of[quantity])) for origin in (0.0 * middle, middle)]
+    centre = _in_space(middle)
     normal = float(force @ outward)
     sizes = np.array([area.sum(), normal, np.linalg.norm(force - normal * outward)])
     which = "and moment" if quantity == "CF" else "and its moment"
@@ -143,6 +142,17 @@ def _forces(contact: ContactResult, quantity: str, end: str) -> Iterator[str]:
         ("area,  normal force (+ = tension) and shear force (size)", sizes),
     ):
         yield from ("", f"   {head}", "", f"   {_spelled(row)}")
+
+
+def _about_z(turn: float | Array) -> Array:
+    """(3,) A rotation or moment, in the plane a number."""
+    value = np.atleast_1d(turn)
+    return value if len(value) == 3 else np.array([0.0, 0.0, value[0]])
+
+
+def _in_space(vector: Array) -> Array:
+    """(3,) A vector (d,)."""
+    return padded(vector[None], 3)[0]
 
 
 def _numbered(labels: IntArray, rows: Array) -> Iterator[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from signorini.solution.certificate import Certificate
 from signorini.trace import Attempt
 
 OPEN, STICK, SLIP = "open", "stick", "slip"
+Part = Literal["all", "pressure", "friction"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -29,6 +31,8 @@ class ContactResult:
     points : (n, d) undeformed coordinates
     normals, tangents : (n, d) unit vectors, in space (n, 2, 3) tangents with ``t1 x t2 = n``; the normal points from
         the mortar side into the nonmortar body
+    levers : (n, d, 1 or 3) moments about the origin of unit normal and tangential forces of every pair on the nonmortar
+        body, where these act (of quadratic facets not at the corners alone), length
     area : (n,) tributary area
     gap : (n,) length, 0 where closed; negative only as overlap of an interface with finite stiffness
     pressure : (n,) force per area, positive compressive
@@ -49,6 +53,7 @@ class ContactResult:
     points: Array
     normals: Array
     tangents: Array
+    levers: Array
     area: Array
     gap: Array
     pressure: Array
@@ -95,15 +100,19 @@ class ContactResult:
         forces: Array = self.area[:, None] * (self.pressure[:, None] * self.normals + self.shear)
         return forces
 
-    def moment(self, about: Sequence[float] | Array) -> Array:
-        """Resultant moment on the nonmortar body about a point (d,), force times length.
+    def moment(self, about: Sequence[float] | Array, of: Part = "all") -> Array:
+        """Resultant moment on the nonmortar body about a point (d,), ``int (x - about) x t dA``, force times length.
 
-        A number in the plane, counterclockwise positive; (3,) in space.
+        Of the forces as they act on all nodes of the facets, so that it balances those of loads and supports. A number
+        in the plane, counterclockwise positive; (3,) in space; of all of them, of the pressure or of the friction.
         """
-        arm, forces = self.points - np.asarray(about, float), self.forces
-        if arm.shape[1] == 3:
-            return np.cross(arm, forces).sum(axis=0)
-        return np.asarray(arm[:, 0] @ forces[:, 1] - arm[:, 1] @ forces[:, 0])
+        parts = [0.0 if of == skipped else 1.0 for skipped in ("friction", "pressure")]
+        tractions = np.column_stack([parts[0] * self.pressure, parts[1] * self.traction])
+        total = np.einsum("k,ki,kim->m", self.area, tractions, self.levers)
+        place, force = np.asarray(about, float), parts[0] * self.normal_force + parts[1] * self.tangential_force
+        if len(place) == 3:
+            return np.asarray(total - np.cross(place, force))
+        return np.asarray(total[0] - place[0] * force[1] + place[1] * force[0])
 
     @property
     def extent(self) -> tuple[Array, Array] | None:

@@ -10,6 +10,7 @@ import numpy as np
 from signorini.friction.exact import follow, initial_state, land
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.solve import solve_coulomb
+from signorini.friction.spatial import SpatialProblem, at_rest, follow_stopping, land_spatial
 from signorini.verify.check import Check
 
 
@@ -60,6 +61,38 @@ def one_node_path() -> Iterator[Check]:
                 computed=float(computed),
                 reference=reference,
                 tolerance=1e-12,
+                source=source,
+            )
+
+
+def one_node_path_in_space() -> Iterator[Check]:
+    """The node of `one_node_path` at mu = 3, pulled along a corner, across an edge and on the circle: the same jump."""
+    source = "by hand, Klarbring (1990)"
+    ways = (("corner of 8 facets", 8, 0.25 * np.pi), ("edge of 8", 8, 0.375 * np.pi), ("circle", 0, 0.3))
+    for words, facets, angle in ways:
+        case = f"one-node Coulomb problem in space, pulled along {words}"
+        c, s = np.cos(angle), np.sin(angle)
+        turn = np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+        W = turn @ np.linalg.inv(np.array([[3.0, -1.0, 0.0], [-1.0, 3.0, 0.0], [0.0, 0.0, 3.0]])) @ turn.T
+        friction = 3.0 / np.cos(np.pi / 8) if words.startswith("edge") else 3.0
+        problem = SpatialProblem(
+            W=W, b=np.zeros(3), friction=np.array([friction]), motions=np.zeros((3, 0)), scale=4.0, facets=facets
+        )
+        pressed = follow_stopping(problem, at_rest(problem, np.zeros(3)), W @ turn @ np.array([-1.0, 0.0, 0.0])).end
+        path = follow_stopping(problem, pressed, W @ turn @ np.array([-1.0, 4.0, 0.0]))
+        landing = land_spatial(problem, pressed, path)
+        end = path.end if landing is None else landing.state
+        gap, along, _ = turn.T @ end.h
+        found = [("jumps at f_t", np.nan if path.jump is None else 4 * path.jump.factor, 3.0)]
+        found += [("gap where it lands", gap, 1 / 3), ("u_t where it lands", along, 5 / 3)]
+        found.append(("dissipation", end.dissipation[0], 1.5))
+        for quantity, computed, reference in found:
+            yield Check(
+                case=case,
+                quantity=quantity,
+                computed=float(computed),
+                reference=reference,
+                tolerance=1e-11,
                 source=source,
             )
 

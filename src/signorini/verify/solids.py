@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whole spheres in space: B02 and B03 on spheres instead of paraboloids, whose finite size is part of the problem."""
+"""Whole spheres in space: B02 and B03, whose finite size is part of the problem, and a hollow one in two parts, B09."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Literal
 
 import numpy as np
 
 from signorini.engine.solve import solve
 from signorini.fem.generators import Cells
-from signorini.gallery.spheres import MATERIAL, RADIUS, equal_spheres
+from signorini.gallery.spheres import MATERIAL, RADIUS, WALL, equal_spheres, hollow_spheres
 from signorini.reference.hertz import contact_modulus
 from signorini.reference.hertz_point import HertzPoint
+from signorini.reference.lame import hollow_sphere
 from signorini.verify.check import Check
 
 _MODULUS = contact_modulus(*[(MATERIAL.E, MATERIAL.nu)] * 2)
@@ -69,3 +71,29 @@ def _equal(
             tolerance=allowed,
             source=origin,
         )
+
+
+def hollow() -> Iterator[Check]:
+    """B09 in space: a hollow sphere of two parts whose curved sides do not match, as if it were one."""
+    middle = np.array([0.5 * (WALL["inner"] + WALL["outer"])])
+    exact = -float(hollow_sphere(middle, **WALL)[1][0])
+    families: tuple[tuple[str, Cells | Literal["tetra10"]], ...] = (
+        ("hexahedra of 20 nodes", "quad8"),
+        ("hexahedra of 27 nodes", "quad9"),
+        ("tetrahedra of 10 nodes", "tetra10"),
+    )
+    for words, cells in families:
+        contact = solve(hollow_spheres(n=(3, 4), cells=cells)).contact("interface")
+        pressure = contact.pressure
+        for quantity, computed, tolerance in (
+            ("interface pressure, mean", float(pressure @ contact.area / contact.area.sum()), 1e-3),
+            ("interface pressure, worst node", float(pressure[np.abs(pressure - exact).argmax()]), 5e-3),
+        ):
+            yield Check(
+                case=f"B09 hollow spheres 20/30/40 in space, {words}, 3 : 4 cells",
+                quantity=quantity,
+                computed=computed,
+                reference=exact,
+                tolerance=tolerance,
+                source="Lame; Timoshenko, Goodier section 136",
+            )

@@ -308,3 +308,10 @@ def test_a_contact_surface_is_of_one_kind(tmp_path: Path) -> None:
     path.write_text(f"{MIXED}{pair}*STEP\n*STATIC\n*END STEP\n")
     with pytest.raises(DeckError, match=r"deck.inp:\d+: surface 'S' has faces of 2 kinds"):
         load(path)
+
+
+def test_how_others_stabilise_is_left_out(tmp_path: Path) -> None:
+    path = tmp_path / "deck.inp"
+    static = "*STATIC, STABILIZE=2E-4, FACTOR=2E-4, ALLSDTOL=0, CONTINUE=NO\n0.1, 1.\n"
+    path.write_text(f"{MIXED}*STEP\n{static}*DLOAD\nA,P3,2.\n*END STEP\n")
+    assert load(path).model.steps[0].name == "step 1"

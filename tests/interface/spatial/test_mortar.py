@@ -179,6 +179,30 @@ def test_chords_of_surfaces_that_match_leave_no_gap(height, kinds):
     np.testing.assert_array_equal(without_chords(gap + 0.05, coupling, side, other), gap + 0.05)
 
 
+@pytest.mark.parametrize("kinds", [(6, 6), (8, 8), (9, 9), (8, 6)])
+@pytest.mark.parametrize("jiggle", [0.0, 0.4])
+def test_quadratic_faces_on_one_sphere_leave_no_gap(kinds, jiggle):
+    """They are off it by h^4, by h^3 where they are skew; a gap that is meant stays."""
+    upper = grid(np.linspace(-1, 1, 5), np.linspace(-1, 1, 4), kinds[0], jiggle)
+    lower = grid(np.linspace(-1, 1, 6), np.linspace(-1, 1, 7), kinds[1], jiggle, 1)
+    side, other = on_a_surface(lambda x, y: 3.0 - np.sqrt(9.0 - x**2 - y**2), upper, lower)
+    coupling = mortar_coupling(side, other)
+    gap = geometric_gap(side, coupling)
+    assert 1e-5 < np.abs(gap).max() < 1e-3
+    assert not without_chords(gap, coupling, side, other).any()
+    np.testing.assert_array_equal(without_chords(gap + 0.01, coupling, side, other), gap + 0.01)
+
+
+@pytest.mark.parametrize("kind", [8, 9])
+def test_points_of_curved_faces_are_opposite_each_other_on_the_faces(kind):
+    """On a parabolic cylinder, which every mesh holds: what is left is where straight cuts miss curved edges."""
+    upper, lower = grid(np.linspace(-1, 1, 4), [-1, 0, 1], kind), grid(np.linspace(-1, 1, 6), [-1, 0.2, 1], kind)
+    side, other = on_a_surface(lambda x, _: 0.3 * x**2, upper, lower)
+    coupling = mortar_coupling(side, other)
+    np.testing.assert_allclose(coupling.relative @ np.ones(len(side.points)), 0.0, atol=1e-12)
+    np.testing.assert_allclose(coupling.relative @ side.points, 0.0, atol=2e-5)
+
+
 def test_a_curved_side_on_a_flat_one_keeps_its_gaps():
     upper, lower = grid(np.linspace(-1, 1, 9), np.linspace(-1, 1, 9), 4), grid([-1, 0, 1], [-1, 0, 1], 4)
     points, side, other = two_sides(upper, lower)

@@ -12,6 +12,7 @@ from signorini.deck.inp.keywords import HARMLESS, STEP_WORDS
 
 _MOST = 100_000  # increments of a step
 _IGNORED = ("INC", "INCF", "NAME", "UNSYMM", "SOLVER", "CONVERT SDI", "EXTRAPOLATION", "PERTURBATION MASS")
+_STATIC_IGNORED = ("STABILIZE", "FACTOR", "ALLSDTOL", "CONTINUE", "FULLY PLASTIC")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -87,7 +88,10 @@ def _step(block: Block, number: int, members: list[Placed], start: float, before
         found = "no *STATIC" if not statics else "two *STATIC"
         raise block.error(f"has {found}; expected one: only static steps can be solved")
     static = statics[0]
-    static.refuse_unknown(("SOLVER", "DIRECT", "TIME RESET", "TOTAL TIME AT START"), ("STABILIZE", "FULLY PLASTIC"))
+    static.refuse_unknown(
+        ("SOLVER", "DIRECT", "TIME RESET", "TOTAL TIME AT START"),
+        ("STABILIZE", "FACTOR", "ALLSDTOL", "CONTINUE", "FULLY PLASTIC"),
+    )
     row = next(static.rows(), None)
     first = row.number(0, "the first increment", 1.0) if row else 1.0
     period = row.number(1, "the period", 1.0) if row else 1.0

@@ -24,7 +24,7 @@ from signorini.friction.exact.state import PathState
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 from signorini.friction.problem import CoulombProblem
 
-_TURNS = 100
+TURNS = 100
 """Most times that the load turns."""
 
 
@@ -81,10 +81,10 @@ def land(
     back = Walk(problem, limit, start.b, settings)
     back.acting = np.array(jump.pairs, dtype=np.int64)
     lowest, events = jump.factor, 0
-    for _ in range(_TURNS * (problem.pairs + 1)):
+    for _ in range(TURNS * (problem.pairs + 1)):
         if not _depart(back) or back.advance() is not None or back.factor >= 1.0:
             return None
-        lowest, events = min(lowest, jump.factor * _left(back, limit, start)), events + 1
+        lowest, events = min(lowest, jump.factor * left(back.now, limit, start)), events + 1
         ahead = Walk(problem, back.now, limit.b, settings)
         ahead.acting = back.acting
         while ahead.factor < 1.0 and (ahead.turn() or ahead.advance()) is None:
@@ -97,10 +97,10 @@ def land(
     return None
 
 
-def _left(back: Walk, limit: PathState, start: PathState) -> float:
+def left(now: PathState, limit: PathState, start: PathState) -> float:
     """Part of the way from the start of the segment to the limit load that is left."""
     way = limit.b - start.b
-    return float(way @ (back.now.b - start.b)) / (float(way @ way) or 1.0)
+    return float(way @ (now.b - start.b)) / (float(way @ way) or 1.0)
 
 
 def _depart(walk: Walk) -> bool:

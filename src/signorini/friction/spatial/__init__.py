@@ -8,6 +8,7 @@ Pairs have three rows: n normals, n first tangents, n second tangents. `solve_sp
 from signorini.friction.spatial.certificate import Violations, certify, natural_residual, violations
 from signorini.friction.spatial.faceted import decoded, faceted_lcp
 from signorini.friction.spatial.follow import StopSettings, at_rest, follow_stopping
+from signorini.friction.spatial.landing import land_spatial
 from signorini.friction.spatial.law import OPEN, SLIP, STICK, split, states
 from signorini.friction.spatial.problem import SpatialProblem, from_compliance
 from signorini.friction.spatial.result import LimitLoad, SpatialResult
@@ -29,6 +30,7 @@ __all__ = [
     "faceted_lcp",
     "follow_stopping",
     "from_compliance",
+    "land_spatial",
     "limit_load",
     "natural_residual",
     "solve_spatial",

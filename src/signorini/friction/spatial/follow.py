@@ -16,12 +16,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
+from signorini.bound import STEEP
 from signorini.errors import InputError
+from signorini.friction.exact.fallback import NoRates
 from signorini.friction.exact.segment import Breakpoint, Event, Jump, Outcome, Segment, What
 from signorini.friction.exact.state import PathState
 from signorini.friction.spatial.law import OPEN, SLIP, STICK
 from signorini.friction.spatial.pieces import columns, held_until, lasts, spare, turned
 from signorini.friction.spatial.problem import SpatialProblem
+from signorini.friction.spatial.rates import SpatialRates, acting_pairs, find_rates
 from signorini.friction.spatial.result import SpatialResult
 from signorini.friction.spatial.solve import SpatialSettings, solve_spatial
 
@@ -36,8 +39,10 @@ _SHRINK = 0.9  # of the estimated part up to an event: short of it
 _SAME, _LATE = 1e-12, 1e-3  # part of an increment by which it may miss an event; the latter after some tries
 _PATIENCE = 4  # tries
 _ROUNDING = 1e-9  # part of an increment: what comes so late does not happen in it
+_LEAP = 3.0  # times what increments changed before, by their length: one in which something happens may hide a jump
 _LOST = 1e-7  # part of the segment: where not even that has a solution nothing goes on gradually
 _TRIES = 60  # at one increment
+_NEAR = 1e-6  # of the data: width of zero at an event that smooth sections make uncertain
 _QUICK = SpatialSettings(swept_rounds=2, proximal_rounds=0, springs=())
 
 
@@ -94,11 +99,11 @@ def follow_stopping(
     >>> [(round(event.factor, 12), event.what) for event in pulled.events], (pulled.end.h.round(12) + 0.0).tolist()
     ([(0.5, 'slips')], [0.0, 0.5, 0.0])
     """
-    walk = _Walk(problem, start, np.asarray(b_end, dtype=np.float64), settings or StopSettings())
+    walk = Walk(problem, start, np.asarray(b_end, dtype=np.float64), settings or StopSettings())
     while walk.factor < 1.0:
-        failure = walk.advance()
-        if failure:
-            return walk.ended(failure)
+        lost = walk.go_on()
+        if lost is not None:
+            return walk.ended(lost)
     return walk.segment("followed", None, f"followed through {len(walk.events)} events")
 
 
@@ -149,8 +154,17 @@ class _Trial:
     turn: float
 
 
-class _Walk:
-    """One straight way of the load, gone increment by increment."""
+class Walk:
+    """One straight way of the load from a state, gone increment by increment.
+
+    Parameters
+    ----------
+    problem, start, b_end, settings : see `follow_stopping`
+
+    Attributes
+    ----------
+    now, factor : the state reached, and the part of the way behind
+    """
 
     def __init__(self, problem: SpatialProblem, start: PathState, b_end: Array, settings: StopSettings) -> None:
         for name, b in (("start", start.b), ("b_end", b_end)):
@@ -162,13 +176,77 @@ class _Walk:
         self.events: list[Event] = []
         self.pieces = [Breakpoint(factor=0.0, h=start.h, r=start.r)]
         self.tried, self.residual = 0, 0.0
+        # the most that an increment has changed by its length; up to where every event ends one; whether that failed
+        self.fastest, self.careful, self.trusting = 0.0, 0.0, False
         self.smooth = bool(((problem.mu > 0).any(axis=1) & (problem.sides == 0)).any())
         self.refused: SpatialResult | None = None
+        # the load as rates see it; what smooth sections know of an event is less sharp
+        self.rate_problem = replace(problem, b=frozen(b_end - start.b))
+        self.near, self._astray = (_NEAR * (problem.scale or 1.0), 0.5) if self.smooth else (self.width, 1e-6)
 
-    def advance(self) -> str:
-        """One increment; why there is none, or nothing."""
+    def go_on(self) -> NoRates | None:
+        """One increment, found as it comes or by the rates; why there is none, or None."""
+        words = self.advance(patience=_PATIENCE)
+        if not words:
+            return None
+        if self._leaves:
+            return NoRates(proof=words, proved=True)
+        found = find_rates(self.rate_problem, self.now, self.near)
+        if isinstance(found, SpatialRates):
+            return None if self.along(found) else NoRates(proof=f"{words}, though there are rates", proved=False)
+        if found.proved:
+            return replace(found, proof=f"{words}; {found.proof}")
+        words = self.advance(patience=_TRIES)
+        if words and self.careful > self.factor:
+            self.careful, self.trusting = 0.0, True
+            return self.go_on()
+        return NoRates(proof=f"{words}; {found.proof}", proved=False) if words else None
+
+    @property
+    def _leaves(self) -> bool:
+        """Whether an increment was refused with the proof that loads pull bodies away."""
+        return self.refused is not None and self.refused.outcome == "no_equilibrium"
+
+    def along(self, rates: SpatialRates) -> bool:
+        """One increment in the direction of rates, up to the next event; whether there is one."""
+        now, tried, n = self.now, self.tried, self.problem.pairs
+        short = 0.5 * self._pressed_for(rates)
+        piece = replace(now, h=now.h + short * rates.h, r=now.r + short * rates.r, state=rates.state)
+        step = min(short * lasts(self.problem, now, piece, self.width), 1.0 - self.factor)
+        for _ in range(_TRIES):
+            if step < SHORTEST:
+                return False
+            h, r = step * rates.h, now.r + step * rates.r
+            # the law of the whole piece is that in its middle
+            trial = self._trial(step, step, 0.5 * (now.r + r - h) - np.concatenate([now.h[:n], np.zeros(2 * n)]))
+            if isinstance(trial, SpatialResult):
+                step /= 16.0
+                continue
+            off = np.abs(trial.after.h - now.h - h).max() + np.abs(trial.after.r - r).max()
+            if off > self._astray * step * (np.abs(rates.h).max() + np.abs(rates.r).max()) + self.width:
+                step /= 2.0
+            elif trial.turn > self.settings.turn:
+                step *= _SHRINK * self.settings.turn / trial.turn
+            else:
+                self._enter(trial, self._settled(trial, rates.state), self.tried - tried)
+                return True
+        return False
+
+    def _pressed_for(self, rates: SpatialRates) -> float:
+        """How long no normal force vanishes or comes to a kink of the bound on friction, within the segment."""
+        p, rate = self.now.r[: self.problem.pairs], rates.r[: self.problem.pairs]
+        times = [1.0 - self.factor]
+        for kink in self.problem.bound.kinks[:-1]:
+            away = np.where(np.isfinite(kink), kink, np.inf) - p
+            comes = (away * rate > 0.0) & (np.abs(away) > self.width)
+            times.append(float((away[comes] / rate[comes]).min(initial=np.inf)))
+        return min(times)
+
+    def advance(self, *, patience: int) -> str:
+        """One increment; why there is none, or nothing. Given up where so many were tried, and pairs act in all."""
         if len(self.pieces) > self.settings.most:
             return f"{self.settings.most} increments end at factor {self.factor:.12g}"
+        self.refused = None
         shortest = self._shortest
         step = min(max(_PROBE * self.last, _LEAST, shortest), 1.0 - self.factor)
         tried, best = self.tried, None
@@ -179,7 +257,7 @@ class _Walk:
             trial = self._trial(step, shortest)
             if isinstance(trial, SpatialResult):
                 words, longest = trial.message, step
-                if self.refused is None or self.refused.outcome != "no_equilibrium":
+                if not self._leaves:
                     self.refused = trial
                 if step <= _LOST or (best is not None and step <= best.step * (1.0 + _LATE)):
                     break
@@ -191,11 +269,15 @@ class _Walk:
                 if min(step, 1.0 - self.factor) <= trial.step * (1.0 + late):
                     break
                 step = min(step, 1.0 - self.factor)
-            elif trial.step <= shortest:
+            elif trial.step <= shortest and not self._hides(trial):
                 best = inner = trial
                 break
             else:
+                if trial.step <= shortest:  # event by event
+                    self.careful, shortest = self.factor + trial.step, 0.0
                 words, longest = f"pairs {np.flatnonzero(trial.each <= trial.until).tolist()} act", step
+                if best is None and number >= patience:
+                    break
                 step = self._nearer(trial, shortest, best)
                 if best is not None and step <= best.step * (1.0 + late):
                     break
@@ -233,9 +315,24 @@ class _Walk:
             end, h=h, r=r, state=state, anchor=h[n:], slip=now.slip + moved, dissipation=now.dissipation + lost
         )
 
+    def _hides(self, trial: _Trial) -> bool:
+        """Whether what happens in an increment matters more than its length says.
+
+        It changes so much more than any before that it may jump; or a pair that holds friction without pressure closes
+        in it, which sticks where it touches, or opens.
+        """
+        turns = (self.now.state == OPEN) != (trial.after.state == OPEN)
+        grips = turns & (self.problem.bound.slopes[0] >= STEEP) & (trial.each < 1.0 - _LATE)
+        return not self.trusting and (bool(grips.any()) or self._speed(trial) > _LEAP * self.fastest > 0.0)
+
+    def _speed(self, trial: _Trial) -> float:
+        """How much a trial changes, by its length."""
+        after, now = trial.after, self.now
+        return float(np.linalg.norm(after.h - now.h) + np.linalg.norm(after.r - now.r)) / trial.step
+
     def _room(self, trial: _Trial, state: IntArray) -> float:
         """How much longer than the trial the increment may be: up to the next event, and to the turn allowed."""
-        times = lasts(self.problem, self.now, replace(trial.after, state=state), self.width)
+        times = max(1.0, lasts(self.problem, self.now, replace(trial.after, state=state), self.width))
         if trial.turn > 0.0:
             times = min(times, max(1.0, _SHRINK * self.settings.turn / trial.turn))
         return max(times, self._shortest / trial.step)
@@ -243,11 +340,11 @@ class _Walk:
     @property
     def _shortest(self) -> float:
         """What an increment need not undercut here: little at the beginning, where contact grows and friction turns."""
-        whole = self.settings.shortest
+        whole = 0.0 if self.factor < self.careful else self.settings.shortest
         return min(whole, max(_GROWTH * self.factor, _FINER * whole), 1.0 - self.factor)
 
-    def _trial(self, step: float, shortest: float) -> _Trial | SpatialResult:
-        """The increment of a part of the segment, or the answer that it has no solution."""
+    def _trial(self, step: float, shortest: float, ahead: Array | None = None) -> _Trial | SpatialResult:
+        """The increment of a part of the segment, sought from where it is or ahead, or the answer that it has none."""
         now, n, problem = self.now, self.problem.pairs, self.problem
         factor = self.factor + step
         if factor >= 1.0 - SHORTEST:
@@ -257,7 +354,7 @@ class _Walk:
         increment = replace(problem, b=frozen(b + problem.W @ origin - origin))
         self.tried += 1
         y = None if not now.r.any() else now.r - np.concatenate([now.h[:n], np.zeros(2 * n)])
-        result = solve_spatial(increment, y, settings=_QUICK if step > shortest else None)
+        result = solve_spatial(increment, y if ahead is None else ahead, settings=_QUICK if step > shortest else None)
         if not result.solved:
             return result
         h, r = _split(result)
@@ -288,25 +385,28 @@ class _Walk:
                 self.events.append(
                     Event(factor=self.factor, pairs=pairs, what=what, state=replace(self.now, state=new))
                 )
+        self.fastest = max(self.fastest, self._speed(trial))
         self.factor = 1.0 if self.factor + trial.step >= 1.0 - SHORTEST else self.factor + trial.step
         self.now, self.last = after, trial.step
         self.pieces.append(Breakpoint(factor=self.factor, h=after.h, r=after.r, state=after, tried=tried))
         self.residual = max(self.residual, trial.result.residual)
 
-    def ended(self, message: str) -> Segment:
-        """The segment up to a jump, where it is proved that loads pull bodies away, or to where nothing was found."""
-        if self.refused is None or self.refused.outcome != "no_equilibrium":
-            return self.segment("not_found", None, message)
+    def ended(self, lost: NoRates) -> Segment:
+        """The segment up to a jump, or to where nothing was found."""
+        if not lost.proved:
+            return self.segment("not_found", None, lost.proof)
         n, r = self.problem.pairs, self.now.r
         pressed = r[:n] > self.width
-        spent = pressed & (spare(self.problem, r) <= self.width)
+        spent = pressed & (spare(self.problem, r) <= self.near)
+        leaves, refused = self._leaves, self.refused
+        acting = np.flatnonzero(spent) if leaves else acting_pairs(self.rate_problem, self.now, self.near)
         jump = Jump(
             factor=self.factor,
-            pairs=tuple(int(k) for k in np.flatnonzero(spent)),
-            proof=self.refused.message,
-            gross_sliding=bool(pressed.any() and spent[pressed].all()),
+            pairs=tuple(int(k) for k in (acting if len(acting) else np.flatnonzero(spent))),
+            proof=refused.message if refused is not None and leaves else lost.proof,
+            gross_sliding=bool(leaves and pressed.any() and spent[pressed].all()),
         )
-        return self.segment("jump", jump, message)
+        return self.segment("jump", jump, lost.proof)
 
     def segment(self, outcome: Outcome, jump: Jump | None, message: str) -> Segment:
         """All that is known now."""

@@ -96,7 +96,7 @@ def turned(problem: SpatialProblem, start: PathState, r: Array, slip: Array, wid
 
 
 def lasts(problem: SpatialProblem, start: PathState, end: PathState, width: float) -> float:
-    """How much longer than it is a piece may be before a gap, a normal force or friction to spare vanishes; 1 or more.
+    """At how many times its length a piece must end since a gap, a normal force or friction to spare vanishes.
 
     Parameters
     ----------
@@ -139,4 +139,4 @@ def lasts(problem: SpatialProblem, start: PathState, end: PathState, width: floa
     for which, above, below in ((outward, -c, b + root), (inward, root - b, a)):
         if which.any():
             times.append(float((above[which] / below[which]).min()))
-    return max(1.0, min(times))
+    return min(times)

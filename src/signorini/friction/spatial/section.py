@@ -146,3 +146,35 @@ def outermost(directions: Array, m: Array, facets: IntArray) -> Array:
     angle = np.where(facets > 0, between * np.round(angle / between), angle)
     still = (stretched == 0.0).all(axis=1)[:, None]
     return np.where(still, 0.0, m * np.column_stack([np.cos(angle), np.sin(angle)]))
+
+
+def facets_of(m: Array, facets: IntArray, force: Array) -> tuple[Array, Array]:
+    """Outward normals (k, n, 2) of the facets of sections of size 1, and their distances (k, n) from the origin.
+
+    Infinitely far where a section has fewer. A smooth section has one, its tangent where the ray of the force (n, 2)
+    leaves it; one that is a line has its two ends.
+
+    Examples
+    --------
+    >>> normals, reach = facets_of(np.ones((1, 2)), np.array([4]), np.zeros((1, 2)))
+    >>> (normals[0, 0] * 2**0.5).round(12).tolist(), reach[:, 0].round(12).tolist()
+    ([1.0, 1.0], [0.707106781187, 0.707106781187, 0.707106781187, 0.707106781187])
+    """
+    n, flat = len(m), (m <= _NOTHING).any(axis=1)
+    k = max(int(facets.max(initial=0)), 2 if flat.any() else 1)
+    normals, reach = np.zeros((k, n, 2)), np.full((k, n), np.inf)
+    over = np.divide(1.0, m, out=np.zeros_like(m), where=m > _NOTHING)
+    for j in range(k):
+        angle = (2 * j + 1) * np.pi / np.maximum(facets, 1)
+        polygon = over * np.column_stack([np.cos(angle), np.sin(angle)])
+        tangent = over**2 * force
+        line = np.where(m > _NOTHING, (-1.0) ** j, 0.0)
+        which = np.select([flat, facets > j, facets == 0], [0, 1, 2], 3)
+        normal = np.stack([line, polygon, tangent, np.zeros_like(m)])[which, np.arange(n)]
+        size = np.linalg.norm(normal, axis=1)
+        has = (size > 0) & ((which == 1) | (j == 0) | ((which == 0) & (j < 2)))
+        at = np.where(facets > 0, np.cos(np.pi / np.maximum(facets, 1)), np.linalg.norm(over * force, axis=1))
+        at = np.where(flat, m.max(axis=1), at / np.where(has, size, 1.0))
+        normals[j] = normal / np.where(has, size, 1.0)[:, None]
+        reach[j, has] = at[has]
+    return normals, reach

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Gaps that flat faces feign between curved surfaces that are meant to match."""
+"""Gaps that faces feign between curved surfaces that are meant to match."""
 
 from __future__ import annotations
 
@@ -7,20 +7,24 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.interface.coupling import Coupling
-from signorini.interface.spatial.surface import Surface
+from signorini.interface.spatial.faces import node_places
+from signorini.interface.spatial.surface import Block, Surface
 
 _KINK = np.pi / 6.0  # a turn between two faces beyond this is an edge of the body, not a curve
 _STRAIGHT = 1e-9  # a turn below this is rounding
 _ROOM = 1.25  # times the bound: curvatures are estimates
 _TINY = 1e-12  # of the size of the side: a gap that is rounding
+_QUADRATIC = {6: 4.0, 8: 10.0, 9: 4.0}  # times the sag of an edge: what a face may be off, by its nodes
+_BESIDE = 1.6  # times bulge and how far its middle node is beside the middle: what an edge may be off by that
 
 
 def without_chords(gap: Array, coupling: Coupling, nonmortar: Surface, mortar: Surface) -> Array:
     """Gaps (k,), 0 where they are no more than what faces leave between two surfaces that are meant to match.
 
     Two different nets of flat faces on one surface of curvature kappa are up to ``h^2 kappa / 8`` of both apart, h the
-    diameter of a face: it would ruin the pressure. All gaps must be as small as that, and one side hollow where the
-    other bulges: otherwise they are meant, and stay. Quadratic faces are left alone.
+    diameter of a face, of quadratic ones a few ``h^4 kappa^3 / 512``, h the length of an edge: it would ruin the
+    pressure. All gaps must be as small as that, and one side hollow where the other bulges: otherwise they are meant,
+    and stay.
 
     Parameters
     ----------
@@ -36,8 +40,6 @@ def without_chords(gap: Array, coupling: Coupling, nonmortar: Surface, mortar: S
     >>> without_chords(np.full(4, 0.01), mortar_coupling(upper, lower), upper, lower).tolist()  # flat: meant
     [0.01, 0.01, 0.01, 0.01]
     """
-    if not (nonmortar.linear and mortar.linear):
-        return gap
     count = coupling.relative.shape[1]
     own, other = np.zeros((2, count)), np.zeros((2, count))
     own[:, nonmortar.nodes], other[:, mortar.nodes] = _sags(nonmortar), _sags(mortar)
@@ -54,7 +56,37 @@ def without_chords(gap: Array, coupling: Coupling, nonmortar: Surface, mortar: S
 
 
 def _sags(side: Surface) -> Array:
-    """(2, k) Largest ``h^2 kappa / 8`` of the faces at each node, where the side bulges and where it is hollow."""
+    """(2, k) How far faces at each node may be off a smooth surface, where it bulges and where it is hollow."""
+    found = np.zeros((2, len(side.nodes)))
+    parts = _chord_sags(side) if side.linear else [(block.faces, _curved_sags(block)) for block in side.blocks]
+    for nodes, sags in parts:
+        for kind, own in enumerate((np.maximum(sags, 0.0), np.maximum(-sags, 0.0))):
+            np.maximum.at(found[kind], np.searchsorted(side.nodes, nodes), own.max(axis=0)[:, None])
+    return found
+
+
+def _curved_sags(block: Block) -> Array:
+    """(2, m) How far quadratic faces may be off a smooth surface: largest and, negative, smallest of their edges.
+
+    Of an edge ``h^4 kappa^3 / 512``, in terms of its bulge ``b = h^2 kappa / 8`` that is ``b^3 / h^2``; where its
+    middle node is beside the middle the surface is a cubic of the reference coordinate there, a parabola too. Faces of
+    8 nodes lack ``x^2 y^2``.
+    """
+    corners = block.corners.shape[1]
+    first = block.points[:, :corners]
+    chord = np.roll(first, -1, axis=1) - first
+    length = np.linalg.norm(chord, axis=2)
+    normal = block.outward(node_places(block.nodes_a_face)[corners : 2 * corners])
+    normal /= np.linalg.norm(normal, axis=2, keepdims=True)
+    middle = (block.points[:, corners : 2 * corners] - first - 0.5 * chord) / length[..., None]
+    bulge, beside = np.sum(middle * normal, axis=2), np.abs(np.sum(middle * chord, axis=2)) / length
+    bulge[np.abs(bulge) < _STRAIGHT] = 0.0
+    sags = length * bulge * (_QUADRATIC[block.nodes_a_face] * bulge**2 + _BESIDE * beside)
+    return np.stack([sags.max(axis=1), sags.min(axis=1)])
+
+
+def _chord_sags(side: Surface) -> list[tuple[IntArray, Array]]:
+    """Corners of flat faces by block, and ``h^2 kappa / 8`` (2, m) of the largest turn either way to a neighbour."""
     faces, centres, normals, diameters = _faces(side)
     one, two = _neighbours(side)
     across = centres[two] - centres[one]
@@ -63,16 +95,12 @@ def _sags(side: Surface) -> Array:
     bends = np.sum((normals[two] - normals[one]) * across, axis=1)
     curvature = np.sign(bends) * turn / np.linalg.norm(across, axis=1)
     smooth = (turn > _STRAIGHT) & (turn < _KINK)
-    of_faces = np.zeros((2, len(centres)))
-    for kind, sign in ((0, 1.0), (1, -1.0)):
-        bending = smooth & (sign * curvature > 0)
-        for face in (one[bending], two[bending]):
-            np.maximum.at(of_faces[kind], face, diameters[face] ** 2 * np.abs(curvature[bending]) / 8.0)
-    result = np.zeros((2, len(side.nodes)))
-    for face, nodes in faces:
-        for kind in (0, 1):
-            np.maximum.at(result[kind], np.searchsorted(side.nodes, nodes), of_faces[kind][face][:, None])
-    return result
+    sags = np.zeros((2, len(centres)))
+    for face in (one[smooth], two[smooth]):
+        sag = diameters[face] ** 2 * curvature[smooth] / 8.0
+        np.maximum.at(sags[0], face, sag)
+        np.minimum.at(sags[1], face, sag)
+    return [(nodes, sags[:, face]) for face, nodes in faces]
 
 
 def _faces(side: Surface) -> tuple[list[tuple[IntArray, IntArray]], Array, Array, Array]:

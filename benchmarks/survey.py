@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Public decks in bulk: which are read and solved, and which keyword refuses the others.
+
+    python benchmarks/survey.py FOLDER [--write docs/inp.md]
+
+FOLDER holds one folder for each repository; nothing is fetched. Every ``.inp`` file below is read, with small strains,
+and solved, with its certificate, if it is read.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections import Counter
+from pathlib import Path
+
+import signorini as sg
+from signorini.deck import load
+
+_BEGIN, _END = "<!-- survey -->\n", "<!-- end of survey -->\n"
+
+
+def outcome(deck: Path) -> str:
+    """ "solved", the keyword that refuses a deck, or what it lacks."""
+    try:
+        sg.solve(load(deck, small_strain=True).model)
+    except (sg.InputError, sg.SolveFailed) as error:
+        words = re.sub(r"^.*?\.inp:(\d+: )? ?", "", str(error))
+        lacks = re.match(r"has no (\*[A-Z ]+)", words)
+        if lacks:
+            return f"no {lacks[1]}"
+        keyword = re.match(r"\*[A-Z ]+", words)
+        parameter = re.search(r"parameter ([A-Z]+)", words)
+        return f"{keyword[0]}{', ' + parameter[1] if parameter else ''}" if keyword else words.split(";")[0][:60]
+    return "solved"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--write", type=Path, metavar="DOCUMENT", help="put the table between its marks")
+    options = parser.parse_args()
+    rows = ["| repository | decks | solved | refused by, or lacking |", "|---|---|---|---|"]
+    for home in sorted(path for path in options.folder.iterdir() if path.is_dir()):
+        found = Counter(outcome(deck) for deck in sorted(home.rglob("*.inp")))
+        rest = ", ".join(f"{count} {words}" for words, count in found.most_common() if words != "solved")
+        rows.append(f"| {home.name} | {found.total()} | {found['solved']} | {rest} |")
+        print(rows[-1], flush=True)
+    if options.write:
+        text = options.write.read_text()
+        head, _, behind = text.partition(_BEGIN)
+        options.write.write_text(head + _BEGIN + "\n".join(rows) + "\n" + _END + behind.partition(_END)[2])
+
+
+if __name__ == "__main__":
+    main()
