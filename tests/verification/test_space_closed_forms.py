@@ -34,6 +34,13 @@ def test_hertz_on_a_coarse_block(block):
     np.testing.assert_allclose(contact.normal_force[2], exact.force / 4.0, rtol=1e-9)
 
 
+def test_hertz_with_quadratic_tetrahedra():
+    contact, exact = solve(ball(n=2, cells="tetra10", size=6.0)).contact("contact"), hertz(1)
+    centre = contact.pressure[np.hypot(*contact.points.T[:2]).argmin()]
+    assert centre == pytest.approx(exact.peak_pressure, rel=0.03)
+    np.testing.assert_allclose(contact.normal_force[2], exact.force / 4.0, rtol=1e-9)
+
+
 def test_a_quarter_a_half_and_a_whole_ball_are_one():
     one, *others = (solve(ball(n=2, angle=angle, size=5.0)).contact("contact") for angle in (90.0, 180.0, 360.0))
     for other in others:

@@ -15,6 +15,7 @@ from signorini.gallery.cubes import cubes
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.half_spaces import ball
 
+ADHESIVE = {"friction": 0.3, "adhesion": 0.5}
 HISTORY = [sg.Step(scale={"cut": 1.0}), sg.Step(scale={"cut": 0.2}), sg.Step(scale={"cut": 0.7}, at=[0.3])]
 
 
@@ -41,7 +42,7 @@ def slab(facets, law, steps):
     )
 
 
-@pytest.mark.parametrize(("facets", "law"), [(8, {}), (0, {}), (8, {"shear_limit": 3.0})])
+@pytest.mark.parametrize(("facets", "law"), [(8, {}), (0, {}), (8, {"shear_limit": 3.0}), (0, ADHESIVE)])
 def test_a_slab_goes_the_exact_path_of_plane_strain(facets, law):
     """With a corner along the loads the polygon is the law of the plane; a circle does not turn friction here."""
     plane = solve(cylinder(law, HISTORY))
@@ -65,6 +66,22 @@ def test_a_slab_goes_the_exact_path_of_plane_strain(facets, law):
         assert abs(three.energy_defect) < (1e-10 if facets else 1e-3) * abs(three.work)
     asked = [instant for instant in space.steps[2].instants if instant.what == "asked"]
     assert [instant.load_factor for instant in asked] == [2.3]
+
+
+def test_a_pair_that_sticks_up_to_a_limit_lets_go_at_once_as_in_the_plane():
+    """Where its pressure vanishes it still holds its limit: a jump, which both follow."""
+    law = {"friction": "stick", "shear_limit": 3.0}
+    plane = solve(cylinder(law, HISTORY[:2]))
+    space = solve(slab(8, law, [replace(step, path="exact", jump="follow") for step in HISTORY[:2]]))
+    for two, three in zip(plane.steps, space.steps, strict=True):
+        assert three.dissipation == pytest.approx(two.dissipation, rel=1e-8)
+        assert three.released == pytest.approx(two.released, rel=1e-6, abs=1e-12)
+        np.testing.assert_allclose(
+            three.contacts[0].tangential_force[0], two.contacts[0].tangential_force[0], rtol=1e-9
+        )
+    jumps = [[i.load_factor for i in step.instants if i.what == "jump"] for step in (plane.last, space.last)]
+    assert len(jumps[0]) == 1
+    np.testing.assert_allclose(*jumps, rtol=1e-10)
 
 
 def pushed_around(facets, **way):

@@ -12,6 +12,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.fem.generators import Cells, target
 from signorini.fem.solids import SolidCells, box, extruded
+from signorini.fem.tetrahedra import tetrahedra
 from signorini.gallery.half_planes import graded
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
@@ -43,19 +44,19 @@ def ball(
     *,
     n: int = 6,
     block: int | None = None,
-    cells: Cells = "quad",
+    cells: Cells | Literal["tetra10"] = "quad",
     angle: float = 90.0,
     size: float = 20.0,
 ) -> Model:
     """An elastic ball of radius 100 pressed without friction on a rigid plane or on an elastic block, contact radius 1.
 
-    Hexahedra on rings about the contact; a quarter or half of it, held by its planes of symmetry, or the whole.
+    Cells on rings about the contact; a quarter or half of it, held by its planes of symmetry, or the whole.
 
     Parameters
     ----------
     n : cells along half the side of the core of the ball, about 2 n to the contact radius
     block : the same of the block below; None for a rigid plane
-    cells : "quad" (hexahedra of 8 nodes), "quad8" (20) or "quad9" (27)
+    cells : "quad" (hexahedra of 8 nodes), "quad8" (20), "quad9" (27), or "tetra10", six to a hexahedron
     angle : 90, 180 or 360 degrees
     size : radius and height of the bodies, in units of the contact radius
     """
@@ -143,11 +144,14 @@ def equal_half_spaces(
     )
 
 
-def _cylinder(n: int, cells: Cells, angle: float, size: float) -> Mesh:
+def _cylinder(n: int, cells: Cells | Literal["tetra10"], angle: float, size: float) -> Mesh:
     """Rings about the contact, of cells that grow with depth and distance; named nodes to hold more than a quarter."""
+    plane: Cells = "quad9" if cells == "tetra10" else cells
     spacing = 0.5 / n
     radii = 1.0 + np.concatenate([[0.0], graded(0.4, 0.1 if n < 6 else 0.6 * spacing, size - 1.0, 1.35)[1:]])
-    mesh = extruded(target(radii=radii, n=n, angle=angle, cells=cells), z=graded(2 * spacing, spacing, size, 1.35))
+    mesh = extruded(target(radii=radii, n=n, angle=angle, cells=plane), z=graded(2 * spacing, spacing, size, 1.35))
+    if cells == "tetra10":
+        mesh = tetrahedra(mesh)
     top = mesh.points[:, 2] == size
     axis = np.flatnonzero(top & (np.hypot(*mesh.points.T[:2]) == 0.0))
     side = np.flatnonzero(top & (mesh.points[:, 1] == 0.0) & (mesh.points[:, 0] == mesh.points[:, 0].max()))

@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
+from signorini.bound import STEEP
 from signorini.errors import InputError
 from signorini.friction.exact.fallback import NoRates
 from signorini.friction.exact.segment import Breakpoint, Event, Jump, Outcome, Segment, What
@@ -175,8 +176,8 @@ class Walk:
         self.events: list[Event] = []
         self.pieces = [Breakpoint(factor=0.0, h=start.h, r=start.r)]
         self.tried, self.residual = 0, 0.0
-        # the most that an increment has changed by its length, and up to where every event ends one
-        self.fastest, self.careful = 0.0, 0.0
+        # the most that an increment has changed by its length; up to where every event ends one; whether that failed
+        self.fastest, self.careful, self.trusting = 0.0, 0.0, False
         self.smooth = bool(((problem.mu > 0).any(axis=1) & (problem.sides == 0)).any())
         self.refused: SpatialResult | None = None
         # the load as rates see it; what smooth sections know of an event is less sharp
@@ -197,7 +198,7 @@ class Walk:
             return replace(found, proof=f"{words}; {found.proof}")
         words = self.advance(patience=_TRIES)
         if words and self.careful > self.factor:
-            self.careful, self.fastest = 0.0, np.inf
+            self.careful, self.trusting = 0.0, True
             return self.go_on()
         return NoRates(proof=f"{words}; {found.proof}", proved=False) if words else None
 
@@ -268,11 +269,11 @@ class Walk:
                 if min(step, 1.0 - self.factor) <= trial.step * (1.0 + late):
                     break
                 step = min(step, 1.0 - self.factor)
-            elif trial.step <= shortest and not self._leaps(trial):
+            elif trial.step <= shortest and not self._hides(trial):
                 best = inner = trial
                 break
             else:
-                if trial.step <= shortest:  # a jump may be hidden in it: event by event
+                if trial.step <= shortest:  # event by event
                     self.careful, shortest = self.factor + trial.step, 0.0
                 words, longest = f"pairs {np.flatnonzero(trial.each <= trial.until).tolist()} act", step
                 if best is None and number >= patience:
@@ -314,9 +315,15 @@ class Walk:
             end, h=h, r=r, state=state, anchor=h[n:], slip=now.slip + moved, dissipation=now.dissipation + lost
         )
 
-    def _leaps(self, trial: _Trial) -> bool:
-        """Whether an increment in which something happens changes so much more than any before that it may jump."""
-        return self._speed(trial) > _LEAP * self.fastest > 0.0
+    def _hides(self, trial: _Trial) -> bool:
+        """Whether what happens in an increment matters more than its length says.
+
+        It changes so much more than any before that it may jump; or a pair that holds friction without pressure closes
+        in it, which sticks where it touches, or opens.
+        """
+        turns = (self.now.state == OPEN) != (trial.after.state == OPEN)
+        grips = turns & (self.problem.bound.slopes[0] >= STEEP) & (trial.each < 1.0 - _LATE)
+        return not self.trusting and (bool(grips.any()) or self._speed(trial) > _LEAP * self.fastest > 0.0)
 
     def _speed(self, trial: _Trial) -> float:
         """How much a trial changes, by its length."""
