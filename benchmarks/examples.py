@@ -72,7 +72,9 @@ EXAMPLES = (
     Example("Streifen/sck", ("cgx sck.fbd",)),
     Example("Contact/Valve/valve", ("param par.pre.fbd", "cgx pre.fbd"), _SEAT),
     Example("Contact/Hertz_axi/Hertz", ("cgx pre.fbd",), "the sphere is held by contact alone: CalculiX diverges"),
-    Example("Contact/Hertz_2D/Hertz", ("cgx pre.fbd",)),
+    Example(
+        "Contact/Hertz_2D/Hertz", ("cgx pre.fbd",), "8 nodes of quadratic edges touch, at a hundredth of the load 2"
+    ),
     Example("Contact/Tubes/solve", ("cgx pre.fbd",)),
     Example("Contact/Leafspring/solve", ("cgx pre.fbd",)),
     *(_penalty(law) for law in ("s2s-lin", "s2s-tie", "n2s-lin", "n2s-exp", "n2s-tab")),
