@@ -196,7 +196,7 @@ def condense(
     size = np.sqrt(np.asarray(B.multiply(B).sum(axis=1)).ravel())
     B = sp.csr_array(sp.diags_array(np.where(size > _HELD, 1.0, 0.0)) @ B)
     B.eliminate_zeros()
-    held = size[:n] <= _HELD
+    held = (size[:n] <= _HELD) & (interface.compliance[:n] == 0.0)
     active = candidates & ~held & ~interface.tied
     ties = make_ties(B, np.nonzero(interface.rows(interface.tied) & (size > _HELD))[0])
     B = B[np.nonzero(interface.rows(active))[0]]
@@ -277,6 +277,9 @@ def _interface_stiffness(K_c: sp.csr_array, B_c: sp.csr_array, interface: Interf
     divided by the root of their number (between the stiffness of a node and that of the whole surface).
     """
     felt = (B_c @ K_c).multiply(B_c).sum(axis=1)[: len(pairs)]
+    # supports hold both sides, and the interface alone gives way
+    supple = np.flatnonzero((felt == 0.0) & (interface.compliance[pairs] > 0.0))
+    felt[supple] = interface.areas[pairs[supple]] / interface.compliance[pairs[supple]]
     result = np.zeros(len(pairs))
     for contact in np.unique(interface.contact[pairs]):
         own = interface.contact[pairs] == contact

@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.bound import plain
-from signorini.engine.increments import applied, certified, free_load, refuse_overlap
+from signorini.engine.increments import applied, certified, free_load, moved_by_supports, refuse_overlap
 from signorini.engine.leg import Leg, Snapshot, joined
 from signorini.engine.prepare import Prepared
 from signorini.engine.span import Span
@@ -236,7 +236,7 @@ def _offset(prepared: Prepared, point: LoadPoint) -> Array:
     """(d n,) Motions of all pairs that loads do not cause: gaps and what supports impose, no slip of the past."""
     _, imposed = applied(prepared, point)
     none = np.zeros(len(point.gap) * (prepared.interface.directions - 1))
-    offset: Array = np.concatenate([point.gap, none]) + prepared.interface.B @ imposed
+    offset: Array = np.concatenate([point.gap, none]) + moved_by_supports(prepared, imposed)
     return offset
 
 

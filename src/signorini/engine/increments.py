@@ -25,6 +25,7 @@ from signorini.solution.state import LoadPoint, State, next_state
 
 _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
 _REFINEMENTS = 2
+_CANCELLED = 1e-14  # of the largest displacement that supports impose: less between two sides is rounding
 
 
 def follow_increments(prepared: Prepared, number: int, where: str, span: Span, state: State, end: LoadPoint) -> Leg:
@@ -68,7 +69,7 @@ def advance(
     constraints, interface = prepared.constraints, prepared.interface
     n, active = len(interface), prepared.bodies.active
     loads, imposed = applied(prepared, point)
-    offset = np.concatenate([point.gap, -state.tangential]) + interface.B @ imposed
+    offset = np.concatenate([point.gap, -state.tangential]) + moved_by_supports(prepared, imposed)
     refuse_overlap(prepared, offset[:n], where)
     f = free_load(prepared, point)
     result: CoulombResult | SpatialResult | Answer
@@ -111,6 +112,16 @@ def applied(prepared: Prepared, point: LoadPoint) -> tuple[Array, Array]:
     if len(point.reaction):
         return loads + point.reaction, imposed + point.offset
     return loads, imposed
+
+
+def moved_by_supports(prepared: Prepared, imposed: Array) -> Array:
+    """(d n,) Relative displacements of the pairs that supports impose; where they cancel, no rounding drags a pair."""
+    B = prepared.interface.B
+    moved: Array = B @ imposed
+    largest = float(np.abs(imposed).max(initial=0.0))
+    if largest > 0.0:
+        moved[np.abs(moved) <= _CANCELLED * largest * abs(B).sum(axis=1)] = 0.0
+    return moved
 
 
 def free_load(prepared: Prepared, point: LoadPoint) -> Array:

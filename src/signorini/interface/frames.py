@@ -56,8 +56,12 @@ def symmetric_partners(
 
 
 def _held(space: Space, constraints: Constraints, nodes: IntArray) -> BoolArray:
-    """(k, d) whether a support, or the axis of revolution, holds a node in a direction."""
-    return constraints.held[space.dofs(nodes)]
+    """(k, d) whether a support, or the axis of revolution, holds a node where it is in a direction."""
+    dofs = space.dofs(nodes)
+    held = constraints.held[dofs]
+    for moved in constraints.prescribed.values():
+        held &= moved[dofs] == 0.0
+    return held
 
 
 def tangents(normals: Array, mirrored: BoolArray, fibres: Array) -> tuple[Array, BoolArray]:

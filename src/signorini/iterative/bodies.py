@@ -114,7 +114,7 @@ def make_bodies(
     """
     n, d = len(interface), interface.directions
     size = np.sqrt(np.asarray(B.multiply(B).sum(axis=1)).ravel())
-    held = size[:n] <= _HELD
+    held = (size[:n] <= _HELD) & (interface.compliance[:n] == 0.0)
     moving = (size.reshape(d, n) > _HELD).any(axis=0)
     active = candidates & ~held & ~interface.tied
     pairs = np.flatnonzero(active | (interface.tied & moving))
@@ -124,6 +124,8 @@ def make_bodies(
     blocks = make_blocks(nodes, axis, d)
     matrix = blocks.matrix(K)
     felt = np.asarray((own @ K).multiply(own).sum(axis=1)).ravel().reshape(d, -1).max(axis=0, initial=0.0)
+    supple = np.flatnonzero((felt == 0.0) & (interface.compliance[pairs] > 0.0))  # supports hold both sides
+    felt[supple] = interface.area[pairs[supple]] / interface.compliance[pairs[supple]]
     near_null = blocks.spread(_near_null(points, nodes, axis, d))
     return Bodies(
         K=matrix,
