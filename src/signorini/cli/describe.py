@@ -221,7 +221,7 @@ def _contact_notes(examined: Examined) -> list[str]:
     for i, contact in enumerate(model.contacts):
         own = interface.contact == i
         gap = interface.gap[own]
-        if gap.min() > 0.0:
+        if gap.min() > 1e-9 * size:
             notes.append(f"contact '{contact.label}' is open everywhere at the start, by at least {gap.min():.4g}")
         if gap.min() < -1e-9 * size and contact.interference == 0.0 and contact.gap == "geometry":
             notes.append(
