@@ -43,7 +43,7 @@ _WAYS = ("NODE TO SURFACE", "SURFACE TO SURFACE")
 _SHARP = 1e-9  # stress of the smoothing
 _WHY = {
     "blocks, node to surface": "springs of nodes turn with the deformed faces: falls with the load",
-    "friction1": "contact that follows the displaced sides and springs that stiffen there: goes with the load, see above",
+    "friction1": "contact follows the displaced sides there, springs stiffen: goes with the load, see above",
     **dict.fromkeys(("friction2", "friction3"), "equilibrium asks for a mean pressure of 100: 99.98 there"),
     "contactenergy": "points of faces there, nodes here: the total",
     "contact5": "contact of coarse quadratic faces",
