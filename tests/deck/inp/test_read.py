@@ -207,6 +207,19 @@ def test_tied_surfaces_are_one_body(tmp_path: Path) -> None:
     assert pulled.steps[0].reactions["Top u2"][1] == pytest.approx(force, rel=1e-9)
 
 
+def test_a_stiffness_of_tied_surfaces_is_left_out_with_a_note(tmp_path: Path) -> None:
+    """The contact of blocks that are pulled apart holds them, and says that it is exact."""
+    text = (DECKS / "two_blocks.inp").read_text()
+    a, b = text.index("*SURFACE INTERACTION"), text.index("*CONTACT PAIR")
+    name = text[a:].split("NAME=")[1].split()[0]
+    law = f"*SURFACE INTERACTION, NAME={name}\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TIED\n1e6\n"
+    deck = tmp_path / "deck.inp"
+    deck.write_text((text[:a] + law + text[b:]).replace("-0.001", "0.001"))
+    found = load(deck)
+    assert any("tied exactly" in note for note in found.notes)
+    assert sg.solve(found.model).steps[0].contacts[0].normal_force[1] != 0.0
+
+
 def test_every_deck_is_solved_and_balanced() -> None:
     """What pushes on the bodies is what the supports take: a deck for every kind of element and interface."""
     for path in sorted(DECKS.glob("*.inp")):

@@ -277,6 +277,8 @@ def _notes(
     notes = list(dict.fromkeys(group.type.note for group in grid.groups if group.type.note))
     if any(not pair.contact.tied for pair in contacts):
         notes.append(_SMALL_SLIDING)
+    if any(pair.contact.tied and pair.block.keyword == "CONTACT PAIR" for pair in contacts):
+        notes.append("surfaces of a TIED contact pair are tied exactly: a stiffness given with it is not used")
     if small_strain and any(step.nlgeom for step in steps):
         notes.append("NLGEOM is ignored: displacements and strains are taken as small")
     if not deck_increments and any(step.increments > 1 for step in steps):
