@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What both programs print of contact, row by row: tables of ``.dat`` and the field CONTACT of ``.frd``.
 
-    python benchmarks/contact_prints.py [FOLDER NAME...] [--write docs/inp.md]
+    python -m benchmarks.contact_prints [FOLDER NAME...] [--write docs/inp.md]
 
 CalculiX (``ccx``) and this package compute the same decks in the increments of the deck, without large displacements:
 two blocks of this script, pressed and dragged along both tangents, with the normal along every axis either way (the
@@ -25,10 +25,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks import page
 from benchmarks.decks import plain
 from signorini.cli import main as run_here
 
-_BEGIN, _END = "<!-- contact prints -->\n", "<!-- end of contact prints -->\n"
 _SECONDS = 300  # for CalculiX
 
 # heading, what it is called here, kinds of its columns
@@ -228,9 +228,7 @@ def main() -> None:
             found.append((title, table, *numbers))
             print("{:30s} {:15s} {:5d} {:9.1e} {:9.1e}".format(*found[-1]), flush=True)
     if options.write:
-        text = options.write.read_text()
-        head, _, rest = text.partition(_BEGIN)
-        options.write.write_text(head + _BEGIN + document(found) + _END + rest.partition(_END)[2])
+        page.write("contact prints", document(found), options.write)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Public CalculiX decks against what CalculiX printed for them, and where the differences come from.
 
-    python benchmarks/decks.py FOLDER [NAME...] [--ccx] [--write docs/inp.md]
+    python -m benchmarks.decks FOLDER [NAME...] [--ccx] [--write docs/inp.md]
 
 FOLDER holds decks (``NAME.inp``) and what CalculiX printed for them (``NAME.dat.ref`` or ``NAME.frd.ref``), such as the
 folder ``test`` of the CalculiX repository; nothing is fetched. Every deck that this package can solve is solved with
@@ -30,12 +30,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 import signorini as sg
+from benchmarks import page
 from signorini.deck import load
 
 _TABLE = re.compile(r"displacements \(vx,vy,vz\) for set (\S+) and time +(\S+)\s*\n\s*\n((?:[ \d].*\n?)+)")
 _SECONDS = 300  # for CalculiX
 _STIFFER = 100.0
-_BEGIN, _END = "<!-- public decks -->\n", "<!-- end of public decks -->\n"
 
 _LARGE = "large displacements"
 _COARSE = "contact of coarse quadratic faces: see the stamp below"
@@ -223,9 +223,7 @@ def main() -> None:
     for words, count in refused.most_common(60):
         print(f"{count:5d}  {words}")
     if options.write:
-        text = options.write.read_text()
-        head, _, rest = text.partition(_BEGIN)
-        options.write.write_text(head + _BEGIN + document(rows) + _END + rest.partition(_END)[2])
+        page.write("public decks", document(rows), options.write)
 
 
 if __name__ == "__main__":

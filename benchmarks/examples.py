@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The CalculiX-Examples, whose meshes cgx and Gmsh make: what is solved, how far CalculiX is, and what is refused.
 
-    python benchmarks/examples.py FOLDER [NAME...] [--write docs/inp.md]
+    python -m benchmarks.examples FOLDER [NAME...] [--write docs/inp.md]
 
 FOLDER is a copy of the public repository calculix/CalculiX-Examples; nothing is fetched and nothing in it is changed.
 Needs ``cgx`` and ``ccx``. Every example is built in a folder of its own by the scripts that come with it, less what
@@ -25,10 +25,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from deck_text import deck_text
-from decks import Values, by_calculix, plain, spelled
 
 import signorini as sg
+from benchmarks import page
+from benchmarks.deck_text import deck_text
+from benchmarks.decks import Values, by_calculix, plain, spelled
 from signorini.deck import load
 from signorini.deck.inp.syntax import read_blocks
 
@@ -38,7 +39,6 @@ _DRAWN = re.compile(
     r"ulin|view|zoom|quit|exit)\b| *sys +(?!echo\b)"
 )
 _CONSENT = "c\n" * 1000  # cgx asks before each "sys echo", which writes lists of files
-_BEGIN, _END = "<!-- examples -->\n", "<!-- end of examples -->\n"
 
 
 @dataclass(frozen=True)
@@ -197,10 +197,8 @@ def main() -> None:
                 refused.append(f"| {example.name} | {words} |")
                 print(refused[-1], flush=True)
     if options.write:
-        text = options.write.read_text()
-        head, _, rest = text.partition(_BEGIN)
         tables = "\n".join([*solved, "", *refused, ""])
-        options.write.write_text(head + _BEGIN + tables + _END + rest.partition(_END)[2])
+        page.write("examples", tables, options.write)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """CalculiX decks with every element cut into smaller ones, and with smaller loads: does what both differ by vanish?
 
-    python benchmarks/refined.py FOLDER [--write docs/inp.md]
+    python -m benchmarks.refined FOLDER [--write docs/inp.md]
 
 FOLDER holds the decks, such as the folder ``test`` of the CalculiX repository; nothing is fetched. Needs ``ccx``. Each
 hexahedron is cut into n x n x n, whose nodes lie where its shape functions put them, so that the bodies stay what they
@@ -21,12 +21,13 @@ from pathlib import Path
 
 import numpy as np
 import scipy.sparse as sp
-from deck_text import data_lines, keyword_line, scaled_lines
-from decks import by_calculix, plain
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
 import signorini as sg
+from benchmarks import page
+from benchmarks.deck_text import data_lines, keyword_line, scaled_lines
+from benchmarks.decks import by_calculix, plain
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.syntax import read_blocks
 
@@ -44,7 +45,6 @@ _EDGES = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4)
 _PLACES = np.vstack([_CORNERS, [(_CORNERS[i] + _CORNERS[j]) / 2 for i, j in _EDGES]])
 _FACES = {"1": (2, -1), "2": (2, 1), "3": (1, -1), "4": (0, 1), "5": (1, 1), "6": (0, -1)}  # axis and end
 _SAME = 1e-7  # of the size of the mesh: nodes that are nearer are one
-_BEGIN, _END = "<!-- refined decks -->\n", "<!-- end of refined decks -->\n"
 
 
 def shapes(at: Floats, count: int) -> Floats:
@@ -196,9 +196,7 @@ def main() -> None:
             rows.append(compared(options.folder / f"{name}.inp", n, share, Path(folder)))
             print(rows[-1], flush=True)
     if options.write:
-        text = options.write.read_text()
-        head, _, rest = text.partition(_BEGIN)
-        options.write.write_text(head + _BEGIN + "\n".join(rows) + "\n" + _END + rest.partition(_END)[2])
+        page.write("refined decks", "\n".join(rows), options.write)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A small cube pressed onto a larger one, as in CalculiX's deck contact4, and a ring onto a ring: finer meshes.
 
-    python benchmarks/stamp.py [--write docs/inp.md]
+    python -m benchmarks.stamp [--write docs/inp.md]
 
 Needs ``ccx``. Both programs solve the same decks. contact4 has one element a cube; there the two discretisations of
 contact differ by percents, and so do both from the limit. The last columns are the mean displacements of the loaded
@@ -15,12 +15,12 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from decks import by_calculix
 
 import signorini as sg
+from benchmarks import page
+from benchmarks.decks import by_calculix
 
 _FAMILIES = {"C3D8": "hexahedron", "C3D20": "hexahedron20", "CAX4": "quad", "CAX8": "quad8"}
-_BEGIN, _END = "<!-- stamp -->\n", "<!-- end of stamp -->\n"
 
 
 def _deck(mesh: sg.Mesh, kind: str, height: int, faces: tuple[int, int, int], held: tuple[str, str], nu: float) -> str:
@@ -96,9 +96,7 @@ def main() -> None:
                 rows.append(f"| {kind} | {n} | {apart:.1e} | {' | '.join(means)} |")
                 print(rows[-1], flush=True)
     if options.write:
-        text = options.write.read_text()
-        head, _, rest = text.partition(_BEGIN)
-        options.write.write_text(head + _BEGIN + "\n".join(rows) + "\n" + _END + rest.partition(_END)[2])
+        page.write("stamp", "\n".join(rows), options.write)
 
 
 if __name__ == "__main__":

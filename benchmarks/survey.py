@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Public decks in bulk: which are read and solved, and which keyword refuses the others.
 
-    python benchmarks/survey.py FOLDER [--write docs/inp.md]
+    python -m benchmarks.survey FOLDER [--write docs/inp.md]
 
 FOLDER holds one folder for each repository; nothing is fetched. Every ``.inp`` file below is read, with small strains,
 and solved, with its certificate, if it is read.
@@ -15,9 +15,8 @@ from collections import Counter
 from pathlib import Path
 
 import signorini as sg
+from benchmarks import page
 from signorini.deck import load
-
-_BEGIN, _END = "<!-- survey -->\n", "<!-- end of survey -->\n"
 
 
 def outcome(deck: Path) -> str:
@@ -47,9 +46,7 @@ def main() -> None:
         rows.append(f"| {home.name} | {found.total()} | {found['solved']} | {rest} |")
         print(rows[-1], flush=True)
     if options.write:
-        text = options.write.read_text()
-        head, _, behind = text.partition(_BEGIN)
-        options.write.write_text(head + _BEGIN + "\n".join(rows) + "\n" + _END + behind.partition(_END)[2])
+        page.write("survey", "\n".join(rows), options.write)
 
 
 if __name__ == "__main__":
