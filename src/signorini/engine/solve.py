@@ -224,7 +224,11 @@ def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPo
     except SolveFailed as failure:
         if step.path == "exact" or step.jump == "stop":
             raise
-        leg = follow_increments(prepared, _BEHIND_A_JUMP, stage.name, span, state, end)
+        try:
+            leg = follow_increments(prepared, _BEHIND_A_JUMP, stage.name, span, state, end)
+        except SolveFailed as nothing:
+            words = f"{failure}; nor do increments go on: {nothing}"
+            raise SolveFailed(words, status=nothing.status, motion=nothing.motion) from failure
         return replace(leg, notes=(f"{failure}; followed in {_BEHIND_A_JUMP} increments to what is a candidate",))
 
 

@@ -48,12 +48,20 @@ def history_table(history: History) -> str:
     for number, step in enumerate(history.steps, start=1):
         lines += ["", *_step_lines(step, number)]
     for note in dict.fromkeys(note for step in history.steps for note in step.notes):
-        lines += ["", *textwrap.wrap(f"note: {note}", 112)]
+        lines += ["", *textwrap.wrap(f"{_whose(note, history.steps)}: {note}", 112)]
     if history.wellposedness is not None:
         lines += ["", *textwrap.wrap(f"uniqueness: {history.wellposedness.words}", 112)]
     if not history.solved:
         lines += ["", *textwrap.wrap(f"{history.status}: {history.message}", 112)]
     return "\n".join(lines)
+
+
+def _whose(note: str, steps: Sequence[StepResult]) -> str:
+    """The word that begins a note, with the numbers of its steps where there are others."""
+    numbers = [number for number, step in enumerate(steps, start=1) if note in step.notes]
+    if len(numbers) == len(steps):
+        return "note"
+    return f"note, step{'s' if len(numbers) > 1 else ''} {', '.join(map(str, numbers))}"
 
 
 def _step_lines(step: StepResult, number: int) -> list[str]:
