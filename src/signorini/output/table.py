@@ -70,6 +70,7 @@ def _step_lines(step: StepResult, number: int) -> list[str]:
         if step.path == "exact"
         else f"{step.increments} increment{'s' if step.increments > 1 else ''}"
     )
+    far = "" if step.finished else f"NOT finished, as far as {step.load_factor - (number - 1):.6%}, "
     pressed = [float((abs(contact.pressure) * contact.area).sum()) for contact in step.contacts]
     held = [float(abs(force).max()) for force in step.reactions.values()]
     noise = _ROUNDING * max([*pressed, *held], default=0.0)
@@ -91,7 +92,7 @@ def _step_lines(step: StepResult, number: int) -> list[str]:
     certificate = step.certificate
     verdict = "passed" if certificate.passed else "NOT passed"
     return [
-        f"step {number} '{step.name}', {count} ({', '.join(step.methods)})",
+        f"step {number} '{step.name}', {far}{count} ({', '.join(step.methods)})",
         *(align([_HEAD, *rows], right=_NUMBERS) if rows else ["no contact"]),
         *([f"reactions: {reactions}"] if reactions else []),
         *(
