@@ -63,9 +63,14 @@ def follow_increments(prepared: Prepared, number: int, where: str, span: Span, s
 
 
 def advance(
-    prepared: Prepared, state: State, point: LoadPoint, where: str
+    prepared: Prepared, state: State, point: LoadPoint, where: str, *, start: Array | IntArray | None = None
 ) -> tuple[State, Certificate, CoulombResult | SpatialResult | Answer]:
-    """One increment: from a state to the next point of the load history."""
+    """One increment: from a state to the next point of the load history.
+
+    Parameters
+    ----------
+    start : what the law's solver starts from, see `_start`; as the state is where not given
+    """
     constraints, interface = prepared.constraints, prepared.interface
     n, active = len(interface), prepared.bodies.active
     loads, imposed = applied(prepared, point)
@@ -76,7 +81,9 @@ def advance(
     if isinstance(prepared.bodies, Bodies):
         result, forces, moved, free = _iterated(prepared, prepared.bodies, f, offset, state)
     else:
-        result, forces, moved, free = _balanced(prepared, f, offset, state)
+        result, forces, moved, free = _balanced(
+            prepared, f, offset, _start(prepared, state) if start is None else start
+        )
     if not result.solved:
         raise _failure(prepared, result, where)
     with prepared.clock.phase("recovery"):
@@ -166,7 +173,7 @@ def certified(prepared: Prepared, state: State, before: Array, where: str) -> Ce
 
 
 def _balanced(
-    prepared: Prepared, f: Array, offset: Array, state: State
+    prepared: Prepared, f: Array, offset: Array, start: Array | IntArray | None
 ) -> tuple[CoulombResult | SpatialResult, Array, Array, Array]:
     """The contact problem under the load f on the free displacements: result, forces, motions, free displacements.
 
@@ -177,8 +184,7 @@ def _balanced(
     condensed, interface, scale, law = prepared.condensed, prepared.interface, prepared.scale, prepared.law
     rows, T, ties = condensed.active_rows, prepared.constraints.transform, condensed.ties
     forces, moved, free = np.zeros(len(offset)), np.zeros(len(offset)), np.zeros_like(f)
-    load, start = f, _start(prepared, state)
-    lacking = np.zeros(len(rows))
+    load, lacking = f, np.zeros(len(rows))
     guided = np.concatenate([np.zeros(law.pairs, dtype=np.bool_), law.locked.T.ravel()])
     for _ in range(_REFINEMENTS + 1):
         with prepared.clock.phase("complementarity"):
