@@ -51,7 +51,7 @@ def follow_increments(prepared: Prepared, number: int, where: str, span: Span, s
     for k in range(1, number + 1):
         words = f"{where} at {span.part(k / number):.0%}"
         prepared.clock.increment(words)
-        after, certificate, result = advance(prepared, state, start.towards(end, k / number), words, last)
+        after, certificate, result = advance(prepared, state, start.towards(end, k / number), words, last=last)
         last, state = state, after
         certificates.append(certificate)
         trace.append(result.trace)
@@ -68,12 +68,19 @@ def follow_increments(prepared: Prepared, number: int, where: str, span: Span, s
 
 
 def advance(
-    prepared: Prepared, state: State, point: LoadPoint, where: str, last: State | None = None
+    prepared: Prepared,
+    state: State,
+    point: LoadPoint,
+    where: str,
+    *,
+    start: Array | IntArray | None = None,
+    last: State | None = None,
 ) -> tuple[State, Certificate, CoulombResult | SpatialResult | Answer]:
     """One increment: from a state to the next point of the load history.
 
     Parameters
     ----------
+    start : what the law's solver starts from, see `_start`; as the state is where not given
     last : the state an increment as long as this one before, where there is one: bodies that are not condensed are
         sought as far ahead again
     """
@@ -87,7 +94,9 @@ def advance(
     if isinstance(prepared.bodies, Bodies):
         result, forces, moved, free = _iterated(prepared, prepared.bodies, f, offset, state, last)
     else:
-        result, forces, moved, free = _balanced(prepared, f, offset, state)
+        result, forces, moved, free = _balanced(
+            prepared, f, offset, _start(prepared, state) if start is None else start
+        )
     if not result.solved:
         raise _failure(prepared, result, where)
     with prepared.clock.phase("recovery"):
@@ -206,7 +215,7 @@ def certified(prepared: Prepared, state: State, before: Array, where: str) -> Ce
 
 
 def _balanced(
-    prepared: Prepared, f: Array, offset: Array, state: State
+    prepared: Prepared, f: Array, offset: Array, start: Array | IntArray | None
 ) -> tuple[CoulombResult | SpatialResult, Array, Array, Array]:
     """The contact problem under the load f on the free displacements: result, forces, motions, free displacements.
 
@@ -217,8 +226,7 @@ def _balanced(
     condensed, interface, scale, law = prepared.condensed, prepared.interface, prepared.scale, prepared.law
     rows, T, ties = condensed.active_rows, prepared.constraints.transform, condensed.ties
     forces, moved, free = np.zeros(len(offset)), np.zeros(len(offset)), np.zeros_like(f)
-    load, start = f, _start(prepared, state)
-    lacking = np.zeros(len(rows))
+    load, lacking = f, np.zeros(len(rows))
     guided = np.concatenate([np.zeros(law.pairs, dtype=np.bool_), law.locked.T.ravel()])
     for _ in range(_REFINEMENTS + 1):
         with prepared.clock.phase("complementarity"):
