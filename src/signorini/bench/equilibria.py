@@ -31,8 +31,8 @@ class Equilibria:
     def __str__(self) -> str:
         lines = [
             f"Certified steps with one solution: {self.unique} by the bound on friction, {self.single} because no other "
-            f"state of up to {FEW} pairs is in equilibrium, {self.alone} as far as a search tells; {len(self.several)} "
-            "with several:",
+            f"state of the pairs is in equilibrium (up to {FEW}), {self.alone} as far as a search tells. With several: "
+            f"{len(self.several)}.",
             "",
             *(f"- {count} solutions: {name}" for count, name in self.several),
         ]
