@@ -30,8 +30,8 @@ class Equilibria:
 
     def __str__(self) -> str:
         lines = [
-            f"Certified steps with one solution: {self.unique} by the bound on friction, {self.single} because no other "
-            f"state of the pairs is in equilibrium (up to {FEW}), {self.alone} as far as a search tells. With several: "
+            f"Certified steps with one solution: {self.unique} by the bound on friction, {self.single} as no other "
+            f"state of the pairs is in equilibrium (up to {FEW}), {self.alone} as far as a search tells; several: "
             f"{len(self.several)}.",
             "",
             *(f"- {count} solutions: {name}" for count, name in self.several),
