@@ -105,10 +105,17 @@ def _obstacles(model: Model) -> Rows:
     rows: Rows = []
     for obstacle in model.obstacles:
         parts = ", ".join("free" if part is None else f"{part:g}" for part in obstacle.u)
-        turn = "free" if obstacle.turn is None else f"{obstacle.turn:g}"
+        turn = _alike(["free" if turn is None else f"{turn:g}" for turn in obstacle.turns])
         force = spell_vector([part or 0.0 for part in obstacle.force or (0.0,) * model.dimension])
-        rows.append((obstacle.name, str(obstacle.shape), f"u = ({parts})", f"rotation {turn}", f"force {force}"))
+        moment = _alike([f"{moment:g}" for moment in obstacle.moments])
+        way = (f"u = ({parts})", f"rotation {turn}", f"force {force}", f"moment {moment}")
+        rows.append((obstacle.name, str(obstacle.shape), *way))
     return rows
+
+
+def _alike(words: list[str]) -> str:
+    """A vector, one word where all are the same."""
+    return words[0] if len(set(words)) == 1 else f"({', '.join(words)})"
 
 
 def _rigid_bodies(model: Model) -> Rows:
