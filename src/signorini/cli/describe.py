@@ -175,26 +175,27 @@ def _steps(model: Model) -> Rows:
             (
                 str(number),
                 step.name,
-                _stepping(step),
+                _stepping(step, model.dimension),
                 f"ends at {ends or 'no load'}",
             )
         )
     return rows
 
 
-def _stepping(step: Step) -> str:
+def _stepping(step: Step, dimension: int) -> str:
     count = step.segments * step.repeat
     cycles = f", {step.repeat} cycles" if step.repeat > 1 else ""
-    return _way(step) + (f" in each of {count} segments{cycles}" if count > 1 else "")
+    return _way(step, dimension) + (f" in each of {count} segments{cycles}" if count > 1 else "")
 
 
-def _way(step: Step) -> str:
+def _way(step: Step, dimension: int) -> str:
     if step.increments == "auto":
         return f"increments until forces change less than {step.tolerance:g}"
     if step.increments is not None:
         return "1 increment" if step.increments == 1 else f"{step.increments} increments"
     if step.path is None:
-        return "exact path where there is friction"
+        way = "exact path" if dimension == 2 else "increments to events"
+        return f"{way} where there is friction, otherwise 1 increment"
     return "exact path" if step.path == "exact" else "1 increment"
 
 

@@ -117,7 +117,9 @@ def _followed(
     if prepared.interface.directions == 3 and not isinstance(prepared.bodies, Bodies):
         try:
             leg = follow_to_events(prepared, number, where, span, state, end, whole=whole, jumps=jump == "follow")
-            return leg, f"{len(leg.trace)} increments to events, none needs to be shorter than 1/{number}"
+            count = len(leg.trace)
+            words = f"{count} increment{'' if count == 1 else 's'} to events"
+            return leg, f"{words}, none needs to be shorter than 1/{number}"
         except SolveFailed as failure:
             if failure.status == "jump" and jump == "stop":
                 raise
