@@ -33,7 +33,9 @@ GROWN = "the contact grew under friction: in one increment tractions can be off 
 """What it says further where pairs closed that were open before."""
 
 
-def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence[float]) -> StepResult:
+def step_result(
+    prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence[float], *, finished: bool = True
+) -> StepResult:
     """Results at the end of a step.
 
     Parameters
@@ -41,6 +43,7 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
     prepared : under the law of the step
     leg : all of the step
     cycle_ends : load factors at which its cycles end; one where it does not repeat
+    finished : whether the leg goes to the end of the step
     """
     before, state, certificates = leg.before, leg.after, leg.certificates
     heat = heat_of(prepared)
@@ -54,7 +57,8 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
     return StepResult(
         name=stage.title,
         path=leg.path,
-        load_factor=float(stage.number),
+        load_factor=leg.snapshots[-1].load_factor,
+        finished=finished,
         increments=0 if leg.path == "exact" else len(leg.trace),
         events=leg.events,
         displacement=frozen(prepared.space.at_nodes(state.displacement)),
