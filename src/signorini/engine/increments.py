@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
-from signorini.engine.leg import Leg, Snapshot
+from signorini.engine.leg import Leg, Snapshot, keep
 from signorini.engine.prepare import Prepared
 from signorini.engine.span import Span
 from signorini.errors import SolveFailed
@@ -23,6 +23,7 @@ from signorini.iterative.bodies import Bodies
 from signorini.iterative.solve import Answer, Load, solve_iteratively
 from signorini.solution.certificate import Certificate, certify
 from signorini.solution.state import LoadPoint, State, next_state
+from signorini.trace import Attempt
 
 _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
 _REFINEMENTS = 2
@@ -43,28 +44,38 @@ def follow_increments(prepared: Prepared, number: int, where: str, span: Span, s
     Raises
     ------
     SolveFailed
-        If an increment has no certified solution.
+        If an increment has no certified solution; it carries the increments before.
     """
     start, before = state.point, state
-    certificates, trace, snapshots = [], [], []
+    path = "single" if number == 1 else "increments"
+    certificates: list[Certificate] = []
+    trace: list[tuple[Attempt, ...]] = []
+    snapshots: list[Snapshot] = []
+
+    def followed() -> Leg:
+        return Leg(
+            path=path,
+            before=before,
+            after=state,
+            certificates=tuple(certificates),
+            trace=tuple(trace),
+            snapshots=tuple(snapshots),
+        )
+
     last: State | None = None
     for k in range(1, number + 1):
         words = f"{where} at {span.part(k / number):.0%}"
         prepared.clock.increment(words)
-        after, certificate, result = advance(prepared, state, start.towards(end, k / number), words, last=last)
-        last, state = state, after
+        try:
+            new, certificate, result = advance(prepared, state, start.towards(end, k / number), words, last=last)
+        except (SolveFailed, KeyboardInterrupt) as stop:
+            raise keep(stop, [followed()] if snapshots else []) from None
+        last, state = state, new
         certificates.append(certificate)
         trace.append(result.trace)
         what = span.ends if k == number else "increment"
         snapshots.append(Snapshot(load_factor=span.factor(k / number), what=what, state=state))
-    return Leg(
-        path="single" if number == 1 else "increments",
-        before=before,
-        after=state,
-        certificates=tuple(certificates),
-        trace=tuple(trace),
-        snapshots=tuple(snapshots),
-    )
+    return followed()
 
 
 def advance(

@@ -18,7 +18,7 @@ SAME = 1e-7
 """Two answers closer than this, relative to the data, are one."""
 
 _DIRECTIONS = 8
-_GUESSES, _GUESSED = 24, 600  # at random: so many, or so many states of pairs where that is more
+_FEW, _GUESSES = 10, (100, 24)  # at random: for so few pairs, and for more
 _FAR = 1e3  # of the friction: a pair that slips
 
 
@@ -66,7 +66,7 @@ def _starts(problem: SpatialProblem, rng: np.random.Generator) -> Iterator[Array
     yield np.concatenate([-one, none, none])
     for angle in 2.0 * np.pi / _DIRECTIONS * np.arange(_DIRECTIONS):
         yield np.concatenate([one, _FAR * np.cos(angle) * one, _FAR * np.sin(angle) * one])
-    for _ in range(max(_GUESSES, _GUESSED // max(n, 1))):
+    for _ in range(_GUESSES[n > _FEW]):
         state, angle = rng.integers(0, 3, n), rng.uniform(0.0, 2.0 * np.pi, n)
         slip = np.where(state == 2, _FAR, 0.0)
         yield np.concatenate([np.where(state == 0, -1.0, 1.0), slip * np.cos(angle), slip * np.sin(angle)])
