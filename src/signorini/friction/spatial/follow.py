@@ -39,6 +39,8 @@ _GROWTH, _FINER = 0.5, 2.0**-4  # of what is behind, and of the shortest: what i
 _SHRINK = 0.9  # of the estimated part up to an event: short of it
 _SAME, _LATE = 1e-12, 1e-3  # part of an increment by which it may miss an event; the latter after some tries
 _COARSER = 4.0  # times what friction may turn elsewhere: where one longer increment is gone again event by event
+_ACROSS = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)  # times the last increment: where to look for the other side of a fold
+_FOLD, _TURNED = 1e-9, 0.3  # part of the way in which it is looked for, and what friction may turn in it
 _PATIENCE = 4  # tries
 _ROUNDING = 1e-9  # part of an increment: what comes so late does not happen in it
 _LOST = 1e-7  # part of the segment: where not even that has a solution nothing goes on gradually
@@ -247,6 +249,24 @@ class Walk:
                 step *= _SHRINK * self._turn / trial.turn
             else:
                 self._enter(trial, self._settled(trial, rates.state), self.tried - tried)
+                return True
+        return False
+
+    def cross(self, before: PathState) -> bool:
+        """One increment across a fold of the curve of equilibria that led here from ``before``; whether there is one.
+
+        On a smooth section friction turns until the load that goes back can go no farther: on with the same slip.
+        """
+        now, n = self.now, self.problem.pairs
+        h, r = now.h - before.h, now.r - before.r
+        for times in _ACROSS:
+            y = now.r + times * (r - h) - np.concatenate([now.h[:n], np.zeros(2 * n)])
+            trial = self._trial(_FOLD, _FOLD, y)
+            if isinstance(trial, SpatialResult) or trial.turn > _TURNED:
+                continue
+            moved = trial.after.h - now.h
+            if moved @ h > 0.5 * float(h @ h):
+                self._enter(trial, self._settled(trial, trial.after.state), 1)
                 return True
         return False
 
