@@ -253,12 +253,17 @@ def set_free(prepared: Prepared, before: State, after: State, *, taken: Array) -
 
 
 def stored_energy(prepared: Prepared, state: State) -> float:
-    """In the bodies and in compliant interfaces."""
-    interface = prepared.interface
-    forces = np.where(interface.rows(prepared.absent), 0.0, state.forces)
+    """In the bodies, elastic foundations and compliant interfaces."""
     u = state.displacement
     strain = float(u @ (prepared.K @ u)) if u.any() else 0.0
-    return 0.5 * (strain + float(forces**2 @ (interface.compliance / interface.areas)))
+    return 0.5 * strain + interface_energy(prepared, state)
+
+
+def interface_energy(prepared: Prepared, state: State) -> float:
+    """In compliant interfaces."""
+    interface = prepared.interface
+    forces = np.where(interface.rows(prepared.absent), 0.0, state.forces)
+    return 0.5 * float(forces**2 @ (interface.compliance / interface.areas))
 
 
 def _offset(prepared: Prepared, point: LoadPoint) -> Array:

@@ -84,7 +84,15 @@ def _begin(prepared: Prepared, start: Checkpoint | None) -> Checkpoint:
     zero = dict.fromkeys(model.scaled_names, 0.0)
     if start is None:
         state = initial_state(zero, prepared.space.number_of_dofs, interface)
-        return checkpoint(prepared, state, inactive=frozenset(), released=prepared.released)
+        return Checkpoint(
+            state=state,
+            inactive=frozenset(),
+            released=prepared.released,
+            contacts=tuple(contact.label for contact in model.contacts),
+            contact=interface.contact,
+            node=interface.node,
+            mesh=digest(model.mesh),
+        )
     start.check(model, interface)
     point = start.state.point
     factors = zero | {name: factor for name, factor in point.factors.items() if name in zero}
@@ -125,12 +133,12 @@ def _follow(prepared: Prepared, begin: Checkpoint, wellposed: bool) -> History:
         words = f"interrupted in step {len(steps) + 1} of {len(schedule)}; {len(steps)} steps were finished"
         if isinstance(stop, SolveFailed):
             status, words = stop.status, str(stop)
-        end = checkpoint(prepared, state, inactive=inactive, released=released) if steps else None
+        end = replace(begin, state=state, inactive=inactive, released=released) if steps else None
         part = reached(stop)
         if part is not None:
             steps.append(step_result(now, schedule[len(steps)], part, (), finished=False))
         return replace(_history(prepared, status, words, steps, end), escape=_motion(stop))
-    end = checkpoint(prepared, state, inactive=inactive, released=released)
+    end = replace(begin, state=state, inactive=inactive, released=released)
     history = _history(prepared, "solved", "", steps, end)
     return replace(history, wellposedness=assess(now, state)) if wellposed else history
 
@@ -150,19 +158,6 @@ def _constraints(prepared: Prepared, released: frozenset[str]) -> Constraints:
     if released == prepared.released:
         return prepared.constraints
     return make_constraints(prepared.space, prepared.model, without=released)
-
-
-def checkpoint(prepared: Prepared, state: State, *, inactive: frozenset[str], released: frozenset[str]) -> Checkpoint:
-    """A state as something to go on from."""
-    return Checkpoint(
-        state=state,
-        inactive=inactive,
-        released=released,
-        contacts=tuple(contact.label for contact in prepared.model.contacts),
-        contact=prepared.interface.contact,
-        node=prepared.interface.node,
-        mesh=digest(prepared.model.mesh),
-    )
 
 
 def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[float]]:
