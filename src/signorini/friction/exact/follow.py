@@ -78,8 +78,8 @@ def follow(problem: CoulombProblem, start: PathState, b_end: Array, *, settings:
 
     Notes
     -----
-    Every end of a piece is certified as an increment that starts at the end before, and refined where its equilibrium
-    lacks more than rounding, so that no error adds up.
+    Every end of a piece is certified as an increment that starts at the end before, and solved for afresh where its
+    equilibrium lacks more than rounding, so that no error adds up.
 
     References
     ----------
@@ -299,16 +299,25 @@ class Walk:
         return self.b_end if factor == 1.0 else self.b_start + factor * self.load
 
     def _reached(self, factor: float, rates: Rates) -> tuple[PathState, float]:
-        """The state at a load, refined where it lacks more than rounding, and its certificate."""
+        """The state at a load, solved for afresh where it lacks more than rounding, and its certificate."""
         b, step = self._load_at(factor), factor - self.factor
         h, r = self.now.h + step * rates.h, self.now.r + step * rates.r
         after = self._lawful(b, h, r)
         residual = self._certificate(after)
         size = max(np.abs(part).max(initial=0.0) for part in (b, h, r))
         if residual * (self.problem.scale or 1.0) > ROUNDING * size:
-            after = self._lawful(b, *self.responses.balanced(rates.state, b, after.h, after.r))
+            after = self._lawful(b, *self._afresh(b))
             residual = self._certificate(after)
         return after, residual
+
+    def _afresh(self, b: Array) -> tuple[Array, Array]:
+        """(2n,) Motions and forces under a load in the present states, whatever has led there."""
+        now, n, state = self.now, self.problem.pairs, self.now.state
+        held = np.concatenate([np.zeros(n), np.where(state == STICK, now.anchor, now.h[n:])])
+        given = np.concatenate([np.zeros(n), self.bound.start(state)])
+        free = self.responses.free(b) + self.responses.imposed(held, given)
+        h, r = self.responses.respond(state, free)
+        return self.responses.balanced(state, b, h + held, r + given)
 
     def _lawful(self, b: Array, h: Array, r: Array) -> PathState:
         """The state with motions and forces of its law to the last digit, the slip and the dissipation of the piece."""
