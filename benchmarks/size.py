@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Large contacts in space, condensed and iterated: growth with unknowns and with pairs; tables of docs/performance.md.
 
-python -m benchmarks.size [unknowns] [pairs] [--small] [--dry]
+python -m benchmarks.size [unknowns] [pairs] [--small] [--dry] [--kept FILE]
 
 Seconds on the wall, all cores, of everything from the model to the certified solution; code warm, every run in a
-process of its own.
+process of its own. What is measured is added to a file, a line each, and not measured again: so the tables can be made
+in pieces, whenever the machine is quiet.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import json
 import subprocess
 import sys
 import time
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -29,10 +31,10 @@ from signorini.model.contact import Contact
 from signorini.model.material import Elastic
 from signorini.model.mesh import join
 from signorini.model.model import Model
+from signorini.model.step import Step
 
 WAYS = ("multifrontal", "iterative")
 CONDENSED_UP_TO = 310_000
-ITERATED_UP_TO = 30  # cells across: more pairs in as few unknowns are no case for iteration, and take long
 SIZES, SMALL_SIZES = (30_000, 100_000, 300_000, 1_000_000), (3_000, 10_000)
 SIDES, SMALL_SIDES = (14, 19, 29, 39, 49), (4, 8)
 FIXED, SMALL_FIXED = 100_000, 3_000
@@ -53,6 +55,7 @@ def columns(side: int, dofs: int) -> Model:
             Support("upper.top", u=(0.018 * height, 0.006 * height, -0.01 * height)),
         ],
         contacts=[Contact("upper.bottom", "lower.top", friction=0.3, name="contact")],
+        steps=[Step(increments=1)],
     )
 
 
@@ -87,12 +90,20 @@ def measure(problem: str, way: str, dofs: int) -> dict[str, Any]:
     }
 
 
-def in_process(problem: str, way: str, dofs: int) -> dict[str, Any]:
-    """Measure in a process of its own."""
+def in_process(problem: str, way: str, dofs: int, kept: Path | None) -> dict[str, Any]:
+    """Measure in a process of its own, unless that was done before."""
+    case = [problem, way, dofs]
+    for line in kept.read_text().splitlines() if kept and kept.exists() else []:
+        before, found = json.loads(line)
+        if before == case:
+            return dict(found)
     command = [sys.executable, "-m", "benchmarks.size", "--one", problem, way, str(dofs)]
-    found: dict[str, Any] = json.loads(subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout)
+    found = json.loads(subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout)
+    if kept:
+        with kept.open("a") as file:
+            file.write(json.dumps([case, found]) + "\n")
     print(f"{problem}, {way}: {found['unknowns']} unknowns, {found['pairs']} pairs: {found['wall']:.1f} s", flush=True)
-    return found
+    return dict(found)
 
 
 def row(problem: str, way: str, found: dict[str, Any]) -> list[object]:
@@ -124,9 +135,9 @@ def growth(rows: list[tuple[str, dict[str, Any]]], key: str) -> str:
     return f"Exponents of the seconds in the {key}: {', '.join(said)}."
 
 
-def table(cases: list[tuple[str, str, int]], key: str) -> str:
+def table(cases: list[tuple[str, str, int]], key: str, kept: Path | None) -> str:
     """Measure cases of (problem, way, dofs)."""
-    found = [(problem, way, in_process(problem, way, dofs)) for problem, way, dofs in cases]
+    found = [(problem, way, in_process(problem, way, dofs, kept)) for problem, way, dofs in cases]
     lines = [
         row(f"{problem} cells across" if problem.isdigit() else problem, way, each) for problem, way, each in found
     ]
@@ -138,7 +149,7 @@ def table(cases: list[tuple[str, str, int]], key: str) -> str:
     return "\n\n".join([page.table(HEAD, lines), growth([(way, each) for _, way, each in found], key), words])
 
 
-def unknowns(small: bool) -> str:
+def unknowns(small: bool, kept: Path | None) -> str:
     """Cubes that do not match, condensed and iterated."""
     sizes = SMALL_SIZES if small else SIZES
     cases = [
@@ -147,14 +158,14 @@ def unknowns(small: bool) -> str:
         for dofs in sizes
         if way == "iterative" or dofs <= CONDENSED_UP_TO
     ]
-    return table(cases, "unknowns")
+    return table(cases, "unknowns", kept)
 
 
-def pairs(small: bool) -> str:
+def pairs(small: bool, kept: Path | None) -> str:
     """Columns of a fixed number of unknowns, ever wider."""
     sides, dofs = (SMALL_SIDES, SMALL_FIXED) if small else (SIDES, FIXED)
-    cases = [(str(side), way, dofs) for way in WAYS for side in sides if way != "iterative" or side <= ITERATED_UP_TO]
-    return table(cases, "pairs")
+    cases = [(str(side), way, dofs) for way in WAYS for side in sides]
+    return table(cases, "pairs", kept)
 
 
 def main() -> None:
@@ -162,6 +173,7 @@ def main() -> None:
     parser.add_argument("tables", nargs="*", help="unknowns, pairs")
     parser.add_argument("--small", action="store_true", help="sizes that take seconds")
     parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
+    parser.add_argument("--kept", type=Path, help="what was measured before, and is added to")
     parser.add_argument("--one", action="store_true", help="measure in this process")
     options = parser.parse_args()
     if options.one:
@@ -169,7 +181,7 @@ def main() -> None:
         print(json.dumps(measure(problem, way, int(dofs))))
         return
     for name in options.tables or ("unknowns", "pairs"):
-        text = {"unknowns": unknowns, "pairs": pairs}[name](options.small)
+        text = {"unknowns": unknowns, "pairs": pairs}[name](options.small, options.kept)
         print(text)
         if not options.dry:
             page.write(f"size, {name}", text)

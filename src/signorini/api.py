@@ -74,7 +74,7 @@ class Solution(History):
         Raises
         ------
         InputError
-            For any other name, or if no step was finished.
+            For any other name, or if nothing was solved.
         """
         path = Path(path)
         if path.suffix.lower() not in _WRITERS:
@@ -145,7 +145,7 @@ class Solution(History):
         Raises
         ------
         InputError
-            If PyVista is not installed, the model is plane, no step was finished, or the name ends otherwise.
+            If PyVista is not installed, the model is plane, nothing was solved, or the name ends otherwise.
         """
         target = check_png(Path(path))
         with tempfile.TemporaryDirectory() as name:
@@ -188,7 +188,7 @@ def solve(
     start : a solution, or the file of its :meth:`Solution.save_state`, from whose end this history goes on; load
         factors, slips and interferences are those reached there. Mesh, contacts and names of loads must be the same
     backend : of the sparse factorisation, "auto" or a name
-    raise_on_failure : otherwise a solution whose ``status`` says why is returned, with the steps finished before
+    raise_on_failure : otherwise a solution whose ``status`` says why is returned, with what was solved before
     wellposed : whether to ask if the solution is the only one: ``solution.wellposedness``
     clock : counts the seconds and tells progress
 
@@ -197,7 +197,7 @@ def solve(
     InputError
         If the model is wrong; a body that nothing holds is named with its free motion.
     SolveFailed
-        If no certified solution was found; ``.solution`` is what was finished before.
+        If no certified solution was found; ``.solution`` is what was solved before.
 
     Examples
     --------

@@ -45,6 +45,7 @@ class SolveFailed(SignoriniError):
     status : ``"no_equilibrium"`` (proved), ``"not_found"`` or ``"jump"``, as in ``summary.json``
     solution : the steps that were finished before, or None
     motion : array (nodes, d) of displacements along which bodies run away, or None
+    reached : the part of the step that was followed before, or None
     """
 
     def __init__(
@@ -53,6 +54,7 @@ class SolveFailed(SignoriniError):
         self.status = status
         self.motion = motion
         self.solution = solution
+        self.reached: object | None = None
         super().__init__(message)
 
 

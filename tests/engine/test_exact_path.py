@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
+from signorini.engine import increments
 from signorini.gallery.blocks import dragged_block, stacked_blocks
 from signorini.gallery.cylinder import HERTZ, zhu_cylinder
 
@@ -93,7 +94,37 @@ def test_sliding_under_force_control_is_named():
     with pytest.raises(sg.SolveFailed, match=r"^step 'pull' at 66\.6666..%: gross sliding") as caught:
         sg.solve(replace(dragged_block(friction=0.2), steps=steps))
     assert caught.value.status == "jump"
-    assert [step.name for step in caught.value.solution.steps] == ["press"]
+    press, pull = caught.value.solution.steps
+    assert (press.finished, pull.finished) == (True, False)
+    np.testing.assert_allclose(pull.load_factor, 1.0 + 2.0 / 3.0, rtol=1e-12)
+    (floor,) = pull.contacts
+    np.testing.assert_allclose(abs(floor.tangential_force[0]), 0.2 * floor.normal_force[1], rtol=1e-12)
+
+
+def test_increments_before_one_without_a_solution_are_kept():
+    steps = [sg.Step(scale={"press": 1.0}, increments=1), sg.Step(scale={"push": 2.0}, increments=10)]
+    solution = sg.solve(replace(dragged_block(friction=0.2), steps=steps), raise_on_failure=False)
+    assert solution.status == "no_equilibrium"
+    np.testing.assert_allclose(solution.last.load_factor, 1.6)
+    assert (solution.last.finished, solution.last.increments) == (False, 6)
+    np.testing.assert_allclose(solution.contact("foundation").tangential_force[0], -0.6 * 1.2)
+    assert "NOT finished, as far as 60.000000%" in str(solution)
+
+
+def test_increments_before_an_interruption_are_kept(monkeypatch):
+    counted = iter(range(100))
+    on_its_way = increments.advance
+
+    def advance(*given, **named):
+        if next(counted) == 5:
+            raise KeyboardInterrupt
+        return on_its_way(*given, **named)
+
+    monkeypatch.setattr(increments, "advance", advance)
+    steps = [sg.Step(scale={"press": 1.0}, increments=2), sg.Step(scale={"push": 1.0}, increments=10)]
+    solution = sg.solve(replace(dragged_block(), steps=steps), raise_on_failure=False)
+    assert solution.status == "interrupted"
+    np.testing.assert_allclose(solution.last.load_factor, 1.3)
 
 
 def test_a_gap_that_closes_under_force_is_a_jump_to_a_candidate():

@@ -64,10 +64,48 @@ def test_bodies_held_by_contact_have_no_bound():
 
 def test_the_command_line_asks(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "--wellposed", str(EXAMPLE)]) == 0
-    assert "uniqueness\n  friction 0.4; contact alone holds a body" in capsys.readouterr().out
+    assert "uniqueness\n  friction 0.4 is below 0.7341" in capsys.readouterr().out
     assert main(["run", "--wellposed", str(EXAMPLE), "-o", str(tmp_path)]) == 0
-    assert "uniqueness: friction 0.4; contact alone" in capsys.readouterr().out
+    assert "forces of every load and history are unique" in " ".join(capsys.readouterr().out.split())
     assert '"well_posedness": {' in (tmp_path / "summary.json").read_text()
+
+
+def rough_slab(lift, friction=4.0):
+    """`rough_block` in space, one cell thick, its sides held across."""
+    plane = rough_block(lift, friction)
+    x = np.linspace(0.0, 1.0, 3)
+    return replace(
+        plane,
+        mesh=sg.box(x=x, y=[0.0, 1.0], z=x),
+        kind="3d",
+        supports=[sg.Support("left", u=(0.0, 0.0, 0.0))]
+        + [sg.Support(side, u=("free", 0.0, "free")) for side in ("front", "back")],
+        loads=[replace(load, traction=(0.0, 0.0, load.traction[1])) for load in plane.loads],
+        contacts=[replace(plane.contacts[0], mortar=sg.Plane(point=(0, 0, 0), normal=(0, 0, 1)))],
+    )
+
+
+def test_space_is_examined_as_the_plane_is():
+    few = sg.solve(rough_slab(0.2, 0.1), wellposed=True).wellposedness
+    assert few.verdict == "unique"
+    assert few.friction == 0.1 < few.bound
+    found = sg.solve(rough_slab(0.757), wellposed=True).wellposedness
+    assert found.verdict == "several"
+    planes = sg.solve(rough_block(0.757), wellposed=True).wellposedness
+    for (other,) in planes.others:
+        expected = (*other.normal_force, *other.tangential_force)
+        distances = [
+            np.abs(np.array([*each.normal_force[[0, 2]], *each.tangential_force[[0, 2]]]) - expected).max()
+            for (each,) in found.others
+        ]
+        assert min(distances) < 1e-8
+
+
+def test_what_is_not_examined_says_why():
+    model = replace(rough_slab(0.2, 0.1), steps=[sg.Step(increments=1)])
+    found = sg.solve(model, backend="iterative", wellposed=True).wellposedness
+    assert (found.verdict, found.friction) == ("not decided", 0.1)
+    assert "solved by iteration" in found.words
 
 
 def test_the_motion_of_a_body_that_leaves_is_drawn():

@@ -179,3 +179,31 @@ def test_gmsh(tmp_path, version, recombine):
     np.testing.assert_allclose(side.normals, middles / np.linalg.norm(middles, axis=1, keepdims=True), atol=1e-9)
     assert set(mesh.bodies) == {"roller"}
     assert len(mesh.bodies["roller"]) == mesh.number_of_cells
+
+
+def test_gmsh_boxes_without_groups_with_stray_elements_and_of_other_kinds(tmp_path):
+    """Elementary groups in space; what "save all" and third order leave is refused with what to do."""
+    gmsh = pytest.importorskip("gmsh")
+    gmsh.initialize(interruptible=False)
+    path = str(tmp_path / "mesh.msh")
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.addBox(0, 0, 0, 1, 1, 1)
+        gmsh.model.occ.synchronize()
+        gmsh.model.mesh.generate(3)
+        gmsh.write(path)
+        mesh = read_mesh(path)
+        assert set(mesh.bodies) == {"volume 1"}
+        assert set(mesh.boundaries) == {f"surface {i}" for i in range(1, 7)}
+        gmsh.model.addPhysicalGroup(3, [1], name="block")
+        gmsh.option.setNumber("Mesh.SaveAll", 1)
+        gmsh.write(path)
+        with pytest.raises(InputError, match=r"Save the groups alone, Mesh.SaveAll = 0"):
+            read_mesh(path)
+        gmsh.option.setNumber("Mesh.SaveAll", 0)
+        gmsh.model.mesh.setOrder(3)
+        gmsh.write(path)
+        with pytest.raises(InputError, match=r"of the kind 'tetra20'.*Mesh.SecondOrderIncomplete = 1"):
+            read_mesh(path)
+    finally:
+        gmsh.finalize()

@@ -411,7 +411,10 @@ def test_what_has_no_equilibrium_is_said(model, status, message):
 def test_the_steps_before_a_failure_are_kept():
     model = block(steps=[Step(name="press", scale={"top": 1.0}), Step(name="lift", scale={"top": -1.0}, increments=4)])
     history = solve(model, raise_on_failure=False)
-    assert [step.name for step in history.steps] == ["press"]
+    assert [(step.name, step.load_factor, step.finished) for step in history.steps] == [
+        ("press", 1.0, True),
+        ("lift", 1.5, False),
+    ]
     assert history.message.startswith("step 'lift' at 75%")
 
 

@@ -9,8 +9,10 @@ from changed_models import mapped, renumbered, rescaled
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from signorini.engine.solve import solve
+from signorini.engine.prepare import prepare
+from signorini.engine.solve import solve, solve_prepared
 from signorini.fem.generators import rectangle
+from signorini.fem.solids import box
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit
 from signorini.model.body import Body
@@ -19,7 +21,8 @@ from signorini.model.contact import Contact
 from signorini.model.material import Elastic
 from signorini.model.mesh import join
 from signorini.model.model import Model
-from signorini.model.obstacle import Plane
+from signorini.model.obstacle import Plane, Sphere
+from signorini.model.rigid import Rigid
 from signorini.model.step import Step
 
 few = settings(max_examples=8, deadline=None, derandomize=True)
@@ -202,3 +205,54 @@ def test_numbering(make, cells, seed):
                 getattr(renamed, name), getattr(contact, name)[place], rtol=0, atol=1e-9 * contact.pressure.max()
             )
         assert renamed.status.tolist() == contact.status[place].tolist()
+
+
+def ball_on_block(length, modulus):
+    """A rigid ball on a quarter of a block in space, under a force."""
+    x = length * np.array([0, 0.3, 0.6, 0.9, 1.3, 2, 4])
+    return Model(
+        box(x=x, y=x, z=-x[::-1]),
+        bodies=[Body("block", Elastic(E=1000.0 * modulus, nu=0.3))],
+        supports=[
+            Support("left", u=(0, None, None)),
+            Support("front", u=(None, 0, None)),
+            Support("bottom", u=(None, None, 0)),
+        ],
+        obstacles=[
+            Rigid(
+                "ball",
+                Sphere((0, 0, 10 * length), 10 * length),
+                u=(0, 0, None),
+                force=(None, None, -30 * modulus * length**2),
+            )
+        ],
+        contacts=[Contact("top", "ball", friction=0.3)],
+        steps=[Step(increments=2)],
+    )
+
+
+@pytest.mark.parametrize("length", [2.0**-30, 2.0**-10, 2.0**20])
+def test_units_in_space(length):
+    """With powers of two every number is the same to the last digit: the certificate, and which pairs are left out."""
+    modulus = 2.0**12
+    here, there = (prepare(ball_on_block(*units)) for units in ((1.0, 1.0), (length, modulus)))
+    np.testing.assert_array_equal(there.bodies.active, here.bodies.active)
+    assert 0 < here.bodies.active.sum() < len(here.interface)
+    one, two = (solve_prepared(prepared).last for prepared in (here, there))
+    np.testing.assert_array_equal(two.contacts[0].pressure, modulus * one.contacts[0].pressure)
+    assert two.certificate == one.certificate
+
+
+def test_pairs_that_touch_are_kept():
+    """The ball closes what is kept, and nothing is solved twice: under its force as under what that moves it."""
+    for factor in (0.01, 1.0, 100.0):
+        model = ball_on_block(1.0, 1.0)
+        ball = model.obstacles[0]
+        force = replace(ball, force=(None, None, factor * ball.force[2]))
+        pressed = prepare(replace(model, obstacles=[force]))
+        found = solve_prepared(pressed).last
+        closed = found.contacts[0].closed
+        assert not closed[~pressed.bodies.active].any()
+        moved = replace(ball, u=(0, 0, found.obstacles["ball"].displacement[2]), force=None)
+        driven = prepare(replace(model, obstacles=[moved]))
+        assert not closed[~driven.bodies.active].any()

@@ -105,10 +105,17 @@ def _obstacles(model: Model) -> Rows:
     rows: Rows = []
     for obstacle in model.obstacles:
         parts = ", ".join("free" if part is None else f"{part:g}" for part in obstacle.u)
-        turn = "free" if obstacle.turn is None else f"{obstacle.turn:g}"
+        turn = _alike(["free" if turn is None else f"{turn:g}" for turn in obstacle.turns])
         force = spell_vector([part or 0.0 for part in obstacle.force or (0.0,) * model.dimension])
-        rows.append((obstacle.name, str(obstacle.shape), f"u = ({parts})", f"rotation {turn}", f"force {force}"))
+        moment = _alike([f"{moment:g}" for moment in obstacle.moments])
+        way = (f"u = ({parts})", f"rotation {turn}", f"force {force}", f"moment {moment}")
+        rows.append((obstacle.name, str(obstacle.shape), *way))
     return rows
+
+
+def _alike(words: list[str]) -> str:
+    """A vector, one word where all are the same."""
+    return words[0] if len(set(words)) == 1 else f"({', '.join(words)})"
 
 
 def _rigid_bodies(model: Model) -> Rows:
@@ -168,26 +175,27 @@ def _steps(model: Model) -> Rows:
             (
                 str(number),
                 step.name,
-                _stepping(step),
+                _stepping(step, model.dimension),
                 f"ends at {ends or 'no load'}",
             )
         )
     return rows
 
 
-def _stepping(step: Step) -> str:
+def _stepping(step: Step, dimension: int) -> str:
     count = step.segments * step.repeat
     cycles = f", {step.repeat} cycles" if step.repeat > 1 else ""
-    return _way(step) + (f" in each of {count} segments{cycles}" if count > 1 else "")
+    return _way(step, dimension) + (f" in each of {count} segments{cycles}" if count > 1 else "")
 
 
-def _way(step: Step) -> str:
+def _way(step: Step, dimension: int) -> str:
     if step.increments == "auto":
         return f"increments until forces change less than {step.tolerance:g}"
     if step.increments is not None:
         return "1 increment" if step.increments == 1 else f"{step.increments} increments"
     if step.path is None:
-        return "exact path where there is friction"
+        way = "exact path" if dimension == 2 else "increments to events"
+        return f"{way} where there is friction, otherwise 1 increment"
     return "exact path" if step.path == "exact" else "1 increment"
 
 

@@ -264,10 +264,12 @@ def _stiffened(A: Array, R: Array) -> Array:
     if len(factor):
         factor = scipy.linalg.cho_factor(factor, lower=True, overwrite_a=True, check_finite=False)[0]
         factor, _ = lapack.dpotri(factor, lower=1, overwrite_c=1)
-    mirror(factor)
-    W = R @ R.T - factor.T
+    W = np.negative(factor.T, out=np.empty(factor.shape))
+    if R.size:
+        W += R @ R.T
     W[np.diag_indices_from(W)] += 1.0
-    return np.asarray(W, dtype=np.float64)
+    mirror(W.T)
+    return W
 
 
 def _interface_stiffness(K_c: sp.csr_array, B_c: sp.csr_array, interface: Interface, pairs: IntArray) -> Array:

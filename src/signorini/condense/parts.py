@@ -14,11 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg
 import scipy.sparse as sp
+from numba import njit
 from scipy.linalg import lapack
 
 from signorini.arrays import Array, IntArray
 
 _VANISHES = 1e-10  # of the largest: size of what is left of a motion that follows from the others
+_TILE = 64  # rows and columns mirrored at a time
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -156,10 +158,11 @@ def _part(stiffness: Array, dofs: IntArray, rigid: Array, size: float) -> Part:
     return Part(dofs=dofs, cholesky=cholesky)
 
 
+@njit(cache=True)
 def mirror(matrix: Array) -> None:
     """Overwrite the upper triangle by the lower, in tiles that fit the cache."""
-    tile = 256
-    for i in range(0, len(matrix), tile):
-        own = matrix[i : i + tile, i : i + tile]
-        own[...] = np.tril(own) + np.tril(own, -1).T
-        matrix[i : i + tile, i + tile :] = matrix[i + tile :, i : i + tile].T
+    for low in range(0, len(matrix), _TILE):
+        for first in range(low, len(matrix), _TILE):
+            for i in range(first, min(first + _TILE, len(matrix))):
+                for j in range(low, min(low + _TILE, i)):
+                    matrix[j, i] = matrix[i, j]

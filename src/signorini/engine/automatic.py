@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """As many increments as it takes: more of them, until the answer changes less than a tolerance.
 
+Where the law of contact holds all along them they are enough as they are.
+
 In the plane 1, 2, 4, ... equal ones. In space they end at events (a pair opens, closes or starts to slip), on the exact
 cone too, unless that would make them shorter than 1, 1/4, 1/16, ... of the way; where friction turns little and nothing
 happens they are longer. Where that way is lost they are equal as in the plane. Jumps on it are followed, or end it.
@@ -14,7 +16,7 @@ from typing import Literal
 import numpy as np
 
 from signorini.engine.exact import follow_to_events, stored_energy
-from signorini.engine.increments import follow_increments
+from signorini.engine.increments import follow_increments, is_straight
 from signorini.engine.leg import Leg
 from signorini.engine.prepare import Prepared
 from signorini.engine.span import Span
@@ -68,6 +70,9 @@ def follow_automatically(
                 raise
             coarse, number = None, more * number
             continue
+        if is_straight(prepared, fine):
+            note = f"{words}: the law of contact holds all along, more of them would change nothing"
+            return replace(fine, path="increments", notes=(*fine.notes, note))
         if coarse is not None:
             change, changes = _change(coarse, fine)
             note = f"{words}: {fewer} change {changes}"
@@ -117,11 +122,15 @@ def _followed(
     if prepared.interface.directions == 3 and not isinstance(prepared.bodies, Bodies):
         try:
             leg = follow_to_events(prepared, number, where, span, state, end, whole=whole, jumps=jump == "follow")
-            return leg, f"{len(leg.trace)} increments to events, none needs to be shorter than 1/{number}"
+            return leg, f"{_counted(len(leg.trace))} to events, none needs to be shorter than 1/{number}"
         except SolveFailed as failure:
             if failure.status == "jump" and jump == "stop":
                 raise
             if failure.status == "jump":
                 notes = (f"{failure}; followed in {number} increments to what is a candidate",)
     leg = follow_increments(prepared, number, where, span, state, end)
-    return replace(leg, notes=notes), f"{number} increments"
+    return replace(leg, notes=notes), _counted(number)
+
+
+def _counted(number: int) -> str:
+    return f"{number} increment{'' if number == 1 else 's'}"

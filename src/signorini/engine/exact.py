@@ -12,7 +12,7 @@ import numpy as np
 from signorini.arrays import Array, BoolArray
 from signorini.bound import plain
 from signorini.engine.increments import applied, certified, free_load, moved_by_supports, refuse_overlap
-from signorini.engine.leg import Leg, Snapshot, joined
+from signorini.engine.leg import Leg, Snapshot, joined, keep
 from signorini.engine.prepare import Prepared
 from signorini.engine.span import Span
 from signorini.errors import SolveFailed
@@ -83,13 +83,42 @@ def _beyond_jumps(
         lost = _lost(prepared, where, span, segment)
         landing = _landing(prepared.law, start, segment, stops) if jumps and len(legs) < _JUMPS else None
         if segment.jump is None or landing is None:
-            raise lost if not jumps or segment.jump is None else SolveFailed(f"{lost}; {_NO_LANDING}", status="jump")
-        limit = state.point.towards(end, segment.jump.factor)
-        before = replace(span, high=span.part(segment.jump.factor), ends="jump")
+            if jumps and segment.jump is not None:
+                lost = SolveFailed(f"{lost}; {_NO_LANDING}", status="jump")
+            raise keep(lost, [*legs, *_so_far(prepared, where, span, state, start, segment, end, whole, path)])
+        limit, before = _cut(span, state, segment, end)
         leg = _leg(prepared, where, before, state, start, segment, limit, whole=whole, path=path)
         legs.append(_each(leg, segment) if stops else leg)
         legs.append(_landed(prepared, where, before, legs[-1].after, landing))
         state, span = legs[-1].after, replace(span, low=before.high)
+
+
+def _cut(span: Span, state: State, segment: Segment, end: LoadPoint) -> tuple[LoadPoint, Span]:
+    """Where a segment ended before its load was reached, and the part of the span up to there."""
+    factor = segment.pieces[-1].factor
+    return state.point.towards(end, factor), replace(span, high=span.part(factor), ends="jump")
+
+
+def _so_far(
+    prepared: Prepared,
+    where: str,
+    span: Span,
+    state: State,
+    start: PathState,
+    segment: Segment,
+    end: LoadPoint,
+    whole: bool,
+    path: Literal["exact", "increments"],
+) -> list[Leg]:
+    """What was followed of a segment that does not go on; nothing where that does not pass the certificate."""
+    if segment.pieces[-1].factor == 0.0:
+        return []
+    limit, before = _cut(span, state, segment, end)
+    try:
+        leg = _leg(prepared, where, before, state, start, segment, limit, whole=whole, path=path)
+    except SolveFailed:
+        return []
+    return [_each(leg, segment) if path == "increments" else leg]
 
 
 def follow_to_events(
@@ -224,12 +253,17 @@ def set_free(prepared: Prepared, before: State, after: State, *, taken: Array) -
 
 
 def stored_energy(prepared: Prepared, state: State) -> float:
-    """In the bodies and in compliant interfaces."""
-    interface = prepared.interface
-    forces = np.where(interface.rows(prepared.absent), 0.0, state.forces)
+    """In the bodies, elastic foundations and compliant interfaces."""
     u = state.displacement
     strain = float(u @ (prepared.K @ u)) if u.any() else 0.0
-    return 0.5 * (strain + float(forces**2 @ (interface.compliance / interface.areas)))
+    return 0.5 * strain + interface_energy(prepared, state)
+
+
+def interface_energy(prepared: Prepared, state: State) -> float:
+    """In compliant interfaces."""
+    interface = prepared.interface
+    forces = np.where(interface.rows(prepared.absent), 0.0, state.forces)
+    return 0.5 * float(forces**2 @ (interface.compliance / interface.areas))
 
 
 def _offset(prepared: Prepared, point: LoadPoint) -> Array:

@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
-from signorini.engine.leg import Leg, Snapshot
+from signorini.engine.leg import Leg, Snapshot, keep
 from signorini.engine.prepare import Prepared
 from signorini.engine.span import Span
 from signorini.errors import SolveFailed
@@ -22,6 +23,7 @@ from signorini.iterative.bodies import Bodies
 from signorini.iterative.solve import Answer, Load, solve_iteratively
 from signorini.solution.certificate import Certificate, certify
 from signorini.solution.state import LoadPoint, State, next_state
+from signorini.trace import Attempt
 
 _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
 _REFINEMENTS = 2
@@ -30,6 +32,8 @@ _CANCELLED = 1e-14  # of the largest displacement that supports impose: less bet
 
 def follow_increments(prepared: Prepared, number: int, where: str, span: Span, state: State, end: LoadPoint) -> Leg:
     """Follow a straight part of a step in equal increments from a state to a point of the load history.
+
+    Where bodies are not condensed every increment starts from where the last one leads if it is repeated.
 
     Parameters
     ----------
@@ -40,32 +44,57 @@ def follow_increments(prepared: Prepared, number: int, where: str, span: Span, s
     Raises
     ------
     SolveFailed
-        If an increment has no certified solution.
+        If an increment has no certified solution; it carries the increments before.
     """
     start, before = state.point, state
-    certificates, trace, snapshots = [], [], []
+    path = "single" if number == 1 else "increments"
+    certificates: list[Certificate] = []
+    trace: list[tuple[Attempt, ...]] = []
+    snapshots: list[Snapshot] = []
+
+    def followed() -> Leg:
+        return Leg(
+            path=path,
+            before=before,
+            after=state,
+            certificates=tuple(certificates),
+            trace=tuple(trace),
+            snapshots=tuple(snapshots),
+        )
+
+    last: State | None = None
     for k in range(1, number + 1):
         words = f"{where} at {span.part(k / number):.0%}"
         prepared.clock.increment(words)
-        state, certificate, result = advance(prepared, state, start.towards(end, k / number), words)
+        try:
+            new, certificate, result = advance(prepared, state, start.towards(end, k / number), words, last=last)
+        except (SolveFailed, KeyboardInterrupt) as stop:
+            raise keep(stop, [followed()] if snapshots else []) from None
+        last, state = state, new
         certificates.append(certificate)
         trace.append(result.trace)
         what = span.ends if k == number else "increment"
         snapshots.append(Snapshot(load_factor=span.factor(k / number), what=what, state=state))
-    return Leg(
-        path="single" if number == 1 else "increments",
-        before=before,
-        after=state,
-        certificates=tuple(certificates),
-        trace=tuple(trace),
-        snapshots=tuple(snapshots),
-    )
+    return followed()
 
 
 def advance(
-    prepared: Prepared, state: State, point: LoadPoint, where: str
+    prepared: Prepared,
+    state: State,
+    point: LoadPoint,
+    where: str,
+    *,
+    start: Array | IntArray | None = None,
+    last: State | None = None,
 ) -> tuple[State, Certificate, CoulombResult | SpatialResult | Answer]:
-    """One increment: from a state to the next point of the load history."""
+    """One increment: from a state to the next point of the load history.
+
+    Parameters
+    ----------
+    start : what the law's solver starts from, see `_start`; as the state is where not given
+    last : the state an increment as long as this one before, where there is one: bodies that are not condensed are
+        sought as far ahead again
+    """
     constraints, interface = prepared.constraints, prepared.interface
     n, active = len(interface), prepared.bodies.active
     loads, imposed = applied(prepared, point)
@@ -74,9 +103,11 @@ def advance(
     f = free_load(prepared, point)
     result: CoulombResult | SpatialResult | Answer
     if isinstance(prepared.bodies, Bodies):
-        result, forces, moved, free = _iterated(prepared, prepared.bodies, f, offset, state)
+        result, forces, moved, free = _iterated(prepared, prepared.bodies, f, offset, state, last)
     else:
-        result, forces, moved, free = _balanced(prepared, f, offset, state)
+        result, forces, moved, free = _balanced(
+            prepared, f, offset, _start(prepared, state) if start is None else start
+        )
     if not result.solved:
         raise _failure(prepared, result, where)
     with prepared.clock.phase("recovery"):
@@ -133,6 +164,35 @@ def free_load(prepared: Prepared, point: LoadPoint) -> Array:
     return force
 
 
+def is_straight(prepared: Prepared, leg: Leg) -> bool:
+    """Whether the law of contact holds all along the increments of a leg, so that more of them change nothing.
+
+    Between two states in which it holds it does so everywhere if it does in the middle: gaps and forces are linear
+    there and never negative, their product vanishes in between only where one of them does throughout; sections of
+    the friction cone are convex, and a force on the limit at the end and in the middle of the same slip is there
+    from the beginning on because the bound is concave in the normal force.
+
+    Parameters
+    ----------
+    leg : as it was followed; nothing is known of one whose displacements on the way were not recovered
+    """
+    if not all(shot.whole for shot in leg.snapshots):
+        return False
+    ways = pairwise([leg.before, *(shot.state for shot in leg.snapshots)])
+    return all(measured(prepared, _half_way(one, two), one.tangential).passed for one, two in ways)
+
+
+def _half_way(one: State, two: State) -> State:
+    """What is half-way between two states, as far as certificates look at it."""
+    return replace(
+        two,
+        point=one.point.towards(two.point, 0.5),
+        displacement=0.5 * (one.displacement + two.displacement),
+        external=0.5 * (one.external + two.external),
+        forces=0.5 * (one.forces + two.forces),
+    )
+
+
 def measured(prepared: Prepared, state: State, before: Array | None = None) -> Certificate:
     """The certificate of a state, whatever it says.
 
@@ -166,7 +226,7 @@ def certified(prepared: Prepared, state: State, before: Array, where: str) -> Ce
 
 
 def _balanced(
-    prepared: Prepared, f: Array, offset: Array, state: State
+    prepared: Prepared, f: Array, offset: Array, start: Array | IntArray | None
 ) -> tuple[CoulombResult | SpatialResult, Array, Array, Array]:
     """The contact problem under the load f on the free displacements: result, forces, motions, free displacements.
 
@@ -177,8 +237,7 @@ def _balanced(
     condensed, interface, scale, law = prepared.condensed, prepared.interface, prepared.scale, prepared.law
     rows, T, ties = condensed.active_rows, prepared.constraints.transform, condensed.ties
     forces, moved, free = np.zeros(len(offset)), np.zeros(len(offset)), np.zeros_like(f)
-    load, start = f, _start(prepared, state)
-    lacking = np.zeros(len(rows))
+    load, lacking = f, np.zeros(len(rows))
     guided = np.concatenate([np.zeros(law.pairs, dtype=np.bool_), law.locked.T.ravel()])
     for _ in range(_REFINEMENTS + 1):
         with prepared.clock.phase("complementarity"):
@@ -207,9 +266,9 @@ def _balanced(
 
 
 def _iterated(
-    prepared: Prepared, bodies: Bodies, f: Array, offset: Array, state: State
+    prepared: Prepared, bodies: Bodies, f: Array, offset: Array, state: State, last: State | None
 ) -> tuple[Answer, Array, Array, Array]:
-    """The same on the bodies as they are, from where the state is."""
+    """The same on the bodies as they are, from where the state is or where it leads."""
     d, rows = bodies.directions, bodies.rows
     load = Load(
         f=bodies.blocks.spread(f),
@@ -219,9 +278,12 @@ def _iterated(
         length=prepared.scale.length,
         floating=bool(prepared.floating.shape[1]),
     )
-    start = bodies.blocks.spread(state.displacement[prepared.constraints.leaders])
+    u, r = state.displacement, state.forces
+    if last is not None:
+        u, r = 2.0 * u - last.displacement, 2.0 * r - last.forces
+    start = bodies.blocks.spread(u[prepared.constraints.leaders])
     with prepared.clock.phase("complementarity"):
-        result = solve_iteratively(bodies, load, start, state.forces[rows].reshape(d, -1))
+        result = solve_iteratively(bodies, load, start, r[rows].reshape(d, -1))
     forces, moved = np.zeros(len(offset)), np.zeros(len(offset))
     forces[rows], moved[rows] = result.forces, result.moved
     return result, forces, moved, result.free

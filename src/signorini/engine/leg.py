@@ -10,6 +10,7 @@ from typing import Literal
 
 import numpy as np
 
+from signorini.errors import SolveFailed
 from signorini.solution.certificate import Certificate
 from signorini.solution.results import PairEvent
 from signorini.solution.state import State
@@ -102,3 +103,34 @@ def joined(legs: Sequence[Leg]) -> Leg:
         events=tuple(chain.from_iterable(leg.events for leg in legs)),
         notes=tuple(dict.fromkeys(chain.from_iterable(leg.notes for leg in legs))),
     )
+
+
+class Interrupted(KeyboardInterrupt):
+    """Interrupted by the user, with the part of the step that was followed before.
+
+    Attributes
+    ----------
+    reached : that part
+    """
+
+    def __init__(self, reached: Leg) -> None:
+        self.reached = reached
+        super().__init__()
+
+
+def keep(stop: SolveFailed | KeyboardInterrupt, legs: Sequence[Leg]) -> SolveFailed | KeyboardInterrupt:
+    """What stopped a step, with what was followed before: legs, and what it already carries."""
+    last = reached(stop)
+    every = [*legs, *([] if last is None else [last])]
+    if not every:
+        return stop
+    if isinstance(stop, KeyboardInterrupt):
+        return Interrupted(joined(every))
+    stop.reached = joined(every)
+    return stop
+
+
+def reached(stop: SolveFailed | KeyboardInterrupt) -> Leg | None:
+    """The part of a step that was followed before it was stopped; None where that is nothing."""
+    found = stop.reached if isinstance(stop, (SolveFailed, Interrupted)) else None
+    return found if isinstance(found, Leg) else None

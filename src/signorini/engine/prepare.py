@@ -200,7 +200,7 @@ class Prepared(Examined):
         )
         forces = {name: factor.get(name, 1.0) * f for name, f in self.loads.items()}
         refuse_free_motions(self.space, constraints, interface, self.parts, self.motions)
-        scale = data_scale(model, forces, constraints, interface)
+        scale = data_scale(self.space, model, forces, constraints, interface)
         return replace(
             self,
             model=model,
@@ -252,7 +252,7 @@ def examine(model: Model) -> Examined:
         parts=parts,
         motions=motions,
         floating=_floating(motions, constraints, interface),
-        scale=data_scale(model, loads, constraints, interface),
+        scale=data_scale(space, model, loads, constraints, interface),
     )
 
 
@@ -293,7 +293,11 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
 
 def _near(examined: Examined) -> BoolArray:
     """Pairs that can touch, or all of them where those alone would not hold a body."""
-    near = candidates(examined.interface, examined.scale.length)
+    scale = examined.scale
+    if examined.space.dimension == 3:
+        near = candidates(examined.interface, scale.imposed, scale.squeezed)
+    else:
+        near = candidates(examined.interface, scale.length)
     holding = examined.interface.B[examined.interface.rows(near)]
     if free_motions(examined.motions, examined.constraints, holding).shape[1]:
         return np.ones_like(near)

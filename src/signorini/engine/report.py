@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
 from signorini.engine.cycles import judge, make_cycles
-from signorini.engine.exact import stored_energy
+from signorini.engine.exact import interface_energy, stored_energy
 from signorini.engine.heat import heat_of
 from signorini.engine.increments import applied
 from signorini.engine.leg import Leg
@@ -33,7 +33,9 @@ GROWN = "the contact grew under friction: in one increment tractions can be off 
 """What it says further where pairs closed that were open before."""
 
 
-def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence[float]) -> StepResult:
+def step_result(
+    prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence[float], *, finished: bool = True
+) -> StepResult:
     """Results at the end of a step.
 
     Parameters
@@ -41,6 +43,7 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
     prepared : under the law of the step
     leg : all of the step
     cycle_ends : load factors at which its cycles end; one where it does not repeat
+    finished : whether the leg goes to the end of the step
     """
     before, state, certificates = leg.before, leg.after, leg.certificates
     heat = heat_of(prepared)
@@ -49,12 +52,13 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
     steadiness, words = judge(cycles, prepared.scale) if cycles else ("", "")
     stored, dissipated = stored_energy(prepared, state), (state.dissipation - before.dissipation).sum()
     spent = stored - stored_energy(prepared, before) + float(dissipated) + state.released - before.released
-    elastic = 0.5 * float(state.displacement @ (prepared.K @ state.displacement))
+    layers = interface_energy(prepared, state)
     springs = -0.5 * float(state.displacement @ prepared.constraints.foundation_forces(state.displacement))
     return StepResult(
         name=stage.title,
         path=leg.path,
-        load_factor=float(stage.number),
+        load_factor=leg.snapshots[-1].load_factor,
+        finished=finished,
         increments=0 if leg.path == "exact" else len(leg.trace),
         events=leg.events,
         displacement=frozen(prepared.space.at_nodes(state.displacement)),
@@ -63,8 +67,8 @@ def step_result(prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence
         obstacles=_obstacles(prepared, state),
         rigid_bodies=_rigid_bodies(prepared, state),
         reactions=_reactions(prepared, state),
-        strain_energy=elastic - springs + heat(state),
-        interface_energy=stored - elastic + springs,
+        strain_energy=stored - layers - springs + heat(state),
+        interface_energy=layers + springs,
         work=state.work - before.work + heat(state) - heat(before),
         released=state.released - before.released,
         energy_defect=state.work - before.work - spent,
@@ -131,8 +135,9 @@ def _reactions(prepared: Prepared, state: State) -> dict[str, Array]:
     """Forces of supports and elastic foundations on the bodies, by name."""
     owner, d = prepared.constraints.owner, prepared.model.dimension
     force, rigid = _held_forces(prepared, state), _rigid_dofs(prepared)
-    total = np.zeros((len(prepared.model.supports) + 1, d))
-    np.add.at(total, (owner, np.arange(len(owner)) % d), np.where(owner >= 0, force, 0.0))
+    own = np.flatnonzero(owner >= 0)
+    total = np.zeros((len(prepared.model.supports), d))
+    np.add.at(total, (owner[own], own % d), force[own])
     forces = {}
     for i, support in enumerate(prepared.model.supports):
         dofs, size = rigid.get(str(support.on), (np.empty(0, np.int64), np.zeros(0)))
@@ -174,6 +179,8 @@ def _external(prepared: Prepared, state: State) -> Array:
 
 def _obstacles(prepared: Prepared, state: State) -> dict[str, ObstacleResult]:
     """Motions of the obstacles and what acts on them from outside, by name."""
+    if not prepared.model.obstacles:
+        return {}
     found, length = {}, arm(prepared.model)
     for j, obstacle in enumerate(prepared.model.obstacles):
         d, dofs = prepared.model.dimension, prepared.space.obstacle_dofs(j)
@@ -189,6 +196,8 @@ def _obstacles(prepared: Prepared, state: State) -> dict[str, ObstacleResult]:
 
 def _rigid_bodies(prepared: Prepared, state: State) -> dict[str, ObstacleResult]:
     """Motions of the rigid bodies and what loads and supports do to them, by name."""
+    if not prepared.model.rigid_bodies:
+        return {}
     found, d = {}, prepared.model.dimension
     loads, _ = applied(prepared, state.point)
     force = loads + _held_forces(prepared, state)

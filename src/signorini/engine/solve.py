@@ -15,7 +15,7 @@ from signorini.engine.enter import relaxed, switched
 from signorini.engine.exact import follow_exactly
 from signorini.engine.fields import refuse_fields
 from signorini.engine.increments import follow_increments, measured
-from signorini.engine.leg import Leg, Snapshot, joined, lightened
+from signorini.engine.leg import Leg, Snapshot, joined, keep, lightened, reached
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
 from signorini.engine.span import Span, spans
@@ -84,7 +84,15 @@ def _begin(prepared: Prepared, start: Checkpoint | None) -> Checkpoint:
     zero = dict.fromkeys(model.scaled_names, 0.0)
     if start is None:
         state = initial_state(zero, prepared.space.number_of_dofs, interface)
-        return checkpoint(prepared, state, inactive=frozenset(), released=prepared.released)
+        return Checkpoint(
+            state=state,
+            inactive=frozenset(),
+            released=prepared.released,
+            contacts=tuple(contact.label for contact in model.contacts),
+            contact=interface.contact,
+            node=interface.node,
+            mesh=digest(model.mesh),
+        )
     start.check(model, interface)
     point = start.state.point
     factors = zero | {name: factor for name, factor in point.factors.items() if name in zero}
@@ -101,7 +109,7 @@ def _begin(prepared: Prepared, start: Checkpoint | None) -> Checkpoint:
 
 
 def _follow(prepared: Prepared, begin: Checkpoint, wellposed: bool) -> History:
-    """Step after step, up to the end or to what stops it."""
+    """Step after step, up to the end or to what stops it; then the last one goes as far as it was followed."""
     state = begin.state
     seen = prepared.bodies.active | prepared.bodies.held | prepared.interface.tied
     if (state.status[~seen] != OPEN).any():
@@ -120,20 +128,24 @@ def _follow(prepared: Prepared, begin: Checkpoint, wellposed: bool) -> History:
             leg, cycle_ends = _step(now, stage, switched(now, state, absent))
             steps.append(step_result(now, stage, leg, cycle_ends))
             state, inactive, released, supports = leg.after, stage.inactive, stage.released, now.constraints
-    except KeyboardInterrupt:
+    except (SolveFailed, KeyboardInterrupt) as stop:
+        status = INTERRUPTED
         words = f"interrupted in step {len(steps) + 1} of {len(schedule)}; {len(steps)} steps were finished"
-        end = checkpoint(prepared, state, inactive=inactive, released=released)
-        return _history(prepared, INTERRUPTED, words, steps, end)
-    except SolveFailed as failure:
-        end = checkpoint(prepared, state, inactive=inactive, released=released)
-        return replace(_history(prepared, failure.status, str(failure), steps, end), escape=_motion(failure))
-    end = checkpoint(prepared, state, inactive=inactive, released=released)
+        if isinstance(stop, SolveFailed):
+            status, words = stop.status, str(stop)
+        end = replace(begin, state=state, inactive=inactive, released=released) if steps else None
+        part = reached(stop)
+        if part is not None:
+            steps.append(step_result(now, schedule[len(steps)], part, (), finished=False))
+        return replace(_history(prepared, status, words, steps, end), escape=_motion(stop))
+    end = replace(begin, state=state, inactive=inactive, released=released)
     history = _history(prepared, "solved", "", steps, end)
     return replace(history, wellposedness=assess(now, state)) if wellposed else history
 
 
-def _motion(failure: SolveFailed) -> Array | None:
-    return None if failure.motion is None else np.asarray(failure.motion, dtype=np.float64)
+def _motion(stop: SolveFailed | KeyboardInterrupt) -> Array | None:
+    motion = stop.motion if isinstance(stop, SolveFailed) else None
+    return None if motion is None else np.asarray(motion, dtype=np.float64)
 
 
 def _expected(stage: Stage) -> int:
@@ -146,19 +158,6 @@ def _constraints(prepared: Prepared, released: frozenset[str]) -> Constraints:
     if released == prepared.released:
         return prepared.constraints
     return make_constraints(prepared.space, prepared.model, without=released)
-
-
-def checkpoint(prepared: Prepared, state: State, *, inactive: frozenset[str], released: frozenset[str]) -> Checkpoint:
-    """A state as something to go on from."""
-    return Checkpoint(
-        state=state,
-        inactive=inactive,
-        released=released,
-        contacts=tuple(contact.label for contact in prepared.model.contacts),
-        contact=prepared.interface.contact,
-        node=prepared.interface.node,
-        mesh=digest(prepared.model.mesh),
-    )
 
 
 def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[float]]:
@@ -192,7 +191,10 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
     # the work of temperatures needs the displacements, see signorini.engine.heat
     heated = any(load.temperature is not None for load in prepared.model.loads)
     for span, point in spans(stage, state.point, end):
-        leg = _leg(prepared, stage, span, state, point)
+        try:
+            leg = _leg(prepared, stage, span, state, point)
+        except (SolveFailed, KeyboardInterrupt) as stop:
+            raise keep(stop, legs) from None
         leg = lightened(leg, every=stage.step.at == "events", end=span.asked, heated=heated)
         legs = [joined([*legs, leg])]
         state = leg.after
@@ -224,7 +226,12 @@ def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPo
     except SolveFailed as failure:
         if step.path == "exact" or step.jump == "stop":
             raise
-        leg = follow_increments(prepared, _BEHIND_A_JUMP, stage.name, span, state, end)
+        try:
+            leg = follow_increments(prepared, _BEHIND_A_JUMP, stage.name, span, state, end)
+        except SolveFailed as nothing:
+            words = f"{failure}; nor do increments go on: {nothing}"
+            worse = SolveFailed(words, status=nothing.status, motion=nothing.motion)
+            raise keep(worse, [part for part in [reached(failure)] if part is not None]) from failure
         return replace(leg, notes=(f"{failure}; followed in {_BEHIND_A_JUMP} increments to what is a candidate",))
 
 
@@ -234,7 +241,7 @@ def _increments(step: Step, span: Span, stage: Stage) -> int:
     return max(1, ceil(number * (span.high - span.low) * len(stage.ends) - 1e-9))
 
 
-def _history(prepared: Prepared, status: str, message: str, steps: list[StepResult], end: Checkpoint) -> History:
+def _history(prepared: Prepared, status: str, message: str, steps: list[StepResult], end: Checkpoint | None) -> History:
     return History(
         model=prepared.model,
         status=status,
@@ -243,5 +250,5 @@ def _history(prepared: Prepared, status: str, message: str, steps: list[StepResu
         backend=prepared.bodies.name,
         timings=dict(prepared.clock.seconds),
         pairs=len(prepared.interface),
-        end=end if steps else None,
+        end=end,
     )

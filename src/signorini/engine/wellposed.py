@@ -7,50 +7,55 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.arrays import Array
-from signorini.bound import STEEP, plain
-from signorini.engine.increments import advance, applied, free_load
+from signorini.arrays import Array, IntArray
+from signorini.bound import STEEP
+from signorini.engine.increments import advance, applied, free_load, moved_by_supports
 from signorini.engine.prepare import Prepared
 from signorini.engine.report import contacts_of
 from signorini.errors import SolveFailed
 from signorini.friction.law import states
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.several import all_solutions, always_unique, countable, search_solutions
-from signorini.friction.spatial import SpatialProblem
+from signorini.friction.spatial import SpatialProblem, several
 from signorini.friction.uniqueness import mu_low
 from signorini.solution.results import ContactResult
 from signorini.solution.state import State
 from signorini.solution.wellposedness import WellPosedness
+
+Law = CoulombProblem | SpatialProblem
 
 
 def assess(prepared: Prepared, state: State | None = None) -> WellPosedness:
     """What is known of uniqueness: a cheap bound; of few pairs a proof; above the bound other solutions, by search.
 
     Friction that pairs hold without pressure, because they stick or adhere, lets them be open or closed under one load:
-    it counts as infinite.
+    it counts as infinite. In space nothing is tried state by state.
 
     Parameters
     ----------
     prepared : under the law that is asked about
     state : at whose loads, and from whose slips, other equilibria are looked for; None asks about the model alone
     """
-    law = prepared.law
-    if isinstance(law, SpatialProblem):
-        friction = float(law.friction[np.isfinite(law.friction)].max(initial=0.0))
-        words = f"friction {friction:g}: uniqueness is examined in two dimensions only"
+    if prepared.law_or_none is None:
+        friction = float(prepared.interface.friction.max(initial=0.0))
+        words = "not examined: that needs the condensed interface, and this model is solved by iteration"
         return WellPosedness(friction=friction, bound=None, verdict="not decided", words=words)
-    slope = float(law.mu[~law.locked].max(initial=0.0))
+    if prepared.limited:  # other loads, and other solutions, may close pairs that are far apart
+        prepared = replace(prepared.widened(), absent=prepared.absent)
+    law = prepared.law
+    held = law.locked if isinstance(law, CoulombProblem) else law.locked.all(axis=1)
+    slope = float(law.bound.slopes[0][~held].max(initial=0.0))
     friction, bound = np.inf if slope >= STEEP else slope, mu_low(law)
     if bound is not None and friction < bound:
-        words = f"friction {friction:g} is below {bound:.4g}: every load and history has exactly one solution"
+        words = _unique(friction, bound, law.floating)
         return WellPosedness(friction=friction, bound=bound, verdict="unique", words=words)
-    few = countable(law)
-    if bound is not None and few and always_unique(law):
+    few = isinstance(law, CoulombProblem) and countable(law)
+    proved = few and not law.floating
+    if isinstance(law, CoulombProblem) and proved and always_unique(law):
         words = f"the states of all {law.pairs} pairs, tried one by one, prove one solution for every load and history"
         return WellPosedness(friction=friction, bound=bound, verdict="unique", words=words)
     above = _above(friction, bound)
     if state is None:
-        proved = bound is not None and few
         words = (
             f"{above}; some load has several solutions or none" if proved else f"{above}: uniqueness is not guaranteed"
         )
@@ -66,25 +71,28 @@ def assess(prepared: Prepared, state: State | None = None) -> WellPosedness:
     return WellPosedness(friction=friction, bound=bound, verdict="not decided", words=words)
 
 
+def _unique(friction: float, bound: float, floating: bool) -> str:
+    said = f"friction {friction:g} is below {bound:.4g}" if np.isfinite(bound) else "no pair slips against friction"
+    if floating:
+        return f"{said}: the contact forces of every load and history are unique, where there are any"
+    return f"{said}: every load and history has exactly one solution"
+
+
 def _above(friction: float, bound: float | None) -> str:
     said = "friction without pressure" if np.isinf(friction) else f"friction {friction:g}"
     if bound is None:
-        return f"{said}; contact alone holds a body, for which no bound is known"
+        return f"{said}; a body that contact alone holds can slide as a whole, for which no bound is known"
     return f"{said} is above {bound:.4g}, up to which uniqueness is proved"
 
 
-def _others(prepared: Prepared, law: CoulombProblem, state: State) -> tuple[tuple[ContactResult, ...], ...]:
+def _others(prepared: Prepared, law: Law, state: State) -> tuple[tuple[ContactResult, ...], ...]:
     """The contacts in other equilibria than the state itself, each solved for and certified like any increment."""
-    problem = _posed(prepared, law, state)
-    found = all_solutions(problem) if countable(problem) else search_solutions(problem)
-    active, size = prepared.condensed.active, prepared.scale.force
+    size = prepared.scale.force
     results: list[tuple[ContactResult, ...]] = []
     known = [state.forces]
-    for y in found:
-        codes = state.status.copy()
-        codes[active] = plain(states(y, problem.bound, problem.closed))
+    for start in _starts(_posed(prepared, law, state)):
         try:
-            other, _, _ = advance(prepared, replace(state, status=codes), state.point, "another equilibrium")
+            other, _, _ = advance(prepared, state, state.point, "another equilibrium", start=start)
         except SolveFailed:
             continue
         same = [np.abs(other.forces - forces).max(initial=0.0) <= 1e-8 * size for forces in known]
@@ -96,11 +104,19 @@ def _others(prepared: Prepared, law: CoulombProblem, state: State) -> tuple[tupl
     return tuple(results)
 
 
-def _posed(prepared: Prepared, law: CoulombProblem, state: State) -> CoulombProblem:
+def _starts(problem: Law) -> list[Array | IntArray]:
+    """What leads the law's solver to every solution that was found: states, in space y itself."""
+    if isinstance(problem, SpatialProblem):
+        return list(several.search_solutions(problem))
+    found = all_solutions(problem) if countable(problem) else search_solutions(problem)
+    return [states(y, problem.bound, problem.closed) for y in found]
+
+
+def _posed(prepared: Prepared, law: Law, state: State) -> Law:
     """The law at the loads of a state, slips counted from where it stands."""
-    condensed, interface = prepared.condensed, prepared.interface
+    condensed = prepared.condensed
     _, imposed = applied(prepared, state.point)
-    offset = np.concatenate([state.point.gap, -state.tangential]) + interface.B @ imposed
+    offset = np.concatenate([state.point.gap, -state.tangential]) + moved_by_supports(prepared, imposed)
     load: Array = condensed.reduce(free_load(prepared, state.point)).load
     b = condensed.right_hand_side(load, offset[condensed.active_rows])
     return replace(law, b=b)

@@ -39,8 +39,8 @@ def carried(model: Model, points: Array, about: Array) -> Array:
 def driven(model: Model, j: int) -> tuple[BoolArray, Array]:
     """Which unknowns of obstacle j are prescribed, and their values at factor 1, (2 d,) each."""
     obstacle = model.obstacles[j]
-    turn = None if obstacle.turn is None else obstacle.turn * arm(model)
-    given = (*(obstacle.u or ()), *((turn, 0.0) if model.dimension == 2 else (turn,) * 3))
+    turns = tuple(None if turn is None else turn * arm(model) for turn in obstacle.turns)
+    given = (*obstacle.u, *turns, *((0.0,) if model.dimension == 2 else ()))
     return np.array([part is not None for part in given]), np.array([part or 0.0 for part in given])
 
 
@@ -48,10 +48,10 @@ def obstacle_loads(space: Space, model: Model) -> dict[str, Array]:
     """Forces on all dofs, (dofs,), of every obstacle that bears a load, by name."""
     loads = {}
     for j, obstacle in enumerate(model.obstacles):
-        if any(obstacle.force or ()) or obstacle.moment:
+        if any(obstacle.force or ()) or any(obstacle.moments):
             forces = np.zeros(space.number_of_dofs)
             dofs, d = space.obstacle_dofs(j), model.dimension
             forces[dofs[:d]] = [part or 0.0 for part in obstacle.force or (0.0,) * d]
-            forces[dofs[2]] += obstacle.moment / arm(model)
+            forces[dofs[d : d + len(obstacle.moments)]] = np.array(obstacle.moments) / arm(model)
             loads[obstacle.label] = forces
     return loads

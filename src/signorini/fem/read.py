@@ -27,10 +27,14 @@ _LINES, _POINTS = ("line", "line3"), "vertex"
 NAMED = "set:"
 """Before the name of a set, in arrays of 0 and 1 on cells or points."""
 
+_OF_GMSH = "gmsh:"
+
 _DIMENSIONS = ("point", "curve", "surface", "volume")
 
 NODE_NUMBER = "number"
 """Array of the numbers of nodes, or of cells."""
+
+_SAVED_ALL = " (elements outside all physical groups? Save the groups alone, Mesh.SaveAll = 0)"
 
 _PLANE = 1e-9  # of the size: how far a plane mesh may leave its plane
 
@@ -59,13 +63,13 @@ def read_mesh(path: str | Path) -> Mesh:
     if not path.is_file():
         raise InputError(f"there is no file '{path}'", where=("mesh", "file"))
     found = _opened(path)
+    named, cells = _named_parts(found, path)
     points = np.asarray(found.points, float)
-    solid = any(block.type in NODES_PER_SOLID_CELL for block in found.cells)
+    solid = any(family in NODES_PER_SOLID_CELL for family in cells)
     if points.shape[1] == 3 and not solid:
         if np.ptp(points[:, 2]) > _PLANE * max(np.ptp(points, axis=0).max(), 1e-300):
             raise InputError(f"'{path}' is not plane: z goes from {points[:, 2].min():g} to {points[:, 2].max():g}")
         points = points[:, :2]
-    named, cells = _named_parts(found, path)
     bulk = NODES_PER_SOLID_CELL if solid else NODES_PER_PLANE_CELL
     families = {family: np.vstack(blocks) for family, blocks in cells.items() if family in bulk}
     if not families:
@@ -213,6 +217,8 @@ def _read(path: Path) -> meshio.Mesh:
     except (Exception, SystemExit) as error:
         told = "" if isinstance(error, SystemExit) else str(error)
         reason = told or " ".join(said.getvalue().split()) or type(error).__name__
+        if "gmsh:physical" in reason:
+            reason += _SAVED_ALL
         raise InputError(f"meshio cannot read '{path}': {reason}", where=("mesh", "file")) from error
 
 
@@ -228,7 +234,8 @@ def _named_parts(found: meshio.Mesh, path: Path) -> tuple[dict[str, dict[str, In
         if family not in (*NODES_PER_CELL, *_LINES, _POINTS):
             raise InputError(
                 f"'{path}' holds {len(block.data)} cells of the kind '{family}'; this version has "
-                f"{', '.join(NODES_PER_CELL)} (write a mesh of first or second order)",
+                f"{', '.join(NODES_PER_CELL)} (write a mesh of first or second order, of Gmsh with "
+                "Mesh.SecondOrderIncomplete = 1)",
                 where=("mesh", "file"),
             )
         index = counts[family] + np.arange(len(block.data))
@@ -237,6 +244,8 @@ def _named_parts(found: meshio.Mesh, path: Path) -> tuple[dict[str, dict[str, In
             named[family][name].append(index[tag_of_cell == tag])
         if "gmsh:physical" not in found.cell_data:
             for name, members in found.cell_sets.items():
+                if name.startswith(_OF_GMSH):  # what entities of the geometry bound
+                    continue
                 if members[number] is not None and len(members[number]):
                     named[family][name].append(counts[family] + np.asarray(members[number], int))
         for key, on in found.cell_data.items():

@@ -9,6 +9,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, frozen
 from signorini.bound import STICKY as STICKY
+from signorini.bound import Bound
 from signorini.errors import InputError
 from signorini.friction.interface import Interface
 
@@ -64,6 +65,11 @@ class PosedContact:
     def misfit(self, h: Array, r: Array, b: Array | None = None) -> Array:
         """(d n,) ``b - (G h - W r)``, the motion that equilibrium lacks, under the problem's b or another."""
         return (self.b if b is None else b) + self.W @ (h + r) - h
+
+    @property
+    def bound(self) -> Bound:
+        """What friction is bounded by at every normal force."""
+        raise NotImplementedError
 
     def _check(self) -> None:
         raise NotImplementedError

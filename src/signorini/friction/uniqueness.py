@@ -9,7 +9,10 @@ from scipy.linalg import lapack
 from signorini.arrays import Array, IntArray
 from signorini.friction.cone import cone_system
 from signorini.friction.newton import admissible
+from signorini.friction.posed import PosedContact
 from signorini.friction.problem import CoulombProblem
+
+_SLIDES = 1e-12  # of the largest motion of a pair: what is no rounding
 
 
 def index(problem: CoulombProblem, state: IntArray) -> int:
@@ -35,16 +38,24 @@ def index(problem: CoulombProblem, state: IntArray) -> int:
     return cone_system(problem, admissible(problem, state)).index
 
 
-def mu_low(problem: CoulombProblem) -> float | None:
-    """A friction coefficient below which the solution is unique for every load and history; None for floating bodies.
+def mu_low(problem: PosedContact) -> float | None:
+    """Friction below which contact forces are unique for every load and history; None where no bound is known.
 
-    With the condensed stiffness ``S = W^-1 - I`` and compliance ``A = S^-1``, and rho the spectral radius::
+    With the condensed stiffness ``S = W^-1 - I`` and compliance ``A`` (the inverse of S on what is no rigid motion),
+    and rho the spectral radius::
 
-        mu_low = 2 / sqrt(rho(|S_nn| |A_tt|))      entrywise absolute values
+        mu_low = 2 / sqrt(min(rho(|S_nn| |A_tt|), rho(E S_nn) rho(A_tt E^-1))),    E = diag(S_nn)^-1
 
-    A singular state needs a motion h with ``h'S h = sum mu s r_n h_t`` over slipping pairs; the rows n of S^.5 and t of
-    S^-.5, whose products with one vector those r_n and h_t are, are orthogonal. The bound is 0.1 to 1 times the sharp
-    one on problems small enough to enumerate. Above it: not guaranteed to be unique, no more.
+    where ``|.|`` takes the absolute value of every entry, in space the spectral norm of every 2 x 2 block of A_tt. Two
+    solutions differ by motions h and forces r = S h with ``h'S h <= mu sum |r_n| |h_t|`` over the pairs that rub
+    (friction dissipates the most that it can); r_n and h_t are products of rows n of S^.5 and t of A^.5 with one vector
+    S^.5 h, and those rows are orthogonal. The sum is at most half of rho times the square of that vector by either
+    term, the second from ``2 |r_n h_t| <= c e r_n^2 + h_t^2 / (c e)``. Bodies that contact alone holds obey the same
+    where their free motions slide no pair that rubs; where one does, they slide as a whole under some load, and no
+    friction is small enough.
+
+    The bound is 0.1 to 1 times the sharp one on plane problems small enough to enumerate. Above it: not guaranteed to
+    be unique, no more.
 
     Returns
     -------
@@ -58,21 +69,30 @@ def mu_low(problem: CoulombProblem) -> float | None:
     >>> round(mu_low(problem), 6)
     1.732051
     """
-    if problem.floating:
-        return None
     n = problem.pairs
-    rubs = np.flatnonzero((problem.mu > 0) & ~problem.locked)
+    moves = np.asarray(problem.W[n:].any(axis=1), dtype=np.bool_)
+    d = len(moves) // n if n else 1
+    rubs = np.flatnonzero((problem.bound.slopes[0] > 0) & moves.reshape(d, n).any(axis=0))
     if not len(rubs):
         return np.inf
-    moves = np.concatenate([np.full(n, True), ~problem.locked])
-    S = _inverse(problem.W[np.ix_(moves, moves)])
+    tangents = (rubs + n * np.arange(1, d + 1)[:, None]).T.ravel()
+    R = problem.interface.R
+    if np.abs(R[tangents]).max(initial=0.0) > _SLIDES * np.abs(R).max(initial=0.0):
+        return None
+    kept = np.concatenate([np.full(n, True), moves])
+    S = _inverse(problem.W[np.ix_(kept, kept)])
     if S is None:
         return 0.0
     S[np.diag_indices(len(S))] -= 1.0
-    stiffness = np.abs(S[np.ix_(rubs, rubs)])
-    compliance = np.abs(problem.interface.A[np.ix_(n + rubs, n + rubs)])
-    radius = np.abs(np.linalg.eigvals(stiffness @ compliance)).max()
-    return float(2.0 / np.sqrt(radius))
+    stiffness = S[np.ix_(rubs, rubs)]
+    compliance = problem.interface.A[np.ix_(tangents, tangents)]
+    sizes = np.linalg.norm(compliance.reshape(len(rubs), d, len(rubs), d), ord=2, axis=(1, 3))
+    root = np.sqrt(np.diag(stiffness))
+    stiffest = np.linalg.eigvalsh(stiffness / root / root[:, None])[-1]
+    root = np.repeat(root, d)
+    softest = np.linalg.eigvalsh(compliance * root * root[:, None])[-1]
+    radius = np.abs(np.linalg.eigvals(np.abs(stiffness) @ sizes)).max()
+    return float(2.0 / np.sqrt(min(radius, stiffest * softest)))
 
 
 def _inverse(W: Array) -> Array | None:

@@ -19,7 +19,7 @@ class FacetGaps:
     Attributes
     ----------
     corners : (m, c) nodes of the facets
-    ends : (m, c) gaps there, length
+    ends : (m, c) gaps there, length; infinite where nothing is opposite a corner
     low, high : (m,) smallest and largest one on each facet
     """
 
@@ -44,7 +44,7 @@ class Coupling:
     normal_areas : (k, d) ``int psi_k n dA``, the sum of the forces on the nonmortar side; n into the nonmortar body
     forces : d sparse arrays (k, nodes of the mesh), one a direction; every row sums to 0 (to ``normal_areas`` where a
         rigid obstacle is the other side)
-    facets : gaps at points of the facets that pairs take means over; None where a pair sees one point, or in space
+    facets : gaps at points of the facets that pairs take means over; None where a pair sees one point
 
     References
     ----------

@@ -67,6 +67,7 @@ def resolved(gap: Array, coupling: Coupling) -> Array:
     np.minimum.at(own, facets.corners, facets.ends)
     np.minimum.at(least, facets.corners, facets.low[:, None])
     np.minimum.at(varies, facets.corners, (facets.high - facets.low)[:, None])
+    own = np.where(np.isfinite(own), own, -np.inf)  # corners that nothing is opposite are no measure
     lost = own[nodes] - gap > varies[nodes] + _STRAIGHT * np.abs(own[nodes])
     return np.where(lost, np.maximum(gap, least[nodes]), gap)
 

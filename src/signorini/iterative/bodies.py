@@ -11,7 +11,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.interface.interface import Interface
 from signorini.iterative.blocks import Blocks, make_blocks
-from signorini.iterative.multigrid import Preconditioner
+from signorini.iterative.multigrid import Multigrid
 
 ITERATIVE = "iterative"
 """The name of this way among the back ends."""
@@ -35,7 +35,7 @@ class Bodies:
     compliance : (d a,) of the interface, length per force
     rigid : (b, k) rigid motions of all parts
     blocks : of the unknowns
-    preconditioner : shared by all loads
+    multigrid : shared by all loads
     name : for reports
     """
 
@@ -49,7 +49,7 @@ class Bodies:
     compliance: Array
     rigid: sp.csr_array
     blocks: Blocks
-    preconditioner: Preconditioner
+    multigrid: Multigrid
     name: str = ITERATIVE
 
     @property
@@ -138,7 +138,7 @@ def make_bodies(
         compliance=(interface.compliance / interface.areas)[rows],
         rigid=sp.csr_array(blocks.columns(sp.csr_array(rigid.T)).T),
         blocks=blocks,
-        preconditioner=Preconditioner(matrix, near_null),
+        multigrid=Multigrid(matrix, near_null),
     )
 
 

@@ -55,13 +55,13 @@ class Slope:
     normal: Array
     tangent: Array
 
-    def apply(self, v: Array) -> Array:
-        """Forces of motions, both (d, a)."""
-        tangential = np.einsum("ija,ja->ia", self.tangent, v[1:])
-        return np.concatenate([(self.normal * v[0])[None], tangential])
+    def change(self, other: Slope) -> float:
+        """By how much a stiffness differs at most."""
+        pairs = (self.normal, other.normal), (self.tangent, other.tangent)
+        return max(float(np.abs(one - two).max(initial=0.0)) for one, two in pairs)
 
     def matrix(self) -> sp.csr_array:
-        """The same as a matrix, (d a, d a)."""
+        """(d a, d a) Forces of motions."""
         rows = [[sp.diags_array(block) for block in line] for line in self.tangent]
         return sp.csr_array(sp.block_diag([sp.diags_array(self.normal), sp.block_array(rows)]))
 

@@ -24,12 +24,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
 from signorini.bound import Bound
 from signorini.iterative.bodies import Bodies
 from signorini.iterative.law import Slope, project, slope, states
+from signorini.iterative.multigrid import Cycle, conjugate_gradients
 from signorini.pairstate import OPEN, STICK
 from signorini.trace import Attempt
 
@@ -40,9 +40,10 @@ Outcome = Literal["solved", "not_found"]
 
 _ROUNDS = 200
 _NEWTON = 20  # steps a round
-_ENOUGH = 0.3  # of what the multipliers change by: equilibrium a round is solved to
+_ENOUGH = 0.1  # of what the multipliers change by: equilibrium a round is solved to
 _INEXACT = 0.1  # residual of a Newton step, of the one before it
 _FLOOR = 1e-4  # of their stiffness: what pairs that resist nothing keep while bodies are held by contact alone
+_CHANGED = 0.1  # of the stiffest spring: change of springs up to which a cycle serves
 _FAR = 1e12
 
 
@@ -144,6 +145,7 @@ class _Rounds:
         self.y = self._trial()
         touching = self.y[0] >= 0
         self.bound = self._bound(forces[0]) if forces.any() else np.where(self.rubs & touching, np.inf, 0.0)
+        self.cycle: tuple[Slope, Cycle] | None = None
         self.iterations: list[int] = []
         self.changes: list[int] = []
 
@@ -158,11 +160,8 @@ class _Rounds:
             if left <= _ENOUGH * float(np.linalg.norm(lag)) or left <= 0.1 * TOLERANCE * load.force:
                 return
             law = slope(self.y, self.bound, bodies.tied, self.softened, _FLOOR if load.floating else 0.0)
-            before = self.state
             step, count = self._step(law, g)
             self._go(step, forces)
-            if (self.state != before).any():
-                bodies.preconditioner.changed()
             self.iterations.append(count)
 
     def update(self) -> float:
@@ -176,10 +175,7 @@ class _Rounds:
         before = self.state
         self.multiplier, self.bound = forces, self._bound(forces[0])
         self.y = self._trial()
-        moved = int(np.count_nonzero(self.state != before))
-        self.changes.append(moved)
-        if moved:
-            bodies.preconditioner.changed()
+        self.changes.append(int(np.count_nonzero(self.state != before)))
         return float(max(balance / load.force, change.max(initial=0.0) / load.force, motion / load.length))
 
     @property
@@ -227,16 +223,10 @@ class _Rounds:
         return project(y, self.bound, self.bodies.tied)
 
     def _step(self, law: Slope, g: Array) -> tuple[Array, int]:
-        bodies, B, transposed = self.bodies, self.bodies.B, self.transposed
-        shape = self.load.offset.shape
-
-        def apply(v: Array) -> Array:
-            return bodies.K @ v + transposed @ law.apply((B @ v).reshape(shape)).ravel()
-
-        def springs() -> sp.csr_array:
-            return transposed @ law.matrix() @ B
-
-        return bodies.preconditioner.solve(springs, apply, g, tolerance=_INEXACT)
+        bodies, springs = self.bodies, self.transposed @ law.matrix() @ self.bodies.B
+        if self.cycle is None or law.change(self.cycle[0]) > _CHANGED * float(self.softened.max()):
+            self.cycle = law, bodies.multigrid.under(springs)
+        return conjugate_gradients(lambda v: bodies.K @ v + springs @ v, self.cycle[1], g, tolerance=_INEXACT)
 
     def _go(self, step: Array, forces: Array) -> None:
         """Along a step to where the energy is least: a convex function whose slope is found from the pairs alone."""

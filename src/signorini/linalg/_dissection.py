@@ -154,7 +154,7 @@ def _best_cut(
         if k >= least:
             cost = min(near, far) * (1.0 + IMBALANCE * abs(1.0 - 2.0 * k / size))
             if cost < best:
-                best, cut, side = cost, k, NEAR if near <= far else FAR
+                best, cut, side = cost, k, NEAR if near < far or (near == far and 2 * k >= size) else FAR
     return best, cut, side
 
 

@@ -2,7 +2,8 @@
 """Compiled numeric phase: the whole multifrontal factorisation, and the solves, as one loop over the fronts each.
 
 A front holds k unknowns that it eliminates and r below them. Its k columns live in the factor, (k + r, k) by columns;
-its lower right block in a work array, (r, r); what is left of that, packed by columns, waits on a stack for the parent.
+its lower right block, (r, r) by columns, is made where it waits for the parent: on one of two stacks, taken in turns
+from level to level of the tree, so that a front takes what its children left from one and leaves its own on the other.
 What is left of the last fronts is added to the condensed matrix of the interface.
 """
 
@@ -33,9 +34,9 @@ def factorise_fronts(
     place: Int32Array,
     slot: Int32Array,
     factor: Array,
-    stack: Array,
-    work: Array,
+    stacks: tuple[Array, Array],
     condensed: Array,
+    diagonal: Array,
     widest: int,
     threads: int,
     s: Scratch,
@@ -48,59 +49,64 @@ def factorise_fronts(
     order, place : order of elimination of the unknowns, and its inverse
     slot : for every unknown of the interface, in order of elimination, its row in the condensed matrix
     factor, condensed : zero on entry
+    stacks : what waits for parents
+    diagonal : overwritten by that of K inside, in order of elimination
     widest : unknowns below the largest front
     threads : of BLAS in large fronts; in small ones they cost more than they give
     """
     inside = len(order) - len(slot)
     local = np.empty(len(order), np.int32)
-    target = np.empty(widest, np.int32)
-    waiting = np.empty(len(fronts.parent) + 1, np.int32)
-    offset = np.empty(len(fronts.parent) + 1, np.int64)
-    count = 0
+    target, runs = np.empty(widest, np.int32), np.empty(widest + 1, np.int32)
+    waiting = np.empty((2, len(fronts.parent)), np.int32)
+    count, top = np.zeros(2, np.int64), np.zeros(2, np.int64)
     many = False
     for t in range(len(fronts.parent)):
         a = fronts.unknown[fronts.first[t]]
         k = fronts.unknown[fronts.first[t + 1]] - a
         r = fronts.below[t]
         ld = k + r
-        panel = fronts.panel[t]
+        panel = factor[fronts.panel[t] : fronts.panel[t + 1]]
+        own = fronts.side[t]
+        other = 1 - own
+        left = stacks[own][top[own] : top[own] + r * r]
         _number_rows(fronts, t, k, local)
         for j in range(k):
             local[a + j] = j
-        _add_matrix(indptr, indices, data, order, place, a, k, local, factor[panel:], ld)
-        leaf = count == 0 or fronts.parent[waiting[count - 1]] != t
+        _add_matrix(indptr, indices, data, order, place, a, k, local, panel, ld)
+        for j in range(k):
+            diagonal[a + j] = panel[j * (ld + 1)]
+        leaf = count[other] == 0 or fronts.parent[waiting[other, count[other] - 1]] != t
         if not leaf:
             for c in range(r):
-                work[c * r + c : (c + 1) * r] = 0.0
-        while count > 0 and fronts.parent[waiting[count - 1]] == t:
-            count -= 1
-            child = waiting[count]
+                left[c * r + c : (c + 1) * r] = 0.0
+        while count[other] > 0 and fronts.parent[waiting[other, count[other] - 1]] == t:
+            count[other] -= 1
+            child = waiting[other, count[other]]
+            size = fronts.below[child]
+            top[other] -= size * size
             _list_rows(fronts, child, local, target)
-            _extend_add(stack[offset[count] :], target, fronts.below[child], k, factor[panel:], ld, work, r)
+            number = _list_runs(target, size, runs)
+            _extend_add(stacks[other][top[other] :], target, runs, number, size, k, panel, ld, left, r)
         if (k * float(ld) * ld > LARGE) != many:
             many = not many
             set_threads(threads if many else 1)
-        top = factor.ctypes.data + 8 * panel
-        failed = potrf(k, top, ld, s)
+        begin = panel.ctypes.data
+        failed = potrf(k, begin, ld, s)
         if failed != 0:
             return int(a + failed - 1)
         if r == 0:
             continue
-        trsm(True, True, r, k, top, ld, top + 8 * k, ld, s)
-        syrk(r, k, top + 8 * k, ld, not leaf, work.ctypes.data, r, s)
+        trsm(True, True, r, k, begin, ld, begin + 8 * k, ld, s)
+        syrk(r, k, begin + 8 * k, ld, not leaf, left.ctypes.data, r, s)
         if fronts.parent[t] == -1:
             for u in range(len(slot)):
                 local[inside + u] = slot[u]
             _list_rows(fronts, t, local, target)
-            _add_condensed(work, target, r, condensed)
+            _add_condensed(left, target, r, condensed)
         else:
-            begin = 0
-            if count > 0:
-                last = fronts.below[waiting[count - 1]]
-                begin = offset[count - 1] + last * (last + 1) // 2
-            _pack(work, r, stack[begin:])
-            waiting[count], offset[count] = t, begin
-            count += 1
+            top[own] += r * r
+            waiting[own, count[own]] = t
+            count[own] += 1
     _add_interface(indptr, indices, data, order, place, slot, condensed)
     return -1
 
@@ -147,29 +153,43 @@ def _add_matrix(
 
 
 @njit(cache=True)
-def _extend_add(left: Array, target: Int32Array, size: int, k: int, panel: Array, ld: int, work: Array, r: int) -> None:
-    """Add what is left of a child, packed by columns, to its parent."""
-    p = 0
-    for c in range(size):
-        j = target[c]
-        if j < k:
-            for i in range(c, size):
-                panel[j * ld + target[i]] += left[p]
-                p += 1
-        else:
-            for i in range(c, size):
-                work[(j - k) * r - k + target[i]] += left[p]
-                p += 1
+def _list_runs(target: Int32Array, size: int, runs: Int32Array) -> int:
+    """List where rows that stand one below the other in the parent begin; gives how many runs there are."""
+    number = 0
+    for i in range(size):
+        if i == 0 or target[i] != target[i - 1] + 1:
+            runs[number] = i
+            number += 1
+    runs[number] = size
+    return number
 
 
 @njit(cache=True)
-def _pack(work: Array, r: int, left: Array) -> None:
-    """Copy a lower triangle, (r, r) by columns, to packed columns."""
-    p = 0
-    for c in range(r):
-        for i in range(c, r):
-            left[p] = work[c * r + i]
-            p += 1
+def _extend_add(
+    left: Array,
+    target: Int32Array,
+    runs: Int32Array,
+    number: int,
+    size: int,
+    k: int,
+    panel: Array,
+    ld: int,
+    work: Array,
+    r: int,
+) -> None:
+    """Add what is left of a child, the lower triangle of (size, size) by columns, to its parent, run by run."""
+    for own in range(number):
+        for c in range(runs[own], runs[own + 1]):
+            j = target[c]
+            column = panel[j * ld : (j + 1) * ld] if j < k else work[(j - k) * r : (j - k + 1) * r]
+            skipped = 0 if j < k else k
+            for run in range(own, number):
+                first = max(c, runs[run])
+                rows = left[c * size + first : c * size + runs[run + 1]]
+                at = target[first] - skipped
+                sums = column[at : at + len(rows)]
+                for i in range(len(rows)):
+                    sums[i] += rows[i]
 
 
 @njit(cache=True)

@@ -189,19 +189,30 @@ def front_rows(
 
 
 @njit(cache=True)
-def stack_peak(parent: Int32Array, size: IntArray) -> int:
-    """Give the largest number of entries that wait for their parents at one time."""
-    waiting = np.empty(len(parent) + 1, np.int32)
-    count = 0
-    now = 0
-    peak = 0
-    for s in range(len(parent)):
-        while count > 0 and parent[waiting[count - 1]] == s:
-            count -= 1
-            now -= size[waiting[count]]
+def sides(parent: Int32Array) -> Int32Array:
+    """Give 0 or 1 in turns from the roots of a postordered forest down."""
+    side = np.zeros(len(parent), np.int32)
+    for s in range(len(parent) - 1, -1, -1):
         if parent[s] != -1:
-            waiting[count] = s
-            count += 1
-            now += size[s]
-            peak = max(peak, now)
-    return peak
+            side[s] = 1 - side[parent[s]]
+    return side
+
+
+@njit(cache=True)
+def stack_peaks(parent: Int32Array, side: Int32Array, size: IntArray) -> tuple[int, int]:
+    """Give the largest number of entries on either stack: what waits for its parent, and what is just made."""
+    waiting = np.empty((2, len(parent)), np.int32)
+    count, now, peak = np.zeros(2, np.int64), np.zeros(2, np.int64), np.zeros(2, np.int64)
+    for s in range(len(parent)):
+        own, other = side[s], 1 - side[s]
+        now[own] += size[s]
+        peak[own] = max(peak[own], now[own])
+        while count[other] > 0 and parent[waiting[other, count[other] - 1]] == s:
+            count[other] -= 1
+            now[other] -= size[waiting[other, count[other]]]
+        if parent[s] != -1:
+            waiting[own, count[own]] = s
+            count[own] += 1
+        else:
+            now[own] -= size[s]
+    return int(peak[0]), int(peak[1])

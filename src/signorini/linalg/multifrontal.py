@@ -102,11 +102,12 @@ def factorise(system: System) -> MultifrontalFactorisation:
     slots = np.empty(system.m, dtype=np.int32)
     slots[place[system.interface] - inside] = np.arange(system.m, dtype=np.int32)
     factor = np.zeros(plan.fronts.panel[-1])
-    condensed = np.zeros((system.m, system.m))
+    condensed, diagonal = np.zeros((system.m, system.m)), np.empty(inside)
+    stacks = np.empty(plan.stacks[0]), np.empty(plan.stacks[1])
     with one_thread() as threads:
         failed = _fronts.factorise_fronts(
             plan.fronts, system.indptr, system.indices, system.data, plan.order, place, slots,
-            factor, np.empty(plan.stack), np.empty(plan.widest**2), condensed, plan.widest, threads, scratch(),
+            factor, stacks, condensed, diagonal, plan.widest, threads, scratch(),
         )  # fmt: skip
     if failed >= 0:
         raise NotPositiveDefinite(int(plan.order[failed]))
@@ -114,6 +115,6 @@ def factorise(system: System) -> MultifrontalFactorisation:
     result = MultifrontalFactorisation(
         n=system.n, m=system.m, plan=plan, factor=factor, condensed=condensed, slots=slots
     )
-    if np.any(_fronts.pivots(plan.fronts, factor) < SUSPICIOUS * system.matrix.diagonal()[plan.order[:inside]]):
+    if np.any(_fronts.pivots(plan.fronts, factor) < SUSPICIOUS * diagonal):
         check_energy(system, lambda load: result.reduce(load).expand(np.zeros(system.m)))
     return result

@@ -31,6 +31,7 @@ class Fronts(NamedTuple):
     below : (s,) how many unknowns they have
     parent : (s,) the front that receives what is left of a front; -1: the interface
     panel : (s + 1,) where the columns of every front begin in the factor
+    side : (s,) the stack on which what is left of a front waits, other than that of its parent
     """
 
     first: Int32Array
@@ -40,6 +41,7 @@ class Fronts(NamedTuple):
     below: Int32Array
     parent: Int32Array
     panel: IntArray
+    side: Int32Array
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,16 +52,16 @@ class Plan:
     ----------
     order : (n,) unknowns in their order of elimination, the interface last
     fronts : see `Fronts`
-    stack : entries that wait for their parents at the worst time
+    stacks : entries that wait for their parents, and those made, at the worst time on each of two stacks
     widest : unknowns below the largest front
     nnz_factor : entries of the factor
     flops : multiplications and additions of the factorisation
-    peak_bytes : factor, stack, largest front and condensed matrix together
+    peak_bytes : factor, stacks and condensed matrix together
     """
 
     order: Int32Array
     fronts: Fronts
-    stack: int
+    stacks: tuple[int, int]
     widest: int
     nnz_factor: int
     flops: float
@@ -81,16 +83,16 @@ def analyse(system: System) -> Plan:
     below = np.diff(_offsets(size[row])[begin])
     width = np.diff(unknown[first]).astype(np.int64)
     panel = _offsets(width * (width + below))
-    stack = _symbolic.stack_peak(parent, below * (below + 1) // 2)
-    widest = int(below.max(initial=0))
+    side = _symbolic.sides(parent)
+    stacks = _symbolic.stack_peaks(parent, side, below**2)
     return Plan(
         order=unknowns(graph, order),
-        fronts=Fronts(first, unknown, begin, row, below.astype(np.int32), parent, panel),
-        stack=stack,
-        widest=widest,
+        fronts=Fronts(first, unknown, begin, row, below.astype(np.int32), parent, panel, side),
+        stacks=stacks,
+        widest=int(below.max(initial=0)),
         nnz_factor=int((width * (width + 1) // 2 + width * below).sum()),
         flops=float((width**3 / 3 + width**2 * below + width * below.astype(np.float64) ** 2).sum()),
-        peak_bytes=8 * (int(panel[-1]) + stack + widest**2 + system.m**2),
+        peak_bytes=8 * (int(panel[-1]) + sum(stacks) + system.m**2),
     )
 
 

@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -25,9 +26,9 @@ class Rigid:
     name : what contacts, steps and results call it
     shape : its surface
     u : displacement of the point, one entry per direction, length: a number prescribes it, None leaves it free
-    rotation : radians, counterclockwise; None leaves it free; in space 0, or None for all three
+    rotation : radians, counterclockwise; None leaves it free; in space about x, y and z, or one 0 or None for all three
     force : on it in every free direction, None or 0 elsewhere
-    moment : on it about the point, counterclockwise, where the rotation is free; not in space
+    moment : on it about the point, counterclockwise, where the rotation is free; in space about x, y and z
     point : about which it rotates, length; by default a circle's centre, a plane's point, the middle of the points of a
         profile or a surface
 
@@ -41,14 +42,16 @@ class Rigid:
     >>> punch = Rigid("punch", Circle((0, 3), 2), u=(0, None), force=(None, -10))
     >>> punch.about, punch.acts
     ((0.0, 3.0), True)
+    >>> Rigid("ball", Circle((0, 0, 3), 2), rotation=(0, 0, None), moment=(0, 0, 5)).moments
+    (0.0, 0.0, 5.0)
     """
 
     name: str
     shape: Obstacle
     u: tuple[float | None, ...] = ()
-    rotation: float | Literal["free"] | None = 0.0
+    rotation: float | tuple[float | None, ...] | Literal["free"] | None = 0.0
     force: tuple[float | None, ...] | None = None
-    moment: float = 0.0
+    moment: float | tuple[float | None, ...] = 0.0
     point: tuple[float, ...] | None = None
 
     def __post_init__(self) -> None:
@@ -56,17 +59,11 @@ class Rigid:
         if not isinstance(self.shape, Obstacle):
             raise InputError(f"is {self.shape!r}; expected a Plane, Circle, Profile or another shape", where=("shape",))
         d = self.shape.dimension
-        if d == 3 and self.rotation not in (0.0, None, "free"):
-            raise InputError(f"is {self.rotation}; in space it is 0 or free", where=("rotation",))
-        if d == 3 and self.moment:
-            raise InputError("is not for models in space; expected 0", where=("moment",))
         object.__setattr__(self, "u", components(self.u or (0.0,) * d, ("u",), dimension=d))
-        if self.rotation is not None:
-            turn = None if self.rotation == "free" else number(self.rotation, ("rotation",))
-            object.__setattr__(self, "rotation", turn)
+        object.__setattr__(self, "rotation", self._turning(self.rotation, "rotation"))
         if self.force is not None:
             object.__setattr__(self, "force", components(self.force, ("force",), dimension=d))
-        object.__setattr__(self, "moment", number(self.moment, ("moment",)))
+        object.__setattr__(self, "moment", self._turning(self.moment, "moment"))
         if self.point is not None:
             object.__setattr__(self, "point", vector(self.point, ("point",), dimension=d))
         if any(part and held is not None for part, held in zip(self.force or (), self.u, strict=False)):
@@ -75,10 +72,20 @@ class Rigid:
                 'None (in a deck "free") in u',
                 where=("force",),
             )
-        if self.moment and self.rotation is not None:
+        if any(part and held is not None for part, held in zip(self.moments, self.turns, strict=True)):
             raise InputError(
                 'acts on a prescribed rotation; expected rotation None (in a deck "free")', where=("moment",)
             )
+
+    def _turning(self, value: Any, key: str) -> float | tuple[float | None, ...] | None:
+        """A rotation or moment: in the plane a number, in space three or one that is 0 or free."""
+        if value is None or (isinstance(value, str) and value == "free"):
+            if key == "moment":
+                raise InputError(f"is {value!r}; expected a number", where=(key,))
+            return None
+        if self.shape.dimension == 2 or not (isinstance(value, Sequence | np.ndarray) or number(value, (key,))):
+            return number(value, (key,))
+        return components(value, (key,), dimension=3)
 
     @property
     def label(self) -> str:
@@ -97,11 +104,21 @@ class Rigid:
         return self.shape.point
 
     @property
-    def turn(self) -> float | None:
-        """The prescribed rotation, radians, None where it is free."""
-        return None if self.rotation is None else float(self.rotation)
+    def turns(self) -> tuple[float | None, ...]:
+        """The prescribed rotations, radians, None where it is free: one in the plane, three in space."""
+        every = 1 if self.shape.dimension == 2 else 3
+        if self.rotation is None or isinstance(self.rotation, str):
+            return (None,) * every
+        return self.rotation if isinstance(self.rotation, tuple) else (self.rotation,) * every
+
+    @property
+    def moments(self) -> tuple[float, ...]:
+        """On it about its point: one in the plane, three in space."""
+        every = 1 if self.shape.dimension == 2 else 3
+        given = self.moment if isinstance(self.moment, tuple) else (self.moment,) * every
+        return tuple(part or 0.0 for part in given)
 
     @property
     def acts(self) -> bool:
         """Whether it is moved or loaded, so that steps can scale it."""
-        return any(part for part in (*self.u, self.turn, *(self.force or ()), self.moment))
+        return any(part for part in (*self.u, *self.turns, *(self.force or ()), *self.moments))

@@ -23,7 +23,7 @@ _FORCES = {"CF": "surface force", "CFN": "normal surface force", "CFS": "shear s
 
 
 def write_dat(history: History, prints: Prints, path: Path) -> None:
-    """Write the tables of all finished steps; nodes and elements bear their numbers in the deck.
+    """Write the tables of all steps; nodes and elements bear their numbers in the deck.
 
     Values of elements are at the quadrature points of this package, not of CalculiX; those of contact are at the nodes
     of the slave surfaces, as CalculiX has them for node-to-surface contact, see :mod:`signorini.output.slave`. Nodes

@@ -69,7 +69,7 @@ def publish(
 
     Parameters
     ----------
-    history : with no finished step, only a summary is written, which says why
+    history : with no step at all, only a summary is written, which says why
     folder : that :func:`open_folder` opened
     clock : its seconds go into the summary, and those of the output are added to it
     prints : what a deck of keywords asks for: what its users expect is written too, ``.frd`` and, if there are tables,
@@ -124,7 +124,7 @@ def write_summary(history: History, path: Path, seconds: Mapping[str, float]) ->
 
 
 def _write_fields(history: History, folder: Path, prints: Prints | None) -> list[str]:
-    """Rows and fields of the finished steps; their names."""
+    """Rows and fields of the steps; their names."""
     if not history.steps:
         return []
     write_rows(history, folder / "contact.csv")

@@ -43,7 +43,7 @@ def write_frd(history: History, path: Path, times: Sequence[float] = ()) -> None
     Raises
     ------
     InputError
-        If no step was finished.
+        If nothing was solved.
     """
     _ = history.last
     with replacing(path) as aside, aside.open("w", encoding="ascii", errors="replace", newline="\n") as file:

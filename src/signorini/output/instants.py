@@ -35,7 +35,7 @@ COLUMNS = (
 
 
 def write_history(history: History, path: Path) -> None:
-    """Write every instant of every finished step: events, increments, kinks of the loads, times asked for, ends."""
+    """Write every instant of every step: events, increments, kinks of the loads, times asked for, ends."""
     with replacing(path) as aside, aside.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)

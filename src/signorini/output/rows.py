@@ -33,7 +33,7 @@ COLUMNS = (
 
 
 def write_rows(history: History, path: Path) -> None:
-    """Write the end of every finished step, one row a nonmortar node with area."""
+    """Write the end of every step, one row a nonmortar node with area."""
     with replacing(path) as aside, aside.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)

@@ -113,10 +113,10 @@ def write_pvd(history: History, path: Path) -> None:
     Raises
     ------
     InputError
-        If no step was finished.
+        If nothing was solved.
     """
     if not history.steps:
-        raise InputError("no step was finished; there is no result")
+        raise InputError("nothing was solved; there is no result")
     write_series(history.model, frames(history), path.parent, bodies=path.stem, surfaces=f"{path.stem}_contact")
 
 

@@ -24,7 +24,7 @@ def summary(history: History, seconds: Mapping[str, float]) -> dict[str, Any]:
 
     Parameters
     ----------
-    history : solved or not; only its finished steps appear
+    history : solved or not; its last step may not be finished
     seconds : by phase; phases that did not happen count 0
     """
     model = history.model
@@ -81,10 +81,11 @@ def _well_posedness(history: History) -> dict[str, Any] | None:
 
 
 def _step(model: Model, step: StepResult) -> dict[str, Any]:
-    """One finished step."""
+    """One step."""
     return {
         "name": step.name,
         "load_factor": step.load_factor,
+        "finished": step.finished,
         "path": step.path,
         "increments": step.increments,
         "events": len(step.events),

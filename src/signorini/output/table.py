@@ -48,12 +48,20 @@ def history_table(history: History) -> str:
     for number, step in enumerate(history.steps, start=1):
         lines += ["", *_step_lines(step, number)]
     for note in dict.fromkeys(note for step in history.steps for note in step.notes):
-        lines += ["", *textwrap.wrap(f"note: {note}", 112)]
+        lines += ["", *textwrap.wrap(f"{_whose(note, history.steps)}: {note}", 112)]
     if history.wellposedness is not None:
         lines += ["", *textwrap.wrap(f"uniqueness: {history.wellposedness.words}", 112)]
     if not history.solved:
         lines += ["", *textwrap.wrap(f"{history.status}: {history.message}", 112)]
     return "\n".join(lines)
+
+
+def _whose(note: str, steps: Sequence[StepResult]) -> str:
+    """The word that begins a note, with the numbers of its steps where there are others."""
+    numbers = [number for number, step in enumerate(steps, start=1) if note in step.notes]
+    if len(numbers) == len(steps):
+        return "note"
+    return f"note, step{'s' if len(numbers) > 1 else ''} {', '.join(map(str, numbers))}"
 
 
 def _step_lines(step: StepResult, number: int) -> list[str]:
@@ -62,6 +70,7 @@ def _step_lines(step: StepResult, number: int) -> list[str]:
         if step.path == "exact"
         else f"{step.increments} increment{'s' if step.increments > 1 else ''}"
     )
+    far = "" if step.finished else f"NOT finished, as far as {step.load_factor - (number - 1):.6%}, "
     pressed = [float((abs(contact.pressure) * contact.area).sum()) for contact in step.contacts]
     held = [float(abs(force).max()) for force in step.reactions.values()]
     noise = _ROUNDING * max([*pressed, *held], default=0.0)
@@ -83,7 +92,7 @@ def _step_lines(step: StepResult, number: int) -> list[str]:
     certificate = step.certificate
     verdict = "passed" if certificate.passed else "NOT passed"
     return [
-        f"step {number} '{step.name}', {count} ({', '.join(step.methods)})",
+        f"step {number} '{step.name}', {far}{count} ({', '.join(step.methods)})",
         *(align([_HEAD, *rows], right=_NUMBERS) if rows else ["no contact"]),
         *([f"reactions: {reactions}"] if reactions else []),
         *(

@@ -24,7 +24,7 @@ def write_vtu(history: History, path: Path) -> None:
     Raises
     ------
     InputError
-        If no step was finished.
+        If nothing was solved.
     """
     write_step(history.model, history.last, path)
 

@@ -77,7 +77,7 @@ def way_of(history: History, contact: str | None = None) -> Way:
     Raises
     ------
     InputError
-        If no step was finished, there is no such contact, or the model is one in space.
+        If nothing was solved, there is no such contact, or the model is one in space.
     """
     if history.model.dimension == 3:
         raise InputError("a film shows contacts over a line; in space open solution.pvd in ParaView")
@@ -120,7 +120,7 @@ def animate_path(
 
     Parameters
     ----------
-    history : with at least one finished step; exact paths have every event
+    history : with at least one step; exact paths have every event
     path : of the file, ``*.gif``
     contact : by name; the first where not given
     frames : pictures, equally many for every straight segment of the loads

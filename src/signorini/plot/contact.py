@@ -23,12 +23,12 @@ _DOTTED = 100  # nodes that can be told apart as dots
 
 
 def plot_contact(history: History) -> Figure:
-    """Draw every contact at the end of the last finished step.
+    """Draw every contact at the end of the last step.
 
     Raises
     ------
     InputError
-        If no step was finished.
+        If nothing was solved.
     """
     if history.model.dimension == 3:
         return draw_patches(patches_of(history, history.last), history.model.title)

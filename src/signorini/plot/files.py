@@ -196,7 +196,7 @@ class ResultFolder:
 
     @cached_property
     def steps(self) -> list[list[Curve]]:
-        """For every finished step its contacts."""
+        """For every step its contacts."""
         numbers = range(1, len(self.summary["steps"]) + 1)
         return [self._curves(number, step) for number, step in zip(numbers, self.summary["steps"], strict=True)]
 

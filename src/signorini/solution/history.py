@@ -18,14 +18,14 @@ PHASES = ("read", "assembly", "factorisation", "condensation", "complementarity"
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class History:
-    """The end of every finished step.
+    """The end of every step, of one that could not be finished how far it was followed.
 
     Attributes
     ----------
     model : what was solved
     status : "solved", or why not: "no_equilibrium" (proved), "not_found", "jump"
     message : the same in words, empty where solved
-    steps : finished and certified, in order
+    steps : certified, in order; the last one may not be finished, see `StepResult`
     backend : of the factorisation
     timings : seconds by phase
     pairs : contact pairs
@@ -52,19 +52,19 @@ class History:
 
     @property
     def last(self) -> StepResult:
-        """The last finished step.
+        """The last step, finished or not.
 
         Raises
         ------
         InputError
-            If no step was finished.
+            If nothing was solved.
         """
         if not self.steps:
-            raise InputError("no step was finished; there is no result")
+            raise InputError("nothing was solved; there is no result")
         return self.steps[-1]
 
     def contact(self, name: str) -> ContactResult:
-        """A contact at the end of the last finished step, by name."""
+        """A contact at the end of the last step, by name."""
         return find_contact(self.last, name)
 
 

@@ -216,12 +216,13 @@ class Cycle:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class StepResult:
-    """The end of a step.
+    """The end of a step, or how far it was followed.
 
     Attributes
     ----------
     name, path : of the step; path is "single" (one increment), "increments" or "exact"
-    load_factor : step k ends at k
+    load_factor : step k ends at k; one that is not finished before
+    finished : whether it was solved to its end; only the last step of a history may not be
     increments : solved in this step; 0 on an exact path
     events : of an exact path, in order
     displacement : (nodes, d) length
@@ -247,6 +248,7 @@ class StepResult:
     name: str
     path: str
     load_factor: float
+    finished: bool
     increments: int
     events: tuple[PairEvent, ...]
     displacement: Array

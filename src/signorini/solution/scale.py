@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface
 from signorini.model.model import Model
@@ -23,16 +25,23 @@ class Scale:
     ----------
     force : the largest load of the history, or what the largest imposed displacement or overlap causes
     length : the displacement that goes with it
+    imposed : the largest displacement that is imposed, and overlap
+    squeezed : in space, the largest load over the smallest modulus, area
     """
 
     force: float
     length: float
+    imposed: float = 0.0
+    squeezed: float = 0.0
 
 
-def data_scale(model: Model, loads: Mapping[str, Array], constraints: Constraints, interface: Interface) -> Scale:
+def data_scale(
+    space: Space, model: Model, loads: Mapping[str, Array], constraints: Constraints, interface: Interface
+) -> Scale:
     """Sizes over the whole load history: ``length = force / (E thickness)`` of the body where that is softest.
 
-    Of axisymmetric bodies half the largest radius stands for the thickness: contact bears on a part of it.
+    Of axisymmetric bodies half the largest radius stands for the thickness: contact bears on a part of it. In space it
+    is the edge of a cube as large as all bodies.
 
     Parameters
     ----------
@@ -44,9 +53,18 @@ def data_scale(model: Model, loads: Mapping[str, Array], constraints: Constraint
     force = sum(largest[name] * float(np.abs(f).sum()) for name, f in loads.items())
     moved = [largest[name] * float(np.abs(u).max()) for name, u in constraints.prescribed.items()]
     overlaps = [overlap for stage in history for overlap in stage.interference.values()]
-    length = max([*moved, *overlaps, float(np.max(-interface.gap, initial=0.0))])
-    radius = 0.5 * float(model.mesh.points[:, 0].max())
-    across = [radius] * len(model.bodies) if model.axisymmetric else model.thicknesses
-    stiffness = min(body.material.smallest_modulus * width for body, width in zip(model.bodies, across, strict=True))
-    force = max(force, stiffness * length) or stiffness
-    return Scale(force=force, length=force / stiffness)
+    imposed = max([*moved, *overlaps, float(np.max(-interface.gap, initial=0.0))])
+    bodies = zip(model.bodies, _across(space, model), strict=True)
+    stiffness = min(body.material.smallest_modulus * width for body, width in bodies)
+    squeezed = force / min(body.material.smallest_modulus for body in model.bodies) if model.dimension == 3 else 0.0
+    force = max(force, stiffness * imposed) or stiffness
+    return Scale(force=force, length=force / stiffness, imposed=imposed, squeezed=squeezed)
+
+
+def _across(space: Space, model: Model) -> list[float]:
+    """What stands for the thickness of every body, length."""
+    if model.dimension == 3:
+        return [math.cbrt(sum(float(volumes.sum()) for volumes in space.volumes))] * len(model.bodies)
+    if model.axisymmetric:
+        return [0.5 * float(model.mesh.points[:, 0].max())] * len(model.bodies)
+    return model.thicknesses

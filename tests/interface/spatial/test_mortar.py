@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from signorini.errors import InputError
+from signorini.interface.gaps import resolved
 from signorini.interface.spatial.candidates import near_pairs
 from signorini.interface.spatial.chords import without_chords
 from signorini.interface.spatial.faces import shapes_at
@@ -291,3 +292,26 @@ def test_sides_that_do_not_match_say_so():
     assert "4 nodes and the mortar side 6" in node_pairs(side, other)[1]
     _, side, other = two_sides(grid([0, 1], [0, 1], 8), grid([0, 1], [0, 1], 8))
     assert node_pairs(side, other)[0] is None
+
+
+@pytest.mark.parametrize("kinds", [(6, 6), (8, 4), (9, 3), (6, 9)])
+def test_a_fillet_beside_a_flat_feigns_no_overlap(kinds):
+    """Mean gaps are negative where a fillet starts, though no point overlaps; on a smooth bulge they stay."""
+
+    def sides(rise):
+        points, side, other = two_sides(
+            grid([0, 0.5, 1, 1.5, 2], [0, 1], kinds[0], 0.0), grid([0, 0.7, 2], [0, 0.4, 1], kinds[1], 0.0)
+        )
+        points = points.copy()
+        points[side.nodes, 2] += rise(points[side.nodes, 0])
+        surfaces = [make_surface(points, *(block.faces for block in part.blocks)) for part in (side, other)]
+        coupling = mortar_coupling(*surfaces)
+        mean = np.einsum("ki,ki->k", coupling.relative @ points, coupling.normals)
+        return points[coupling.nodes, 0], mean, resolved(mean, coupling), coupling.facets
+
+    x, mean, gap, facets = sides(lambda x: 0.2 * np.maximum(x - 1.0, 0.0) ** 2)
+    assert mean[x == 1.0].max() < -0.001
+    np.testing.assert_allclose(gap[x <= 1.0], 0.0, atol=1e-12)
+    np.testing.assert_allclose(facets.low.min(), 0.0, atol=1e-12)
+    x, mean, gap, _ = sides(lambda x: 0.2 * (x - 1.0) ** 2)
+    np.testing.assert_array_equal(gap, mean)

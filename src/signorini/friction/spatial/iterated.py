@@ -17,14 +17,15 @@ Saad, Schultz (1986), GMRES, SIAM J. Sci. Stat. Comput. 7:856-869.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-import scipy.sparse as sp
 from scipy.linalg import solve_triangular
 
-from signorini.arrays import Array
+from signorini.arrays import Array, BoolArray
 from signorini.friction.interface import symmetric_product
-from signorini.friction.spatial.equilibrium import Equilibrium, directions, prescribed
+from signorini.friction.spatial.equilibrium import Equilibrium, prescribed
 from signorini.friction.spatial.law import Tangent
 
 LARGE = 500
@@ -60,45 +61,122 @@ def iterate(equilibrium: Equilibrium, law: Tangent, r: Array, a: Array) -> tuple
     ([2.0, -0.4, -0.2], [0.0, 0.0, 0.0])
     """
     problem = equilibrium.problem
-    Z, Y, resisting = directions(problem.pairs, law)
-    Z, Y, back = sp.csr_array(Z), sp.csr_array(Y.T), sp.csr_array(Y)
-    fixed = np.concatenate([np.zeros(problem.pairs), law.fixed.T.ravel()])
-    across, A, R, W = resisting > 0, problem.interface.A, problem.interface.R, problem.W
-    size = Z.shape[1]
+    unknown, size = Unknowns.of(law), 3 * problem.pairs
+    A, R, W = problem.interface.A, problem.interface.R, problem.W
 
     def lacking(x: Array) -> Array:
-        force = Z @ x[:size] + fixed
+        force = unknown.forces(x[:size]) + unknown.fixed
         motion = equilibrium.moved(force, x[size:])
-        return np.concatenate([Y @ motion + resisting * x[:size], equilibrium.lacking(force, x[size:])])
+        seen = unknown.seen(motion) + unknown.resisting * x[:size]
+        return np.concatenate([seen, equilibrium.lacking(force, x[size:])])
 
     def product(x: Array) -> Array:
-        force = Z @ x[:size]
+        force = unknown.forces(x[:size])
         motion = symmetric_product(A, force) + R @ x[size:]
-        return np.concatenate([Y @ motion + resisting * x[:size], R.T @ force])
+        return np.concatenate([unknown.seen(motion) + unknown.resisting * x[:size], R.T @ force])
 
     def precondition(y: Array) -> Array:
-        motion = back @ np.where(across, 0.0, y[:size])
+        motion = unknown.motions(np.where(unknown.across, 0.0, y[:size]))
         force = motion - symmetric_product(W, motion) + R @ y[size:]
-        return np.concatenate([np.where(across, y[:size], Y @ force), R.T @ motion])
+        return np.concatenate([np.where(unknown.across, y[:size], unknown.seen(force)), R.T @ motion])
 
-    start = np.concatenate([_coordinates(law, r, problem.pairs), a])
+    start = np.concatenate([unknown.coordinates(r), a])
     error = -lacking(start)
     tolerance = max(_FORWARD * float(np.linalg.norm(error)), _SHARP * problem.scale * np.sqrt(len(error)))
     change = gmres(product, precondition, error, tolerance)
     if change is None:
         return None
     x = start + change
-    force = Z @ x[:size] + fixed
+    force = unknown.forces(x[:size]) + unknown.fixed
     return force, x[size:], prescribed(law, equilibrium.moved(force, x[size:]))
 
 
-def _coordinates(law: Tangent, r: Array, n: int) -> Array:
-    """The unknowns of given forces: normal ones, tangential ones that stick, those across a slip."""
-    normal, tangential = r[:n], r[n:].reshape(2, n).T
-    stick, one = law.left == 2, law.left == 1
-    rest = tangential - law.share * normal[:, None] - law.fixed
-    slipping = np.einsum("ni,ni->n", law.tau, rest)
-    return np.concatenate([normal[law.closed], rest[stick, 0], rest[stick, 1], slipping[one]])
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Unknowns:
+    """Three unknowns a pair, those that the law does not leave are 0: `equilibrium.directions` without a matrix.
+
+    The first is the normal force, the others are tangential forces: both where the pair sticks, the second alone, along
+    tau, where one is left.
+
+    Attributes
+    ----------
+    law : of every pair, linear
+    closed : (n,) 1 where pairs press
+    first : (2, n) tangential force per second unknown
+    second : (n,) second tangential force per third unknown
+    soft : (n,) what the row of the second unknown is divided by
+    resisting : (3n,) diagonal: kappa, divided so too
+    """
+
+    law: Tangent
+    closed: Array
+    first: Array
+    second: Array
+    soft: Array
+    resisting: Array
+
+    @classmethod
+    def of(cls, law: Tangent) -> Unknowns:
+        """What a law leaves unknown."""
+        stick, one = law.left == 2, law.left == 1
+        soft = np.where(one, 1.0 + law.kappa, 1.0)
+        first = np.where(one, law.tau.T, 0.0)
+        first[0, stick] = 1.0
+        resisting = np.zeros((3, len(stick)))
+        resisting[1, one] = (law.kappa / soft)[one]
+        return cls(
+            law=law,
+            closed=law.closed.astype(np.float64),
+            first=first,
+            second=stick.astype(np.float64),
+            soft=soft,
+            resisting=resisting.ravel(),
+        )
+
+    @cached_property
+    def across(self) -> BoolArray:
+        """(3n,) Unknowns across a slip."""
+        return np.asarray(self.resisting > 0, dtype=np.bool_)
+
+    @cached_property
+    def fixed(self) -> Array:
+        """(3n,) Forces that are known."""
+        return np.concatenate([np.zeros_like(self.closed), self.law.fixed.T.ravel()])
+
+    @cached_property
+    def _share(self) -> Array:
+        return np.ascontiguousarray(self.law.share.T)
+
+    @cached_property
+    def _seen(self) -> Array:
+        return self.first / self.soft
+
+    def forces(self, x: Array) -> Array:
+        """(3n,) Forces of the pairs, without those that are known."""
+        p, q, s = x.reshape(3, -1)
+        tangential = self._share * p + self.first * q
+        tangential[1] += self.second * s
+        return np.concatenate([p, tangential.ravel()])
+
+    def seen(self, h: Array) -> Array:
+        """(3n,) Of motions those that the law prescribes."""
+        normal, first, second = h.reshape(3, -1)
+        return np.concatenate(
+            [self.closed * normal, self._seen[0] * first + self._seen[1] * second, self.second * second]
+        )
+
+    def motions(self, y: Array) -> Array:
+        """(3n,) The transpose of `seen`."""
+        normal, first, second = y.reshape(3, -1)
+        return np.concatenate(
+            [self.closed * normal, self._seen[0] * first, self._seen[1] * first + self.second * second]
+        )
+
+    def coordinates(self, r: Array) -> Array:
+        """(3n,) The unknowns of given forces; across a slip what the law does not foresee."""
+        normal = self.closed * r.reshape(3, -1)[0]
+        rest = r.reshape(3, -1)[1:] - self._share * normal - self.law.fixed.T
+        return np.concatenate([normal, (self.first * rest).sum(axis=0), self.second * rest[1]])
 
 
 def gmres(

@@ -18,6 +18,7 @@ from signorini.interface.spatial.faces import shapes, slopes
 from signorini.interface.spatial.projection import land
 
 _EMPTY = 1e-14
+_AT = 1e-9  # below 1 a hat is at the corner that it belongs to
 _STEPS = 30
 
 
@@ -246,6 +247,61 @@ def _turn(vector: Array, before: Array, after: Array) -> None:
         own += before[e] * vector[e]
     for e in range(3):
         vector[e] += 2.0 * own * after[e] - both / same * (before[e] + after[e])
+
+
+@njit(cache=True)
+def spread_gaps(
+    first: Array,
+    first_nodes: Array,
+    first_places: Array,
+    normals: Array,
+    second: Array,
+    second_nodes: Array,
+    second_places: Array,
+    i: IntArray,
+    j: IntArray,
+    chosen: BoolArray,
+    ends: Array,
+    low: Array,
+    high: Array,
+) -> None:
+    """Distances to the other side at the corners of faces, and the smallest and largest on each of them.
+
+    Measured at the corners and in the middle of the common part of every pair of pieces, along the normal of the pair.
+
+    Parameters
+    ----------
+    first, ..., chosen : see :func:`integrate`
+    ends : (m, corners), lowered where a corner of the face is opposite the other side, length
+    low, high : (m,), lowered and raised
+    """
+    c, o, nodes, corners = first.shape[1], second.shape[1], first_nodes.shape[1], ends.shape[1]
+    s_1, s_2 = len(first_places), len(second_places)
+    axes, centre, flat, projected = np.empty((3, 3)), np.empty(3), np.empty((4, 2)), np.empty((4, 2))
+    polygon, spare = np.empty((16, 2)), np.empty((16, 2))
+    hats, N, here, there, point = np.empty(4), np.empty(9), np.empty(2), np.empty(2), np.empty(3)
+    for k in range(len(i)):
+        if not chosen[k]:
+            continue
+        face = i[k] // s_1
+        _plane(first[i[k]], normals[i[k]], axes, centre, flat)
+        _flatten(second[j[k]], axes, centre, projected)
+        count = _common(flat, c, projected, o, polygon, spare)
+        polygon[count, 0], polygon[count, 1] = _middle(polygon, count)
+        for a in range(count + 1):
+            x, y = polygon[a, 0], polygon[a, 1]
+            _inside(flat, c, x, y, first_places[i[k] % s_1], here)
+            _inside(projected, o, x, y, second_places[j[k] % s_2], there)
+            shapes(nodes, here[0], here[1], N)
+            _point(first_nodes[face], N, point)
+            distance = land(point, axes[2], second_nodes[j[k] // s_2], there)
+            if math.isnan(distance):
+                continue
+            low[face], high[face] = min(low[face], distance), max(high[face], distance)
+            shapes(corners, here[0], here[1], hats)
+            for e in range(corners):
+                if hats[e] > 1.0 - _AT:
+                    ends[face, e] = min(ends[face, e], distance)
 
 
 @njit(cache=True)

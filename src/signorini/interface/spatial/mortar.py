@@ -10,10 +10,10 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
-from signorini.interface.coupling import Coupling
+from signorini.interface.coupling import Coupling, FacetGaps
 from signorini.interface.dual import dual_functions
 from signorini.interface.spatial.candidates import near_pairs, nearest_layers
-from signorini.interface.spatial.clip import integrate, overlap_areas
+from signorini.interface.spatial.clip import integrate, overlap_areas, spread_gaps
 from signorini.interface.spatial.faces import pieces
 from signorini.interface.spatial.surface import Block, Surface, reference_rule, search_distance
 from signorini.interface.tilt import normals_between
@@ -81,11 +81,13 @@ def mortar_coupling(
     full = np.zeros(n)
     full[nonmortar.nodes] = nonmortar.nodal_areas
     keeps, gives = ([sp.csr_array((n, n)) for _ in range(3)] for _ in range(2))
+    gaps: list[FacetGaps] = []
     for block in nonmortar.blocks:
         seen = _overlaps(block, mortar, reach, _normals(block))
         normals = _between(nonmortar, mortar, block, seen, share)
         if (normals != _normals(block)).any():
             seen = _overlaps(block, mortar, reach, normals)
+        gaps.append(_facet_gaps(block, seen, normals))
         own, other = _block_integrals(block, seen, normals, n)
         keeps = [one + two for one, two in zip(keeps, own, strict=True)]
         gives = [one + two for one, two in zip(gives, other, strict=True)]
@@ -98,7 +100,7 @@ def mortar_coupling(
             where=where,
         )
     forces = tuple(sp.csr_array((one - two)[nodes]) for one, two in zip(keeps, gives, strict=True))
-    return Coupling(nodes=nodes, normal_areas=vectors[nodes], forces=forces)
+    return Coupling(nodes=nodes, normal_areas=vectors[nodes], forces=forces, facets=_joined(gaps))
 
 
 def _corners(block: Block) -> Array:
@@ -146,6 +148,41 @@ def _between(nonmortar: Surface, mortar: Surface, block: Block, seen: list[_Over
         np.add.at(opposite, i, area[:, None] * _normals(part.mortar)[j])
         np.maximum.at(turn, i, mortar.turns(part.mortar)[j // len(pieces(part.mortar.nodes_a_face))])
     return normals_between(own, opposite, turn, share)
+
+
+def _facet_gaps(block: Block, overlaps: list[_Overlaps], normals: Array) -> FacetGaps:
+    """Gaps on the faces of a block that anything is opposite; infinite at corners that nothing is."""
+    corners = block.corners
+    ends, low, high = np.full(corners.shape, np.inf), np.full(len(corners), np.inf), np.full(len(corners), -np.inf)
+    for part in overlaps:
+        spread_gaps(
+            _corners(block),
+            block.points,
+            pieces(block.nodes_a_face),
+            normals,
+            _corners(part.mortar),
+            part.mortar.points,
+            pieces(part.mortar.nodes_a_face),
+            part.i,
+            part.j,
+            part.chosen,
+            ends,
+            low,
+            high,
+        )
+    seen = low <= high
+    return FacetGaps(corners=corners[seen], ends=ends[seen], low=low[seen], high=high[seen])
+
+
+def _joined(gaps: list[FacetGaps]) -> FacetGaps:
+    """Of all blocks; a triangle names its first corner twice."""
+    first = [np.arange(4) % part.corners.shape[1] for part in gaps]
+    return FacetGaps(
+        corners=np.concatenate([part.corners[:, own] for part, own in zip(gaps, first, strict=True)]),
+        ends=np.concatenate([part.ends[:, own] for part, own in zip(gaps, first, strict=True)]),
+        low=np.concatenate([part.low for part in gaps]),
+        high=np.concatenate([part.high for part in gaps]),
+    )
 
 
 def _block_integrals(

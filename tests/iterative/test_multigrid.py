@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Multigrid of bodies and the springs of their contacts."""
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+from signorini.engine.prepare import prepare
+from signorini.gallery.cubes import cubes
+from signorini.iterative._kernels import sweep_back, sweep_from_zero
+from signorini.iterative.multigrid import conjugate_gradients
+
+
+@pytest.fixture(scope="module")
+def bodies():
+    return prepare(cubes(9, 7), backend="iterative").bodies
+
+
+@pytest.mark.parametrize("d", [2, 3, 6])
+def test_sweeps_are_those_of_triangles(d):
+    rng = np.random.default_rng(d)
+    whole = np.kron(sp.random_array((20, 20), density=0.2, rng=rng).toarray() != 0, np.ones((d, d)))
+    whole *= rng.standard_normal(whole.shape)
+    whole = whole + whole.T + 20.0 * d * np.eye(20 * d)
+    A = sp.bsr_array(whole, blocksize=(d, d))
+    A.sort_indices()
+    diagonal = np.stack([whole[i : i + d, i : i + d] for i in range(0, 20 * d, d)])
+    parts = ((0,) * d, A.indptr, A.indices, A.data, np.linalg.inv(diagonal))
+    below = np.tril(np.kron(np.tril(np.ones((20, 20)), -1), np.ones((d, d)))) * whole
+    lower = below + sp.block_diag(diagonal).toarray()
+    b = rng.standard_normal(20 * d)
+    x, residual = sweep_from_zero(*parts, b.reshape(-1, d))
+    np.testing.assert_allclose(lower @ x.ravel(), b, atol=1e-12)
+    np.testing.assert_allclose(residual.ravel(), b - whole @ x.ravel(), atol=1e-12)
+    y = x.copy()
+    sweep_back(*parts, b.reshape(-1, d), y)
+    np.testing.assert_allclose(lower.T @ y.ravel(), b - below @ x.ravel(), atol=1e-12)
+
+
+def springs(bodies, normal, tangential):
+    """Of all pairs, as parts of their stiffness."""
+    shares = np.repeat([normal, tangential, tangential], len(bodies.pairs))
+    return sp.csr_array(bodies.B.T @ sp.diags_array(shares * bodies.stiffness) @ bodies.B)
+
+
+def test_a_cycle_is_symmetric_and_positive(bodies):
+    cycle = bodies.multigrid.under(springs(bodies, 1.0, 0.1))
+    x, y = np.random.default_rng(1).standard_normal((2, bodies.K.shape[0]))
+    assert x @ cycle(y) == pytest.approx(y @ cycle(x), rel=1e-10)
+    assert x @ cycle(x) > 0
+
+
+@pytest.mark.parametrize("parts", [(0.0, 0.0), (1.0, 0.0), (1.0, 0.1), (1.0, 1.0)])
+def test_every_state_of_contact_takes_the_same_few_iterations(bodies, parts):
+    own = springs(bodies, *parts)
+    force = bodies.B.T @ np.random.default_rng(2).standard_normal(bodies.B.shape[0])
+    _, count = conjugate_gradients(lambda v: bodies.K @ v + own @ v, bodies.multigrid.under(own), force, tolerance=1e-8)
+    assert count <= 32
