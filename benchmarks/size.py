@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Large contacts in space, condensed and iterated: growth with unknowns and with pairs; tables of docs/performance.md.
 
-python -m benchmarks.size [unknowns] [pairs] [--small] [--dry]
+python -m benchmarks.size [unknowns] [pairs] [--small] [--dry] [--kept FILE]
 
 Seconds on the wall, all cores, of everything from the model to the certified solution; code warm, every run in a
-process of its own.
+process of its own. What is measured is added to a file, a line each, and not measured again: so the tables can be made
+in pieces, whenever the machine is quiet.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import json
 import subprocess
 import sys
 import time
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -70,7 +72,7 @@ def model_of(problem: str, dofs: int) -> Model:
 
 def measure(problem: str, way: str, dofs: int) -> dict[str, Any]:
     """One solve in this process."""
-    solve_prepared(prepare(cubes(3, 2), backend=way))
+    solve_prepared(prepare(cubes(5, 4), backend=way))
     model = model_of(problem, dofs)
     began = time.perf_counter()
     history = solve_prepared(prepare(model, backend=way))
@@ -88,12 +90,20 @@ def measure(problem: str, way: str, dofs: int) -> dict[str, Any]:
     }
 
 
-def in_process(problem: str, way: str, dofs: int) -> dict[str, Any]:
-    """Measure in a process of its own."""
+def in_process(problem: str, way: str, dofs: int, kept: Path | None) -> dict[str, Any]:
+    """Measure in a process of its own, unless that was done before."""
+    case = [problem, way, dofs]
+    for line in kept.read_text().splitlines() if kept and kept.exists() else []:
+        before, found = json.loads(line)
+        if before == case:
+            return dict(found)
     command = [sys.executable, "-m", "benchmarks.size", "--one", problem, way, str(dofs)]
-    found: dict[str, Any] = json.loads(subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout)
+    found = json.loads(subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout)
+    if kept:
+        with kept.open("a") as file:
+            file.write(json.dumps([case, found]) + "\n")
     print(f"{problem}, {way}: {found['unknowns']} unknowns, {found['pairs']} pairs: {found['wall']:.1f} s", flush=True)
-    return found
+    return dict(found)
 
 
 def row(problem: str, way: str, found: dict[str, Any]) -> list[object]:
@@ -125,9 +135,9 @@ def growth(rows: list[tuple[str, dict[str, Any]]], key: str) -> str:
     return f"Exponents of the seconds in the {key}: {', '.join(said)}."
 
 
-def table(cases: list[tuple[str, str, int]], key: str) -> str:
+def table(cases: list[tuple[str, str, int]], key: str, kept: Path | None) -> str:
     """Measure cases of (problem, way, dofs)."""
-    found = [(problem, way, in_process(problem, way, dofs)) for problem, way, dofs in cases]
+    found = [(problem, way, in_process(problem, way, dofs, kept)) for problem, way, dofs in cases]
     lines = [
         row(f"{problem} cells across" if problem.isdigit() else problem, way, each) for problem, way, each in found
     ]
@@ -139,7 +149,7 @@ def table(cases: list[tuple[str, str, int]], key: str) -> str:
     return "\n\n".join([page.table(HEAD, lines), growth([(way, each) for _, way, each in found], key), words])
 
 
-def unknowns(small: bool) -> str:
+def unknowns(small: bool, kept: Path | None) -> str:
     """Cubes that do not match, condensed and iterated."""
     sizes = SMALL_SIZES if small else SIZES
     cases = [
@@ -148,14 +158,14 @@ def unknowns(small: bool) -> str:
         for dofs in sizes
         if way == "iterative" or dofs <= CONDENSED_UP_TO
     ]
-    return table(cases, "unknowns")
+    return table(cases, "unknowns", kept)
 
 
-def pairs(small: bool) -> str:
+def pairs(small: bool, kept: Path | None) -> str:
     """Columns of a fixed number of unknowns, ever wider."""
     sides, dofs = (SMALL_SIDES, SMALL_FIXED) if small else (SIDES, FIXED)
     cases = [(str(side), way, dofs) for way in WAYS for side in sides]
-    return table(cases, "pairs")
+    return table(cases, "pairs", kept)
 
 
 def main() -> None:
@@ -163,6 +173,7 @@ def main() -> None:
     parser.add_argument("tables", nargs="*", help="unknowns, pairs")
     parser.add_argument("--small", action="store_true", help="sizes that take seconds")
     parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
+    parser.add_argument("--kept", type=Path, help="what was measured before, and is added to")
     parser.add_argument("--one", action="store_true", help="measure in this process")
     options = parser.parse_args()
     if options.one:
@@ -170,7 +181,7 @@ def main() -> None:
         print(json.dumps(measure(problem, way, int(dofs))))
         return
     for name in options.tables or ("unknowns", "pairs"):
-        text = {"unknowns": unknowns, "pairs": pairs}[name](options.small)
+        text = {"unknowns": unknowns, "pairs": pairs}[name](options.small, options.kept)
         print(text)
         if not options.dry:
             page.write(f"size, {name}", text)

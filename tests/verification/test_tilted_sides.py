@@ -9,6 +9,7 @@ import pytest
 from signorini.engine.solve import solve
 from signorini.fem.boundary import boundary
 from signorini.fem.generators import quarter_disk, rectangle
+from signorini.fem.solids import extruded
 from signorini.fem.space import make_space
 from signorini.gallery.spheres import equal_spheres
 from signorini.interface.mortar import mortar_coupling
@@ -72,6 +73,35 @@ def test_a_stiff_block_is_a_rigid_plane():
 def test_the_force_does_not_depend_on_which_side_is_named_first(stiffness):
     """Normals of one side alone differ by 4 %."""
     assert force(ball(stiffness)) == pytest.approx(force(ball(stiffness, swap=True)), rel=5e-3)
+
+
+def matched(stiffness, *, swap=False, slab=False):
+    """A cylinder on a block whose nodes lie below its own, plane strain or a slab in space of thickness 1."""
+    disk = quarter_disk(radius=RADIUS, contact_length=15.0, contact_spacing=1.5)
+    x = np.sort(disk.points[np.unique(disk.boundaries["arc"]), 0])
+    depth = np.concatenate([-15.0 * 1.4 ** np.arange(6, 0, -1), np.linspace(-15.0, 0.0, 11)])
+    parts = {"ball": disk, "block": rectangle(x=x, y=depth)}
+    supports = [("ball.cut", (None, -1.0)), ("ball.axis", (0.0, None)), ("block.bottom", (0.0, 0.0))]
+    if slab:
+        parts = {name: extruded(part, z=[0.0, 1.0], ends=("front", "back")) for name, part in parts.items()}
+        supports = [(on, (*u, None)) for on, u in supports]
+        supports += [(f"{name}.{end}", (None, None, 0.0)) for name in parts for end in ("front", "back")]
+    sides = ("block.top", "ball.arc") if swap else ("ball.arc", "block.top")
+    return Model(
+        join(parts),
+        kind="3d" if slab else "plane strain",
+        bodies=[Body("ball", SOFT), Body("block", replace(SOFT, E=stiffness * SOFT.E))],
+        supports=[Support(on, u=u) for on, u in supports],
+        contacts=[Contact(*sides, coupling="nodes", name="contact")],
+    )
+
+
+@pytest.mark.parametrize("slab", [False, True])
+def test_pairs_of_nodes_are_the_same_whichever_side_is_named_first(slab):
+    """Normals of one side alone differ by a tenth of the force."""
+    one, two = (force(matched(2.0, swap=swap, slab=slab)) for swap in (False, True))
+    assert one == pytest.approx(two, rel=1e-9)
+    assert one == pytest.approx(force(matched(2.0)), rel=1e-9)
 
 
 def moments(coupling, points):

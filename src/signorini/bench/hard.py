@@ -27,7 +27,10 @@ from signorini.friction.newton import newton
 
 FAMILIES = ("block", "two blocks", "skew block", "wedge", "peg", "corner", "punch")
 FRICTION = (0.0, 0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 3.0)
+PROBLEMS = 650
 SEED = 1993
+
+_KINDS = ("any",) * 8 + ("small",) * 3 + ("critical",) * 2
 
 METHODS = ("newton", "path open", "path press", "path among touching", "springs", "tree")
 PROOFS = ("proved: rigid motions", "proved: tree")
@@ -75,6 +78,7 @@ class HardReport:
     held, floating : counts by method, proof or lack of answer; ``"steps"`` in all; rivals by their names
     unanswered : names of the problems without an answer
     negative : certified steps with index -1
+    certified : their names and problems, in order
     """
 
     problems: int
@@ -82,6 +86,7 @@ class HardReport:
     floating: dict[str, int]
     unanswered: tuple[str, ...]
     negative: int
+    certified: tuple[tuple[str, CoulombProblem], ...]
 
     def __str__(self) -> str:
         columns = ("steps", *METHODS, *PROOFS, *OTHER, *RIVALS)
@@ -149,7 +154,7 @@ def hard(count: int | None = None) -> HardReport:
     (3, 0, 0)
     """
     counts: dict[bool, Counter[str]] = {False: Counter(), True: Counter()}
-    unanswered, problems, negative = [], 0, 0
+    unanswered, certified, problems, negative = [], [], 0, 0
     for problem in hard_set(count):
         problems += 1
         slipped, start = np.zeros(problem.first.pairs), None
@@ -165,6 +170,7 @@ def hard(count: int | None = None) -> HardReport:
                 unanswered.append(f"{problem.name}, step {k}: {result.message}")
             if not result.solved:
                 break
+            certified.append((f"{problem.name}, step {k}", step))
             slipped, start = slipped + result.slip, result.state
     return HardReport(
         problems=problems,
@@ -172,6 +178,7 @@ def hard(count: int | None = None) -> HardReport:
         floating=dict(counts[True]),
         unanswered=tuple(unanswered),
         negative=negative,
+        certified=tuple(certified),
     )
 
 
@@ -185,8 +192,12 @@ def _answer(result: CoulombResult) -> str:
 
 def hard_set(count: int | None = None) -> Iterator[HardProblem]:
     """400 random problems, 150 of up to 6 pairs, 100 held with friction 1.5 to 8, interleaved; or the first ones."""
-    kinds = [kind for kind, many in (("any", 8), ("small", 3), ("critical", 2)) for _ in range(many)] * 50
-    yield from (_problem(np.random.default_rng([SEED, i]), kind) for i, kind in enumerate(kinds[:count]))
+    yield from map(hard_problem, range(PROBLEMS if count is None else min(count, PROBLEMS)))
+
+
+def hard_problem(number: int) -> HardProblem:
+    """One of the set, by its number from 0."""
+    return _problem(np.random.default_rng([SEED, number]), _KINDS[number % len(_KINDS)])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -409,4 +420,9 @@ def _gap(draw: _Draw, n: int, size: float) -> Array:
 
 
 if __name__ == "__main__":
-    print(hard())
+    from signorini.bench.equilibria import equilibria
+
+    found = hard()
+    print(found)
+    print()
+    print(equilibria(found.certified))

@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from typing import Any
 
 from signorini.bench.cubes import blocks
 from signorini.bench.cylinder import cylinder
+from signorini.bench.equilibria import equilibria
 from signorini.bench.hard import hard
 from signorini.errors import InputError, one_of
 
@@ -40,6 +42,8 @@ def run(names: Sequence[str], dofs: int | None) -> list[dict[str, Any]]:
             report = hard()
             for bodies, counts in (("held", report.held), ("floating", report.floating)):
                 rows.append({"name": "hard", "bodies": bodies, "counts": counts})
+            found = equilibria(report.certified)
+            rows.append({"name": "hard", "words": str(found), **asdict(found)})
         else:
             for size in DOFS if dofs is None else (dofs,):
                 rows.extend(blocks(size) if name == "cubes" else cylinder(size))

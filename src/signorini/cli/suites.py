@@ -49,13 +49,15 @@ def bench(options: argparse.Namespace) -> int:
     from signorini.bench.suite import run
 
     results = run(options.names, options.dofs)
-    timed = [result for result in results if "counts" not in result]
+    timed = [result for result in results if "ratio" in result]
     if timed:
         _print(timed, _BENCH)
     for result in results:
         if "counts" in result:
             counts = ", ".join(f"{what} {count}" for what, count in result["counts"].items())
             print(f"{result['name']}, {result['bodies']} bodies: {counts}")
+        if "words" in result:
+            print(result["words"])
     _write(results, file)
     return 0
 

@@ -24,6 +24,7 @@ from signorini.interface.matching import facing_cells, match_nodes
 from signorini.interface.mortar import mortar_coupling
 from signorini.interface.overlap import find_overlaps
 from signorini.interface.segments import node_to_segment
+from signorini.interface.tilt import areas_between
 from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle, Plane
@@ -203,6 +204,8 @@ def _couple(
         if not reason:
             relative = sp.csr_array(picked(side.nodes, count) - picked(partner, count))
             areas = -nodal_contact_areas(model, side, facing_cells(side, mortar))
+            opposite = mortar.nodal_normals[np.searchsorted(mortar.nodes, partner)]
+            areas = areas_between(areas, side.nodal_normals, opposite, _share(model, side, mortar))
             return point_coupling(side.nodes, areas, relative), "nodes"
     if contact.coupling == "node-to-segment":
         areas = -nodal_contact_areas(model, side, facing_cells(side, mortar))
@@ -224,7 +227,7 @@ def _couple_in_space(
     """The same for faces."""
     own, other = (spatial.make_surface(space.mesh.points, boundary.facets) for boundary in (side, mortar))
     if contact.coupling == "nodes" or (contact.coupling == "auto" and not (side.quadratic or mortar.quadratic)):
-        coupling, reason = spatial.node_pairs(own, other)
+        coupling, reason = spatial.node_pairs(own, other, share=share)
         if coupling is not None:
             return coupling, "nodes"
         if contact.coupling == "nodes":

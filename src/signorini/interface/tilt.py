@@ -41,6 +41,26 @@ def normals_between(own: Array, opposite: Array, turn: Array, share: float) -> A
     return np.where(tilted[:, None], between, own)
 
 
+def areas_between(areas: Array, own: Array, opposite: Array, share: float) -> Array:
+    """(k, d) Normals times areas of node pairs, turned to between those of both sides as facets are.
+
+    Parameters
+    ----------
+    areas : (k, d) of the nonmortar side
+    own, opposite : (k, d) outward unit normals of both sides at the nodes; on sides that fit each other they cancel
+    share : of the nonmortar side in the stiffness of both, 0 to 1
+
+    Examples
+    --------
+    >>> right, down, up = np.array([[3.0, 0.0]]), np.array([[0.0, -1.0]]), np.array([[0.0, 1.0]])
+    >>> areas_between(right, down, up, 0.5).tolist()
+    [[3.0, 0.0]]
+    >>> areas_between(3.0 * up, down, np.array([[-0.6, 0.8]]), 0.0).round(12).tolist()
+    [[-1.8, 2.4]]
+    """
+    return turned(areas, own, normals_between(own, opposite, np.zeros(len(own)), share))
+
+
 def turns(own: Array, at_nodes: Array) -> Array:
     """(m,) Angle by which a side turns from each of its facets to the next, corners of the body left out.
 

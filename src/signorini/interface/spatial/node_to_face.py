@@ -16,6 +16,7 @@ from signorini.interface.spatial.candidates import FACING
 from signorini.interface.spatial.faces import shapes_at
 from signorini.interface.spatial.projection import meet
 from signorini.interface.spatial.surface import Block, Surface, search_distance
+from signorini.interface.tilt import areas_between
 
 _BESIDE = 1e-9  # of the reference face: how far beyond its edge a node still lies on it
 
@@ -58,8 +59,13 @@ def node_to_face(nonmortar: Surface, mortar: Surface, *, search: float | None = 
     return point_coupling(nodes[met], areas, sp.csr_array((picked(nodes, n) - gives)[met]))
 
 
-def node_pairs(nonmortar: Surface, mortar: Surface) -> tuple[Coupling | None, str]:
-    """Node opposite node, where two linear sides match; otherwise None and why they do not, in words."""
+def node_pairs(nonmortar: Surface, mortar: Surface, *, share: float = 0.5) -> tuple[Coupling | None, str]:
+    """Node opposite node, where two linear sides match; otherwise None and why they do not, in words.
+
+    Parameters
+    ----------
+    share : of the nonmortar side in the stiffness of both, see :mod:`signorini.interface.tilt`
+    """
     if not (nonmortar.linear and mortar.linear):
         return None, "quadratic faces have no pairs at their middle nodes; expected linear faces"
     partner, reason = match_nodes(nonmortar.points, nonmortar, mortar, np.arange(1, len(nonmortar.points) + 1))
@@ -67,7 +73,9 @@ def node_pairs(nonmortar: Surface, mortar: Surface) -> tuple[Coupling | None, st
         return None, reason
     nodes, n = nonmortar.nodes, len(nonmortar.points)
     relative = sp.csr_array(picked(nodes, n) - picked(partner, n))
-    return point_coupling(nodes, -nonmortar.nodal_normal_areas, relative), ""
+    opposite = mortar.nodal_normals[np.searchsorted(mortar.nodes, partner)]
+    areas = areas_between(-nonmortar.nodal_normal_areas, nonmortar.nodal_normals, opposite, share)
+    return point_coupling(nodes, areas, relative), ""
 
 
 def _nearest(points: Array, normals: Array, block: Block, search: float, n: int) -> tuple[Array, sp.csr_array]:

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which steps of the hard set have one solution, and which have several: by bound, by enumeration, by search."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from signorini.arrays import Array
+from signorini.friction import CoulombProblem, mu_low
+from signorini.friction.several import FEW, all_solutions, countable, search_solutions
+
+
+@dataclass(frozen=True, kw_only=True)
+class Equilibria:
+    """Steps counted by what is known of their solutions.
+
+    Attributes
+    ----------
+    unique : whose friction is below `mu_low`
+    single : of few pairs, whose states were tried one by one: one of them is in equilibrium
+    alone : in which a search found no second solution
+    several : how many solutions were found, and where
+    """
+
+    unique: int
+    single: int
+    alone: int
+    several: tuple[tuple[int, str], ...]
+
+    def __str__(self) -> str:
+        lines = [
+            f"Certified steps with one solution: {self.unique} by the bound on friction, {self.single} as no other "
+            f"state of the pairs is in equilibrium (up to {FEW}), {self.alone} as far as a search tells; several: "
+            f"{len(self.several)}.",
+            "",
+            *(f"- {count} solutions: {name}" for count, name in self.several),
+        ]
+        return "\n".join(lines)
+
+
+def solutions(problem: CoulombProblem) -> list[Array] | None:
+    """All solutions y of few pairs, those that a search finds of more; None where only one can exist, by `mu_low`."""
+    bound = mu_low(problem)
+    if bound is not None and problem.mu.max(initial=0.0) < bound:
+        return None
+    return all_solutions(problem) if countable(problem) else search_solutions(problem)
+
+
+def equilibria(steps: Iterable[tuple[str, CoulombProblem]]) -> Equilibria:
+    """What is known of the solutions of steps that have one.
+
+    Parameters
+    ----------
+    steps : names and problems
+
+    Examples
+    --------
+    >>> from signorini.bench.hard import hard
+    >>> equilibria(hard(1).certified).several
+    ()
+    """
+    unique, single, alone, several = 0, 0, 0, []
+    for name, problem in steps:
+        found = solutions(problem)
+        if found is None:
+            unique += 1
+        elif len(found) > 1:
+            several.append((len(found), name))
+        elif countable(problem):
+            single += 1
+        else:
+            alone += 1
+    return Equilibria(unique=unique, single=single, alone=alone, several=tuple(several))
