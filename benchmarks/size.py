@@ -72,7 +72,7 @@ def model_of(problem: str, dofs: int) -> Model:
 
 def measure(problem: str, way: str, dofs: int) -> dict[str, Any]:
     """One solve in this process."""
-    solve_prepared(prepare(cubes(3, 2), backend=way))
+    solve_prepared(prepare(cubes(5, 4), backend=way))
     model = model_of(problem, dofs)
     began = time.perf_counter()
     history = solve_prepared(prepare(model, backend=way))

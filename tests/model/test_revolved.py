@@ -58,6 +58,14 @@ def test_known_distances():
     np.testing.assert_allclose(Torus(**up, radius=2, tube=0.5).nearest([[0, 0, 1.0], [0, -2, 1.2]])[0], [1.5, -0.3])
 
 
+@pytest.mark.parametrize("inside", [False, True])
+def test_a_cone_pushes_along_its_axis_at_its_apex(inside):
+    cone = Cone(point=(0.1, 0.2, 0.3), axis=AXIS, angle=1.4, inside=inside)
+    distance, normals = cone.nearest([[0.1, 0.2, 0.3], [0.1, 0.2 + 1e-16, 0.3], [1.0, 2.0, 3.0]])
+    np.testing.assert_allclose(distance[:2], 0.0, atol=1e-15)
+    np.testing.assert_allclose(normals[:2], (1 if inside else -1) * np.tile(cone.axis, (2, 1)), atol=1e-15)
+
+
 def test_points_about_a_cube_see_its_faces_edges_and_corners():
     x = [[0.5, 0.5, 1.5], [2, 2, 0.5], [2, 2, 2], [0.5, 0.4, 0.9], [0.5, 1.0, 0.5], [1, 1, 1]]
     distance, normals = cube().nearest(x)

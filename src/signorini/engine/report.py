@@ -16,6 +16,7 @@ from signorini.engine.heat import heat_of
 from signorini.engine.increments import applied
 from signorini.engine.leg import Leg
 from signorini.engine.prepare import Prepared
+from signorini.engine.smallness import large_notes
 from signorini.engine.upheld import support_forces
 from signorini.fem.obstacles import arm
 from signorini.friction.law import OPEN, STICK
@@ -85,6 +86,7 @@ def step_result(
             *_facet_notes(prepared),
             *_finer_notes(prepared),
             *_open_notes(prepared, leg),
+            *large_notes(prepared, state),
             *((words,) if words else ()),
         ),
     )

@@ -50,8 +50,8 @@ class Multigrid:
         """
         added, levels = sp.bsr_matrix(springs, blocksize=self._K.blocksize), []
         for K, P, R in self._finer:
+            added.sort_indices()  # sorted alike they are added in order, as sweeps need them
             A = sp.bsr_matrix(K + added, blocksize=K.blocksize)
-            A.sort_indices()
             levels.append(Level(A=A, P=P, R=R, inverses=get_block_diag(A, A.blocksize[0], inv_flag=True)))
             added = R @ (added @ P)
         whole = (self._levels[-1].A + added).toarray()
@@ -72,7 +72,7 @@ class Multigrid:
     @cached_property
     def _finer(self) -> list[tuple[sp.bsr_matrix, sp.bsr_matrix, sp.bsr_matrix]]:
         """Stiffness, prolongation and restriction of all but the coarsest."""
-        return [(sp.bsr_matrix(level.A), level.P, level.P.T.tobsr()) for level in self._levels[:-1]]
+        return [(level.A.sorted_indices(), level.P, level.P.T.tobsr()) for level in self._levels[:-1]]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

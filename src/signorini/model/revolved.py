@@ -12,6 +12,8 @@ from signorini.arrays import Array
 from signorini.checks import number, vector
 from signorini.errors import InputError
 
+_TIP = 1e-12  # of the farthest point: that near to the apex of a cone a point is at it
+
 
 @dataclass(frozen=True)
 class _Revolved:
@@ -100,8 +102,9 @@ class Cone(_Revolved):
 
     Examples
     --------
-    >>> Cone(point=(0, 0, 0), axis=(0, 0, 1), angle=np.pi / 4).nearest([[0.0, 0.0, -1.0]])
-    (array([1.]), array([[ 0.,  0., -1.]]))
+    >>> Cone(point=(0, 0, 0), axis=(0, 0, 1), angle=np.pi / 4).nearest([[0.0, 0.0, -1.0], [0.0, 0.0, 0.0]])
+    (array([1., 0.]), array([[ 0.,  0., -1.],
+           [ 0.,  0., -1.]]))
     """
 
     angle: float
@@ -122,6 +125,8 @@ class Cone(_Revolved):
         unit = np.where(far > 0.0, far, 1.0)
         distance = np.where(behind, far, rho * cosine - z * sine)
         outward, along = np.where(behind, rho / unit, cosine), np.where(behind, z / unit, -sine)
+        tip = far <= _TIP * far.max(initial=0.0)  # no side of the apex is before another
+        outward, along = np.where(tip, 0.0, outward), np.where(tip, -1.0, along)
         sign = -1.0 if self.inside else 1.0
         return sign * distance, sign * outward, sign * along
 

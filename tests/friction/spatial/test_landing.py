@@ -9,7 +9,7 @@ from exact.path_samples import Springs, stiff
 
 from signorini.friction import OPEN, STICK
 from signorini.friction.exact import follow, initial_state, land
-from signorini.friction.spatial import SpatialProblem, at_rest, certify, follow_stopping, land_spatial
+from signorini.friction.spatial import SpatialProblem, StopSettings, at_rest, certify, follow_stopping, land_spatial
 
 
 def turned_node(mu, facets, angle, **bounds):
@@ -58,6 +58,19 @@ def test_one_node_jumps_and_lands_by_hand(f_t, facets, angle, share):
     assert on.followed
     assert not on.events
     np.testing.assert_allclose(turn.T @ on.end.h, [2.0, 5.0, 0.0], atol=1e-11)
+
+
+@pytest.mark.parametrize("f_t", [2.02, 3.0, 5.0])
+@pytest.mark.parametrize("part", [0.002, 0.03, 0.3, 0.97])
+@pytest.mark.parametrize("number", [1, 4, 16])
+def test_increments_pass_over_no_jump_wherever_and_how_large_it_is(number, part, f_t):
+    """On the circle, at a part of the way; the jump of f_t = 2.02 is one of a hundredth of the force."""
+    problem, load, _ = turned_node(f_t, 0, 0.3)
+    pressed = follow_stopping(problem, at_rest(problem, np.zeros(3)), load(-1.0, 0.0)).end
+    settings = StopSettings(shortest=1.0 / number, turn=0.04 / number**0.5)
+    path = follow_stopping(problem, pressed, load(-1.0, f_t / part), settings=settings)
+    assert path.outcome == "jump"
+    assert path.jump.factor == pytest.approx(part, abs=1e-9)
 
 
 def test_below_the_critical_friction_nothing_jumps():
@@ -143,3 +156,29 @@ def test_landings_are_equilibria_where_less_is_stored_than_the_loads_gave(pairs,
     stored = 0.5 * (landed.h @ S @ landed.h - limit.h @ S @ limit.h)
     assert (landed.dissipation >= limit.dissipation - 1e-12).all()
     assert force @ moved > stored
+
+
+@pytest.mark.parametrize(("pairs", "mu", "seed"), [(1, 3.0, 8), (3, 4.0, 18)])
+@pytest.mark.parametrize("behind", [0.0, 0.9])
+def test_increments_find_the_random_jumps_that_every_event_finds(behind, pairs, mu, seed):
+    """On the circle, also where the way begins shortly before the jump."""
+    S, none = stiff_in_space(seed, pairs), np.zeros(3 * pairs)
+    W = np.linalg.inv(S + np.eye(3 * pairs))
+    given = {"W": (W + W.T) / 2, "b": none, "friction": np.full(pairs, mu), "motions": np.zeros((3 * pairs, 0))}
+    problem, rng = SpatialProblem(**given, scale=1.0), np.random.default_rng((seed, 1))
+    state, fine = at_rest(problem, none, motion=none), StopSettings(turn=0.1)
+    for _ in range(4):
+        F = rng.normal(size=3 * pairs)
+        F[:pairs] -= 1.0
+        segment = follow_stopping(problem, state, W @ F, settings=fine)
+        if not segment.followed:
+            break
+        state = segment.end
+    assert segment.outcome == "jump"
+    at = behind * segment.jump.factor
+    begin = follow_stopping(problem, state, (1.0 - at) * state.b + at * (W @ F), settings=fine).end
+    for number in (1, 4, 16):
+        coarse = StopSettings(shortest=1.0 / number, turn=0.04 / number**0.5)
+        path = follow_stopping(problem, begin, W @ F, settings=coarse)
+        assert path.outcome == "jump"
+        assert at + (1.0 - at) * path.jump.factor == pytest.approx(segment.jump.factor, abs=1e-6)

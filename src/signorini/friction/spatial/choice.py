@@ -11,7 +11,8 @@ those facets, c_j their distance from the origin in a section of size 1 and F th
 
 F' is the slope of F times p'; at a kink of F, where the slope falls from s to s', ``F' = s' p' - (s - s') k`` with
 ``0 <= k  _|_  p' + k >= 0``. A pair at a corner touches all facets. On a smooth section the one facet is its tangent:
-to first order friction turns freely along it. The forces are linear in these motions, from those while all pairs hold.
+to first order friction turns freely along it; at a corner the rates of a pair obey Coulomb's law itself (see `cones`).
+The forces are linear in these motions, from those while all pairs hold.
 """
 
 from __future__ import annotations
@@ -28,8 +29,8 @@ from signorini.friction.spatial.pieces import columns
 from signorini.friction.spatial.problem import SpatialProblem
 from signorini.friction.spatial.section import facets_of, outermost
 
-FACET, GAP, KINK = 0, 1, 2
-"""Kinds of complementary numbers."""
+FACET, GAP, KINK, CONE = 0, 1, 2, 3
+"""Kinds of complementary numbers; CONE: one of three rows of a pair in Coulomb's law."""
 
 _CANCELLED = 1e-12  # of the terms of a coefficient: what is left of them is rounding
 _APART = 1e-2  # of the first kink of a bound: what counts as zero beside it
@@ -47,8 +48,9 @@ class Standing:
     rubs : (n,) closed, with friction
     kink : (n,) pressed, with a bound on friction that has a kink here
     below, above : (n,) slope of the bound for falling and growing normal forces
-    nonlinear : (n,) rates obey no linear problem: a pair at a corner with a smooth section, or one that supports drag
-        along one tangent
+    smooth : (n,) at a corner, with a smooth section: rates obey Coulomb's law
+    lawless : (n,) no law of the rates is known: at a corner with a smooth section and dragged by supports, or dragged
+        along one tangent, or in Tresca's law
     widths : (n,) of zero for a gap, a force or the friction to spare
     """
 
@@ -58,7 +60,8 @@ class Standing:
     kink: BoolArray
     below: Array
     above: Array
-    nonlinear: BoolArray
+    smooth: BoolArray
+    lawless: BoolArray
     widths: Array
 
     @classmethod
@@ -86,21 +89,24 @@ class Standing:
             kink=kink,
             below=below,
             above=above,
-            nonlinear=smooth | (rubs & dragged) | problem.bounded,
+            smooth=smooth & ~problem.dragged,
+            lawless=(smooth & problem.dragged) | (rubs & dragged) | problem.bounded,
             widths=widths,
         )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Choice:
-    """``0 <= z  _|_  M z + q >= 0`` for the motions z of pairs that are not inside their state.
+    """``0 <= z  _|_  M z + q >= 0`` for the motions z of pairs that are not inside their state, Coulomb's law for some.
 
     Attributes
     ----------
     held : the interface while all of them hold
     standing : where the pairs stand
-    kind, pair : (N,) FACET (z is a slip rate), GAP (an opening rate) or KINK, and the pair
+    kind, pair : (N,) FACET (z is a slip rate), GAP (an opening rate), KINK or CONE (at last; z is an opening rate, or
+        one along a tangent), and the pair
     normal : (N, 2) of facets
+    friction : (m, 2) half-axes of the sections of the m pairs in Coulomb's law, for a normal force of 1
     motion : (c, N) of the held rows
     M, q : (N, N) and (N,)
     acting : pairs that may not go on as they are: at a corner, sticking without friction to spare, slipping at a corner
@@ -112,6 +118,7 @@ class Choice:
     kind: IntArray
     pair: IntArray
     normal: Array
+    friction: Array
     motion: Array
     M: Array
     q: Array
@@ -132,16 +139,16 @@ class Choice:
         """
         n = problem.pairs
         standing = Standing.at(problem, now, width, np.zeros(n, dtype=np.bool_) if opened is None else opened)
-        if standing.nonlinear.any():
-            return f"the rates of pairs {np.flatnonzero(standing.nonlinear).tolist()} obey no linear law"
+        if standing.lawless.any():
+            return f"the rates of pairs {np.flatnonzero(standing.lawless).tolist()} obey no law that is known here"
         held = Held.of(problem, standing.closed, standing.rubs)
         if held is None:
             return "the state in which all pairs hold is singular"
         pair, normal, reach = _facets(problem, standing, now)
         kinks = np.flatnonzero(standing.kink & np.isin(np.arange(n), pair))
-        meets = np.flatnonzero(standing.corner)
-        everyone = np.concatenate([pair, meets, kinks])
-        kind = np.repeat([FACET, GAP, KINK], [len(pair), len(meets), len(kinks)])
+        meets, cones = np.flatnonzero(standing.corner & ~standing.smooth), np.flatnonzero(standing.smooth)
+        everyone = np.concatenate([pair, meets, kinks, cones, cones, cones])
+        kind = np.repeat([FACET, GAP, KINK, CONE], [len(pair), len(meets), len(kinks), 3 * len(cones)])
         normals = np.concatenate([normal, np.zeros((len(everyone) - len(pair), 2))])
         motion, asked = _rows(held, kind, everyone, normals, reach * standing.above[pair])
         answers = held.forces(motion)
@@ -162,6 +169,7 @@ class Choice:
             kind=kind,
             pair=everyone,
             normal=normals,
+            friction=problem.axes[cones] * standing.above[cones, None],
             motion=motion,
             M=M,
             q=q,
@@ -195,7 +203,8 @@ def _facets(problem: SpatialProblem, standing: Standing, now: PathState) -> tupl
     spare = np.where(np.isfinite(reach), spare, np.inf)
     nearest = np.where(now.state == SLIP, spare.min(axis=0, initial=np.inf), 0.0)
     touched = standing.corner | (spare <= np.maximum(standing.widths, nearest * (1.0 + 1e-12)))
-    side, pair = np.nonzero(touched & np.isfinite(reach) & standing.rubs & ~problem.dragged)
+    touched &= standing.rubs & ~problem.dragged & ~standing.smooth
+    side, pair = np.nonzero(touched & np.isfinite(reach))
     return pair, normals[side, pair], reach[side, pair]
 
 
@@ -203,7 +212,7 @@ def _rows(held: Held, kind: IntArray, pair: IntArray, normals: Array, share: Arr
     """Motions of the held rows (c, N) of a unit of each number, and what its complement asks of their forces (N, c)."""
     n, rows = held.problem.pairs, len(held.rows)
     motion, asked = np.zeros((rows, len(kind))), np.zeros((len(kind), rows))
-    f, g, k = (np.flatnonzero(kind == which) for which in (FACET, GAP, KINK))
+    f, g, k, c = (np.flatnonzero(kind == which) for which in (FACET, GAP, KINK, CONE))
     for axis in (1, 2):
         at = held.place[axis * n + pair[f]]
         has = at >= 0
@@ -212,4 +221,6 @@ def _rows(held: Held, kind: IntArray, pair: IntArray, normals: Array, share: Arr
     asked[f, held.place[pair[f]]] = share
     motion[held.place[pair[g]], g] = asked[g, held.place[pair[g]]] = 1.0
     asked[k, held.place[pair[k]]] = 1.0
+    of_cones = held.place[pair[c] + n * np.repeat(np.arange(3), len(c) // 3)]
+    motion[of_cones, c] = asked[c, of_cones] = 1.0
     return motion, asked

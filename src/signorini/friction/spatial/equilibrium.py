@@ -36,6 +36,8 @@ SINGULAR = 1e-13
 REFINE = 1e-13
 """Misfit, relative to scale, above which a solution is refined."""
 
+_FEW = 200  # rows of the pairs up to which arrays of zeros cost less than sparse ones
+
 
 @dataclass(frozen=True, kw_only=True)
 class Equilibrium:
@@ -96,8 +98,8 @@ class LinearSystem:
     lu: Array
     pivots: IntArray
     singular: bool
-    forces: sp.csc_array
-    motions: sp.csc_array
+    forces: Array | sp.csc_array
+    motions: Array | sp.csc_array
 
     def solve(self, r: Array, a: Array) -> tuple[Array, Array, Array] | None:
         """Forces r (3n,), rigid motion a (k,) and motions h (3n,) that balance under the linearised law.
@@ -136,7 +138,7 @@ class LinearSystem:
     def _least_change(self, rhs: Array, r: Array, a: Array) -> Array:
         """A solution in the least-squares sense, near the forces given."""
         Z = self.forces
-        weight = np.asarray(Z.multiply(Z).sum(axis=0)).ravel()
+        weight = np.asarray((Z**2).sum(axis=0)).ravel()
         x = np.concatenate([(Z.T @ r) / np.where(weight > 0, weight, 1.0), a])
         for _ in range(2):
             x = x + lstsq(self.matrix, rhs - self.matrix @ x, cond=1e-12, lapack_driver="gelsy")[0]
@@ -183,7 +185,7 @@ def linear_system(equilibrium: Equilibrium, law: Tangent) -> LinearSystem:
     A, R = problem.interface.A[np.ix_(taking, taking)], problem.interface.R[taking]
     if alpha:
         A[np.diag_indices_from(A)] += alpha
-    Y, Z = sp.csr_array(motions[taking].T), sp.csc_array(forces[taking])
+    Y, Z = motions[taking].T, forces[taking]
     size, k = forces.shape[1], R.shape[1]
     matrix = np.zeros((size + k, size + k), order="F")
     matrix[:size, :size] = (Z.T @ (Y @ A).T).T
@@ -208,8 +210,8 @@ def linear_system(equilibrium: Equilibrium, law: Tangent) -> LinearSystem:
     )
 
 
-def directions(n: int, law: Tangent) -> tuple[sp.csc_array, sp.csc_array, Array]:
-    """Forces Z and motions Y (3n, size) of the unknowns, and kappa on the diagonal.
+def directions(n: int, law: Tangent) -> tuple[Array | sp.csc_array, Array | sp.csc_array, Array]:
+    """Forces Z and motions Y (3n, size) of the unknowns, sparse where they are many, and kappa on the diagonal.
 
     Rows across a slip are divided by 1 + kappa: far from sticking they say q = 0, and not that kappa is huge.
     """
@@ -220,13 +222,17 @@ def directions(n: int, law: Tangent) -> tuple[sp.csc_array, sp.csc_array, Array]
     across = c + 2 * s + np.arange(m)
     soft = 1.0 / (1.0 + law.kappa[one])
 
-    def assembled(along: Array, weight: Array) -> sp.csc_array:
+    def assembled(along: Array, weight: Array) -> Array | sp.csc_array:
         rows = [closed, n + closed, 2 * n + closed, n + stick, 2 * n + stick, n + one, 2 * n + one]
         columns = [column, column, column, c + np.arange(s), c + s + np.arange(s), across, across]
         values = [np.ones(c), along[:, 0], along[:, 1], np.ones(s), np.ones(s)]
         values += [weight * law.tau[one, 0], weight * law.tau[one, 1]]
-        entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-        matrix = sp.csc_array(entries, shape=(3 * n, size))
+        places = np.concatenate(rows), np.concatenate(columns)
+        if 3 * n <= _FEW:
+            dense = np.zeros((3 * n, size))
+            dense[places] = np.concatenate(values)
+            return dense
+        matrix = sp.csc_array((np.concatenate(values), places), shape=(3 * n, size))
         matrix.eliminate_zeros()
         return matrix
 

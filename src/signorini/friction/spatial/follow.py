@@ -21,6 +21,7 @@ from signorini.errors import InputError
 from signorini.friction.exact.fallback import NoRates
 from signorini.friction.exact.segment import Breakpoint, Event, Jump, Outcome, Segment, What
 from signorini.friction.exact.state import PathState
+from signorini.friction.spatial.balance import passed_over
 from signorini.friction.spatial.law import OPEN, SLIP, STICK
 from signorini.friction.spatial.pieces import columns, held_until, lasts, spare, turned
 from signorini.friction.spatial.problem import SpatialProblem
@@ -39,7 +40,6 @@ _SHRINK = 0.9  # of the estimated part up to an event: short of it
 _SAME, _LATE = 1e-12, 1e-3  # part of an increment by which it may miss an event; the latter after some tries
 _PATIENCE = 4  # tries
 _ROUNDING = 1e-9  # part of an increment: what comes so late does not happen in it
-_LEAP = 3.0  # times what increments changed before, by their length: one in which something happens may hide a jump
 _LOST = 1e-7  # part of the segment: where not even that has a solution nothing goes on gradually
 _TRIES = 60  # at one increment
 _NEAR = 1e-6  # of the data: width of zero at an event that smooth sections make uncertain
@@ -100,10 +100,14 @@ def follow_stopping(
     ([(0.5, 'slips')], [0.0, 0.5, 0.0])
     """
     walk = Walk(problem, start, np.asarray(b_end, dtype=np.float64), settings or StopSettings())
-    while walk.factor < 1.0:
-        lost = walk.go_on()
-        if lost is not None:
-            return walk.ended(lost)
+    while True:
+        lost = None
+        while walk.factor < 1.0 and lost is None:
+            lost = walk.go_on()
+        if not walk.again():
+            break
+    if lost is not None:
+        return walk.ended(lost)
     return walk.segment("followed", None, f"followed through {len(walk.events)} events")
 
 
@@ -176,8 +180,8 @@ class Walk:
         self.events: list[Event] = []
         self.pieces = [Breakpoint(factor=0.0, h=start.h, r=start.r)]
         self.tried, self.residual = 0, 0.0
-        # the most that an increment has changed by its length; up to where every event ends one; whether that failed
-        self.fastest, self.careful, self.trusting = 0.0, 0.0, False
+        # up to where every event ends an increment; whether that failed; up to where no energy is missing
+        self.careful, self.trusting, self.balanced = 0.0, False, 0.0
         self.smooth = bool(((problem.mu > 0).any(axis=1) & (problem.sides == 0)).any())
         self.refused: SpatialResult | None = None
         # the load as rates see it; what smooth sections know of an event is less sharp
@@ -201,6 +205,19 @@ class Walk:
             self.careful, self.trusting = 0.0, True
             return self.go_on()
         return NoRates(proof=f"{words}; {found.proof}", proved=False) if words else None
+
+    def again(self) -> bool:
+        """Whether an increment has passed over something: back to its beginning, to go through it event by event."""
+        k = passed_over(self.start, self.pieces, self.balanced) if self.settings.shortest else None
+        if k is None:
+            return False
+        self.careful = self.balanced = self.pieces[k].factor
+        self.trusting, self.refused = False, None
+        self.pieces = self.pieces[:k]
+        self.now, self.factor = self.pieces[-1].state or self.start, self.pieces[-1].factor
+        self.last = self.careful - self.factor
+        self.events = [event for event in self.events if event.factor < self.factor]
+        return True
 
     @property
     def _leaves(self) -> bool:
@@ -269,7 +286,7 @@ class Walk:
                 if min(step, 1.0 - self.factor) <= trial.step * (1.0 + late):
                     break
                 step = min(step, 1.0 - self.factor)
-            elif trial.step <= shortest and not self._hides(trial):
+            elif trial.step <= shortest and not self._grips(trial):
                 best = inner = trial
                 break
             else:
@@ -315,20 +332,11 @@ class Walk:
             end, h=h, r=r, state=state, anchor=h[n:], slip=now.slip + moved, dissipation=now.dissipation + lost
         )
 
-    def _hides(self, trial: _Trial) -> bool:
-        """Whether what happens in an increment matters more than its length says.
-
-        It changes so much more than any before that it may jump; or a pair that holds friction without pressure closes
-        in it, which sticks where it touches, or opens.
-        """
+    def _grips(self, trial: _Trial) -> bool:
+        """Whether a pair that holds friction without pressure closes in it, which sticks where it touches, or opens."""
         turns = (self.now.state == OPEN) != (trial.after.state == OPEN)
         grips = turns & (self.problem.bound.slopes[0] >= STEEP) & (trial.each < 1.0 - _LATE)
-        return not self.trusting and (bool(grips.any()) or self._speed(trial) > _LEAP * self.fastest > 0.0)
-
-    def _speed(self, trial: _Trial) -> float:
-        """How much a trial changes, by its length."""
-        after, now = trial.after, self.now
-        return float(np.linalg.norm(after.h - now.h) + np.linalg.norm(after.r - now.r)) / trial.step
+        return bool(grips.any()) and not self.trusting
 
     def _room(self, trial: _Trial, state: IntArray) -> float:
         """How much longer than the trial the increment may be: up to the next event, and to the turn allowed."""
@@ -385,7 +393,6 @@ class Walk:
                 self.events.append(
                     Event(factor=self.factor, pairs=pairs, what=what, state=replace(self.now, state=new))
                 )
-        self.fastest = max(self.fastest, self._speed(trial))
         self.factor = 1.0 if self.factor + trial.step >= 1.0 - SHORTEST else self.factor + trial.step
         self.now, self.last = after, trial.step
         self.pieces.append(Breakpoint(factor=self.factor, h=after.h, r=after.r, state=after, tried=tried))

@@ -11,12 +11,14 @@ from typing import Literal
 import numpy as np
 
 from signorini import lcp
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.friction.exact.fallback import RAY, NoRates
 from signorini.friction.exact.state import PathState
-from signorini.friction.spatial.choice import FACET, GAP, KINK, Choice
+from signorini.friction.spatial.choice import CONE, FACET, GAP, KINK, Choice
+from signorini.friction.spatial.cones import ConeProblem
 from signorini.friction.spatial.law import OPEN, SLIP, STICK
 from signorini.friction.spatial.problem import SpatialProblem
+from signorini.friction.spatial.sectors import Exhausted, search
 
 ENUMERATED = 16
 """Most complementary numbers of which every combination is tried."""
@@ -24,10 +26,11 @@ ENUMERATED = 16
 _DEPARTURES = 64  # most combinations of next states of the acting pairs
 _NONE = 1e-9  # of the largest rate: a rate that is none
 
-Way = tuple[tuple[int, bool], ...] | Literal["opens", "stays"]
-"""How a pair leaves its state: some of its complementary numbers move, or do not; or it opens, or stays."""
+Way = tuple[tuple[int, bool], ...] | Literal["opens", "closes", "stays"]
+"""How a pair leaves its state: some of its complementary numbers move, or do not; or it opens, closes, or stays."""
 
 _OPENS: Literal["opens"] = "opens"
+_CLOSES: Literal["closes"] = "closes"
 _STAYS: Literal["stays"] = "stays"
 
 
@@ -51,6 +54,7 @@ def find_rates(problem: SpatialProblem, now: PathState, width: float) -> Spatial
 
     Lemke's method, then every combination of what pairs may do (see `choice`), up to 2^16 of them; linear programs
     decide singular ones. With more of them a ray of Lemke's method is strong evidence, no proof, and the words say so.
+    Where pairs touch a smooth section without pressure, Newton's method, then sectors of directions (see `sectors`).
 
     Parameters
     ----------
@@ -106,10 +110,12 @@ def departures(problem: SpatialProblem, now: PathState, width: float) -> Iterato
             for k, way in zip(whole.acting, taken, strict=True)
             for place, moving in (way if isinstance(way, tuple) else ())
         }
+        closed = np.zeros(problem.pairs, dtype=np.bool_)
+        closed[[k for k, way in zip(whole.acting, taken, strict=True) if way == _CLOSES]] = True
         slip_on = dict.fromkeys(np.flatnonzero(slide[choice.pair]).tolist(), True)
         leaves = any(way != _STAYS for way in taken)
         for chosen in ([moves | slip_on] if slip_on else []) + ([moves] if leaves else []):
-            found = _solved(choice, chosen)
+            found = _solved(choice, chosen, closed)
             if isinstance(found, SpatialRates):
                 yield found
 
@@ -125,6 +131,8 @@ def _ways(choice: Choice, k: int, state: int) -> list[Way]:
     numbers = choice.numbers(k)
     kind = choice.kind[numbers]
     facets, kinks = np.flatnonzero(kind == FACET).tolist(), np.flatnonzero(kind == KINK).tolist()
+    if choice.standing.smooth[k]:
+        return [_CLOSES if state == OPEN else _OPENS, _STAYS]
     if choice.standing.corner[k]:
         meets = ((int(np.flatnonzero(kind == GAP)[0]), False),)
         return [meets if state == OPEN else _OPENS, _STAYS]
@@ -138,8 +146,10 @@ def _some(facets: list[int]) -> list[tuple[int, ...]]:
     return [tuple(facets)] + [(facet,) for facet in facets if len(facets) > 1]
 
 
-def _solved(choice: Choice, moves: Mapping[int, bool] | None = None) -> SpatialRates | NoRates:
-    """Rates of a choice in which some numbers move and some do not, whatever they would do."""
+def _solved(
+    choice: Choice, moves: Mapping[int, bool] | None = None, closed: BoolArray | None = None
+) -> SpatialRates | NoRates:
+    """Rates of a choice in which some numbers move and some do not, whatever they would do; ``closed`` pairs stay."""
     moves, M, q = moves or {}, choice.M, choice.q
     free = np.setdiff1d(np.arange(len(q)), list(moves))
     given = np.array([number for number, moving in moves.items() if moving], dtype=np.int64)
@@ -149,18 +159,39 @@ def _solved(choice: Choice, moves: Mapping[int, bool] | None = None) -> SpatialR
     except np.linalg.LinAlgError:
         return NoRates(proof="the state asked for is singular", proved=False)
     reduced = M[np.ix_(free, free)] - M[np.ix_(free, given)] @ answer[:, :-1]
-    found = _complementary(reduced, q[free] - M[np.ix_(free, given)] @ answer[:, -1])
+    rest = q[free] - M[np.ix_(free, given)] @ answer[:, -1]
+    if len(choice.friction):
+        cones = choice.pair[choice.kind == CONE][: len(choice.friction)]
+        stay = np.zeros(len(cones), dtype=np.bool_) if closed is None else closed[cones]
+        found = _with_cones(ConeProblem(M=reduced, q=rest, friction=choice.friction, closed=stay))
+    else:
+        found = _complementary(reduced, rest)
     if isinstance(found, NoRates):
         return found
     z[free], z[given] = found, -(answer[:, :-1] @ found + answer[:, -1])
+    one = choice.kind != CONE
     w = M @ z + q
     rounding = _NONE * np.maximum(np.abs(M) @ np.abs(z) + np.abs(q), np.abs(q).max(initial=0.0))
     h, r = choice.rates(z)
     size = max(np.abs(h).max(initial=0.0), np.abs(r).max(initial=0.0))
     off = np.abs(choice.held.problem.misfit(h, r)).max(initial=0.0)
-    if (w < -rounding).any() or z.min(initial=0.0) < -_NONE * np.abs(z).max(initial=0.0) or off > _NONE * size:
+    none = _NONE * np.abs(z).max(initial=0.0)
+    if (w < -rounding)[one].any() or z[one].min(initial=0.0) < -none or off > _NONE * size:
         return NoRates(proof="the rates found do not obey the law", proved=False)
     return SpatialRates(state=_states(choice, h, r, _NONE * size), h=h, r=r)
+
+
+def _with_cones(problem: ConeProblem) -> Array | NoRates:
+    """Numbers, and motions of pairs in Coulomb's law, or why there are none."""
+    found = problem.found()
+    answer = search(problem) if found is None else found
+    if not isinstance(answer, Exhausted):
+        return answer
+    if answer.proved:
+        words = f"{answer.programmes} linear programmes show that no states and directions of slip have rates"
+        return NoRates(proof=f"{words} that obey the law", proved=True)
+    words = f"{answer.programmes} linear programmes of states and directions of slip did not tell"
+    return NoRates(proof=words, proved=False)
 
 
 def _complementary(M: Array, q: Array) -> Array | NoRates:
