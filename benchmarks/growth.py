@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +33,8 @@ from signorini.model.conditions import Support
 from signorini.model.contact import Contact
 from signorini.model.material import Elastic
 from signorini.model.model import Model
-from signorini.model.obstacle import Plane
+from signorini.model.obstacle import Circle, Plane
+from signorini.model.step import Step
 
 PHASES = ("assembly", "factorisation", "condensation", "complementarity", "recovery")
 REPEATS, LONG = 3, 20.0
@@ -71,14 +72,20 @@ friction = 0.4
 """
 
 
-def dragged_block(pairs: int, unknowns: int) -> Model:
+FLOOR = Plane(point=(0.0, 0.0), normal=(0.0, 1.0))
+
+
+def dragged_block(
+    pairs: int, unknowns: int, *, steps: Sequence[Step] | None = None, floor: Plane | Circle = FLOOR
+) -> Model:
     """A block 2 x 1, all pairs of its base candidates, pressed and dragged by its top: some stick, some slip."""
     rows = max(1, round(unknowns / (2 * pairs)) - 1)
     return Model(
         rectangle(width=2.0, height=1.0, nx=pairs - 1, ny=rows),
         bodies=[Body("block", Elastic(E=1.0, nu=0.3))],
-        supports=[Support("top", u=(1.2e-2, -1e-2))],
-        contacts=[Contact("bottom", Plane(point=(0.0, 0.0), normal=(0.0, 1.0)), friction=0.4)],
+        supports=[Support("top", u=(None, -1e-2), name="press"), Support("top", u=(1.2e-2, None), name="drag")],
+        contacts=[Contact("bottom", floor, friction=0.4)],
+        steps=steps or [Step()],
     )
 
 

@@ -3,40 +3,58 @@
 
     python -m benchmarks.paths [--dry]
 
-Writes the table of docs/exact_paths.md. CPU seconds, one thread; medians of three runs after one to warm up.
+Writes the table of docs/exact_paths.md. CPU seconds, one thread, every problem in a process of its own that keeps freed
+memory; medians of five runs after one to warm up.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import time
+from typing import Any
 
 import numpy as np
 
 from benchmarks import page
+from benchmarks.growth import FLOOR, dragged_block
 from benchmarks.increments import PAGE
 from benchmarks.peers.run_signorini import CpuClock
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.model.model import Model
+from signorini.model.obstacle import Circle
 from signorini.model.step import Step
 
-REPEATS = 3
+REPEATS = 5
+TO_AND_FRO = [
+    Step(name="press", scale={"press": 1.0}, path="exact"),
+    Step(name="drag", path="exact"),
+    Step(name="back", scale={"drag": -1.0}, path="exact"),
+]
+PRESSED = [Step(name="press", path="exact"), Step(name="off", scale={"cut": 0.05}, path="exact")]
+CYLINDERS = {
+    f"cylinder / {refine}, mu {friction:g}": (refine, friction)
+    for refine, friction in ((12, 0.4), (36, 0.1), (36, 0.4))
+}
+BLOCKS = {
+    "block on a plane, mu 0.4": FLOOR,
+    "block on a circle, mu 0.4": Circle(centre=(1.0, -60.0), radius=60.0),
+}
 
 
-def models() -> list[tuple[str, Model]]:
-    """About 2e5 unknowns and 200 pairs, and a smaller one."""
-    steps = [Step(name="press", path="exact"), Step(name="off", scale={"cut": 0.05}, path="exact")]
-    return [
-        (f"cylinder / {refine}, mu {friction:g}", zhu_cylinder(friction=friction, refine=refine, steps=steps))
-        for refine, friction in ((12, 0.4), (36, 0.1), (36, 0.4))
-    ]
+def model(problem: str) -> Model:
+    """A cylinder that is pressed and nearly let go; a block that is pressed and dragged there and back."""
+    if problem in BLOCKS:
+        return dragged_block(200, 200_000, steps=TO_AND_FRO, floor=BLOCKS[problem])
+    refine, friction = CYLINDERS[problem]
+    return zhu_cylinder(friction=friction, refine=refine, steps=PRESSED)
 
 
-def measure(model: Model) -> list[str]:
-    """Sizes, seconds of one factorisation and of each segment, and their ratios."""
+def measure(model: Model) -> dict[str, Any]:
+    """Sizes, seconds of one factorisation and of each segment, and of all behind the factorisation."""
     runs = []
     for _ in range(REPEATS + 1):
         clock = CpuClock()
@@ -46,30 +64,46 @@ def measure(model: Model) -> list[str]:
         history = solve_prepared(prepared)
         whole = time.process_time() - began
         runs.append((factorisation, clock.seconds["complementarity"], whole))
+        segments, pairs = len(history.steps), int(prepared.condensed.active.sum())
+        found = {
+            "unknowns": model.mesh.points.size,
+            "pairs": f"{history.pairs} ({pairs})",
+            "events": sum(len({event.load_factor for event in step.events}) for step in history.steps),
+            "segments": segments,
+        }
+        del prepared, history  # the next run finds the memory as this one found it
     factorisation, path, whole = np.median(np.array(runs[1:]), axis=0)
-    events = sum(len({event.load_factor for event in step.events}) for step in history.steps)
-    segments = len(history.steps)
-    pairs = int(prepared.condensed.active.sum())
+    return {**found, "factorisation": factorisation, "segment": path / segments, "whole": whole / segments}
+
+
+def row(problem: str, found: dict[str, Any]) -> list[object]:
+    """A line of the table."""
+    times = [found[name] for name in ("factorisation", "segment")]
+    ratios = [found[name] / found["factorisation"] for name in ("segment", "whole")]
     return [
-        str(model.mesh.points.size),
-        f"{history.pairs} ({pairs})",
-        str(events),
-        page.seconds(factorisation),
-        page.seconds(path / segments),
-        f"{path / segments / factorisation:.2f}",
-        f"{whole / segments / factorisation:.2f}",
+        problem,
+        *(found[name] for name in ("unknowns", "pairs", "segments", "events")),
+        *map(page.seconds, times),
+        *(f"{ratio:.2f}" for ratio in ratios),
     ]
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
+    parser.add_argument("--one", help="measure one problem in this process")
     options = parser.parse_args()
+    if options.one:
+        print(json.dumps([measure(model(options.one))]))
+        return
     load = os.getloadavg()[0]
-    rows = [[words, *measure(model)] for words, model in models()]
-    head = ("problem", "unknowns", "pairs (candidates)", "loads with events", "one factorisation, s", "a segment, s")
-    text = page.table((*head, "ratio", "ratio with displacements, energy, certificate"), rows)
-    text += f"\n\nTwo segments: press and nearly let go. {page.machine()}, one thread, load average {load:.1f} before."
+    rows = [row(each, *page.measured("benchmarks.paths", each)) for each in (*CYLINDERS, *BLOCKS)]
+    head = ("problem", "unknowns", "pairs (candidates)", "segments", "loads with events", "one factorisation, s")
+    text = page.table((*head, "a segment, s", "ratio", "ratio with displacements, energy, certificate"), rows)
+    text += (
+        "\n\nThe cylinder is pressed and nearly let go, the block pressed, dragged and dragged back. "
+        f"{page.machine()}, one thread, load average {load:.1f} before."
+    )
     print(text)
     if not options.dry:
         page.write("cost of a path", text, PAGE)

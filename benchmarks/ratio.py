@@ -52,7 +52,7 @@ def main() -> None:
     if options.one:
         print(json.dumps(list(cylinder(options.dofs[0], timer=time.process_time))))
         return
-    found = [row for dofs in options.dofs for row in page.measured("benchmarks.ratio", dofs)]
+    found = [row for dofs in options.dofs for row in page.measured("benchmarks.ratio", "--dofs", dofs)]
     backends = ", ".join(dict.fromkeys(row["backend"] for row in found))
     text = (
         f"{page.table(HEAD, [row(each) for each in found])}\n\nCPU seconds, one thread, {backends}, {page.machine()}."

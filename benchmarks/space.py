@@ -37,7 +37,7 @@ HEAD = (
 
 def measure(dofs: int) -> list[dict[str, Any]]:
     """The rows of one size, from a process of its own."""
-    rows = page.measured("benchmarks.space", dofs)
+    rows = page.measured("benchmarks.space", "--dofs", dofs)
     for row in rows:
         print(f"{row['name']}, {row['dofs']} unknowns: {row['ratio']:.2f}", flush=True)
     return rows

@@ -13,7 +13,7 @@ FARTHEST = 1e9
 """Motions beyond this many times the data are a body that has left, not a solution."""
 
 
-def certify(problem: CoulombProblem, y: Array) -> float:
+def certify(problem: CoulombProblem, y: Array, *, b: Array | None = None, origin: Array | None = None) -> float:
     """Largest violation of equilibrium by y, relative to the data; y obeys the law of friction as such (see `law`).
 
     The larger of ``max |b + W (h + r) - h| / scale`` and, for each rigid motion rho, ``|rho.(r + b)| / (scale sum
@@ -24,6 +24,8 @@ def certify(problem: CoulombProblem, y: Array) -> float:
     ----------
     problem : the problem as posed
     y : (2n,) candidate ``r - h``
+    b : (2n,) another load instead of the problem's
+    origin : (2n,) motion from which h is counted; b is the load of the whole motion then
 
     Examples
     --------
@@ -39,7 +41,8 @@ def certify(problem: CoulombProblem, y: Array) -> float:
     unit = problem.scale if problem.scale > 0 else 1.0
     if np.abs(h).max(initial=0.0) > FARTHEST * unit:
         return np.inf
-    misfit = np.abs(problem.misfit(h, r)).max(initial=0.0) / unit
+    load, whole = problem.b if b is None else b, h if origin is None else h + origin
+    misfit = np.abs(problem.misfit(whole, r, load)).max(initial=0.0) / unit
     R = problem.interface.R
-    resultants = np.abs(R.T @ (r + problem.b)) / (unit * np.abs(R).sum(axis=0))
+    resultants = np.abs(R.T @ (r + load)) / (unit * np.abs(R).sum(axis=0))
     return float(max(misfit, resultants.max(initial=0.0)))

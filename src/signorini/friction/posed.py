@@ -62,9 +62,9 @@ class PosedContact:
         """Whether some body is held by contact alone."""
         return bool(self.motions.shape[1])
 
-    def misfit(self, h: Array, r: Array) -> Array:
-        """(d n,) ``b - (G h - W r)``, the motion that equilibrium lacks."""
-        return self.b + self.W @ (h + r) - h
+    def misfit(self, h: Array, r: Array, b: Array | None = None) -> Array:
+        """(d n,) ``b - (G h - W r)``, the motion that equilibrium lacks, under the problem's b or another."""
+        return (self.b if b is None else b) + self.W @ (h + r) - h
 
     @property
     def bound(self) -> Bound:

@@ -15,11 +15,14 @@ from signorini.friction.exact.inverse import SingularState
 from signorini.friction.exact.rates import CORNER, INSIDE, RATE, RateLaw, Rates
 from signorini.friction.exact.responses import Responses
 from signorini.friction.law import OPEN, STICK
-from signorini.friction.problem import CoulombProblem
+
+WRONG = 1e-9
+"""Violation of the law, relative to the largest rate, above which rates are none."""
 
 
 def drive(responses: Responses, law: RateLaw, load: Array, before: Rates, acting: IntArray) -> Rates | None:
-    """Rates under the load rate, followed from those before the event; None where the way ends in a ray.
+    """Rates under the load rate, followed from those before the event; None where the way ends in a ray
+    or the rates do not obey the law.
 
     Parameters
     ----------
@@ -31,43 +34,51 @@ def drive(responses: Responses, law: RateLaw, load: Array, before: Rates, acting
     """
     n = responses.problem.pairs
     state, imposed_h, imposed_r = _imposed(law, before, acting)
-    extra = _load_of(responses.problem, imposed_h, imposed_r)
+    free, extra = responses.free(load), np.zeros(0)
     theta, way, last, row = 1.0, -1.0, -1, 0
     for _ in range(10 * n + 20):
         try:
-            h0, r0 = responses.respond(state, load, refine=False)
-            h1, r1 = responses.respond(state, extra, refine=False)
+            h0, r0 = responses.respond(state, free)
+            target = law.conditions(state, h0, r0)
+            found = Rates(state=state, h=h0, r=r0)
+            if last < 0 and target.min() >= -RATE * found.size:  # and so are all on the straight way there
+                return _refined(responses, load, found)
+            extra = extra if len(extra) else responses.imposed(imposed_h, imposed_r)
+            h1, r1 = responses.respond(state, extra)
         except SingularState:
             return None
-        slope = Rates(state=state, h=h1 + imposed_h, r=r1 + imposed_r)
-        now = Rates(state=state, h=h0 + theta * slope.h, r=r0 + theta * slope.r)
-        values, following = law.conditions(now)
-        change, _ = law.conditions(slope)
+        h1, r1 = h1 + imposed_h, r1 + imposed_r
+        change = np.where(np.isfinite(target), law.conditions(state, h1, r1), 0.0)
+        now, values = Rates(state=state, h=h0 + theta * h1, r=r0 + theta * r1), target + theta * change
         if last >= 0:  # the condition of the state just left vanishes here: go where it grows
             row = int(np.argmin(np.abs(values[:, last])))
             way = 1.0 if change[row, last] > 0 else -1.0
-        falling = np.isfinite(values) & (way * change < -RATE * now.size)
-        steps = np.full(values.shape, np.inf)
-        steps[falling] = np.maximum(values[falling], 0.0) / -(way * change[falling])
+        falling = way * change < -RATE * now.size
         if last >= 0:
-            steps[row, last] = np.inf
-        step = float(steps.min())
+            falling[row, last] = False
+        steps = np.divide(np.maximum(values, 0.0), -way * change, out=np.full(values.shape, np.inf), where=falling)
+        which, pair = divmod(int(np.argmin(steps)), n)
+        step = float(steps[which, pair])
         if way < 0 and step >= theta:
-            return Rates(state=state, **dict(zip("hr", responses.respond(state, load), strict=True)))
+            return _refined(responses, load, found) if target.min() >= -WRONG * found.size else None
         if not np.isfinite(step):
             return None
-        theta += way * step
-        which, last = divmod(int(np.argmin(steps)), n)
-        state = state.copy()
-        state[last] = following[which, last]
+        theta, last, state = theta + way * step, pair, state.copy()
+        state[last] = law.following(state, now.h[n:])[which, last]
     return None
+
+
+def _refined(responses: Responses, load: Array, rates: Rates) -> Rates:
+    """Events come where rates say: a pair at a steep part of its bound sees the last digits of where."""
+    h, r = responses.balanced(rates.state, load, rates.h, rates.r)
+    return Rates(state=rates.state, h=h, r=r)
 
 
 def _imposed(law: RateLaw, before: Rates, acting: IntArray) -> tuple[IntArray, Array, Array]:
     """The next state of the acting pairs, and what of the old motions and forces it does not allow."""
     n = len(law.kind)
     state, h, r = before.state.copy(), np.zeros(2 * n), np.zeros(2 * n)
-    touching, other = law.touching(before.h[n:]), law.following(state)
+    touching, other = law.touching(before.h[n:]), law.across(state)
     for k in acting:
         if before.state[k] == OPEN:
             state[k], h[k] = touching[k], before.h[k]
@@ -77,8 +88,3 @@ def _imposed(law: RateLaw, before: Rates, acting: IntArray) -> tuple[IntArray, A
             state[k] = law.kind[k] if before.state[k] == STICK else other[k]
             r[n + k] = before.r[n + k] - law.bound.slope(state)[k] * before.r[k]
     return state, h, r
-
-
-def _load_of(problem: CoulombProblem, h: Array, r: Array) -> Array:
-    """The load that imposed motions and forces are worth: ``W r - G h``."""
-    return problem.W @ (r + h) - h

@@ -71,11 +71,16 @@ def find_rates(
 def certified(responses: Responses, law: RateLaw, load: Array, state: IntArray) -> Rates | None:
     """The rates of a state where they obey the law, else None."""
     try:
-        h, r = responses.respond(state, load)
+        rates = responding(responses, state, load)
     except SingularState:
         return None
-    rates = Rates(state=state, h=h, r=r)
     return rates if law.violation(rates) <= 10.0 * RATE else None
+
+
+def responding(responses: Responses, state: IntArray, load: Array) -> Rates:
+    """The rates of a state, refined; raises SingularState."""
+    h, r = responses.balanced(state, load, *responses.respond(state, responses.free(load)))
+    return Rates(state=state, h=h, r=r)
 
 
 def _newton(responses: Responses, law: RateLaw, load: Array, guess: IntArray, limit: int = 25) -> Rates | None:
@@ -83,10 +88,9 @@ def _newton(responses: Responses, law: RateLaw, load: Array, guess: IntArray, li
     for _ in range(limit):
         seen.add(state.tobytes())
         try:
-            h, r = responses.respond(state, load)
+            rates = responding(responses, state, load)
         except SingularState:
             return None
-        rates = Rates(state=state, h=h, r=r)
         state = law.proposal(rates)
         if np.array_equal(state, rates.state):
             return rates
@@ -118,11 +122,11 @@ def _lemke(
         return np.array([r[k] if not s else mu[k] * r[k] + s * r[n + k] for k, _, s in columns])
 
     try:
-        q[:] = forces(responses.respond(base, load)[1])
+        q[:] = forces(responding(responses, base, load).r)
         for j, (_, dof, sign) in enumerate(columns):
             motion = np.zeros(2 * n)
             motion[dof] = sign or 1.0
-            M[:, j] = forces(responses.respond(base, responses.problem.W @ motion - motion)[1])
+            M[:, j] = forces(responses.respond(base, responses.imposed(motion, np.zeros(2 * n)))[1])
     except SingularState:
         return None, "the state in which all of them hold is singular"
     answer = lcp.solve(M, q / (np.abs(q).max() or 1.0), method="lemke")

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray, IntArray, frozen
+from signorini.arrays import Array, IntArray, frozen
 from signorini.bound import SIGN, plain
 from signorini.errors import InputError
 from signorini.friction.certificate import certify
@@ -22,7 +22,7 @@ from signorini.friction.exact.fallback import NoRates, find_rates
 from signorini.friction.exact.inverse import SingularState
 from signorini.friction.exact.jump import explain
 from signorini.friction.exact.rates import CORNER, RateLaw, Rates, weight
-from signorini.friction.exact.responses import Responses
+from signorini.friction.exact.responses import ROUNDING, Responses
 from signorini.friction.exact.segment import Breakpoint, Event, Jump, Outcome, Segment, What
 from signorini.friction.exact.state import PathState
 from signorini.friction.law import OPEN, SLIP_PLUS, STICK, UNDECIDED
@@ -78,8 +78,8 @@ def follow(problem: CoulombProblem, start: PathState, b_end: Array, *, settings:
 
     Notes
     -----
-    Every end of a piece is solved for afresh, so that no error adds up, and certified as an increment that starts at
-    the end before.
+    Every end of a piece is certified as an increment that starts at the end before, and solved for afresh where its
+    equilibrium lacks more than rounding, so that no error adds up.
 
     References
     ----------
@@ -178,8 +178,6 @@ class Walk:
         found: Rates | NoRates | None = None
         if self.rates is not None:
             found = drive(self.responses, law, self.load, self.rates, self.acting)
-            if found is not None and law.violation(found) > 1e-9:
-                found = None
         if found is None:
             found = find_rates(self.responses, law, self.load, state, self._guesses(law, state))
         if isinstance(found, NoRates):
@@ -216,31 +214,34 @@ class Walk:
         spent = acts & ~corner & (state == STICK) & (law.kind > CORNER)
         natural[spent] = law.kind[spent]
         turns = acts & law.kink & (state > STICK)
-        natural[turns] = law.following(state)[turns]
+        natural[turns] = law.across(state)[turns]
         stuck[corner] = hold[corner]
         return [stuck, natural] if (state == OPEN).all() else [natural, stuck]
 
     def _change(self, state: IntArray) -> None:
         """Enter new states at the present load."""
-        old, now = self.now.state, self.now
-        turned = plain(state) != plain(old)
-        sticking = (state == STICK) & (old != STICK)
+        now, which = self.now, np.flatnonzero(state != self.now.state)
+        if not len(which):
+            return
+        sticking = (state == STICK) & (now.state != STICK)
         anchor = np.where(sticking, now.h[len(state) :], now.anchor)
         self.now = replace(now, state=state, anchor=anchor)
+        old, state, forced = now.state[which], state[which], self.forced[which]
+        turned = plain(state) != plain(old)
         kinds: tuple[tuple[What, Array], ...] = (
             ("opens", (old != OPEN) & (state == OPEN)),
             ("closes", (old == OPEN) & (state != OPEN)),
             ("sticks", (old > STICK) & (state == STICK)),
-            ("slips", (old != OPEN) & (state > STICK) & turned & (self.forced == UNDECIDED)),
+            ("slips", (old != OPEN) & (state > STICK) & turned & (forced == UNDECIDED)),
             ("kinks", (old > STICK) & (state > STICK) & (state != old) & ~turned),
         )
-        for what, which in kinds:
-            pairs = tuple(int(k) for k in np.flatnonzero(which))
+        for what, happens in kinds:
+            pairs = tuple(which[happens].tolist())
             if pairs:
                 self.events.append(Event(factor=self.factor, pairs=pairs, what=what, state=self.now))
 
     def advance(self) -> NoRates | None:
-        """Go on to the next event or the end, solve for it afresh and certify it."""
+        """Go on to the next event or the end, and certify it."""
         assert self.rates is not None
         times = self._times(self.rates)
         step, room = float(times.min(initial=np.inf)), 1.0 - self.factor
@@ -251,10 +252,9 @@ class Walk:
         if self.still > self.settings.standstill:
             return NoRates(proof=f"{self.still} events follow each other at one load", proved=False)
         try:
-            after = self._solved(factor)
+            after, residual = self._reached(factor, self.rates)
         except SingularState:
             return NoRates(proof="the state that has rates is singular", proved=False)
-        residual = self._certificate(after)
         lost = self._let_go(after)
         if residual > self.settings.tolerance and not len(lost):
             return NoRates(proof=f"the next state fails its certificate, residual {residual:.1e}", proved=False)
@@ -279,61 +279,71 @@ class Walk:
         """
         n, state, bound = self.problem.pairs, rates.state, self.bound
         gap, p, q = self.now.h[:n], self.now.r[:n], self.now.r[n:]
-        resting = 1e-10 * rates.size
-        times = np.full(n, np.inf)
-
-        def vanish(which: BoolArray, value: Array, rate: Array) -> None:
-            falls = which & (rate < np.where(value <= self.width, -resting, 0.0))
-            times[falls] = np.minimum(times[falls], np.maximum(value[falls], 0.0) / -rate[falls])
-
-        vanish(state == OPEN, gap, rates.h[:n])
-        vanish(state != OPEN, p, rates.r[:n])
-        stick = (state == STICK) & (self.forced == UNDECIDED)
+        normal, tangential = rates.r[:n], rates.r[n:]
+        stick, opened = (state == STICK) & (self.forced == UNDECIDED), state == OPEN
+        every = np.ones(n, dtype=np.bool_)
+        vanishing = [(every, np.where(opened, gap, p), np.where(opened, rates.h[:n], normal))]
         for mu, start, begins in zip(bound.slopes, bound.starts, bound.kinks[:-1], strict=True):
-            has = stick & np.isfinite(begins)
-            for sign in (1.0, -1.0):
-                spare, rate = start + mu * p - sign * q, mu * rates.r[:n] - sign * rates.r[n:]
-                vanish(has, spare / weight(mu), rate / weight(mu))
+            has, unit, most, grows = stick & np.isfinite(begins), weight(mu), start + mu * p, mu * normal
+            vanishing += [(has, (most - sign * q) / unit, (grows - sign * tangential) / unit) for sign in (1.0, -1.0)]
+        branch = np.where(state > STICK, (state - SLIP_PLUS) // 2, -1)
         for j in range(1, bound.branches):
-            branch = np.where(state > STICK, (state - SLIP_PLUS) // 2, -1)
-            vanish(branch == j, p - bound.kinks[j], rates.r[:n])
-            vanish((branch == j - 1) & np.isfinite(bound.kinks[j]), bound.kinks[j] - p, -rates.r[:n])
-        return times
+            vanishing.append((branch == j, p - bound.kinks[j], normal))
+            vanishing.append(((branch == j - 1) & np.isfinite(bound.kinks[j]), bound.kinks[j] - p, -normal))
+        which, value, rate = (np.array(rows) for rows in zip(*vanishing, strict=True))
+        falls = which & (rate < np.where(value <= self.width, -1e-10 * rates.size, 0.0))
+        times = np.divide(np.maximum(value, 0.0), -rate, out=np.full(value.shape, np.inf), where=falls)
+        return np.asarray(times.min(axis=0))
 
     def _load_at(self, factor: float) -> Array:
         return self.b_end if factor == 1.0 else self.b_start + factor * self.load
 
-    def _solved(self, factor: float) -> PathState:
-        """The state at a load in the present states, with the slip and the dissipation of the piece."""
-        now, n = self.now, self.problem.pairs
-        b, state = self._load_at(factor), self.now.state
+    def _reached(self, factor: float, rates: Rates) -> tuple[PathState, float]:
+        """The state at a load, solved for afresh where it lacks more than rounding, and its certificate."""
+        b, step = self._load_at(factor), factor - self.factor
+        h, r = self.now.h + step * rates.h, self.now.r + step * rates.r
+        after = self._lawful(b, h, r)
+        residual = self._certificate(after)
+        size = max(np.abs(part).max(initial=0.0) for part in (b, h, r))
+        if residual * (self.problem.scale or 1.0) > ROUNDING * size:
+            after = self._lawful(b, *self._afresh(b))
+            residual = self._certificate(after)
+        return after, residual
+
+    def _afresh(self, b: Array) -> tuple[Array, Array]:
+        """(2n,) Motions and forces under a load in the present states, whatever has led there."""
+        now, n, state = self.now, self.problem.pairs, self.now.state
         held = np.concatenate([np.zeros(n), np.where(state == STICK, now.anchor, now.h[n:])])
         given = np.concatenate([np.zeros(n), self.bound.start(state)])
-        h, r = self.responses.respond(state, b + self.problem.W @ (held + given) - held)
-        h = h + held
-        p = np.maximum(r[:n], 0.0)
+        free = self.responses.free(b) + self.responses.imposed(held, given)
+        h, r = self.responses.respond(state, free)
+        return self.responses.balanced(state, b, h + held, r + given)
+
+    def _lawful(self, b: Array, h: Array, r: Array) -> PathState:
+        """The state with motions and forces of its law to the last digit, the slip and the dissipation of the piece."""
+        now, n, state = self.now, self.problem.pairs, self.now.state
+        opened, slips = state == OPEN, state > STICK
+        p = np.where(opened, 0.0, np.maximum(r[:n], 0.0))
         bound = self.bound.at(p)
         most = np.where(self.unbounded, np.inf, bound)
-        friction = np.where(state > STICK, SIGN[state] * bound, np.clip(r[n:], -most, most))
-        r = np.concatenate([p, friction])
-        h[:n] = np.maximum(h[:n], 0.0)
-        moved = np.where(state > STICK, h[n:] - now.h[n:], 0.0)
+        friction = np.where(slips, SIGN[state] * bound, np.where(opened, 0.0, np.clip(r[n:], -most, most)))
+        gap, tangential = np.where(opened, np.maximum(h[:n], 0.0), 0.0), np.where(state == STICK, now.anchor, h[n:])
+        moved = np.where(slips, tangential - now.h[n:], 0.0)
         return PathState(
             b=b,
-            h=h,
-            r=r,
+            h=np.concatenate([gap, tangential]),
+            r=np.concatenate([p, friction]),
             state=state,
             anchor=now.anchor,
             slip=now.slip + moved,
-            dissipation=now.dissipation - 0.5 * (r[n:] + now.r[n:]) * moved,
+            dissipation=now.dissipation - 0.5 * (friction + now.r[n:]) * moved,
         )
 
     def _certificate(self, after: PathState) -> float:
         """Of the piece as one increment: equilibrium, no tension, the friction cone, slip against friction."""
         n = self.problem.pairs
         origin = np.concatenate([np.zeros(n), self.now.h[n:]])
-        increment = replace(self.problem, b=frozen(after.b + self.problem.W @ origin - origin))
-        return certify(increment, after.r - (after.h - origin))
+        return certify(self.problem, after.r - (after.h - origin), b=after.b, origin=origin)
 
     def ended(self, failure: NoRates) -> Segment:
         """The segment up to a jump, or to where nothing was found."""

@@ -8,7 +8,7 @@ those alone that a state leaves unknown, in any order, equations in the order of
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import lapack
+from scipy.linalg import blas, lapack
 
 from signorini.arrays import Array, IntArray
 from signorini.friction.law import OPEN, STICK
@@ -24,6 +24,10 @@ REFRESH = 400
 """Changes after which the system is inverted afresh."""
 
 
+ROOM = 64
+"""Unknowns that an inverse may grow by before it is moved to larger memory."""
+
+
 class SingularState(Exception):
     """Some load leaves the motions or the forces of a state undetermined."""
 
@@ -37,7 +41,6 @@ class StateInverse:
 
     Attributes
     ----------
-    unknowns : (m,) those of the present state
     slope : (n,) tangential per normal force of slipping pairs, 0 of others
     factorisations, updates : inversions afresh and changes by one unknown so far
 
@@ -54,15 +57,23 @@ class StateInverse:
     """
 
     def __init__(self, problem: CoulombProblem) -> None:
-        A, R = problem.interface.A, problem.interface.R
-        k = R.shape[1]
-        self._full = np.block([[A, R], [R.T, np.zeros((k, k))]])
-        self._n, self._motions, self._bound = problem.pairs, len(A) + np.arange(k), problem.bound
+        A, self._motions = problem.interface.A, problem.interface.R
+        self._forces = np.hstack([A, self._motions])  # what all equations see of each, in rows
+        equations = self._forces.shape[1]
+        self._bound, self._n = problem.bound, problem.pairs
         self._state: IntArray | None = None
-        self._buffer = np.zeros_like(self._full)
-        self.unknowns = self._motions
+        self._columns = np.empty((equations, equations), order="F")  # of the unknowns, as all equations see them
+        self._inverse = np.empty((0, 0), order="F")  # with room to grow
+        self._place = np.full(equations, -1)  # of an unknown among those of the state
+        self._list = np.empty(equations, dtype=np.int64)
+        self._count = 0
         self.slope = np.zeros(problem.pairs)
         self.factorisations = self.updates = self._age = 0
+
+    @property
+    def unknowns(self) -> IntArray:
+        """(m,) Those of the present state."""
+        return self._list[: self._count]
 
     def move_to(self, state: IntArray) -> None:
         """Make it the inverse of another state.
@@ -74,46 +85,55 @@ class StateInverse:
         """
         if self._state is not None:
             changes = np.flatnonzero(state != self._state)
-            few = len(changes) <= max(4, len(self.unknowns) // 8) and self._age + len(changes) <= REFRESH
+            few = len(changes) <= max(4, self._count // 8) and self._age + len(changes) <= REFRESH
             slope = self._bound.slope(state)
             if few and all(self._change(int(k), int(state[k]), float(slope[k])) for k in changes):
                 self._state = state.copy()
                 return
         self._invert(state)
 
-    def apply(self, rhs: Array) -> Array:
-        """(m,) Unknowns of a right-hand side given over all equations, (2n + k,)."""
-        m = len(self.unknowns)
-        return self._buffer[:m, :m] @ rhs[self.unknowns]
+    def solve(self, free: Array) -> tuple[Array, Array]:
+        """The (m,) unknowns x that bring their equations to zero, and ``free + columns x``, what all equations see.
+
+        Parameters
+        ----------
+        free : (2n + k,) what the equations see of a load alone
+        """
+        m = self._count
+        x = -(self._inverse[:m, :m] @ free[self.unknowns])
+        return x, free + self._columns[:, :m] @ x
 
     def _invert(self, state: IntArray) -> None:
         self._state, self._age = None, 0
         self.factorisations += 1
-        closed, stick = np.flatnonzero(state != OPEN), self._n + np.flatnonzero(state == STICK)
-        self.unknowns = np.concatenate([closed, stick, self._motions])
+        n = self._n
+        closed, stick = np.flatnonzero(state != OPEN), np.flatnonzero(state == STICK)
         self.slope = self._bound.slope(state)
-        matrix = np.asfortranarray(self._columns(self.unknowns)[self.unknowns])
-        m = len(matrix)
+        forces = np.concatenate([closed, n + stick])
+        m = self._count = len(forces) + self._motions.shape[1]
+        self._list[:m] = np.concatenate([forces, np.arange(2 * n, len(self._list))])
+        self._place[:] = -1
+        self._place[self.unknowns] = np.arange(m)
+        columns = self._columns[:, :m]
+        columns[:, : len(forces)] = self._forces[forces].T
+        columns[: 2 * n, len(forces) :], columns[2 * n :, len(forces) :] = self._motions, 0.0
+        slips = np.flatnonzero(self.slope[closed])
+        columns[:, slips] += (self._forces[n + closed[slips]] * self.slope[closed[slips], None]).T
+        self._inverse = np.zeros((m + ROOM, m + ROOM), order="F")
         if m:
+            matrix = np.asfortranarray(columns[self.unknowns])
             norm = float(np.abs(matrix).sum(axis=0).max())
             lu, order, failed = lapack.dgetrf(matrix, overwrite_a=1)
             if failed or lapack.dgecon(lu, norm)[0] < SINGULAR:
                 raise SingularState
-            self._buffer[:m, :m] = lapack.dgetri(lu, order, overwrite_lu=1)[0]
+            self._inverse[:m, :m] = lapack.dgetri(lu, order, overwrite_lu=1)[0]
         self._state = state.copy()
-
-    def _columns(self, unknowns: IntArray) -> Array:
-        """(2n + k, m) What all equations see of some unknowns."""
-        columns = self._full[:, unknowns]
-        normal = np.flatnonzero(unknowns < self._n)
-        columns[:, normal] += self._full[:, self._n + unknowns[normal]] * self.slope[unknowns[normal]]
-        return columns
 
     def _change(self, k: int, new: int, slope: float) -> bool:
         """One pair enters another state; False where the way there is (nearly) singular.
 
         A tangential force is added before, and removed after, the slope of its normal force changes: in its presence
-        that is a change of columns alone, and the determinant stays.
+        that only shares the same force otherwise.
         """
         assert self._state is not None
         old, n = int(self._state[k]), self._n
@@ -131,48 +151,72 @@ class StateInverse:
 
     def _add(self, j: int) -> bool:
         """Border the system by an unknown and its equation."""
-        m, known, H = len(self.unknowns), self.unknowns, self._buffer
-        column = self._columns(np.array([j]))[:, 0]
-        row = self._full[j, known]
-        normal = np.flatnonzero(known < self._n)
-        row[normal] += self._full[j, self._n + known[normal]] * self.slope[known[normal]]
-        u, v = H[:m, :m] @ column[known], row @ H[:m, :m]
+        m, n, known = self._count, self._n, self.unknowns
+        self._grow()
+        column = self._columns[:, m]
+        column[:] = self._forces[j]
+        if j < n and self.slope[j]:
+            column += self.slope[j] * self._forces[n + j]
+        H, row = self._inverse[:m, :m], self._columns[j, :m]
+        u, v = H @ column[known], row @ H
         pivot = column[j] - row @ u
-        self.updates += 1
         if abs(pivot) < SMALL * max(abs(column[j]), float(np.abs(row) @ np.abs(u))):
             return False
-        H[:m, :m] += np.multiply.outer(u / pivot, v)
-        H[:m, m], H[m, :m], H[m, m] = -u / pivot, -v / pivot, 1.0 / pivot
-        self.unknowns = np.append(known, j)
+        self._add_product(1.0 / pivot, u, v)
+        H = self._inverse
+        H[:m, m], H[m, :m], H[m, m] = u / -pivot, v / -pivot, 1.0 / pivot
+        self._list[m], self._place[j], self._count = j, m, m + 1
         return True
 
     def _remove(self, j: int) -> bool:
-        """Take an unknown and its equation out."""
-        H, known, last = self._buffer, self.unknowns, len(self.unknowns) - 1
-        i = int(np.flatnonzero(known == j)[0])
-        H[[i, last], : last + 1] = H[[last, i], : last + 1]
-        H[: last + 1, [i, last]] = H[: last + 1, [last, i]]
-        known[[i, last]] = known[[last, i]]
-        self.unknowns = known[:last]
-        u, v, pivot = H[:last, last].copy(), H[last, :last].copy(), H[last, last]
-        self.updates += 1
+        """Take an unknown and its equation out; the last one takes its place."""
+        H, i, last = self._inverse, self._place[j], self._count - 1
+        u, v = H[: last + 1, i].copy(), H[i, : last + 1].copy()
+        pivot = u[i]
+        u[i], v[i] = u[last], v[last]
+        H[: last + 1, i] = H[: last + 1, last]
+        H[i, : last + 1] = H[last, : last + 1]
+        self._columns[:, i] = self._columns[:, last]
+        moved = self._list[last]
+        self._list[i], self._place[moved], self._place[j], self._count = moved, i, -1, last
+        u, v = u[:last], v[:last]
         if abs(pivot) < SMALL * max(np.abs(u).max(initial=0.0), np.abs(v).max(initial=0.0)):
             return False
-        H[:last, :last] -= np.multiply.outer(u / pivot, v)
+        self._add_product(-1.0 / pivot, u, v)
         return True
 
     def _tilt(self, k: int, slope: float) -> bool:
         """Give the normal force of a pair another share of friction."""
-        m, known, H = len(self.unknowns), self.unknowns, self._buffer
-        change = (slope - self.slope[k]) * self._full[known, self._n + k]
-        self.slope[k] = slope
-        if not change.any():
+        m, n, H = self._count, self._n, self._inverse
+        share, i, t = slope - self.slope[k], self._place[k], self._place[n + k]
+        if share == 0.0:
             return True
-        i = int(np.flatnonzero(known == k)[0])
-        u = H[:m, :m] @ change
-        pivot = 1.0 + u[i]
-        self.updates += 1
-        if abs(pivot) < SMALL * max(1.0, float(np.abs(u).max())):
-            return False
-        H[:m, :m] -= np.multiply.outer(u / pivot, H[i, :m].copy())
+        self.slope[k] = slope
+        change = share * self._forces[n + k]
+        if t >= 0:  # what is left of the tangential force is an unknown
+            H[t, :m] -= share * H[i, :m]
+        elif change.any():
+            u = H[:m, :m] @ change[self.unknowns]
+            pivot = 1.0 + u[i]
+            if abs(pivot) < SMALL * max(1.0, float(np.abs(u).max())):
+                return False
+            self._add_product(-1.0 / pivot, u, H[i, :m].copy())
+        self._columns[:, i] += change
         return True
+
+    def _add_product(self, factor: float, u: Array, v: Array) -> None:
+        """Change the inverse by ``factor u v^T``, in place."""
+        self.updates += 1
+        m = len(u)
+        if m:
+            padded = np.zeros(len(self._inverse))
+            padded[:m] = u
+            blas.dger(factor, padded, v, a=self._inverse[:, :m], overwrite_x=0, overwrite_y=0, overwrite_a=1)
+
+    def _grow(self) -> None:
+        """Room for one more unknown."""
+        m = self._count
+        if m == len(self._inverse):
+            larger = np.zeros((m + ROOM, m + ROOM), order="F")
+            larger[:m, :m] = self._inverse
+            self._inverse = larger

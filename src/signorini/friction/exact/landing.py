@@ -126,7 +126,7 @@ def _next(law: RateLaw, state: IntArray, acts: BoolArray) -> Iterator[IntArray]:
     leaves = acts & (law.kind == CORNER) & (state != OPEN)
     meets = acts & (law.kind == CORNER) & (state == OPEN)
     turns = acts & law.kink & (state > STICK)
-    moved = np.where(spent, law.kind, np.where(leaves, OPEN, np.where(turns, law.following(state), state)))
+    moved = np.where(spent, law.kind, np.where(leaves, OPEN, np.where(turns, law.across(state), state)))
     for closed in (STICK, SLIP_PLUS, SLIP_MINUS) if meets.any() else (STICK,):
         forced = np.where(law.forced == UNDECIDED, closed, law.forced)
         yield np.where(meets, forced, moved).astype(np.int64)

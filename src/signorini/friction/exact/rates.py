@@ -19,6 +19,7 @@ Coulomb's law the friction::
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -47,7 +48,7 @@ class Rates:
     h: Array
     r: Array
 
-    @property
+    @cached_property
     def size(self) -> float:
         """The largest of them, which tolerances refer to."""
         return float(max(np.abs(self.h).max(initial=0.0), np.abs(self.r).max(initial=0.0))) or 1.0
@@ -120,48 +121,55 @@ class RateLaw:
         kind = np.where(self.kink & (self.forced != UNDECIDED), INSIDE, kind)
         return replace(self, kind=kind, kink=np.zeros_like(self.kink))
 
-    def following(self, state: IntArray) -> IntArray:
+    def across(self, state: IntArray) -> IntArray:
         """(n,) The other branch of pairs that slip at a kink."""
         return np.where(state == self.kind, self.kind + 2, self.kind)
 
-    @property
+    @cached_property
     def mu(self) -> Array:
         """(n,) Slope of the bound: of the branch of the edge, at a kink of that below it, otherwise of the first."""
         if self.bound.branches == 1:
             return self.bound.slopes[0]
         return np.abs(self.bound.slope(np.where(self.kind > CORNER, self.kind, SLIP_PLUS)))
 
-    def conditions(self, rates: Rates) -> tuple[Array, IntArray]:
-        """What must not be negative, and the state that takes over where it is.
+    def conditions(self, state: IntArray, h: Array, r: Array) -> Array:
+        """(3, n) What must not be negative in a state at rates (2n,); linear in them, inf where nothing is asked."""
+        n, (corner, plus, minus, rubs, weights) = len(state), self._asked
+        gap, t, p, q = h[:n], h[n:], r[:n], r[n:]
+        stick, slips, most = state == STICK, state > STICK, self.mu * p
+        values = np.full((3, n), np.inf)
+        np.copyto(values[0], np.where(state == OPEN, gap, p), where=corner)
+        np.copyto(values[1], (most - q) / weights, where=plus & stick)
+        np.copyto(values[2], (most + q) / weights, where=minus & stick)
+        np.copyto(values[2], -SIGN[state] * t, where=rubs & slips)
+        if self.kink.any():
+            above = self.onto(self.kink).mu
+            spare = (above * p - SIGN[self.kind] * q) / weight(above)
+            np.copyto(values[0], spare, where=self.kink & stick & (self.forced == UNDECIDED))
+            np.copyto(values[1], np.where(state == self.kind, -p, p), where=self.kink & slips)
+        return values
 
-        Returns
-        -------
-        values : (3, n) inf where nothing is asked
-        following : (3, n) states
-        """
-        n, mu, kind, state = len(self.kind), self.mu, self.kind, rates.state
-        gap, t, p, q = rates.h[:n], rates.h[n:], rates.r[:n], rates.r[n:]
-        values, following = np.full((3, n), np.inf), np.full((3, n), OPEN)
-        corner, unforced, slips = kind == CORNER, self.forced == UNDECIDED, state > STICK
-        k = corner & (state == OPEN)
-        values[0, k], following[0, k] = gap[k], self.touching(t)[k]
-        k = corner & (state != OPEN)
-        values[0, k] = p[k]
-        several = self.bound.branches > 1
-        edge = plain(kind) if several else kind
-        for row, code in ((1, SLIP_PLUS), (2, SLIP_MINUS)):
-            k = (corner | (edge == code)) & (state == STICK) & unforced
-            values[row, k] = ((mu * p - SIGN[code] * q) / weight(mu))[k]
-            following[row, k] = np.maximum(kind[k], code)
-        k = (kind != INSIDE) & slips & unforced
-        values[2, k], following[2, k] = (-SIGN[state] * t)[k], STICK
-        if several and self.kink.any():
-            k, above = self.kink & (state == STICK) & unforced, self.onto(self.kink).mu
-            values[0, k], following[0, k] = ((above * p - SIGN[kind] * q) / weight(above))[k], kind[k] + 2
-            k = self.kink & slips
-            values[1, k] = np.where(state == kind, -p, p)[k]
-            following[1, k] = self.following(state)[k]
-        return values, following
+    @cached_property
+    def _asked(self) -> tuple[BoolArray, BoolArray, BoolArray, BoolArray, Array]:
+        """Pairs at a corner, on the edge of friction + and -, those that may slip, and the weight of friction."""
+        corner, unforced = self.kind == CORNER, self.forced == UNDECIDED
+        edge = plain(self.kind)
+        plus, minus = ((corner | (edge == code)) & unforced for code in (SLIP_PLUS, SLIP_MINUS))
+        return corner, plus, minus, self.undecided & unforced, weight(self.mu)
+
+    def following(self, state: IntArray, t: Array) -> IntArray:
+        """(3, n) The states that take over where conditions are violated, at tangential rates t."""
+        following = np.stack(
+            [
+                np.where(state == OPEN, self.touching(t), OPEN),
+                np.maximum(self.kind, SLIP_PLUS),
+                np.where(state == STICK, np.maximum(self.kind, SLIP_MINUS), STICK),
+            ]
+        )
+        if self.kink.any():
+            stick, slips = self.kink & (state == STICK), self.kink & (state > STICK)
+            following[0, stick], following[1, slips] = self.kind[stick] + 2, self.across(state)[slips]
+        return following
 
     def touching(self, t: Array) -> IntArray:
         """(n,) The state of a pair that closes while it moves with tangential rate t: slipping."""
@@ -170,12 +178,14 @@ class RateLaw:
 
     def violation(self, rates: Rates) -> float:
         """The worst violation relative to the size of the rates."""
-        return float(max(-self.conditions(rates)[0].min(initial=np.inf), 0.0)) / rates.size
+        values = self.conditions(rates.state, rates.h, rates.r)
+        return float(max(-values.min(initial=np.inf), 0.0)) / rates.size
 
     def proposal(self, rates: Rates) -> IntArray:
         """(n,) Every pair in the state that its worst violation asks for."""
-        values, following = self.conditions(rates)
+        values = self.conditions(rates.state, rates.h, rates.r)
         worst, pairs = values.argmin(axis=0), np.arange(len(self.kind))
+        following = self.following(rates.state, rates.h[len(pairs) :])
         return np.where(values[worst, pairs] < -RATE * rates.size, following[worst, pairs], rates.state)
 
     @property
