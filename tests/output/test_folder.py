@@ -50,9 +50,7 @@ def names(folder: Path) -> set[str]:
     return {file.name for file in folder.iterdir()}
 
 
-def test_a_body_pulled_away_leaves_its_motion(
-    deck: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_body_pulled_away_leaves_its_motion(deck: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "out"
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0
     assert main(["plot", str(out)]) == 0
