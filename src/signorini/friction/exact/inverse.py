@@ -157,7 +157,8 @@ class StateInverse:
         columns = self._columns[:, m : m + k]
         columns[:] = self._forces[new].T
         normal = np.flatnonzero(new < n)
-        columns[:, normal] += (self._forces[n + new[normal]] * self.slope[new[normal], None]).T
+        if self.slope[new[normal]].any():
+            columns[:, normal] += (self._forces[n + new[normal]] * self.slope[new[normal], None]).T
         rows = self._columns[new, :m]
         u, v = self._inverse[:m, :m] @ columns[known], rows @ self._inverse[:m, :m]
         size = max(np.abs(columns[new]).max(), (np.abs(rows) @ np.abs(u)).max(initial=0.0))
@@ -175,17 +176,18 @@ class StateInverse:
         """Take unknowns and their equations out; the last ones take their places."""
         if not len(old):
             return True
-        H, places, left = self._inverse, self._place[old], self._count - len(old)
+        H, places, left = self._inverse[: self._count, : self._count], self._place[old], self._count - len(old)
         out = np.zeros(self._count, dtype=np.bool_)
         out[places] = True
         free, last = np.flatnonzero(out[:left]), left + np.flatnonzero(~out[left:])
-        block = H[np.ix_(places, places)]
         order = np.arange(left)
         order[free] = last
-        u, v = H[np.ix_(order, places)], H[np.ix_(places, order)]
-        H[:, free] = H[:, last]
-        H[free] = H[last]
-        self._columns[:, free] = self._columns[:, last]
+        u, v = H[:, places], H[places]
+        block, u, v = u[places], u[order], v[:, order]
+        for i, j in zip(free, last, strict=True):
+            H[:, i], self._columns[:, i] = H[:, j], self._columns[:, j]
+        for i, j in zip(free, last, strict=True):
+            H[i] = H[j]
         self._list[free] = self._list[last]
         self._place[old] = -1
         self._place[self._list[free]], self._count = free, left
@@ -225,7 +227,10 @@ class StateInverse:
         if m:
             padded = np.zeros((len(self._inverse), k), order="F")
             padded[:m] = u
-            blas.dgemm(1.0, padded, v, beta=1.0, c=self._inverse[:, :m], overwrite_c=1)
+            if k == 1:  # half the time of a product of matrices
+                blas.dger(1.0, padded[:, 0], v[0], a=self._inverse[:, :m], overwrite_x=0, overwrite_y=0, overwrite_a=1)
+            else:
+                blas.dgemm(1.0, padded, v, beta=1.0, c=self._inverse[:, :m], overwrite_c=1)
 
     def _grow(self, size: int) -> None:
         """Room for so many unknowns."""
@@ -238,6 +243,8 @@ class StateInverse:
 
 def _inverted(block: Array, size: float) -> Array | None:
     """Inverse of a block that pivots, None where it is next to singular beside what cancels in it, of a size."""
+    if len(block) == 1:
+        return None if abs(block[0, 0]) < SMALL * size else 1.0 / block
     lu, order, failed = lapack.dgetrf(block)
     if failed or np.abs(np.diag(lu)).min() < SMALL * size:
         return None
