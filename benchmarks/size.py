@@ -3,8 +3,8 @@
 
 python -m benchmarks.size [unknowns] [pairs] [--small] [--dry] [--kept FILE]
 
-Seconds on the wall, all cores, of everything from the model to the certified solution; code warm, every run in a
-process of its own. What is measured is added to a file, a line each, and not measured again: so the tables can be made
+CPU seconds, one thread, of everything from the model to the certified solution; code warm, every run in a process of
+its own. What is measured is added to a file, a line each, and not measured again: so the tables can be made
 in pieces, whenever the machine is quiet.
 """
 
@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import subprocess
 import sys
 import time
@@ -74,9 +75,9 @@ def measure(problem: str, way: str, dofs: int) -> dict[str, Any]:
     """One solve in this process."""
     solve_prepared(prepare(cubes(5, 4), backend=way))
     model = model_of(problem, dofs)
-    began = time.perf_counter()
+    began = time.process_time()
     history = solve_prepared(prepare(model, backend=way))
-    wall = time.perf_counter() - began
+    seconds = time.process_time() - began
     contact, last = history.last.contacts[0], history.last
     return {
         "unknowns": 3 * len(model.mesh.points),
@@ -84,7 +85,7 @@ def measure(problem: str, way: str, dofs: int) -> dict[str, Any]:
         "states": [contact.count(state) for state in ("open", "stick", "slip")],
         "iterations": sum(last.iterations),
         "end": last.trace[0][-1].end,
-        "wall": wall,
+        "seconds": seconds,
         "memory": page.peak_memory(),
         "worst": last.certificate.worst,
     }
@@ -97,12 +98,15 @@ def in_process(problem: str, way: str, dofs: int, kept: Path | None) -> dict[str
         before, found = json.loads(line)
         if before == case:
             return dict(found)
+    environment = {**os.environ, **page.ONE_THREAD}
     command = [sys.executable, "-m", "benchmarks.size", "--one", problem, way, str(dofs)]
-    found = json.loads(subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout)
+    found = json.loads(subprocess.run(command, env=environment, stdout=subprocess.PIPE, text=True, check=True).stdout)
     if kept:
         with kept.open("a") as file:
             file.write(json.dumps([case, found]) + "\n")
-    print(f"{problem}, {way}: {found['unknowns']} unknowns, {found['pairs']} pairs: {found['wall']:.1f} s", flush=True)
+    print(
+        f"{problem}, {way}: {found['unknowns']} unknowns, {found['pairs']} pairs: {found['seconds']:.1f} s", flush=True
+    )
     return dict(found)
 
 
@@ -118,7 +122,7 @@ def row(problem: str, way: str, found: dict[str, Any]) -> list[object]:
         found["pairs"],
         *found["states"],
         steps,
-        page.seconds(found["wall"]),
+        page.seconds(found["seconds"]),
         page.gigabytes(found["memory"]),
     ]
 
@@ -130,7 +134,7 @@ def growth(rows: list[tuple[str, dict[str, Any]]], key: str) -> str:
         own = [found for name, found in rows if name == way]
         if len({found[key] for found in own}) > 1:
             sizes = np.log([found[key] for found in own])
-            fit = np.polyfit(sizes, np.log([found["wall"] for found in own]), 1)[0]
+            fit = np.polyfit(sizes, np.log([found["seconds"] for found in own]), 1)[0]
             said.append(f"{way} {fit:.2f}")
     return f"Exponents of the seconds in the {key}: {', '.join(said)}."
 
@@ -144,7 +148,7 @@ def table(cases: list[tuple[str, str, int]], key: str, kept: Path | None) -> str
     worst = max(each["worst"] for _, _, each in found)
     words = (
         "mu = 0.3, one increment. Iterations: Newton's systems, or rounds / conjugate gradients. The worst certificate "
-        f"is {worst:.0e}. Seconds on the wall, one run each, {page.machine()}."
+        f"is {worst:.0e}. CPU seconds, one thread, one run each, {page.machine()}."
     )
     return "\n\n".join([page.table(HEAD, lines), growth([(way, each) for _, way, each in found], key), words])
 

@@ -38,6 +38,9 @@ _LEAST = 2.0**-10  # part of the segment that does
 _GROWTH, _FINER = 0.5, 2.0**-4  # of what is behind, and of the shortest: what increments at the beginning may be
 _SHRINK = 0.9  # of the estimated part up to an event: short of it
 _SAME, _LATE = 1e-12, 1e-3  # part of an increment by which it may miss an event; the latter after some tries
+_COARSER = 4.0  # times what friction may turn elsewhere: where one longer increment is gone again event by event
+_ACROSS = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)  # times the last increment: where to look for the other side of a fold
+_FOLD, _TURNED = 1e-9, 0.3  # part of the way in which it is looked for, and what friction may turn in it
 _PATIENCE = 4  # tries
 _ROUNDING = 1e-9  # part of an increment: what comes so late does not happen in it
 _LOST = 1e-7  # part of the segment: where not even that has a solution nothing goes on gradually
@@ -208,7 +211,7 @@ class Walk:
 
     def again(self) -> bool:
         """Whether an increment has passed over something: back to its beginning, to go through it event by event."""
-        k = passed_over(self.start, self.pieces, self.balanced) if self.settings.shortest else None
+        k = passed_over(self.problem, self.start, self.pieces, self.balanced) if self.settings.shortest else None
         if k is None:
             return False
         self.careful = self.balanced = self.pieces[k].factor
@@ -242,10 +245,28 @@ class Walk:
             off = np.abs(trial.after.h - now.h - h).max() + np.abs(trial.after.r - r).max()
             if off > self._astray * step * (np.abs(rates.h).max() + np.abs(rates.r).max()) + self.width:
                 step /= 2.0
-            elif trial.turn > self.settings.turn:
-                step *= _SHRINK * self.settings.turn / trial.turn
+            elif trial.turn > self._turn:
+                step *= _SHRINK * self._turn / trial.turn
             else:
                 self._enter(trial, self._settled(trial, rates.state), self.tried - tried)
+                return True
+        return False
+
+    def cross(self, before: PathState) -> bool:
+        """One increment across a fold of the curve of equilibria that led here from ``before``; whether there is one.
+
+        On a smooth section friction turns until the load that goes back can go no farther: on with the same slip.
+        """
+        now, n = self.now, self.problem.pairs
+        h, r = now.h - before.h, now.r - before.r
+        for times in _ACROSS:
+            y = now.r + times * (r - h) - np.concatenate([now.h[:n], np.zeros(2 * n)])
+            trial = self._trial(_FOLD, _FOLD, y)
+            if isinstance(trial, SpatialResult) or trial.turn > _TURNED:
+                continue
+            moved = trial.after.h - now.h
+            if moved @ h > 0.5 * float(h @ h):
+                self._enter(trial, self._settled(trial, trial.after.state), 1)
                 return True
         return False
 
@@ -279,7 +300,7 @@ class Walk:
                 if step <= _LOST or (best is not None and step <= best.step * (1.0 + _LATE)):
                     break
                 step = step / 16.0 if best is None else 0.5 * (best.step + step)
-            elif trial.until >= 1.0 - late and trial.turn <= self.settings.turn:
+            elif trial.until >= 1.0 - late and trial.turn <= self._turn:
                 best, inner = trial, inner or trial
                 step = trial.step * self._room(trial, inner.after.state)
                 step = step if step < longest or longest >= 1.0 - self.factor else 0.5 * (trial.step + longest)
@@ -309,7 +330,7 @@ class Walk:
 
     def _nearer(self, trial: _Trial, shortest: float, best: _Trial | None) -> float:
         """The part to try after one in which something has happened, or friction has turned too far."""
-        limit = self.settings.turn
+        limit = self._turn
         aim = _SHRINK * limit / trial.turn if trial.turn > limit else 1.0
         if trial.until < 1.0:
             aim = min(aim, trial.until * (_SHRINK if best is None else 1.0))
@@ -342,8 +363,13 @@ class Walk:
         """How much longer than the trial the increment may be: up to the next event, and to the turn allowed."""
         times = max(1.0, lasts(self.problem, self.now, replace(trial.after, state=state), self.width))
         if trial.turn > 0.0:
-            times = min(times, max(1.0, _SHRINK * self.settings.turn / trial.turn))
+            times = min(times, max(1.0, _SHRINK * self._turn / trial.turn))
         return max(times, self._shortest / trial.step)
+
+    @property
+    def _turn(self) -> float:
+        """What friction may turn here: more of it where increments are short to find what happens, not to be sharp."""
+        return self.settings.turn * (_COARSER if self.factor < self.careful and self.settings.shortest else 1.0)
 
     @property
     def _shortest(self) -> float:

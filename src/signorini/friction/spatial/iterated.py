@@ -7,7 +7,8 @@ The system of `equilibrium` for the problem as posed. Its preconditioner is the 
     [ R'  0 ]     =  [ R'  0 ]   nearly,    G = I - W = (I + A)^-1 - R R',
 
 restricted to what is unknown: the compliance of a surface is that of its larger eigenvalues, so that a dozen products
-do what a factorisation would, at the cost of a few per cent of one.
+do what a factorisation would, at the cost of a few per cent of one. What is lacking is measured in double precision;
+the products of an iteration that makes it a hundred times less need single precision alone, and read half as much.
 
 References
 ----------
@@ -34,6 +35,8 @@ LARGE = 500
 _MOST = 80  # products; a system that needs more is factorised
 _FORWARD = 1e-2  # of what the last iterate lacks: no Newton step deserves more
 _SHARP = 1e-14  # of the size of the data
+_TRUSTED = 10 * _FORWARD  # products in single precision are, where what they leave has become this much less,
+_ROUNDED = 1e-12  # or where it is this small beside the data
 
 
 def iterate(equilibrium: Equilibrium, law: Tangent, r: Array, a: Array) -> tuple[Array, Array, Array] | None:
@@ -57,18 +60,18 @@ def iterate(equilibrium: Equilibrium, law: Tangent, r: Array, a: Array) -> tuple
     ...     W=0.5 * np.eye(3), b=np.array([-1.0, 0.2, 0.1]), friction=[0.3], motions=np.zeros((3, 0)), scale=1.0
     ... )
     >>> r, a, h = iterate(Equilibrium.of(problem), sticking(problem), np.zeros(3), np.zeros(0))
-    >>> r.round(9).tolist(), h.tolist()
+    >>> r.round(6).tolist(), h.tolist()
     ([2.0, -0.4, -0.2], [0.0, 0.0, 0.0])
     """
     problem = equilibrium.problem
     unknown, size = Unknowns.of(law), 3 * problem.pairs
-    A, R, W = problem.interface.A, problem.interface.R, problem.W
+    (A, W), R = problem.interface.single, problem.interface.R
 
-    def lacking(x: Array) -> Array:
+    def balance(x: Array) -> tuple[Array, Array, Array]:
         force = unknown.forces(x[:size]) + unknown.fixed
         motion = equilibrium.moved(force, x[size:])
         seen = unknown.seen(motion) + unknown.resisting * x[:size]
-        return np.concatenate([seen, equilibrium.lacking(force, x[size:])])
+        return force, motion, -np.concatenate([seen, equilibrium.lacking(force, x[size:])])
 
     def product(x: Array) -> Array:
         force = unknown.forces(x[:size])
@@ -81,14 +84,16 @@ def iterate(equilibrium: Equilibrium, law: Tangent, r: Array, a: Array) -> tuple
         return np.concatenate([np.where(unknown.across, y[:size], unknown.seen(force)), R.T @ motion])
 
     start = np.concatenate([unknown.coordinates(r), a])
-    error = -lacking(start)
-    tolerance = max(_FORWARD * float(np.linalg.norm(error)), _SHARP * problem.scale * np.sqrt(len(error)))
-    change = gmres(product, precondition, error, tolerance)
+    error = balance(start)[2]
+    first, least = float(np.linalg.norm(error)), problem.scale * np.sqrt(len(error))
+    change = gmres(product, precondition, error, max(_FORWARD * first, _SHARP * least))
     if change is None:
         return None
     x = start + change
-    force = unknown.forces(x[:size]) + unknown.fixed
-    return force, x[size:], prescribed(law, equilibrium.moved(force, x[size:]))
+    force, motion, error = balance(x)
+    if not np.linalg.norm(error) <= max(_TRUSTED * first, _ROUNDED * least):
+        return None
+    return force, x[size:], prescribed(law, motion)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

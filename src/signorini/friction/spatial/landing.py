@@ -53,14 +53,19 @@ def land_spatial(
     if jump is None or jump.gross_sliding or jump.factor <= 0.0:
         return None
     settings = settings or StopSettings()
-    limit, now = segment.end, segment.end
+    limit = now = before = segment.end
     lowest, events = jump.factor, 0
     for _ in range(TURNS * (problem.pairs + 1)):
         back = Walk(problem, now, start.b, settings)
-        if not _departed(back) or back.factor >= 1.0:
-            return None
-        lowest, events = min(lowest, jump.factor * left(back.now, limit, start)), events + 1
-        ahead = Walk(problem, back.now, limit.b, settings)
+        if _departed(back):
+            if back.factor >= 1.0:
+                return None
+            lowest, events, before = min(lowest, jump.factor * left(back.now, limit, start)), events + 1, now
+            ahead = Walk(problem, back.now, limit.b, settings)
+        else:
+            ahead = Walk(problem, now, limit.b, settings)
+            if not ahead.cross(before):
+                return None
         while ahead.factor < 1.0 and not _stuck(ahead):
             if ahead.go_on() is not None:
                 break
