@@ -115,6 +115,12 @@ def test_the_motion_of_a_body_that_leaves_is_drawn():
     assert solution.status == "no_equilibrium"
     np.testing.assert_allclose(solution.escape[:, 1], 1.0, atol=1e-9)
     assert solution.plot_escape().axes
+    slab = replace(
+        rough_slab(0.0), supports=[], loads=[sg.Load("top", traction=(0.0, 0.0, 1.0))], steps=[sg.Step(increments=1)]
+    )
+    lifted = sg.solve(slab, raise_on_failure=False)
+    np.testing.assert_allclose(lifted.escape[:, 2], 1.0, atol=1e-9)
+    assert lifted.plot_escape().axes
     with pytest.raises(sg.InputError, match="no body runs away"):
         sg.solve(stacked_blocks()).plot_escape()
 

@@ -50,9 +50,7 @@ def names(folder: Path) -> set[str]:
     return {file.name for file in folder.iterdir()}
 
 
-def test_a_body_pulled_away_leaves_only_a_summary(
-    deck: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_body_pulled_away_leaves_its_motion(deck: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "out"
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0
     assert main(["plot", str(out)]) == 0
@@ -60,7 +58,7 @@ def test_a_body_pulled_away_leaves_only_a_summary(
     deck.write_text(BLOCK.replace("-3.0", "3.0"))
     capsys.readouterr()
     assert main(["run", str(deck), "-o", str(out)]) == 3
-    assert names(out) == {"summary.json"}
+    assert names(out) == {"summary.json", "solution.h5"}
     summary = json.loads((out / "summary.json").read_text())
     assert summary["status"] == "no_equilibrium"
     assert "body 'block' can move along y" in summary["message"]

@@ -96,7 +96,7 @@ def test_the_surface_file_holds_vectors(results):
 
 def test_pictures(results, tmp_path):
     (patch,) = ResultFolder(path=results).patches
-    assert patch.axes == (0, 1)
+    assert patch.chart.labels == ("x", "y")
     assert main(["plot", str(results), "-o", str(tmp_path / "map.png")]) == 0
     assert (tmp_path / "map.png").stat().st_size > 10_000
     for what in ("stress", "mesh"):

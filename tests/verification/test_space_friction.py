@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+import signorini as sg
 from signorini.engine.increments import free_load
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve
@@ -60,3 +61,24 @@ def test_a_turn_about_the_normal_changes_nothing(model, turn):
     np.testing.assert_allclose(two.pressure, one.pressure, atol=1e-8 * size)
     np.testing.assert_allclose(two.shear, one.shear @ Q.T, atol=1e-8 * size)
     assert (two.status == one.status).all()
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize("ratio", [1e-6, 1e-3, 1e3, 1e6])
+def test_a_soft_body_on_a_stiff_one_is_as_easy_as_two_equal_ones(ratio, swapped):
+    """The interface is as stiff as both sides in series: Newton's method needs no more steps."""
+    x, sides = np.linspace(0, 1, 3), ("upper.bottom", "lower.top")
+    meshes = {"upper": sg.box(x=x, y=x, z=x), "lower": sg.box(x=[0, 0.3, 0.7, 1], y=[0, 0.3, 0.7, 1], z=[-1, -0.5, 0])}
+    model = sg.Model(
+        sg.join(meshes),
+        bodies=[sg.Body("upper", sg.Elastic(E=1.0, nu=0.3)), sg.Body("lower", sg.Elastic(E=ratio, nu=0.3))],
+        supports=[sg.Support("lower.bottom", u=(0, 0, 0))],
+        loads=[sg.Load("upper.top", force=(0.1 * min(ratio, 1.0), 0, -min(ratio, 1.0)))],
+        contacts=[sg.Contact(*sides[:: -1 if swapped else 1], friction=0.3, name="contact")],
+        steps=[sg.Step(increments=1)],
+    )
+    step = sg.solve(model).last
+    force = step.contacts[0].normal_force + step.contacts[0].tangential_force
+    np.testing.assert_allclose(np.abs(force), np.array([0.1, 0, 1]) * min(ratio, 1.0), atol=1e-8 * min(ratio, 1.0))
+    assert step.methods == ("newton",)
+    assert step.iterations[0] <= 10

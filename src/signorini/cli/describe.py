@@ -9,6 +9,7 @@ from signorini.arrays import Array
 from signorini.cli.suspicion import far_notes, held_notes, mesh_notes, unit_notes
 from signorini.deck import Deck
 from signorini.engine.prepare import Examined
+from signorini.engine.report import chord_notes
 from signorini.fem.locking import stiffened_bodies, thin_bodies
 from signorini.fem.rigid import describe_motion
 from signorini.model.contact import Contact
@@ -59,6 +60,7 @@ def all_notes(deck: Deck, examined: Examined) -> list[str]:
         *unit_notes(deck.model),
         *_stiffness_notes(examined),
         *_contact_notes(examined),
+        *chord_notes(examined),
         *far_notes(examined),
         *held_notes(examined),
         *_motion_notes(examined),

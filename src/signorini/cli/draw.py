@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from signorini.errors import InputError
+from signorini.output.archive import read_archive
 from signorini.output.picture import write_pixels
 from signorini.output.replacing import replacing
 from signorini.plot.contact import draw_contacts
+from signorini.plot.escape import plot_escape
 from signorini.plot.field import draw_mesh, draw_stress
 from signorini.plot.files import ResultFolder
 from signorini.plot.history import draw_history
@@ -44,6 +46,8 @@ def plot(options: argparse.Namespace) -> int:
 
 
 def _draw(folder: ResultFolder, what: str) -> Figure:
+    if what == "escape":
+        return plot_escape(read_archive(folder.archive))
     if what == "stress":
         return draw_solid_stress(folder) if folder.solid else draw_stress(folder)
     if what == "mesh":

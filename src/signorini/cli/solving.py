@@ -55,6 +55,8 @@ def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: f
             print(history_table(history), end="\n\n")
         for note in deck.notes:
             print(textwrap.fill(f"deck: {note}", 112), end="\n\n")
+        if history.escape is not None:
+            print(f"a picture of how bodies run away: signorini plot {folder} --what escape", end="\n\n")
         print(f"{_listed(files, folder)} in {folder} ({time.perf_counter() - started:.2f} s)")
     if history.solved:
         return 0

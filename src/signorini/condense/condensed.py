@@ -276,9 +276,13 @@ def _interface_stiffness(K_c: sp.csr_array, B_c: sp.csr_array, interface: Interf
     """D, (d a,) force per length: of the size that makes Newton's method most robust, equal in all directions.
 
     Half the mean stiffness that a pair of the contact feels where only its own nodes move, spread like the areas and
-    divided by the root of their number (between the stiffness of a node and that of the whole surface).
+    divided by the root of their number (between the stiffness of a node and that of the whole surface). Of sides that
+    differ much the soft one counts: no more than four times what both are in series, which is the sum of equal ones.
     """
     felt = (B_c @ K_c).multiply(B_c).sum(axis=1)[: len(pairs)]
+    stiff = K_c.diagonal()
+    gives = B_c.multiply(B_c)[: len(pairs)] @ np.divide(1.0, stiff, out=np.zeros_like(stiff), where=stiff > 0.0)
+    felt = np.minimum(felt, np.divide(4.0, gives, out=np.full_like(gives, np.inf), where=gives > 0.0))
     # supports hold both sides, and the interface alone gives way
     supple = np.flatnonzero((felt == 0.0) & (interface.compliance[pairs] > 0.0))
     felt[supple] = interface.areas[pairs[supple]] / interface.compliance[pairs[supple]]

@@ -16,11 +16,12 @@ from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
 from signorini.condense.size import condensing_bytes
 from signorini.condense.ties import Ties
+from signorini.engine.unheld import refuse_free_motions, refuse_unheld
 from signorini.errors import InputError, one_of
 from signorini.fem.links import linked_nodes
 from signorini.fem.loads import nodal_loads
 from signorini.fem.locking import refuse_locking
-from signorini.fem.rigid import Part, describe_motion, free_motions, make_parts, rigid_motions
+from signorini.fem.rigid import Part, free_motions, make_parts, rigid_motions
 from signorini.fem.space import Space, make_space
 from signorini.fem.stiffness import stiffness
 from signorini.fem.supports import Constraints, make_constraints
@@ -225,24 +226,16 @@ def examine(model: Model) -> Examined:
     refuse_locking(model)
     carriers = len(model.obstacles) + len(model.rigid_bodies)
     space = make_space(model.mesh, axisymmetric=model.axisymmetric, obstacles=carriers, linked=linked_nodes(model))
-    supports = released_by_step(model)
-    sometimes = frozenset().union(*supports)
-    constraints = make_constraints(space, model, without=supports[0])
-    always = make_constraints(space, model, without=sometimes) if sometimes != supports[0] else constraints
+    schedule = list(stages(model))
+    first = schedule[0].released
+    sometimes = frozenset().union(*(stage.released for stage in schedule))
+    constraints = make_constraints(space, model, without=first)
+    always = make_constraints(space, model, without=sometimes) if sometimes != first else constraints
     loads = nodal_loads(space, model)
     interface = make_interface(space, model, always)
     parts = make_parts(space, model)
     motions = rigid_motions(space, parts)
-    for released in dict.fromkeys(supports):
-        step = supports.index(released)
-        try:
-            now = constraints if released == supports[0] else make_constraints(space, model, without=released)
-            refuse_free_motions(space, now, interface, parts, motions)
-        except InputError as error:
-            if not released:
-                raise
-            words = f"without {', '.join(sorted(released))}, {error.message}"
-            raise InputError(words, where=error.where or ("step", step, "release")) from error
+    refuse_unheld(model, space, constraints, interface, parts, motions, schedule)
     return Examined(
         model=model,
         space=space,
@@ -254,11 +247,6 @@ def examine(model: Model) -> Examined:
         floating=_floating(motions, constraints, interface),
         scale=data_scale(space, model, loads, constraints, interface),
     )
-
-
-def released_by_step(model: Model) -> list[frozenset[str]]:
-    """Supports that do not hold in each step."""
-    return [stage.released for stage in stages(model)]
 
 
 def _floating(motions: sp.csr_array, constraints: Constraints, interface: Interface) -> Array:
@@ -288,7 +276,7 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
             K = sp.csr_array(K + springs.T @ springs)
         near = _near(examined)
     made = _made(examined, K, near, backend, clock)
-    return replace(made, released=released_by_step(model)[0])
+    return replace(made, released=next(stages(model)).released)
 
 
 def _near(examined: Examined) -> BoolArray:
@@ -438,29 +426,6 @@ def _refuse_unknown(given: Mapping[str, float] | None, known: Sequence[str], wha
     for name in given or {}:
         if name not in known:
             raise InputError(one_of(name, known, what), where=(key,))
-
-
-def refuse_free_motions(
-    space: Space, constraints: Constraints, interface: Interface, parts: tuple[Part, ...], motions: sp.csr_array
-) -> None:
-    """A motion that neither supports nor contact can resist has no place that a solver could find."""
-    dofs = space.dofs(np.unique(interface.B.indices // space.dimension)).ravel()
-    touching = sp.csr_array((np.ones(len(dofs)), (np.arange(len(dofs)), dofs)), (len(dofs), space.number_of_dofs))
-    free = free_motions(motions, constraints, touching)
-    if free.shape[1]:
-        raise InputError(f"{_say(parts, free)}: no support or contact holds it; add a support")
-    along = interface.coefficients + interface.adhesion[:, None] * interface.anisotropy
-    rubbing = (along > 0).T.ravel()
-    resisting = interface.B[np.concatenate([np.ones(len(interface), bool), rubbing])]
-    free = free_motions(motions, constraints, resisting)
-    if free.shape[1]:
-        raise InputError(
-            f"{_say(parts, free)}: nothing but frictionless contact, which cannot resist; add a support or friction"
-        )
-
-
-def _say(parts: tuple[Part, ...], motions: Array) -> str:
-    return ", and ".join(describe_motion(parts, motion) for motion in motions.T)
 
 
 def _singular(examined: Examined, error: NotPositiveDefinite) -> InputError:

@@ -15,7 +15,7 @@ from signorini.engine.exact import interface_energy, stored_energy
 from signorini.engine.heat import heat_of
 from signorini.engine.increments import applied
 from signorini.engine.leg import Leg
-from signorini.engine.prepare import Prepared
+from signorini.engine.prepare import Examined, Prepared
 from signorini.engine.smallness import large_notes
 from signorini.engine.upheld import support_forces
 from signorini.fem.obstacles import arm
@@ -32,6 +32,8 @@ ONE_INCREMENT = "one increment: assumes that the final state was reached from ze
 
 GROWN = "the contact grew under friction: in one increment tractions can be off by tens of percent, take more"
 """What it says further where pairs closed that were open before."""
+
+_SEEN = 1e-5  # of the size of the model: smaller gaps are nothing that anyone would have meant
 
 
 def step_result(
@@ -85,6 +87,7 @@ def step_result(
             *_notes(prepared, leg),
             *_facet_notes(prepared),
             *_finer_notes(prepared),
+            *chord_notes(prepared),
             *_open_notes(prepared, leg),
             *large_notes(prepared, state),
             *((words,) if words else ()),
@@ -117,6 +120,17 @@ def _finer_notes(prepared: Prepared) -> tuple[str, ...]:
         "the other way round, or take side = 'coarser'"
         for contact, sides in zip(prepared.model.contacts, prepared.interface.sides, strict=True)
         if sides.finer and not contact.tied
+    )
+
+
+def chord_notes(examined: Examined) -> tuple[str, ...]:
+    """Contacts whose gaps from the geometry count as none."""
+    size = float(np.ptp(examined.space.mesh.points, axis=0).max())
+    return tuple(
+        f"contact '{contact.label}': gaps of the geometry, up to {sides.chords:.3g}, count as 0, for facets of one "
+        "curve leave as much between them; finer or quadratic facets keep a clearance, 'interference' below 0 gives one"
+        for contact, sides in zip(examined.model.contacts, examined.interface.sides, strict=True)
+        if sides.chords > _SEEN * size and contact.interference == 0.0
     )
 
 

@@ -19,12 +19,13 @@ from signorini.engine.leg import Leg, Snapshot, joined, keep, lightened, reached
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
 from signorini.engine.span import Span, spans
-from signorini.engine.staged import absent_pairs, nominal_gap, staged
+from signorini.engine.staged import nominal_gap, staged
 from signorini.engine.upheld import at_the_end, handed_over
 from signorini.engine.wellposed import assess
 from signorini.errors import InputError, SolveFailed
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.friction.law import OPEN
+from signorini.interface.interface import pairs_of
 from signorini.model.model import Model
 from signorini.model.stage import Stage, stages
 from signorini.model.step import Step
@@ -97,7 +98,7 @@ def _begin(prepared: Prepared, start: Checkpoint | None) -> Checkpoint:
     point = start.state.point
     factors = zero | {name: factor for name, factor in point.factors.items() if name in zero}
     state = replace(start.state, point=replace(point, factors=factors))
-    absent = absent_pairs(prepared, start.inactive)
+    absent = pairs_of(model, interface, start.inactive)
     found = measured(replace(prepared, absent=absent, constraints=_constraints(prepared, start.released)), state)
     if not found.imbalance <= TOLERANCE:
         raise InputError(
@@ -117,7 +118,8 @@ def _follow(prepared: Prepared, begin: Checkpoint, wellposed: bool) -> History:
     released = begin.released
     schedule = list(stages(prepared.model, factors=state.point.factors, inactive=begin.inactive, released=released))
     steps: list[StepResult] = []
-    now, inactive = replace(prepared, absent=absent_pairs(prepared, begin.inactive)), begin.inactive
+    inactive = begin.inactive
+    now = replace(prepared, absent=pairs_of(prepared.model, prepared.interface, inactive))
     supports = _constraints(prepared, released)
     prepared.clock.expect(sum(_expected(stage) for stage in schedule))
     try:

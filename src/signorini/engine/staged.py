@@ -3,16 +3,14 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
-from typing import Any
+from dataclasses import replace
 
-import numpy as np
-
-from signorini.arrays import Array, BoolArray
-from signorini.engine.prepare import Prepared, contact_law, refuse_free_motions
+from signorini.arrays import Array
+from signorini.engine.prepare import Prepared, contact_law
+from signorini.engine.unheld import left_out, refuse_free_motions
 from signorini.errors import InputError
 from signorini.interface.frames import along_tangents
-from signorini.interface.interface import Interface
+from signorini.interface.interface import pairs_of
 from signorini.iterative.bodies import Bodies
 from signorini.model.contact import ratios
 from signorini.model.stage import Stage
@@ -39,29 +37,22 @@ def staged(prepared: Prepared, stage: Stage) -> Prepared:
         anisotropy[own] = along_tangents(
             ratios(value), prepared.model.contacts[i].friction_axis, prepared.interface.tangents[own]
         )
-    absent = absent_pairs(prepared, stage.inactive)
+    absent = pairs_of(prepared.model, prepared.interface, stage.inactive)
     interface = replace(prepared.interface, friction=mu, anisotropy=anisotropy)
     if not absent.any():
         if not stage.friction:
             return prepared
         return replace(prepared, interface=interface, law_or_none=prepared.law_under(interface, prepared.scale))
-    left = _select(interface, ~absent)
+    left = interface.among(~absent)
     try:
         refuse_free_motions(prepared.space, prepared.constraints, left, prepared.parts, prepared.motions)
         bodies = prepared.bodies.among(~absent)
     except InputError as error:
-        words = f"without {', '.join(sorted(stage.inactive))}, {error.message}"
-        raise InputError(words, where=("step", stage.number - 1, "inactive")) from error
+        raise left_out(error, stage) from error
     if isinstance(bodies, Bodies):
         return replace(prepared, interface=interface, bodies=bodies, absent=absent)
     law = contact_law(interface, bodies, prepared.scale)
     return replace(prepared, interface=interface, bodies=bodies, law_or_none=law, absent=absent)
-
-
-def absent_pairs(prepared: Prepared, inactive: frozenset[str]) -> BoolArray:
-    """(n,) Pairs of contacts that are switched off."""
-    off = [i for i, contact in enumerate(prepared.model.contacts) if contact.label in inactive]
-    return np.asarray(np.isin(prepared.interface.contact, off), dtype=np.bool_)
 
 
 def nominal_gap(prepared: Prepared, stage: Stage) -> Array:
@@ -71,13 +62,3 @@ def nominal_gap(prepared: Prepared, stage: Stage) -> Array:
         if contact.label in stage.interference:
             gap[prepared.interface.contact == i] += contact.interference - stage.interference[contact.label]
     return gap
-
-
-def _select(interface: Interface, kept: BoolArray) -> Interface:
-    """Some of the pairs."""
-    parts: dict[str, Any] = {
-        field.name: value[kept]
-        for field in fields(interface)
-        if isinstance(value := getattr(interface, field.name), np.ndarray) and len(value) == len(kept)
-    }
-    return replace(interface, B=interface.B[interface.rows(kept)], **parts)

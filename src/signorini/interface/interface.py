@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -87,6 +88,15 @@ class Interface:
     def rows(self, pairs: BoolArray) -> BoolArray:
         """(d n,) the rows of B that belong to some pairs (n,)."""
         return np.tile(pairs, self.directions)
+
+    def among(self, kept: BoolArray) -> Interface:
+        """Some of the pairs (n,)."""
+        parts: dict[str, Any] = {
+            field.name: value[kept]
+            for field in fields(self)
+            if isinstance(value := getattr(self, field.name), np.ndarray) and len(value) == len(kept)
+        }
+        return replace(self, B=self.B[self.rows(kept)], **parts)
 
     @property
     def compliance(self) -> Array:
@@ -264,6 +274,12 @@ def anisotropy_of(model: Model, axes: Array, contact: IntArray) -> Array:
             own = contact == i
             found[own] = along_tangents(ratios(data.friction), data.friction_axis, axes[own])
     return found
+
+
+def pairs_of(model: Model, interface: Interface, labels: Collection[str]) -> BoolArray:
+    """(n,) The pairs of some contacts."""
+    own = [i for i, contact in enumerate(model.contacts) if contact.label in labels]
+    return np.asarray(np.isin(interface.contact, own), dtype=np.bool_)
 
 
 def friction_of(space: Space, model: Model, node: IntArray, contact: IntArray) -> Array:

@@ -42,12 +42,14 @@ class Sides:
     nonmortar, mortar : the sides as they were taken; an obstacle in words
     coupling : "nodes", "mortar", "node-to-segment" or "obstacle"
     finer : whether the nonmortar side has clearly the shorter facets: its pressures can oscillate
+    chords : largest gap or overlap of the geometry that counts as 0 because facets of a curve leave as much, length
     """
 
     nonmortar: str
     mortar: str
     coupling: str
     finer: bool = False
+    chords: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -165,7 +167,7 @@ def _on_side(
     _refuse_no_normal(space, coupling, where)
     seen, coupling = coupling, replace(coupling, normal_areas=in_symmetry_planes(space, constraints, coupling))
     gap = sum(force @ x for force, x in zip(seen.forces, points.T, strict=True)) / coupling.area
-    gap = resolved(gap, seen)
+    gap = found = resolved(gap, seen)
     plane = side.dimension == 2
     if how != "nodes" and plane:
         gap = without_chords(gap, seen, side, mortar)
@@ -185,6 +187,9 @@ def _on_side(
             mortar=names[1],
             coupling=how,
             finer=how == "mortar" and float(side.lengths.mean()) < _FINER * float(mortar.lengths.mean()),
+            chords=float(np.abs(found - gap).max(initial=0.0))
+            if contact.gap == "geometry" and not contact.tied
+            else 0.0,
         ),
     )
 

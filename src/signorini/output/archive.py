@@ -16,7 +16,7 @@ from signorini.output.plain import AnyArray, from_plain, to_plain
 from signorini.output.replacing import replacing
 from signorini.solution.history import History
 
-_FORMAT = "signorini archive 1"
+_FORMAT = "signorini archive 2"
 _FROM = 65536  # bytes: smaller arrays are not worth compressing
 
 

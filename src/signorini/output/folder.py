@@ -69,7 +69,8 @@ def publish(
 
     Parameters
     ----------
-    history : with no step at all, only a summary is written, which says why
+    history : with no step at all, a summary is written, which says why, and an archive with the motion of bodies that
+        run away
     folder : that :func:`open_folder` opened
     clock : its seconds go into the summary, and those of the output are added to it
     prints : what a deck of keywords asks for: what its users expect is written too, ``.frd`` and, if there are tables,
@@ -126,7 +127,10 @@ def write_summary(history: History, path: Path, seconds: Mapping[str, float]) ->
 def _write_fields(history: History, folder: Path, prints: Prints | None) -> list[str]:
     """Rows and fields of the steps; their names."""
     if not history.steps:
-        return []
+        if history.escape is None:
+            return []
+        write_archive(history, folder / ARCHIVE)
+        return [ARCHIVE]
     write_rows(history, folder / "contact.csv")
     names = ["contact.csv"]
     model, states = history.model, frames(history)

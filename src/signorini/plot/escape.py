@@ -7,15 +7,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from signorini.arrays import Array
 from signorini.errors import InputError
+from signorini.plot.camera import best_view
+from signorini.plot.paint import Paint, paint_skin
+from signorini.plot.skin import make_skin
 from signorini.plot.style import INK, PRESSURE, TRACTION
 from signorini.solution.history import History
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _PART = 0.12  # of the size of the model: what the motion is drawn with
 _ARROWS = 12
+_RUNS, _STAYS = "#eab39a", "#e4ecf4"
+_FINE = (0.15, 0.15, 0.15, 0.35)  # edges of the mesh
 
 
 def plot_escape(history: History) -> Figure:
@@ -24,30 +31,64 @@ def plot_escape(history: History) -> Figure:
     Raises
     ------
     InputError
-        If the history has no such motion, or the model is one in space.
+        If the history has no such motion.
     """
-    from matplotlib.collections import PolyCollection
     from matplotlib.figure import Figure
 
     if history.escape is None:
         raise InputError("no body runs away in this history; there is nothing to draw")
-    if history.model.dimension == 3:
-        raise InputError("draws bodies of the plane; in space the message says in words how they run away")
-    mesh = history.model.mesh
-    points = np.asarray(mesh.points)
+    points = np.asarray(history.model.mesh.points)
     size = float(np.ptp(points, axis=0).max())
     motion = _PART * size * np.asarray(history.escape)
     figure = Figure(figsize=(7.0, 6.0), layout="constrained")
     axes = figure.add_subplot()
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    draw = _plane if history.model.dimension == 2 else _solid
+    flat, along = draw(axes, history, points, motion)
+    moving = np.flatnonzero(np.linalg.norm(motion, axis=1) > 1e-6 * size)
+    chosen = moving[np.linspace(0, len(moving) - 1, min(_ARROWS, len(moving))).astype(int)]
+    axes.quiver(
+        *flat[chosen].T, *along[chosen].T, angles="xy", scale_units="xy", scale=1.0, color=INK, width=0.004, zorder=4
+    )
+    axes.set_title("no equilibrium: the loads carry the bodies away", loc="left", fontsize=11, color=INK)
+    return figure
+
+
+def _plane(axes: Axes, history: History, points: Array, motion: Array) -> tuple[Array, Array]:
+    """Meshes of the plane at both places; the points and their motion in the picture."""
+    from matplotlib.collections import PolyCollection
+
     for where, colour, alpha in ((points, PRESSURE, 0.35), (points + motion, TRACTION, 0.8)):
-        for family, cells in mesh.cells.items():
+        for family, cells in history.model.mesh.cells.items():
             corners = cells[:, : 3 if family.startswith("triangle") else 4]
             faces = list(where[corners])
             axes.add_collection(PolyCollection(faces, facecolors="none", edgecolors=colour, lw=0.6, alpha=alpha))
-    moving = np.flatnonzero(np.linalg.norm(motion, axis=1) > 1e-6 * size)
-    chosen = moving[np.linspace(0, len(moving) - 1, min(_ARROWS, len(moving))).astype(int)]
-    axes.quiver(*points[chosen].T, *motion[chosen].T, angles="xy", scale_units="xy", scale=1.0, color=INK, width=0.004)
-    axes.set_aspect("equal")
     axes.autoscale_view()
-    axes.set_title("no equilibrium: the loads carry the bodies away", loc="left", fontsize=11, color=INK)
-    return figure
+    return points, motion
+
+
+def _solid(axes: Axes, history: History, points: Array, motion: Array) -> tuple[Array, Array]:
+    """The skin of the bodies where they go, and the edges of those that go where they are."""
+    from matplotlib.collections import LineCollection
+    from matplotlib.colors import to_rgb
+
+    owner, first, blocks = history.model.body_of_cells(), 0, []
+    for family, cells in history.model.mesh.cells.items():
+        blocks.append((family, cells, owner[first : first + len(cells)]))
+        first += len(cells)
+    skin = make_skin(points, blocks)
+    camera = best_view(skin.spans(skin.points), np.ones(len(skin.body)))
+    moved = skin.points + skin.values(motion)
+    seen = camera.across(np.concatenate([skin.points, moved]))
+    room = 0.05 * np.ptp(seen, axis=0).max()
+    axes.set_xlim(seen[:, 0].min() - room, seen[:, 0].max() + room)
+    axes.set_ylim(seen[:, 1].min() - room, seen[:, 1].max() + room)
+    runs = np.bincount(skin.body[skin.face], np.abs(skin.values(motion)[skin.pieces]).sum(axis=(1, 2))) > 0.0
+    colours = np.where(runs[:, None], to_rgb(_RUNS), to_rgb(_STAYS))
+    paint = Paint(values=None, colours=lambda body: colours[body.astype(int)], mesh=_FINE)
+    paint_skin(axes, skin, moved, camera, paint)
+    left = skin.sharp & runs[skin.body[skin.edge_face]]
+    lines = camera.across(skin.points[skin.edges[left]])
+    axes.add_collection(LineCollection(list(lines), colors=PRESSURE, lw=0.9, alpha=0.8, zorder=3))
+    return camera.across(points), camera.across(motion)

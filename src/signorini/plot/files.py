@@ -135,6 +135,11 @@ class ResultFolder:
         with self._file("history.csv").open(newline="", encoding="utf-8") as file:
             return list(csv.DictReader(file))
 
+    @property
+    def archive(self) -> Path:
+        """The file of the whole history, ``solution.h5``."""
+        return self._file("solution.h5")
+
     @cached_property
     def grid(self) -> Grid:
         """``solution.vtu``."""

@@ -5,11 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray
+from signorini.plot.chart import Chart, chart_of
 from signorini.plot.style import INK, PLAIN, STATUS_INK
 from signorini.solution.history import History
 from signorini.solution.results import StepResult
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _ARROWS = 400  # of friction; more hide each other
+_BELOW = 4.5  # font sizes from the axes to the legend: the label is between
 _AROUND = 0.35  # of the size of the patch: what is shown around it
 
 
@@ -45,11 +48,10 @@ class Patch:
     shear: Array
     status: IntArray
 
-    @property
-    def axes(self) -> tuple[int, int]:
-        """The two coordinates along which the surface extends most."""
-        first, second = sorted(np.argsort(-np.ptp(self.points, axis=0), kind="stable")[:2].tolist())
-        return first, second
+    @cached_property
+    def chart(self) -> Chart:
+        """Where the nodes are on paper, what touches in the middle."""
+        return chart_of(self.points, self.faces, self.status > 0)
 
 
 def patches_of(history: History, step: StepResult) -> list[Patch]:
@@ -89,17 +91,11 @@ def draw_patches(patches: Sequence[Patch], title: str) -> Figure:
     return figure
 
 
-def _plane(patch: Patch) -> tuple[Array, Array]:
-    a, b = patch.axes
-    return patch.points[:, a], patch.points[:, b]
-
-
 def _pressure(figure: Figure, axes: Axes, patch: Patch) -> None:
     from matplotlib.tri import Triangulation
 
-    points, triangles, pressure = _quartered(patch)
-    a, b = patch.axes
-    surface = Triangulation(points[:, a], points[:, b], triangles)
+    places, triangles, pressure = _quartered(patch)
+    surface = Triangulation(places[:, 0], places[:, 1], triangles)
     shown = axes.tripcolor(surface, pressure, shading="gouraud", cmap="viridis", vmin=0.0)
     bar = figure.colorbar(shown, ax=axes, shrink=0.85, pad=0.02)
     bar.set_label("pressure, force per area", fontsize=10, color=INK)
@@ -109,57 +105,64 @@ def _pressure(figure: Figure, axes: Axes, patch: Patch) -> None:
 
 
 def _quartered(patch: Patch) -> tuple[Array, IntArray, Array]:
-    """Points, triangles and pressures with every quadrangle cut from its middle, so that no diagonal is preferred."""
-    flat = patch.faces[:, 2] == patch.faces[:, 3]
-    quads, count = patch.faces[~flat], len(patch.points)
-    middle = count + np.arange(len(quads))
+    """Places, triangles and pressures with every quadrangle cut from its middle, so that no diagonal is preferred."""
+    at, faces, pressure = patch.chart.at, patch.chart.faces, patch.pressure[patch.chart.node]
+    flat = faces[:, 2] == faces[:, 3]
+    quads = faces[~flat]
+    middle = len(at) + np.arange(len(quads))
     cut = [np.column_stack([quads[:, k], quads[:, (k + 1) % 4], middle]) for k in range(4)]
-    points = np.concatenate([patch.points, patch.points[quads].mean(axis=1)])
-    pressure = np.concatenate([patch.pressure, patch.pressure[quads].mean(axis=1)])
-    return points, np.concatenate([patch.faces[flat, :3], *cut]), pressure
+    places = np.concatenate([at, at[quads].mean(axis=1)])
+    return places, np.concatenate([faces[flat, :3], *cut]), np.concatenate([pressure, pressure[quads].mean(axis=1)])
 
 
 def _status(axes: Axes, patch: Patch) -> None:
     from matplotlib.collections import PolyCollection
     from matplotlib.patches import Patch as Swatch
 
-    x, y = _plane(patch)
-    names = ("open", "stick", "slip")
-    outlines = np.stack([x, y], axis=1)[patch.faces]
+    chart, names = patch.chart, ("open", "stick", "slip")
+    (x, y), shear = chart.at.T, patch.shear[chart.node]
+    outlines = chart.at[chart.faces]
     axes.add_collection(PolyCollection(list(outlines), facecolors="none", edgecolors="#d0d0cc", lw=0.5, zorder=0))
     size = _marker(patch)
     handles = []
     for code, name in enumerate(names):
-        own = patch.status == code
+        own = patch.status[chart.node] == code
         if own.any():
             colour = STATUS_INK[name]
             axes.scatter(x[own], y[own], s=size, color=colour, alpha=0.6, edgecolors="none", zorder=1)
             plain = name == "slip" and not patch.shear.any()
             handles.append(Swatch(color=colour, alpha=0.6, label=PLAIN if plain else name))
-    a, b = patch.axes
-    rubbed = np.nonzero(np.linalg.norm(patch.shear, axis=1) > 0.0)[0]
+    rubbed = np.nonzero(np.linalg.norm(shear, axis=1) > 0.0)[0]
     if len(rubbed):
         some = rubbed[:: max(1, len(rubbed) // _ARROWS)]
-        axes.quiver(x[some], y[some], patch.shear[some, a], patch.shear[some, b], color=INK, width=0.003, zorder=2)
+        right, up = (np.sum(shear[some] * part[some], axis=1) for part in (chart.first, chart.second))
+        axes.quiver(x[some], y[some], right, up, color=INK, width=0.003, zorder=2)
     words = "status and friction on the nonmortar body" if len(rubbed) else "status"
     axes.set_title(words, fontsize=10, color=INK, loc="left")
     axes.legend(
-        handles=handles, fontsize=9, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=len(handles)
+        handles=handles,
+        fontsize=9,
+        frameon=False,
+        loc="upper center",
+        bbox_to_anchor=(0.5, 0.0),
+        borderaxespad=_BELOW,
+        ncols=len(handles),
     )
 
 
 def _marker(patch: Patch) -> float:
     """Size of a dot, points squared: about the distance between nodes."""
     low, high = _window(patch)
-    inside = (patch.points[:, patch.axes] >= low) & (patch.points[:, patch.axes] <= high)
+    inside = (patch.chart.at >= low) & (patch.chart.at <= high)
     count = max(int(inside.all(axis=1).sum()), 1)
-    return float(np.clip(2.5e4 / count, 4.0, 300.0))
+    narrow = (high - low).min() / max((high - low).max(), 1e-300)
+    return float(np.clip(2.5e4 * max(narrow, 0.1) / count, 4.0, 300.0))
 
 
 def _window(patch: Patch) -> tuple[Array, Array]:
     """What is worth showing: the closed nodes and something around them, at most everything."""
-    points = patch.points[:, patch.axes]
-    closed = points[patch.status > 0]
+    points = patch.chart.at
+    closed = points[patch.status[patch.chart.node] > 0]
     low, high = points.min(axis=0), points.max(axis=0)
     if not len(closed):
         return low, high
@@ -176,6 +179,6 @@ def _frame(axes: Axes, patch: Patch) -> None:
     for side in axes.spines.values():
         side.set_visible(False)
     axes.tick_params(colors=INK, labelsize=9)
-    a, b = patch.axes
-    axes.set_xlabel("xyz"[a], fontsize=10, color=INK)
-    axes.set_ylabel("xyz"[b], fontsize=10, color=INK)
+    right, up = patch.chart.labels
+    axes.set_xlabel(right, fontsize=10, color=INK)
+    axes.set_ylabel(up, fontsize=10, color=INK)

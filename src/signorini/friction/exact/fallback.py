@@ -83,7 +83,7 @@ def responding(responses: Responses, state: IntArray, load: Array) -> Rates:
     return Rates(state=state, h=h, r=r)
 
 
-def _newton(responses: Responses, law: RateLaw, load: Array, guess: IntArray, limit: int = 25) -> Rates | None:
+def _newton(responses: Responses, law: RateLaw, load: Array, guess: IntArray, limit: int = 200) -> Rates | None:
     state, seen = guess, set()
     for _ in range(limit):
         seen.add(state.tobytes())

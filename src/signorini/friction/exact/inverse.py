@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The inverse of a state's system, changed by rank one where a pair changes its state.
+"""The inverse of a state's system, changed by one rank for each unknown where pairs change their states.
 
 Unknown j < n is the normal force of pair j, n + j its tangential force, 2 n + i the rigid motion i; the system holds
 those alone that a state leaves unknown, in any order, equations in the order of the unknowns (see `responses`).
@@ -21,7 +21,7 @@ SMALL = 1e-9
 """Pivot, relative to what cancels in it, below which the system is inverted afresh."""
 
 REFRESH = 400
-"""Changes after which the system is inverted afresh."""
+"""Changes of state after which the system is inverted afresh."""
 
 
 ROOM = 64
@@ -85,9 +85,8 @@ class StateInverse:
         """
         if self._state is not None:
             changes = np.flatnonzero(state != self._state)
-            few = len(changes) <= max(4, self._count // 8) and self._age + len(changes) <= REFRESH
-            slope = self._bound.slope(state)
-            if few and all(self._change(int(k), int(state[k]), float(slope[k])) for k in changes):
+            few = len(changes) <= max(4, self._count // 4) and self._age < REFRESH
+            if few and self._change(state):
                 self._state = state.copy()
                 return
         self._invert(state)
@@ -129,94 +128,124 @@ class StateInverse:
             self._inverse[:m, :m] = lapack.dgetri(lu, order, overwrite_lu=1)[0]
         self._state = state.copy()
 
-    def _change(self, k: int, new: int, slope: float) -> bool:
-        """One pair enters another state; False where the way there is (nearly) singular.
+    def _change(self, state: IntArray) -> bool:
+        """Some pairs enter other states, all at once; False where the way there is (nearly) singular.
 
-        A tangential force is added before, and removed after, the slope of its normal force changes: in its presence
-        that only shares the same force otherwise.
+        Tangential forces are added before, and removed after, the slopes of normal forces change: in their presence
+        that only shares the same forces otherwise.
         """
         assert self._state is not None
-        old, n = int(self._state[k]), self._n
+        old, n, slope = self._state, self._n, self._bound.slope(state)
+        which = np.flatnonzero(state != old)
         self._age += 1
-        if new == OPEN:
-            steps = self._remove(k) and (old != STICK or self._remove(n + k))
-            self.slope[k] = 0.0
-            return steps
-        if new == STICK and not self._add(n + k):
+        before, after = old[which], state[which]
+        closes, opens = which[before == OPEN], which[after == OPEN]
+        self.slope[closes] = slope[closes]
+        sticks, lets_go = which[after == STICK], which[before == STICK]
+        stays = which[(before != OPEN) & (after != OPEN)]
+        if not (self._add(np.concatenate([n + sticks, closes])) and self._tilt(stays, slope[stays])):
             return False
-        if old == OPEN:
-            self.slope[k] = slope
-            return self._add(k)
-        return self._tilt(k, slope) and (old != STICK or self._remove(n + k))
+        self.slope[opens] = 0.0
+        return self._remove(np.concatenate([n + lets_go, opens]))
 
-    def _add(self, j: int) -> bool:
-        """Border the system by an unknown and its equation."""
-        m, n, known = self._count, self._n, self.unknowns
-        self._grow()
-        column = self._columns[:, m]
-        column[:] = self._forces[j]
-        if j < n and self.slope[j]:
-            column += self.slope[j] * self._forces[n + j]
-        H, row = self._inverse[:m, :m], self._columns[j, :m]
-        u, v = H @ column[known], row @ H
-        pivot = column[j] - row @ u
-        if abs(pivot) < SMALL * max(abs(column[j]), float(np.abs(row) @ np.abs(u))):
-            return False
-        self._add_product(1.0 / pivot, u, v)
-        H = self._inverse
-        H[:m, m], H[m, :m], H[m, m] = u / -pivot, v / -pivot, 1.0 / pivot
-        self._list[m], self._place[j], self._count = j, m, m + 1
-        return True
-
-    def _remove(self, j: int) -> bool:
-        """Take an unknown and its equation out; the last one takes its place."""
-        H, i, last = self._inverse, self._place[j], self._count - 1
-        u, v = H[: last + 1, i].copy(), H[i, : last + 1].copy()
-        pivot = u[i]
-        u[i], v[i] = u[last], v[last]
-        H[: last + 1, i] = H[: last + 1, last]
-        H[i, : last + 1] = H[last, : last + 1]
-        self._columns[:, i] = self._columns[:, last]
-        moved = self._list[last]
-        self._list[i], self._place[moved], self._place[j], self._count = moved, i, -1, last
-        u, v = u[:last], v[:last]
-        if abs(pivot) < SMALL * max(np.abs(u).max(initial=0.0), np.abs(v).max(initial=0.0)):
-            return False
-        self._add_product(-1.0 / pivot, u, v)
-        return True
-
-    def _tilt(self, k: int, slope: float) -> bool:
-        """Give the normal force of a pair another share of friction."""
-        m, n, H = self._count, self._n, self._inverse
-        share, i, t = slope - self.slope[k], self._place[k], self._place[n + k]
-        if share == 0.0:
+    def _add(self, new: IntArray) -> bool:
+        """Border the system by unknowns and their equations."""
+        if not len(new):
             return True
-        self.slope[k] = slope
-        change = share * self._forces[n + k]
-        if t >= 0:  # what is left of the tangential force is an unknown
-            H[t, :m] -= share * H[i, :m]
-        elif change.any():
-            u = H[:m, :m] @ change[self.unknowns]
-            pivot = 1.0 + u[i]
-            if abs(pivot) < SMALL * max(1.0, float(np.abs(u).max())):
-                return False
-            self._add_product(-1.0 / pivot, u, H[i, :m].copy())
-        self._columns[:, i] += change
+        m, n, known, k = self._count, self._n, self.unknowns, len(new)
+        self._grow(m + k)
+        columns = self._columns[:, m : m + k]
+        columns[:] = self._forces[new].T
+        normal = np.flatnonzero(new < n)
+        if self.slope[new[normal]].any():
+            columns[:, normal] += (self._forces[n + new[normal]] * self.slope[new[normal], None]).T
+        rows = self._columns[new, :m]
+        u, v = self._inverse[:m, :m] @ columns[known], rows @ self._inverse[:m, :m]
+        size = max(np.abs(columns[new]).max(), (np.abs(rows) @ np.abs(u)).max(initial=0.0))
+        pivot = _inverted(columns[new] - rows @ u, size)
+        if pivot is None:
+            return False
+        u = u @ pivot
+        self._add_product(u, v)
+        H = self._inverse
+        H[:m, m : m + k], H[m : m + k, :m], H[m : m + k, m : m + k] = -u, -(pivot @ v), pivot
+        self._list[m : m + k], self._place[new], self._count = new, np.arange(m, m + k), m + k
         return True
 
-    def _add_product(self, factor: float, u: Array, v: Array) -> None:
-        """Change the inverse by ``factor u v^T``, in place."""
-        self.updates += 1
-        m = len(u)
-        if m:
-            padded = np.zeros(len(self._inverse))
-            padded[:m] = u
-            blas.dger(factor, padded, v, a=self._inverse[:, :m], overwrite_x=0, overwrite_y=0, overwrite_a=1)
+    def _remove(self, old: IntArray) -> bool:
+        """Take unknowns and their equations out; the last ones take their places."""
+        if not len(old):
+            return True
+        H, places, left = self._inverse[: self._count, : self._count], self._place[old], self._count - len(old)
+        out = np.zeros(self._count, dtype=np.bool_)
+        out[places] = True
+        free, last = np.flatnonzero(out[:left]), left + np.flatnonzero(~out[left:])
+        order = np.arange(left)
+        order[free] = last
+        u, v = H[:, places], H[places]
+        block, u, v = u[places], u[order], v[:, order]
+        for i, j in zip(free, last, strict=True):
+            H[:, i], self._columns[:, i] = H[:, j], self._columns[:, j]
+        for i, j in zip(free, last, strict=True):
+            H[i] = H[j]
+        self._list[free] = self._list[last]
+        self._place[old] = -1
+        self._place[self._list[free]], self._count = free, left
+        pivot = _inverted(block, max(np.abs(u).max(initial=0.0), np.abs(v).max(initial=0.0)))
+        if pivot is None:
+            return False
+        self._add_product(u @ -pivot, v)
+        return True
 
-    def _grow(self) -> None:
-        """Room for one more unknown."""
-        m = self._count
-        if m == len(self._inverse):
-            larger = np.zeros((m + ROOM, m + ROOM), order="F")
-            larger[:m, :m] = self._inverse
+    def _tilt(self, pairs: IntArray, slope: Array) -> bool:
+        """Give normal forces of pairs other shares of friction."""
+        share = slope - self.slope[pairs]
+        pairs, share = pairs[share != 0.0], share[share != 0.0]
+        if not len(pairs):
+            return True
+        m, n, H = self._count, self._n, self._inverse
+        i, t = self._place[pairs], self._place[n + pairs]
+        self.slope[pairs] += share
+        change = (self._forces[n + pairs] * share[:, None]).T
+        self._columns[:, i] += change
+        held = t >= 0  # what is left of the tangential force is an unknown
+        H[t[held], :m] -= share[held, None] * H[i[held], :m]
+        if held.all():
+            return True
+        i, change = i[~held], change[:, ~held]
+        u = H[:m, :m] @ change[self.unknowns]
+        pivot = _inverted(np.eye(len(i)) + u[i], max(1.0, float(np.abs(u).max())))
+        if pivot is None:
+            return False
+        self._add_product(u @ -pivot, H[i, :m])
+        return True
+
+    def _add_product(self, u: Array, v: Array) -> None:
+        """Change the inverse by ``u v``, in place."""
+        m, k = u.shape
+        self.updates += k
+        if m:
+            padded = np.zeros((len(self._inverse), k), order="F")
+            padded[:m] = u
+            if k == 1:  # half the time of a product of matrices
+                blas.dger(1.0, padded[:, 0], v[0], a=self._inverse[:, :m], overwrite_x=0, overwrite_y=0, overwrite_a=1)
+            else:
+                blas.dgemm(1.0, padded, v, beta=1.0, c=self._inverse[:, :m], overwrite_c=1)
+
+    def _grow(self, size: int) -> None:
+        """Room for so many unknowns."""
+        if size > len(self._inverse):
+            m = self._count
+            larger = np.zeros((size + ROOM, size + ROOM), order="F")
+            larger[:m, :m] = self._inverse[:m, :m]
             self._inverse = larger
+
+
+def _inverted(block: Array, size: float) -> Array | None:
+    """Inverse of a block that pivots, None where it is next to singular beside what cancels in it, of a size."""
+    if len(block) == 1:
+        return None if abs(block[0, 0]) < SMALL * size else 1.0 / block
+    lu, order, failed = lapack.dgetrf(block)
+    if failed or np.abs(np.diag(lu)).min() < SMALL * size:
+        return None
+    return np.asarray(lapack.dgetri(lu, order, overwrite_lu=1)[0], dtype=np.float64)
