@@ -167,7 +167,7 @@ def large(small: bool) -> str:
     with tempfile.TemporaryDirectory() as folder:
         deck, out = Path(folder) / "deck.toml", Path(folder) / "out"
         deck.write_text(DECK.format(refine=2 if small else 54))
-        command = [sys.executable, "-m", "signorini.cli", "run", str(deck), "-o", str(out), "--quiet"]
+        command = [sys.executable, "-m", "signorini", "run", str(deck), "-o", str(out), "--quiet"]
         walls: list[float] = []
         while len(walls) < REPEATS and sum(walls) < 2 * LONG:
             began = time.perf_counter()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``python -m signorini.cli``."""
+"""``python -m signorini``."""
 
 import sys
 
