@@ -16,7 +16,7 @@ from signorini.engine.leg import Leg, Snapshot, joined, keep
 from signorini.engine.prepare import Prepared
 from signorini.engine.span import Span
 from signorini.errors import SolveFailed
-from signorini.friction.exact import Breakpoint, Landing, PathState, Segment, follow, initial_state, land
+from signorini.friction.exact import Landing, PathState, Segment, follow, initial_state, land
 from signorini.friction.law import OPEN, STICK
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.spatial import SpatialProblem, StopSettings, at_rest, follow_stopping, land_spatial
@@ -79,7 +79,7 @@ def _beyond_jumps(
             segment = _followed(prepared.law, start, _right_hand_side(prepared, end), stops)
         if segment.followed:
             leg = _leg(prepared, where, span, state, start, segment, end, whole=whole, path=path)
-            return joined([*legs, _each(leg, segment) if stops else leg])
+            return joined([*legs, leg])
         lost = _lost(prepared, where, span, segment)
         landing = _landing(prepared.law, start, segment, stops) if jumps and len(legs) < _JUMPS else None
         if segment.jump is None or landing is None:
@@ -88,8 +88,7 @@ def _beyond_jumps(
             raise keep(lost, [*legs, *_so_far(prepared, where, span, state, start, segment, end, whole, path)])
         limit, before = _cut(span, state, segment, end)
         leg = _leg(prepared, where, before, state, start, segment, limit, whole=whole, path=path)
-        legs.append(_each(leg, segment) if stops else leg)
-        legs.append(_landed(prepared, where, before, legs[-1].after, landing))
+        legs += [leg, _landed(prepared, where, before, leg.after, landing)]
         state, span = legs[-1].after, replace(span, low=before.high)
 
 
@@ -115,10 +114,9 @@ def _so_far(
         return []
     limit, before = _cut(span, state, segment, end)
     try:
-        leg = _leg(prepared, where, before, state, start, segment, limit, whole=whole, path=path)
+        return [_leg(prepared, where, before, state, start, segment, limit, whole=whole, path=path)]
     except SolveFailed:
         return []
-    return [_each(leg, segment) if path == "increments" else leg]
 
 
 def follow_to_events(
@@ -150,13 +148,14 @@ def follow_to_events(
     return _beyond_jumps(prepared, where, span, state, end, whole=whole, jumps=jumps, stops=stops)
 
 
-def _each(leg: Leg, segment: Segment) -> Leg:
-    """A leg that tells of each increment of a segment."""
-    return replace(leg, trace=tuple((_attempt(piece),) for piece in segment.pieces[1:]))
-
-
-def _attempt(piece: Breakpoint) -> Attempt:
-    return Attempt(method="increments to events", iterations=piece.tried, end="certified")
+def _trace(segment: Segment, path: str) -> tuple[tuple[Attempt, ...], ...]:
+    """What was tried: for an exact path in one entry, in increments for each of them."""
+    if path == "exact":
+        return ((Attempt(method="exact path", iterations=segment.pivots, end=segment.message),),)
+    return tuple(
+        (Attempt(method="increments to events", iterations=piece.tried, end="certified"),)
+        for piece in segment.pieces[1:]
+    )
 
 
 def _followed(
@@ -187,7 +186,7 @@ def _leg(
     end: LoadPoint,
     *,
     whole: bool,
-    path: Literal["exact", "increments"] = "exact",
+    path: Literal["exact", "increments"],
 ) -> Leg:
     """A segment that was followed as far as to ``end``."""
     with prepared.clock.phase("recovery"):
@@ -199,13 +198,12 @@ def _leg(
     before[_along(prepared)] = _tangential(prepared, segment.pieces[last].h)
     # the law of the rate, on the last piece, is the law of the increment from where the piece began
     certificate = certified(prepared, after, before, where)
-    attempt = Attempt(method="exact path", iterations=segment.pivots, end=segment.message)
     return Leg(
         path=path,
         before=state,
         after=after,
         certificates=(certificate,),
-        trace=((attempt,),),
+        trace=_trace(segment, path),
         snapshots=visited,
         events=_events(prepared, span, segment),
     )

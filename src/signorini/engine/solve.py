@@ -233,7 +233,8 @@ def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPo
         except SolveFailed as nothing:
             words = f"{failure}; nor do increments go on: {nothing}"
             worse = SolveFailed(words, status=nothing.status, motion=nothing.motion)
-            raise keep(worse, [part for part in [reached(failure)] if part is not None]) from failure
+            worse.reached = failure.reached  # the exact path goes farther
+            raise worse from failure
         return replace(leg, notes=(f"{failure}; followed in {_BEHIND_A_JUMP} increments to what is a candidate",))
 
 

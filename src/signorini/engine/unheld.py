@@ -45,7 +45,7 @@ def refuse_unheld(
         seen.add((stage.released, stage.inactive))
         alike = stage.released == schedule[0].released
         now = constraints if alike else make_constraints(space, model, without=stage.released)
-        left = interface.among(~pairs_of(model, interface, stage.inactive))
+        left = interface.among(~pairs_of(model, interface, stage.inactive)) if stage.inactive else interface
         try:
             refuse_free_motions(space, now, left, parts, motions)
         except InputError as error:

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -69,7 +69,7 @@ def all_solutions(problem: CoulombProblem) -> list[Array]:
         See `countable`.
     """
     rest = np.zeros(2 * problem.pairs)
-    return _distinct(problem, (cone_system(problem, state).solve(rest) for state in _states(problem)))
+    return _certified(problem, (cone_system(problem, state).solve(rest) for state in _states(problem)))
 
 
 def search_solutions(problem: CoulombProblem, *, seed: int = 0) -> list[Array]:
@@ -79,7 +79,7 @@ def search_solutions(problem: CoulombProblem, *, seed: int = 0) -> list[Array]:
     ----------
     seed : of random states and of the weights of paths
     """
-    return _distinct(problem, _candidates(problem, seed))
+    return _certified(problem, _candidates(problem, seed))
 
 
 def _candidates(problem: CoulombProblem, seed: int) -> Iterator[Array | None]:
@@ -120,12 +120,19 @@ def _states(problem: CoulombProblem) -> Iterator[IntArray]:
         yield np.array(combination, dtype=np.int64)
 
 
-def _distinct(problem: CoulombProblem, candidates: Iterator[Array | None]) -> list[Array]:
+def distinct(candidates: Iterable[Array], scale: float) -> list[Array]:
+    """The answers that differ, in their order.
+
+    Parameters
+    ----------
+    scale : size of the data
+    """
     found: list[Array] = []
-    near = SAME * (problem.scale or 1.0)
     for y in candidates:
-        if y is None or certify(problem, y) > 1e-10:
-            continue
-        if all(np.abs(y - other).max(initial=0.0) > near for other in found):
+        if all(np.abs(y - other).max(initial=0.0) > SAME * (scale or 1.0) for other in found):
             found.append(y)
     return found
+
+
+def _certified(problem: CoulombProblem, candidates: Iterator[Array | None]) -> list[Array]:
+    return distinct((y for y in candidates if y is not None and certify(problem, y) <= 1e-10), problem.scale)

@@ -8,14 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.friction.spatial.certificate import certify
+from signorini.friction.several import distinct
 from signorini.friction.spatial.equilibrium import Equilibrium
 from signorini.friction.spatial.law import tangent
 from signorini.friction.spatial.newton import newton
 from signorini.friction.spatial.problem import SpatialProblem
-
-SAME = 1e-7
-"""Two answers closer than this, relative to the data, are one."""
 
 _DIRECTIONS = 8
 _FEW, _GUESSES = 10, (100, 24)  # at random: for so few pairs, and for more
@@ -46,16 +43,9 @@ def search_solutions(problem: SpatialProblem, *, seed: int = 0) -> list[Array]:
     >>> sorted(round(float(y[0]), 6) for y in search_solutions(problem))
     [-0.166667, 0.5, 1.0]
     """
-    found: list[Array] = []
-    near = SAME * (problem.scale or 1.0)
-    equilibrium = Equilibrium.of(problem)
-    for start in _starts(problem, np.random.default_rng(seed)):
-        end = newton(equilibrium, tangent(problem, start))
-        if not end.converged or certify(problem, end.y) > 1e-10:
-            continue
-        if all(np.abs(end.y - other).max(initial=0.0) > near for other in found):
-            found.append(end.y)
-    return found
+    equilibrium, rng = Equilibrium.of(problem), np.random.default_rng(seed)
+    ends = (newton(equilibrium, tangent(problem, start)) for start in _starts(problem, rng))
+    return distinct((end.y for end in ends if end.residual <= 1e-10), problem.scale)
 
 
 def _starts(problem: SpatialProblem, rng: np.random.Generator) -> Iterator[Array]:
