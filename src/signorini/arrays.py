@@ -25,6 +25,17 @@ def frozen(values: ArrayLike, dtype: Any = np.float64) -> NDArray[Any]:
     return array
 
 
+def read_only(values: ArrayLike) -> Array:
+    """Numbers that nobody can edit: the array itself where that is so, large ones are shared; else a copy.
+
+    >>> one = read_only([1.0])
+    >>> read_only(one) is one
+    True
+    """
+    array = np.asarray(values, dtype=np.float64)
+    return array if not array.flags.writeable and array.base is None else frozen(array)
+
+
 def distinct(values: IntArray) -> IntArray:
     """The different values in ascending order; on many scattered ones several times faster than ``np.unique``.
 
@@ -33,6 +44,15 @@ def distinct(values: IntArray) -> IntArray:
     """
     found = np.sort(values, axis=None)
     return found[np.concatenate([np.ones(min(1, len(found)), bool), found[1:] != found[:-1]])]
+
+
+def extent(points: Array) -> Array:
+    """(d,) Size of the box around points (n, d); of many points far faster than ``np.ptp``, direction by direction.
+
+    >>> extent(np.array([[0.0, 1.0], [2.0, 5.0]])).tolist()
+    [2.0, 4.0]
+    """
+    return np.asarray(np.ptp(np.ascontiguousarray(points.T), axis=1))
 
 
 def among(lists: Iterable[IntArray], count: int) -> BoolArray:

@@ -9,7 +9,7 @@ from signorini.friction import CoulombProblem, solve_coulomb
 
 def slides(mu: float) -> CoulombProblem:
     """One pair pressed by 2 and dragged so that it slips for mu = 0.3."""
-    return CoulombProblem(
+    return CoulombProblem.of(
         W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.5]), friction=[mu], motions=np.zeros((2, 0)), scale=1.0
     )
 

@@ -46,7 +46,7 @@ def test_the_image_form_is_equilibrium(make, compliance):
     b = condensed.right_hand_side(condensed.reduce(f).load, offset)
     H, R = condensed.root * h, r / condensed.root
     size = np.abs(b).max() + np.abs(H).max() + np.abs(R).max()
-    np.testing.assert_allclose(H - condensed.W @ (H + R), b, rtol=0, atol=1e-11 * size)
+    np.testing.assert_allclose(H - condensed.image.W @ (H + R), b, rtol=0, atol=1e-11 * size)
     found = condensed.displacement(condensed.reduce(f), h, r, offset)
     np.testing.assert_allclose(found, u, rtol=0, atol=1e-8 * np.abs(u).max())
 
@@ -55,10 +55,10 @@ def test_the_image_form_is_equilibrium(make, compliance):
 def test_the_spectrum_lies_between_0_and_1(make, compliance):
     """1 belongs to rigid motions alone, whatever the compliance: nothing becomes ill-conditioned."""
     prepared = prepare(with_compliance(make(), compliance))
-    values, R = np.linalg.eigvalsh(prepared.condensed.W), seen(prepared)
+    values, R = np.linalg.eigvalsh(prepared.condensed.image.W), seen(prepared)
     assert values.min() > -1e-12
     assert values.max() < 1 + 1e-12
-    np.testing.assert_allclose(prepared.condensed.W @ R, R, rtol=0, atol=1e-11 * np.abs(R).max(initial=1.0))
+    np.testing.assert_allclose(prepared.condensed.image.W @ R, R, rtol=0, atol=1e-11 * np.abs(R).max(initial=1.0))
     if compliance <= 1e-2:
         assert (values > 1 - 1e-9).sum() == R.shape[1]
 
@@ -85,7 +85,7 @@ def test_a_pair_held_on_both_sides_is_left_out():
     prepared = prepare(replace(model, supports=[*model.supports, support])).widened()
     for pairs in (prepared.condensed.held, ~prepared.condensed.active):
         assert prepared.interface.node[pairs].tolist() == [model.mesh.nodes_of("arc")[1]]
-    assert len(prepared.condensed.W) == 2 * (len(prepared.interface) - 1)
+    assert len(prepared.condensed.image.W) == 2 * (len(prepared.interface) - 1)
 
 
 @pytest.mark.parametrize("factor", [1e-3, 1e-5, 1e-9])

@@ -55,12 +55,12 @@ def test_both_ways_give_the_same_interface(monkeypatch, name):
     T, rng = pairs.constraints.transform, np.random.default_rng(2)
     few = np.arange(len(pairs.interface)) % 3 > 0
     for one, two in ((pairs.condensed, nodes.condensed), (pairs.condensed.among(few), nodes.condensed.among(few))):
-        u, (r, offset) = rng.standard_normal(T.shape[1]), rng.standard_normal((2, len(one.W)))
+        u, (r, offset) = rng.standard_normal(T.shape[1]), rng.standard_normal((2, len(one.image.W)))
         B = (pairs.interface.B @ T)[one.active_rows]
         f = T.T @ (pairs.K @ (T @ u)) - B.T @ r
         h = B @ u + offset + one.compliance * r
-        np.testing.assert_allclose(one.A, two.A, rtol=0, atol=1e-12 * np.abs(two.A).max())
-        np.testing.assert_allclose(one.W, two.W, rtol=0, atol=1e-12)
+        np.testing.assert_allclose(one.image.A, two.image.A, rtol=0, atol=1e-12 * np.abs(two.image.A).max())
+        np.testing.assert_allclose(one.image.W, two.image.W, rtol=0, atol=1e-12)
         b = two.right_hand_side(two.reduce(f).load, offset)
         found = one.right_hand_side(one.reduce(f).load, offset)
         np.testing.assert_allclose(found, b, rtol=0, atol=1e-11 * np.abs(b).max())

@@ -25,7 +25,7 @@ def random_problem(seed, pairs, motions=HELD, friction=None):
     values = rng.uniform(0.05, 0.95, 2 * pairs)
     values[:motions] = 1.0
     W = (Q * values) @ Q.T
-    return CoulombProblem(
+    return CoulombProblem.of(
         W=(W + W.T) / 2,
         b=rng.normal(size=2 * pairs),
         friction=rng.choice([0.0, 0.2, 0.7, 1.5, 3.0, np.inf], pairs) if friction is None else np.full(pairs, friction),
@@ -43,7 +43,7 @@ def block_on_floor(pairs, load, friction=0.3):
     Q, _ = np.linalg.qr(np.concatenate([R, rng.normal(size=(2 * pairs, 2 * pairs - 3))], axis=1))
     W = (Q * np.append(np.ones(3), np.linspace(0.1, 0.9, 2 * pairs - 3))) @ Q.T
     b = R @ np.linalg.solve(R.T @ R, np.array(load, dtype=float))
-    return CoulombProblem(W=(W + W.T) / 2, b=b, friction=np.full(pairs, friction), motions=R, scale=1.0)
+    return CoulombProblem.of(W=(W + W.T) / 2, b=b, friction=np.full(pairs, friction), motions=R, scale=1.0)
 
 
 def all_solutions(problem):

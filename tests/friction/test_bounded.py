@@ -143,7 +143,7 @@ def test_tresca_minimises_a_convex_energy(seed):
     """Bodies that stay pressed: r minimises ``r'A r / 2 + c'r`` over p >= 0, |r_t| <= limit."""
     problem, limit = pressed_bodies(seed)
     result = solve_coulomb(replace(problem, limit=limit))
-    A, c = problem.interface.A, problem.free_motion(problem.b)
+    A, c = problem.image.A, problem.free_motion(problem.b)
     L = np.linalg.cholesky(A)
     box = (np.append(np.zeros(8), -limit), np.append(np.full(8, np.inf), limit))
     least = lsq_linear(L.T, -np.linalg.solve(L, c), bounds=box, tol=1e-14)
@@ -157,7 +157,7 @@ def test_tresca_in_the_plane_and_in_space_is_one_law(seed):
     problem, limit = pressed_bodies(seed)
     wide = np.zeros((24, 24))
     wide[:16, :16] = problem.W
-    solid = SpatialProblem(
+    solid = SpatialProblem.of(
         W=wide, b=np.append(problem.b, np.zeros(8)), friction=limit, motions=np.zeros((24, 0)), scale=1.0,
         tresca=np.ones(8, dtype=bool),
     )  # fmt: skip

@@ -71,7 +71,7 @@ def test_tree_proves_and_springs_name_the_escape():
     assert named.outcome == "not_found"
     assert named.escape is not None
     np.testing.assert_allclose(np.abs(named.escape).max(), 1.0)
-    R = step.interface.R
+    R = step.image.R
     np.testing.assert_allclose(R @ (R.T @ named.escape), named.escape, atol=1e-3)
     assert (named.escape[: step.pairs] > -1e-3).all()
     assert "run away" in named.message

@@ -9,11 +9,13 @@ import pytest
 from signorini.errors import InputError
 from signorini.friction import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, CoulombProblem, solve_coulomb
 
+ONE_PAIR = {"W": np.diag([0.5, 0.5]), "b": [-1.0, 0.2], "friction": [0.3], "motions": np.zeros((2, 0)), "scale": 1.0}
+
 
 def one_pair(normal, tangential, mu):
     """A pair with compliance 1 in both directions (W = 1/2): the motion of the free body is twice b."""
     b = np.array([normal, tangential])
-    return CoulombProblem(W=np.diag([0.5, 0.5]), b=b, friction=[mu], motions=np.zeros((2, 0)), scale=1.0)
+    return CoulombProblem.of(**ONE_PAIR | {"b": b, "friction": [mu]})
 
 
 @pytest.mark.parametrize(
@@ -38,7 +40,7 @@ def test_one_pair(normal, tangential, mu, state, force, motion):
 
 @pytest.mark.parametrize("drag", [-0.2, 0.0, 0.2])
 def test_locked_pair_slips_as_its_support_moves(drag):
-    problem = CoulombProblem(
+    problem = CoulombProblem.of(
         W=np.diag([0.5, 0.0]), b=np.array([-1.0, drag]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     )
     result = solve_coulomb(problem)
@@ -48,18 +50,20 @@ def test_locked_pair_slips_as_its_support_moves(drag):
 
 def test_no_pairs():
     nothing = np.zeros(0)
-    problem = CoulombProblem(W=np.zeros((0, 0)), b=nothing, friction=nothing, motions=np.zeros((0, 0)), scale=0.0)
+    problem = CoulombProblem.of(W=np.zeros((0, 0)), b=nothing, friction=nothing, motions=np.zeros((0, 0)), scale=0.0)
     assert solve_coulomb(problem).solved
 
 
 def test_another_load_shares_the_factorisation():
     problem = one_pair(-1, 0.2, 0.3)
-    assert dataclasses.replace(problem, b=np.array([1.0, 0.0])).interface is problem.interface
+    assert dataclasses.replace(problem, b=np.array([1.0, 0.0])).image is problem.image
 
 
 @pytest.mark.parametrize(
     ("change", "message"),
     [
+        ({"W": np.zeros((2, 3))}, r"W: has shape \(2, 3\); expected as many rows as columns"),
+        ({"motions": np.zeros((3, 1))}, r"motions: has shape \(3, 1\); expected \(2, k\)"),
         ({"b": np.zeros(3)}, r"b: has shape \(3,\); expected \(2,\) for 1 pairs"),
         ({"b": np.array([np.nan, 0])}, "b: has entries that are not finite"),
         ({"friction": [-0.1]}, "friction: has negative entries"),
@@ -70,11 +74,11 @@ def test_another_load_shares_the_factorisation():
 )
 def test_wrong_input_is_named(change, message):
     with pytest.raises(InputError, match=message):
-        dataclasses.replace(one_pair(-1, 0.2, 0.3), **change)
+        CoulombProblem.of(**ONE_PAIR | change)
 
 
 def test_a_motion_not_given_is_named():
-    problem = CoulombProblem(W=np.eye(2), b=np.ones(2), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0)
+    problem = CoulombProblem.of(W=np.eye(2), b=np.ones(2), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0)
     with pytest.raises(InputError, match="add that motion"):
         solve_coulomb(problem)
 

@@ -7,6 +7,7 @@ import numpy as np
 from coulomb_samples import HELD, answer, for_all, random_problem
 from hypothesis import strategies as st
 
+from signorini.condense.image import Image
 from signorini.friction import SLIP_MINUS, SLIP_PLUS, CoulombProblem, mu_low, solve_coulomb
 
 seeds = st.integers(0, 10**6)
@@ -33,7 +34,7 @@ def test_order_of_pairs(seed, pairs):
     problem = unique(seed, pairs)
     order = np.random.default_rng(seed).permutation(pairs)
     both = np.append(order, pairs + order)
-    other = CoulombProblem(
+    other = CoulombProblem.of(
         W=problem.W[np.ix_(both, both)],
         b=problem.b[both],
         friction=problem.friction[order],
@@ -47,7 +48,7 @@ def test_order_of_pairs(seed, pairs):
 def test_mirror(seed, pairs):
     problem = unique(seed, pairs)
     sign = np.repeat([1.0, -1.0], pairs)
-    other = CoulombProblem(
+    other = CoulombProblem.of(
         W=sign[:, None] * problem.W * sign,
         b=sign * problem.b,
         friction=problem.friction,
@@ -63,7 +64,8 @@ def test_mirror(seed, pairs):
 @for_all(seed=seeds, pairs=st.integers(2, 6))
 def test_basis_of_the_rigid_motions(seed, pairs):
     problem = random_problem(seed, pairs, 2, 0.3)
-    other = dataclasses.replace(problem, motions=problem.motions @ np.array([[2.0, 0.3], [-1.0, 0.1]]))
+    image = Image.of_form(problem.W, problem.motions @ np.array([[2.0, 0.3], [-1.0, 0.1]]))
+    other = dataclasses.replace(problem, image=image)
     here, there = solve_coulomb(problem), solve_coulomb(other)
     assert here.outcome == there.outcome
     if here.solved and here.method == there.method == "newton":

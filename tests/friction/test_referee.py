@@ -71,7 +71,7 @@ def test_one_solution_below_mu_low(seed, pairs):
 def test_one_node(friction, load, solutions):
     """K = [[2, 1], [1, 2]]: unique below the critical friction 2, else three solutions for 2 < f_t < 3."""
     W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    problem = CoulombProblem(W=W, b=W @ [-1.0, load], friction=[friction], motions=np.zeros((2, 0)), scale=1.0)
+    problem = CoulombProblem.of(W=W, b=W @ [-1.0, load], friction=[friction], motions=np.zeros((2, 0)), scale=1.0)
     found = all_solutions(problem)
     assert len(found) == solutions
     result = solve_coulomb(problem)

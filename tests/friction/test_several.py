@@ -14,13 +14,13 @@ from signorini.friction.several import all_solutions, always_unique, search_solu
 
 def node(mu, f_t):
     W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    return CoulombProblem(W=W, b=W @ [-1.0, f_t], friction=[mu], motions=np.zeros((2, 0)), scale=1.0)
+    return CoulombProblem.of(W=W, b=W @ [-1.0, f_t], friction=[mu], motions=np.zeros((2, 0)), scale=1.0)
 
 
 def random_problem(seed, pairs, mu):
     rng = np.random.default_rng(seed)
     W = np.linalg.inv(stiff(seed, pairs) + np.eye(2 * pairs))
-    return CoulombProblem(
+    return CoulombProblem.of(
         W=(W + W.T) / 2,
         b=rng.normal(size=2 * pairs),
         friction=np.full(pairs, mu),

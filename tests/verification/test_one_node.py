@@ -21,7 +21,7 @@ def condensed(f_t, mu):
     B = np.array([[0.0, -1.0], [1.0, 0.0]])
     A = B @ np.linalg.inv(K + B.T @ B) @ B.T
     b = B @ np.linalg.inv(K + B.T @ B) @ np.array([f_t, PRESSING])
-    return CoulombProblem(W=A, b=b, friction=[mu], motions=np.zeros((2, 0)), scale=1.0)
+    return CoulombProblem.of(W=A, b=b, friction=[mu], motions=np.zeros((2, 0)), scale=1.0)
 
 
 def solutions(f_t, mu):

@@ -98,7 +98,7 @@ def pressed(kinds, counts, traction, seed):
     A, moved = B @ T @ answer[:, :-1], B @ T @ answer[:, -1]
     W = root[:, None] * A * root
     h_0 = root * np.concatenate([gap, np.zeros(2 * pairs)])
-    problem = SpatialProblem(
+    problem = SpatialProblem.of(
         W=(W + W.T) / 2,
         b=root * moved + h_0 - W @ h_0,
         friction=np.full(pairs, FRICTION),
@@ -153,7 +153,7 @@ def test_friction_holds_the_upper_block_up_to_its_coefficient(drag, outcome):
     push = np.zeros(3 * n)
     share = drag * PRESSURE * coupling.area / root[:n]
     push[n : 2 * n], push[2 * n :] = np.cos(angle) * share, np.sin(angle) * share
-    loaded = SpatialProblem(
+    loaded = SpatialProblem.of(
         W=problem.W,
         b=problem.b + problem.W @ push,
         friction=problem.friction,

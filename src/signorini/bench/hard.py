@@ -59,12 +59,10 @@ class HardProblem:
         start = np.concatenate([self.gap, -slipped])
         load = self.loads[k]
         return CoulombProblem(
-            W=self.first.W,
+            image=self.first.image,
             b=load + start - self.first.W @ start,
             friction=self.first.friction,
-            motions=self.first.motions,
             scale=float(max(np.abs(load).max(), np.abs(start).max())),
-            interface=self.first.interface,
         )
 
 
@@ -299,7 +297,7 @@ def _made(draw: _Draw) -> HardProblem | None:
     loads = tuple(frozen(Bs[:, free] @ lu.solve(side)) for side in sides)
     return HardProblem(
         name=f"{draw.family}, {draw.support}, {draw.load}, {draw.gap}, {n} pairs, friction {draw.friction:.3g}",
-        first=CoulombProblem(
+        first=CoulombProblem.of(
             W=(W + W.T) / 2,
             b=loads[0],
             friction=np.full(n, draw.friction),

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import scipy.linalg
 import scipy.sparse as sp
-from scipy.linalg import lapack
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.clock import Clock
 from signorini.condense.basis import Basis, make_basis
+from signorini.condense.image import Image, softened
 from signorini.condense.parts import make_parts, mirror
 from signorini.condense.response import ByNodes, Response, keep_pairs
 from signorini.condense.ties import Ties, make_ties
@@ -48,9 +48,7 @@ class Condensed:
     Attributes
     ----------
     response : how the bodies answer, through what their factorisation keeps last
-    A : (d a, d a) compliance of the a active pairs, without their rigid motion
-    W : (d a, d a) symmetric, spectrum in [0, 1]
-    motions : (d a, k) the rigid motions as the pairs see them, B_c Z, scaled
+    image : A, W and the rigid motions B_c Z of the a active pairs, d rows each, scaled
     active : (n,) pairs that the law is asked of: candidates that can move along their normal
     held : (n,) pairs that cannot, because supports hold them
     root : (d a,) square roots of D, force per length to the 1/2
@@ -61,9 +59,7 @@ class Condensed:
     """
 
     response: Response
-    A: Array
-    W: Array
-    motions: Array
+    image: Image
     active: BoolArray
     held: BoolArray
     root: Array
@@ -111,8 +107,7 @@ class Condensed:
         resultant = basis.coefficients(self.response.resultant(load))
         free = self.root * (self.response.moved(load) + offset) - self._leaning @ resultant
         free -= basis.R @ (basis.R.T @ free)
-        b: Array = free - self.W @ free + basis.R @ resultant
-        return b
+        return softened(self.image.factor, free) + basis.R @ resultant
 
     def displacement(self, reduced: Reduced, h: Array, r: Array, offset: Array) -> Array:
         """Free displacements (z,) under a load and the solution h, r (d a,), in the units of the problem."""
@@ -231,7 +226,7 @@ def condense(
 
 
 def _image(response: Response, root: Array, compliance: Array) -> dict[str, Any]:
-    """A, W and the rigid motions that go with them, scaled by the roots of D."""
+    """Compliance and rigid motions, scaled by the roots of D."""
     motions = root[:, None] * response.motions
     basis = make_basis(motions)
     A = response.compliance()
@@ -244,9 +239,8 @@ def _image(response: Response, root: Array, compliance: Array) -> dict[str, Any]
             raise np.linalg.LinAlgError("contact hardly resists a rigid motion")
         leaning -= basis.R @ (basis.R.T @ leaning)
         _project(A, basis.R)
-    W = _stiffened(A, basis.R)
-    A.flags.writeable = W.flags.writeable = motions.flags.writeable = False
-    return {"A": A, "W": W, "motions": motions, "_basis": basis, "_leaning": leaning}
+    A.flags.writeable = motions.flags.writeable = False
+    return {"image": Image.of_compliance(A, motions, basis.R), "_basis": basis, "_leaning": leaning}
 
 
 def _project(A: Array, R: Array) -> None:
@@ -255,21 +249,6 @@ def _project(A: Array, R: Array) -> None:
         A -= R @ (R.T @ A)
         A -= (A @ R) @ R.T
     mirror(A)
-
-
-def _stiffened(A: Array, R: Array) -> Array:
-    """``W = I + R R^T - (I + A)^-1``."""
-    factor = np.array(A.T, order="F")
-    factor[np.diag_indices_from(factor)] += 1.0
-    if len(factor):
-        factor = scipy.linalg.cho_factor(factor, lower=True, overwrite_a=True, check_finite=False)[0]
-        factor, _ = lapack.dpotri(factor, lower=1, overwrite_c=1)
-    W = np.negative(factor.T, out=np.empty(factor.shape))
-    if R.size:
-        W += R @ R.T
-    W[np.diag_indices_from(W)] += 1.0
-    mirror(W.T)
-    return W
 
 
 def _interface_stiffness(K_c: sp.csr_array, B_c: sp.csr_array, interface: Interface, pairs: IntArray) -> Array:

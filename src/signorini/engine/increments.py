@@ -160,7 +160,9 @@ def free_load(prepared: Prepared, point: LoadPoint) -> Array:
     loads, imposed = applied(prepared, point)
     if point.given.any():
         loads = loads + prepared.interface.B.T @ point.given
-    force: Array = prepared.constraints.transform.T @ (loads - prepared.K @ imposed)
+    if imposed.any():
+        loads = loads - prepared.K @ imposed
+    force: Array = prepared.constraints.transform.T @ loads
     return force
 
 

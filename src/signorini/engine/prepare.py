@@ -25,7 +25,6 @@ from signorini.fem.rigid import Part, free_motions, make_parts, rigid_motions
 from signorini.fem.space import Space, make_space
 from signorini.fem.stiffness import stiffness
 from signorini.fem.supports import Constraints, make_constraints
-from signorini.friction.interface import Interface as LawInterface
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.spatial import SpatialProblem
 from signorini.interface.candidates import candidates
@@ -383,11 +382,9 @@ def contact_law(interface: Interface, condensed: Condensed, scale: Scale) -> Cou
     """The contact law of the active pairs, with no load yet."""
     kind: type[CoulombProblem] | type[SpatialProblem] = CoulombProblem if interface.directions == 2 else SpatialProblem
     return kind(
-        W=condensed.W,
+        image=condensed.image,
         b=np.zeros(len(condensed.root)),
-        motions=condensed.motions,
         scale=_size(interface, condensed, scale),
-        interface=LawInterface.known(condensed.W, condensed.motions, condensed.A),
         **_cones(interface, condensed),
     )
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray, frozen
+from signorini.arrays import Array, IntArray, extent, frozen
 from signorini.engine.cycles import judge, make_cycles
 from signorini.engine.exact import interface_energy, stored_energy
 from signorini.engine.heat import heat_of
@@ -125,7 +125,7 @@ def _finer_notes(prepared: Prepared) -> tuple[str, ...]:
 
 def chord_notes(examined: Examined) -> tuple[str, ...]:
     """Contacts whose gaps from the geometry count as none."""
-    size = float(np.ptp(examined.space.mesh.points, axis=0).max())
+    size = float(extent(examined.space.mesh.points).max())
     return tuple(
         f"contact '{contact.label}': gaps of the geometry, up to {sides.chords:.3g}, count as 0, for facets of one "
         "curve leave as much between them; finer or quadratic facets keep a clearance, 'interference' below 0 gives one"

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from signorini.arrays import extent
 from signorini.engine.prepare import Prepared
 from signorini.fem.rigid import Part
 from signorini.pairstate import OPEN
@@ -21,7 +22,7 @@ def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
     displacement = prepared.space.at_nodes(state.displacement)
     for part in prepared.parts:
         if part.kind == Part.kind:
-            change = float(np.linalg.norm(np.ptp(displacement[part.nodes], axis=0))) / (2.0 * part.size)
+            change = float(np.linalg.norm(extent(displacement[part.nodes]))) / (2.0 * part.size)
             if change > _STRAINED:
                 yield (
                     f"{part.label} strains or turns by {change:.0%} of its size: equilibrium is that of the undeformed "
@@ -33,7 +34,7 @@ def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
         own = (interface.contact == i) & (state.status != OPEN)
         if not own.any():
             continue
-        across = float(np.linalg.norm(np.ptp(prepared.space.mesh.points[interface.node[own]], axis=0)))
+        across = float(np.linalg.norm(extent(prepared.space.mesh.points[interface.node[own]])))
         if slip[own].max() > _SLID * across > 0.0:
             yield (
                 f"contact '{contact.label}' slips by up to {slip[own].max():.4g}, and what touches is {across:.4g} "

@@ -5,14 +5,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray
+from signorini.arrays import Array, BoolArray, extent
 from signorini.fem.space import Space
 from signorini.model.model import Model
 
 
 def arm(model: Model) -> float:
     """What rotations are multiplied by to be displacements: half the diagonal of the mesh, length."""
-    return float(np.linalg.norm(np.ptp(model.mesh.points, axis=0)) / 2.0)
+    return float(np.linalg.norm(extent(model.mesh.points)) / 2.0)
 
 
 def carried(model: Model, points: Array, about: Array) -> Array:

@@ -10,7 +10,7 @@ import scipy.linalg
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from signorini.arrays import Array, IntArray, among
+from signorini.arrays import Array, IntArray, among, extent
 from signorini.fem.obstacles import arm
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
@@ -88,7 +88,7 @@ def make_parts(space: Space, model: Model) -> tuple[Part, ...]:
                 bodies=tuple(body.name for body, own in zip(model.bodies, pieces_of, strict=True) if own[i]),
                 nodes=nodes,
                 centre=points[nodes].mean(axis=0),
-                size=float(np.linalg.norm(np.ptp(points[nodes], axis=0)) / 2.0),
+                size=float(np.linalg.norm(extent(points[nodes])) / 2.0),
                 axes=axes,
                 turns=turns,
             )

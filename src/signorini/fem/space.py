@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 import skfem
 
-from signorini.arrays import Array, BoolArray, IntArray, among
+from signorini.arrays import Array, BoolArray, IntArray, among, extent
 from signorini.errors import InputError
 from signorini.fem.edges import Edges, check_conforming, make_edges
 from signorini.fem.faces import HEXAHEDRON, Faces, make_faces
@@ -309,10 +309,10 @@ def _check_extent(space: Space) -> None:
     """A node far away, where a slip of the pen puts it, leaves no digits to the others."""
     points = space.mesh.points
     used = points[space.used_nodes]
-    extent = float(np.ptp(used / _DIGITS, axis=0).max())
+    least = float(extent(used / _DIGITS).max())
     for block in space.blocks:
         edges = np.abs(points[block.cells[:, 1]] - points[block.cells[:, 0]]).max(axis=1)
-        if (shortest := float(edges.min())) < extent:
+        if (shortest := float(edges.min())) < least:
             far = space.used_nodes[np.argmax(np.abs(used - np.median(used, axis=0)).max(axis=1))]
             where = tuple(float(x) for x in points[far])
             raise InputError(

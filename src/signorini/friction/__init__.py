@@ -2,7 +2,6 @@
 """The condensed 2D Coulomb problem and the solver that always answers."""
 
 from signorini.friction.certificate import certify
-from signorini.friction.interface import Interface
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STATE_NAMES, STICK, UNDECIDED
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.result import CoulombResult
@@ -21,7 +20,6 @@ __all__ = [
     "CoulombProblem",
     "CoulombResult",
     "CoulombSettings",
-    "Interface",
     "certify",
     "index",
     "mu_low",

@@ -29,7 +29,7 @@ def certify(problem: CoulombProblem, y: Array, *, b: Array | None = None, origin
 
     Examples
     --------
-    >>> problem = CoulombProblem(
+    >>> problem = CoulombProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.0]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
     >>> certify(problem, np.array([2.0, 0.0])), certify(problem, np.array([0.0, 0.0]))
@@ -43,6 +43,6 @@ def certify(problem: CoulombProblem, y: Array, *, b: Array | None = None, origin
         return np.inf
     load, whole = problem.b if b is None else b, h if origin is None else h + origin
     misfit = np.abs(problem.misfit(whole, r, load)).max(initial=0.0) / unit
-    R = problem.interface.R
+    R = problem.image.R
     resultants = np.abs(R.T @ (r + load)) / (unit * np.abs(R).sum(axis=0))
     return float(max(misfit, resultants.max(initial=0.0)))

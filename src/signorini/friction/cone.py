@@ -91,7 +91,7 @@ def cone_system(problem: CoulombProblem, state: IntArray) -> ConeSystem:
 
     Examples
     --------
-    >>> problem = CoulombProblem(
+    >>> problem = CoulombProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.2]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
     >>> cone_system(problem, np.array([STICK])).solve(near=np.zeros(2)).round(12).tolist()
@@ -122,7 +122,7 @@ def _given(problem: CoulombProblem, state: IntArray) -> Array | None:
 
 
 def _matrix(problem: CoulombProblem, state: IntArray) -> Array:
-    A, R, n = problem.interface.A, problem.interface.R, problem.pairs
+    A, R, n = problem.image.A, problem.image.R, problem.pairs
     closed, stick = _unknown_rows(state)
     rows = np.concatenate([closed, n + stick])
     slips = np.flatnonzero(state[closed] > STICK)
@@ -139,15 +139,15 @@ def _matrix(problem: CoulombProblem, state: IntArray) -> Array:
 
 def _right_hand_side(problem: CoulombProblem, state: IntArray, b: Array, given: Array | None) -> Array:
     closed, stick = _unknown_rows(state)
-    c, resultants = problem.free_motion(b), problem.interface.R.T @ b
+    c, resultants = problem.free_motion(b), problem.image.R.T @ b
     if given is not None:
-        c, resultants = c + problem.interface.A @ given, resultants + problem.interface.R.T @ given
+        c, resultants = c + problem.image.A @ given, resultants + problem.image.R.T @ given
     return -np.concatenate([c[closed], c[problem.pairs + stick], resultants])
 
 
 def _expand(problem: CoulombProblem, state: IntArray, x: Array, b: Array, given: Array | None) -> tuple[Array, Array]:
     """Motion and force of every pair from the unknowns of the system."""
-    n, m = problem.pairs, problem.interface
+    n, m = problem.pairs, problem.image
     closed, stick = _unknown_rows(state)
     size = len(closed) + len(stick)
     r = np.zeros(2 * n)
@@ -168,7 +168,7 @@ def _least_change(problem: CoulombProblem, state: IntArray, near: Array) -> tupl
     """The equilibrium nearest to ``near`` of a state that leaves a motion or a force undetermined."""
     closed, stick = _unknown_rows(state)
     h, r = split(near, problem.bound)
-    x = np.concatenate([r[closed], r[problem.pairs + stick], problem.interface.R.T @ h])
+    x = np.concatenate([r[closed], r[problem.pairs + stick], problem.image.R.T @ h])
     matrix, b, given = _matrix(problem, state), problem.b, _given(problem, state)
     rhs = _right_hand_side(problem, state, b, given)
     if not len(rhs):

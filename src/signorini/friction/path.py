@@ -113,7 +113,7 @@ def follow(problem: CoulombProblem, covering: Covering, *, budget: int, seed: in
 
     Examples
     --------
-    >>> problem = CoulombProblem(
+    >>> problem = CoulombProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.5]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
     >>> [(end.end, end.state.tolist()) for end in (follow(problem, way, budget=9) for way in ("open", "press"))]

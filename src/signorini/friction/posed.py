@@ -3,15 +3,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from typing import Any, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from signorini.arrays import Array, BoolArray, frozen
+from signorini.arrays import Array, BoolArray, read_only
 from signorini.bound import STICKY as STICKY
 from signorini.bound import Bound
+from signorini.condense.image import Image
 from signorini.errors import InputError
-from signorini.friction.interface import Interface
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,37 +22,51 @@ class PosedContact:
 
     Parameters
     ----------
-    W : (d n, d n)
+    image : W, its compliance and its rigid motions, of d n rows; ``dataclasses.replace(problem, b=...)`` shares it
     b : (d n,)
     friction : (n,) or (n, d - 1)
-    motions : (d n, k)
     scale : size of b's entries
     adhesion, limit : (n,) scaled forces of :mod:`signorini.bound`: friction at no normal force, and the most there is;
         None stands for none
-    interface : what does not depend on the load. ``dataclasses.replace(problem, b=...)`` shares it, with its
-        factorisation; made from W and motions where not given or not theirs
     """
 
-    W: Array
+    image: Image
     b: Array
     friction: Array
-    motions: Array
     scale: float
     adhesion: Array | None = None
     limit: Array | None = None
-    interface: Interface = field(default_factory=Interface.none, repr=False, compare=False)
+
+    @classmethod
+    def of(cls, *, W: ArrayLike, motions: ArrayLike, **law: Any) -> Self:
+        """The problem of a given W, (d n, d n), and the rigid motions that the pairs see, (d n, k), W R = R.
+
+        Parameters
+        ----------
+        W : symmetric, spectrum in [0, 1]; 1 belongs to rigid motions alone. Exactly zero tangential rows say that
+            supports lock the pair's motion along that tangent. Kept with W R = R restored to rounding
+        motions : k = 0 where supports hold every body
+        law : what else the problem takes
+        """
+        return cls(image=Image.of_form(np.asarray(W), np.asarray(motions)), **law)
 
     def __post_init__(self) -> None:
-        for name in ("W", "b", "friction", "motions"):
-            object.__setattr__(self, name, _read_only(getattr(self, name)))
+        for name in ("b", "friction"):
+            object.__setattr__(self, name, read_only(getattr(self, name)))
         for name in ("adhesion", "limit"):
             if getattr(self, name) is not None:
-                object.__setattr__(self, name, _read_only(getattr(self, name)))
+                object.__setattr__(self, name, read_only(getattr(self, name)))
         self._check()
-        if self.interface.W is not self.W or self.interface.motions is not self.motions:
-            interface = Interface.exact(self.W, self.motions)
-            object.__setattr__(self, "W", interface.W)
-            object.__setattr__(self, "interface", interface)
+
+    @property
+    def W(self) -> Array:
+        """(d n, d n) Image form, formed when first asked for."""
+        return self.image.W
+
+    @property
+    def motions(self) -> Array:
+        """(d n, k) Rigid motions seen by the pairs."""
+        return self.image.motions
 
     @property
     def pairs(self) -> int:
@@ -64,7 +80,7 @@ class PosedContact:
 
     def misfit(self, h: Array, r: Array, b: Array | None = None) -> Array:
         """(d n,) ``b - (G h - W r)``, the motion that equilibrium lacks, under the problem's b or another."""
-        return (self.b if b is None else b) + self.W @ (h + r) - h
+        return (self.b if b is None else b) + self.image.applied(h + r) - h
 
     @property
     def bound(self) -> Bound:
@@ -82,12 +98,9 @@ class PosedContact:
         rows : d n
         frictions : shapes that friction may have
         """
-        shapes: dict[str, list[tuple[int, ...]]] = {
-            "W": [(rows, rows)],
-            "b": [(rows,)],
-            "friction": frictions,
-            "motions": [(rows, self.motions.shape[-1])],
-        }
+        if len(self.motions) != rows:
+            raise InputError(f"has {len(self.motions)} rows; expected {rows} for {self.pairs} pairs", where=("W",))
+        shapes: dict[str, list[tuple[int, ...]]] = {"b": [(rows,)], "friction": frictions}
         for name, expected in shapes.items():
             found = getattr(self, name)
             if found.shape not in expected:
@@ -119,9 +132,3 @@ class PosedContact:
                 "is infinite at a pair whose supports drag it along: it can neither slip nor stick; give a finite mu",
                 where=("friction",),
             )
-
-
-def _read_only(values: Array) -> Array:
-    """The array itself where nobody can edit it: W is large and shared by every step."""
-    array = np.asarray(values, dtype=np.float64)
-    return array if not array.flags.writeable and array.base is None else frozen(array)

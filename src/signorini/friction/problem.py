@@ -26,27 +26,23 @@ class CoulombProblem(PosedContact):
 
     Parameters
     ----------
-    W : (2n, 2n) symmetric, spectrum in [0, 1]; 1 belongs to rigid motions alone. An exactly zero tangential row says
-        that supports lock the pair's tangential motion. Kept with W R = R restored to rounding
+    image : W, (2n, 2n), its compliance and rigid motions; or give W and motions to `of`
     b : (2n,) load: motion of the pairs under the loads plus ``G h0``, h0 = (initial gap, -slip of the step before)
     friction : (n,) mu >= 0; ``inf`` sticks wherever it is closed. A pair on the verge of opening may be in equilibrium
         neither sticking nor open; it slips then, under a normal force of 1e-6 of its friction
     adhesion, limit : (n,) scaled forces of :mod:`signorini.bound`: friction at no normal force, and the most there is;
         None stands for none
-    motions : (2n, k) rigid motions seen by the pairs, W R = R; k = 0 where supports hold every body
     scale : size of b's entries, from the data, that tolerances refer to; in the units of b
-    interface : what does not depend on the load. ``dataclasses.replace(problem, b=...)`` shares it, with its
-        factorisation; made from W and motions where not given or not theirs
 
     Raises
     ------
     InputError
-        Where shapes do not fit, entries are not finite, W is not symmetric, friction is negative, or a pair that may
-        never slip is dragged by its supports.
+        Where shapes do not fit, entries are not finite, friction is negative, or a pair that may never slip is dragged
+        by its supports.
 
     Examples
     --------
-    >>> problem = CoulombProblem(
+    >>> problem = CoulombProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.2]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
     >>> problem.pairs, problem.floating
@@ -56,7 +52,7 @@ class CoulombProblem(PosedContact):
     @cached_property
     def locked(self) -> BoolArray:
         """(n,) Pairs whose tangential motion is that of their supports."""
-        return np.asarray(~self.W[self.pairs :].any(axis=1), dtype=np.bool_)
+        return self.image.still[self.pairs :]
 
     @cached_property
     def bound(self) -> Bound:
@@ -82,11 +78,11 @@ class CoulombProblem(PosedContact):
 
     @cached_property
     def _free(self) -> Array:
-        return self.interface.free_motion(self.b)
+        return self.image.free_motion(self.b)
 
     def free_motion(self, b: Array) -> Array:
         """(2n,) Motion of the pairs under a load alone, without its rigid part; that of the problem's b is kept."""
-        return self._free if b is self.b else self.interface.free_motion(b)
+        return self._free if b is self.b else self.image.free_motion(b)
 
     def _check(self) -> None:
         n = self.pairs

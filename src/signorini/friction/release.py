@@ -30,7 +30,7 @@ def released(problem: CoulombProblem, kept: BoolArray) -> CoulombProblem | None:
     Examples
     --------
     >>> W = np.array([[0.5, 0.25, 0, 0], [0.25, 0.5, 0, 0], [0, 0, 0.5, 0], [0, 0, 0, 0.5]])
-    >>> problem = CoulombProblem(W=W, b=np.ones(4), friction=[0.3, 0.3], motions=np.zeros((4, 0)), scale=1.0)
+    >>> problem = CoulombProblem.of(W=W, b=np.ones(4), friction=[0.3, 0.3], motions=np.zeros((4, 0)), scale=1.0)
     >>> released(problem, np.array([True, False])).W.round(12).tolist()
     [[0.625, 0.0], [0.0, 0.5]]
     """
@@ -40,7 +40,7 @@ def released(problem: CoulombProblem, kept: BoolArray) -> CoulombProblem | None:
     try:
         answer = cho_solve(cho_factor(G, lower=True), np.column_stack([coupling, problem.b[o]]))
         W: Array = problem.W[np.ix_(c, c)] + coupling.T @ answer[:, :-1]
-        return CoulombProblem(
+        return CoulombProblem.of(
             W=(W + W.T) / 2,
             b=problem.b[c] + coupling.T @ answer[:, -1],
             friction=problem.friction[kept],

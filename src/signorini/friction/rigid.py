@@ -32,13 +32,13 @@ def pulled_away(problem: CoulombProblem, bound: Bound | None = None) -> Array | 
 
     Examples
     --------
-    >>> problem = CoulombProblem(
+    >>> problem = CoulombProblem.of(
     ...     W=np.eye(2), b=np.array([1.0, 0.0]), friction=[0.3], motions=np.eye(2), scale=1.0
     ... )
     >>> pulled_away(problem).tolist()
     [1.0, 0.0]
     """
-    R = problem.interface.R
+    R = problem.image.R
     if not R.shape[1]:
         return None
     load = R.T @ problem.b / (problem.scale or 1.0)
@@ -58,7 +58,7 @@ def _least(problem: CoulombProblem, load: Array) -> Array | None:
     ``a`` is the projection of ``R'b`` on the cone ``C a >= 0`` of unresisted motions; it vanishes exactly where there
     is none (Moreau). By duality a nonnegative least squares problem, ``a = R'b + C'x, x >= 0``.
     """
-    R, n, mu = problem.interface.R, problem.pairs, problem.mu
+    R, n, mu = problem.image.R, problem.pairs, problem.mu
     normal, bound = R[:n], mu[:, None] * R[n:]
     C = np.concatenate([normal - bound, normal + bound]) / np.sqrt(1.0 + np.tile(mu, 2) ** 2)[:, None]
     try:
@@ -77,7 +77,7 @@ def _by_program(problem: CoulombProblem, load: Array, bound: Bound) -> Array | N
 
     Its dual: of all admissible forces those that balance the load best. What they cannot balance is the work.
     """
-    R, n, unit = problem.interface.R, problem.pairs, problem.scale or 1.0
+    R, n, unit = problem.image.R, problem.pairs, problem.scale or 1.0
     k = R.shape[1]
     edges, room = [], []
     for j in range(bound.branches):

@@ -52,7 +52,7 @@ def always_unique(problem: CoulombProblem) -> bool:
 
     >>> W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
     >>> for mu in (1.9, 2.1):
-    ...     problem = CoulombProblem(W=W, b=np.zeros(2), friction=[mu], motions=np.zeros((2, 0)), scale=1.0)
+    ...     problem = CoulombProblem.of(W=W, b=np.zeros(2), friction=[mu], motions=np.zeros((2, 0)), scale=1.0)
     ...     print(mu, always_unique(problem))
     1.9 True
     2.1 False

@@ -31,7 +31,7 @@ def index(problem: CoulombProblem, state: IntArray) -> int:
     One node with stiffness k_n = k_t = 2, coupling 1 and much friction: sliding with friction opposed is unstable.
 
     >>> W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    >>> problem = CoulombProblem(W=W, b=W @ [-1.0, 2.5], friction=[3.0], motions=np.zeros((2, 0)), scale=1.0)
+    >>> problem = CoulombProblem.of(W=W, b=W @ [-1.0, 2.5], friction=[3.0], motions=np.zeros((2, 0)), scale=1.0)
     >>> [index(problem, np.array([state])) for state in (0, 1, 3)]
     [1, 1, -1]
     """
@@ -65,7 +65,7 @@ def mu_low(problem: PosedContact) -> float | None:
     Examples
     --------
     >>> W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    >>> problem = CoulombProblem(W=W, b=W @ [-1.0, 2.5], friction=[3.0], motions=np.zeros((2, 0)), scale=1.0)
+    >>> problem = CoulombProblem.of(W=W, b=W @ [-1.0, 2.5], friction=[3.0], motions=np.zeros((2, 0)), scale=1.0)
     >>> round(mu_low(problem), 6)
     1.732051
     """
@@ -76,7 +76,7 @@ def mu_low(problem: PosedContact) -> float | None:
     if not len(rubs):
         return np.inf
     tangents = (rubs + n * np.arange(1, d + 1)[:, None]).T.ravel()
-    R = problem.interface.R
+    R = problem.image.R
     if np.abs(R[tangents]).max(initial=0.0) > _SLIDES * np.abs(R).max(initial=0.0):
         return None
     kept = np.concatenate([np.full(n, True), moves])
@@ -85,7 +85,7 @@ def mu_low(problem: PosedContact) -> float | None:
         return 0.0
     S[np.diag_indices(len(S))] -= 1.0
     stiffness = S[np.ix_(rubs, rubs)]
-    compliance = problem.interface.A[np.ix_(tangents, tangents)]
+    compliance = problem.image.A[np.ix_(tangents, tangents)]
     sizes = np.linalg.norm(compliance.reshape(len(rubs), d, len(rubs), d), ord=2, axis=(1, 3))
     root = np.sqrt(np.diag(stiffness))
     stiffest = np.linalg.eigvalsh(stiffness / root / root[:, None])[-1]

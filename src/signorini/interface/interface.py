@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, extent
 from signorini.bound import Bound
 from signorini.errors import InputError
 from signorini.fem.obstacles import carried
@@ -255,7 +255,7 @@ def _of_shared_nodes(space: Space, model: Model, node: IntArray, friction: Array
     if space.dimension == 3 or not len(node):
         return np.zeros(len(node))
     shared = np.bincount(node)[node] > 1
-    size = float(np.ptp(space.mesh.points, axis=0).max())
+    size = float(extent(space.mesh.points).max())
     softest = min(body.material.smallest_modulus for body in model.bodies)
     return np.where(shared & (friction > 0.0), _SHARED * size / softest, 0.0)
 

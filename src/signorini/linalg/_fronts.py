@@ -48,7 +48,8 @@ def factorise_fronts(
     indptr, indices, data : rows of K in its own numbering
     order, place : order of elimination of the unknowns, and its inverse
     slot : for every unknown of the interface, in order of elimination, its row in the condensed matrix
-    factor, condensed : zero on entry
+    factor : overwritten
+    condensed : zero on entry
     stacks : what waits for parents
     diagonal : overwritten by that of K inside, in order of elimination
     widest : unknowns below the largest front
@@ -66,6 +67,7 @@ def factorise_fronts(
         r = fronts.below[t]
         ld = k + r
         panel = factor[fronts.panel[t] : fronts.panel[t + 1]]
+        panel[:] = 0.0
         own = fronts.side[t]
         other = 1 - own
         left = stacks[own][top[own] : top[own] + r * r]

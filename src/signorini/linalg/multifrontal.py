@@ -101,7 +101,7 @@ def factorise(system: System) -> MultifrontalFactorisation:
     place[plan.order] = np.arange(system.n, dtype=np.int32)
     slots = np.empty(system.m, dtype=np.int32)
     slots[place[system.interface] - inside] = np.arange(system.m, dtype=np.int32)
-    factor = np.zeros(plan.fronts.panel[-1])
+    factor = np.empty(plan.fronts.panel[-1])
     condensed, diagonal = np.zeros((system.m, system.m)), np.empty(inside)
     stacks = np.empty(plan.stacks[0]), np.empty(plan.stacks[1])
     with one_thread() as threads:

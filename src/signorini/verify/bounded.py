@@ -32,7 +32,7 @@ def shear_limits() -> Iterator[Check]:
 def _one_node() -> Iterator[Check]:
     """K = [[2, -1], [-1, 2]] in (gap, slip), pressed by 1, pulled to 4, mu 1, limit 0.4: p = 1 - s while it slips."""
     W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]])).astype(np.float64)
-    problem = CoulombProblem(
+    problem = CoulombProblem.of(
         W=W, b=np.zeros(2), friction=np.ones(1), limit=np.array([0.4]), motions=np.zeros((2, 0)), scale=4.0
     )
     pressed = follow(problem, initial_state(problem, np.zeros(2)), W @ np.array([-1.0, 0.0])).end
@@ -106,7 +106,7 @@ def _convex_minimum() -> Check:
     W = (Q * rng.uniform(0.05, 0.95, 2 * n)) @ Q.T
     limit = rng.uniform(0.05, 1.0, n)
     pressed = np.append(rng.uniform(20.0, 30.0, n), np.zeros(n))
-    problem = CoulombProblem(
+    problem = CoulombProblem.of(
         W=(W + W.T) / 2,
         b=-W @ pressed + rng.normal(size=2 * n),
         friction=np.full(n, np.inf),
@@ -115,7 +115,7 @@ def _convex_minimum() -> Check:
         scale=1.0,
     )
     result = solve_coulomb(problem)
-    L = np.linalg.cholesky(problem.interface.A)
+    L = np.linalg.cholesky(problem.image.A)
     c = problem.free_motion(problem.b)
     box = (np.append(np.zeros(n), -limit), np.append(np.full(n, np.inf), limit))
     least = lsq_linear(L.T, -np.linalg.solve(L, c), bounds=box, tol=1e-14).x

@@ -39,7 +39,9 @@ def one_node_path() -> Iterator[Check]:
     case, source = "one-node Coulomb problem, exact path", "by hand, Klarbring (1990)"
     for friction, words in ((1.0, "mu 1"), (3.0, "mu 3")):
         W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]])).astype(np.float64)
-        problem = CoulombProblem(W=W, b=np.zeros(2), friction=np.array([friction]), motions=np.zeros((2, 0)), scale=4.0)
+        problem = CoulombProblem.of(
+            W=W, b=np.zeros(2), friction=np.array([friction]), motions=np.zeros((2, 0)), scale=4.0
+        )
         pressed = follow(problem, initial_state(problem, np.zeros(2)), W @ np.array([-1.0, 0.0])).end
         path = follow(problem, pressed, W @ np.array([-1.0, 4.0]))
         if path.jump is None:
@@ -75,7 +77,7 @@ def one_node_path_in_space() -> Iterator[Check]:
         turn = np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
         W = turn @ np.linalg.inv(np.array([[3.0, -1.0, 0.0], [-1.0, 3.0, 0.0], [0.0, 0.0, 3.0]])) @ turn.T
         friction = 3.0 / np.cos(np.pi / 8) if words.startswith("edge") else 3.0
-        problem = SpatialProblem(
+        problem = SpatialProblem.of(
             W=W, b=np.zeros(3), friction=np.array([friction]), motions=np.zeros((3, 0)), scale=4.0, facets=facets
         )
         pressed = follow_stopping(problem, at_rest(problem, np.zeros(3)), W @ turn @ np.array([-1.0, 0.0, 0.0])).end
@@ -103,7 +105,7 @@ def _one_node(*, friction: float, push: float) -> tuple[float, float]:
     K = np.array([[2.0, -1.0], [-1.0, 2.0]])
     W = np.linalg.inv(K + np.eye(2)).astype(np.float64)
     result = solve_coulomb(
-        CoulombProblem(
+        CoulombProblem.of(
             W=W, b=W @ np.array([-1.0, push]), friction=np.array([friction]), motions=np.zeros((2, 0)), scale=1.0
         )
     )

@@ -12,7 +12,7 @@ from signorini.friction.exact import follow, initial_state
 def one_node(mu):
     """Stiffness 2 in both directions, coupling -1; returns the problem and the load of a force (f_n, f_t)."""
     W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    problem = CoulombProblem(W=W, b=np.zeros(2), friction=[mu], motions=np.zeros((2, 0)), scale=4.0)
+    problem = CoulombProblem.of(W=W, b=np.zeros(2), friction=[mu], motions=np.zeros((2, 0)), scale=4.0)
     return problem, lambda f_n, f_t: W @ [f_n, f_t]
 
 
@@ -33,7 +33,7 @@ class EqualBodies:
         self.R = np.kron(np.eye(2), np.ones((n, 1)))
         W = np.eye(2 * n) - T + self.R @ self.R.T / n
         self.gap = np.append(x**2 / 2, np.zeros(n))
-        self.problem = CoulombProblem(
+        self.problem = CoulombProblem.of(
             W=(W + W.T) / 2, b=np.zeros(2 * n), friction=np.full(n, mu), motions=self.R, scale=1.0
         )
 
@@ -82,7 +82,7 @@ class Springs:
         self.S = S
         self.gap = np.append(np.zeros(n) if gap is None else gap, np.zeros(n))
         W = np.linalg.inv(S + np.eye(2 * n))
-        self.problem = CoulombProblem(
+        self.problem = CoulombProblem.of(
             W=(W + W.T) / 2, b=np.zeros(2 * n), friction=friction, motions=np.zeros((2 * n, 0)), scale=1.0
         )
 

@@ -37,7 +37,7 @@ def test_an_interference_is_one_increment_and_says_so():
 def test_floating_blocks_follow_their_increments(seed, pairs):
     rng = np.random.default_rng(seed)
     problem = block_on_floor(pairs, (0.0, 0.0, 0.0))
-    elastic = problem.interface.A @ rng.normal(size=2 * pairs) * 0.03
+    elastic = problem.image.A @ rng.normal(size=2 * pairs) * 0.03
     own = (np.eye(2 * pairs) - problem.W) @ elastic
     loads = [load + k * own for k, load in enumerate(_resultants(problem, rng))]
     state = initial_state(problem, np.zeros(2 * pairs), motion=np.zeros(2 * pairs))
@@ -64,7 +64,7 @@ def dragged(friction):
     S = stiff(3, 2)[:3, :3]
     W = np.zeros((4, 4))
     W[:3, :3] = np.linalg.inv(S + np.eye(3))
-    return CoulombProblem(
+    return CoulombProblem.of(
         W=(W + W.T) / 2, b=np.zeros(4), friction=np.full(2, friction), motions=np.zeros((4, 0)), scale=1.0
     )
 

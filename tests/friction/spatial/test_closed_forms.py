@@ -9,6 +9,7 @@ from coulomb_samples import random_problem as plane_problem
 from spatial_samples import pressed_punch, random_problem
 
 from signorini import lcp
+from signorini.condense.image import Image
 from signorini.errors import InputError
 from signorini.friction import solve_coulomb
 from signorini.friction.spatial import (
@@ -24,7 +25,7 @@ from signorini.friction.spatial import (
 
 
 def one_pair(b, friction, **more):
-    return SpatialProblem(
+    return SpatialProblem.of(
         W=0.5 * np.eye(3), b=np.array(b, float), friction=friction, motions=np.zeros((3, 0)), scale=1.0, **more
     )
 
@@ -68,7 +69,7 @@ def test_equal_axes_are_a_circle_and_exchanged_axes_exchange_the_answer():
     np.testing.assert_array_equal(circle.y, equal.y)
     problem = random_problem(4, 6, [[0.2, 0.7]])
     swap = np.concatenate([np.arange(6), np.arange(12, 18), np.arange(6, 12)])
-    exchanged = SpatialProblem(
+    exchanged = SpatialProblem.of(
         W=problem.W[np.ix_(swap, swap)], b=problem.b[swap], friction=problem.friction[:, ::-1],
         motions=np.zeros((18, 0)), scale=1.0,
     )  # fmt: skip
@@ -79,7 +80,7 @@ def test_equal_axes_are_a_circle_and_exchanged_axes_exchange_the_answer():
 def test_without_friction_the_normal_forces_are_those_of_an_lcp(seed):
     problem = random_problem(seed, 8, 0.0)
     result = solve_spatial(problem)
-    A, c = problem.interface.A, problem.free_motion
+    A, c = problem.image.A, problem.free_motion
     z = lcp.solve(A[:8, :8], c[:8]).z
     np.testing.assert_allclose(result.normal_force, z, atol=1e-9)
     assert not result.tangential_force.any()
@@ -102,7 +103,7 @@ def test_a_pair_in_trescas_law_resists_also_where_it_is_open():
 
 def test_a_tresca_bound_is_a_force_of_any_size():
     force = 1e9
-    problem = SpatialProblem(
+    problem = SpatialProblem.of(
         W=0.5 * np.eye(3), b=force * np.array([-1.0, 5.0, 0.0]), friction=[2 * force], motions=np.zeros((3, 0)),
         scale=force, tresca=[True],
     )  # fmt: skip
@@ -126,7 +127,7 @@ def test_motion_in_a_plane_is_the_plane_problem(seed, guided):
     inside = np.concatenate([np.arange(n), (1 + axis) * n + np.arange(n)])
     W, b = (0.0 if guided else 0.5) * np.eye(3 * n), np.zeros(3 * n)
     W[np.ix_(inside, inside)], b[inside] = plane.W, plane.b
-    problem = SpatialProblem(W=W, b=b, friction=plane.friction, motions=np.zeros((3 * n, 0)), scale=1.0)
+    problem = SpatialProblem.of(W=W, b=b, friction=plane.friction, motions=np.zeros((3 * n, 0)), scale=1.0)
     flat, spatial = solve_coulomb(plane), solve_spatial(problem)
     assert flat.solved
     assert spatial.solved
@@ -143,7 +144,7 @@ def test_a_pair_that_supports_drag_slips_as_it_is_dragged(friction):
     for row in (4, 8):
         W[row], W[:, row] = 0.0, 0.0
     b[[0, 4, 8]] = -2.0, 0.3, 0.4
-    result = solve_spatial(SpatialProblem(W=W, b=b, friction=problem.friction, motions=np.zeros((12, 0)), scale=1.0))
+    result = solve_spatial(SpatialProblem.of(W=W, b=b, friction=problem.friction, motions=np.zeros((12, 0)), scale=1.0))
     assert result.solved
     np.testing.assert_allclose(result.slip[0], [0.3, 0.4], atol=1e-12)
     found = violations(
@@ -159,7 +160,7 @@ def test_a_pair_that_supports_drag_along_one_tangent_turns_its_friction(push, fa
     W, b = problem.W.copy(), problem.b.copy()
     W[4], W[:, 4] = 0.0, 0.0
     b[[0, 4, 8]] = -2.0, push, 0.4
-    result = solve_spatial(replace(problem, W=W, b=b))
+    result = solve_spatial(replace(problem, image=Image.of_form(W, problem.motions), b=b))
     assert result.solved
     np.testing.assert_allclose(result.slip[0, 0], push, atol=1e-10)
     found = violations(
@@ -174,7 +175,7 @@ def test_bad_input_says_what_is_wrong():
         one_pair((0, 0, 0), [-0.1])
     with pytest.raises(InputError, match="facets: is 6; expected 0 or a multiple of 4"):
         one_pair((0, 0, 0), [0.1], facets=6)
-    with pytest.raises(InputError, match=r"W: has shape \(3, 3\); expected \(6, 6\) for 2 pairs"):
+    with pytest.raises(InputError, match="W: has 3 rows; expected 6 for 2 pairs"):
         one_pair((0, 0, 0), [0.1, 0.2])
     with pytest.raises(InputError, match="start: has shape"):
         solve_spatial(one_pair((0, 0, 0), [0.1]), np.zeros(2))

@@ -77,7 +77,7 @@ def corner(n, seed):
     Q, _ = np.linalg.qr(rng.normal(size=(3 * n, 3 * n)))
     W, none = (Q * rng.uniform(0.05, 0.95, 3 * n)) @ Q.T, np.zeros(3 * n)
     W = (W + W.T) / 2
-    problem = SpatialProblem(W=W, b=none, friction=np.full(n, 0.6), motions=np.zeros((3 * n, 0)), scale=1.0)
+    problem = SpatialProblem.of(W=W, b=none, friction=np.full(n, 0.6), motions=np.zeros((3 * n, 0)), scale=1.0)
     return problem, at_rest(problem, none, motion=none), rng
 
 

@@ -29,7 +29,7 @@ def random_history(seed, pairs, rows, segments=3):
 def in_space(W, friction, facets, **changes):
     n = len(W) // 3
     given = {"W": W, "b": np.zeros(3 * n), "friction": np.broadcast_to(friction, (n, *np.shape(friction)))}
-    return SpatialProblem(**given | {"motions": np.zeros((3 * n, 0)), "scale": 1.0, "facets": facets} | changes)
+    return SpatialProblem.of(**given | {"motions": np.zeros((3 * n, 0)), "scale": 1.0, "facets": facets} | changes)
 
 
 def run(problem, h0, b0, loads, **settings):
@@ -49,7 +49,9 @@ def test_forces_in_a_plane_follow_the_exact_path_of_the_plane(seed, facets):
     W2, h0, b0, loads = random_history(seed, n, 2)
     W = 0.5 * np.eye(3 * n)
     W[: 2 * n, : 2 * n] = W2
-    plane = CoulombProblem(W=W2, b=np.zeros(2 * n), friction=np.full(n, 0.4), motions=np.zeros((2 * n, 0)), scale=1.0)
+    plane = CoulombProblem.of(
+        W=W2, b=np.zeros(2 * n), friction=np.full(n, 0.4), motions=np.zeros((2 * n, 0)), scale=1.0
+    )
     state = initial_state(plane, b0, motion=h0)
     segments = run(in_space(W, 0.4, facets), *(np.append(x, np.zeros(n)) for x in (h0, b0)), wide(loads, n))
     for b, found in zip(loads, segments, strict=True):

@@ -19,7 +19,7 @@ def turned_node(mu, facets, angle, **bounds):
     K = turn @ np.array([[2.0, -1.0, 0.0], [-1.0, 2.0, 0.0], [0.0, 0.0, 2.0]]) @ turn.T
     W = np.linalg.inv(K + np.eye(3))
     given = {"W": (W + W.T) / 2, "b": np.zeros(3), "friction": [mu], "motions": np.zeros((3, 0)), "scale": 4.0}
-    return SpatialProblem(**given, facets=facets, **bounds), lambda *force: W @ turn @ [*force, 0.0], turn
+    return SpatialProblem.of(**given, facets=facets, **bounds), lambda *force: W @ turn @ [*force, 0.0], turn
 
 
 def pulled(mu, facets, angle, most=8.0, **bounds):
@@ -86,7 +86,7 @@ def plane_and_space(seed, pairs, mu, facets):
     springs = Springs(stiff(seed, pairs), np.full(pairs, mu))
     W = 0.5 * np.eye(3 * pairs)
     W[: 2 * pairs, : 2 * pairs] = springs.problem.W
-    wide = SpatialProblem(
+    wide = SpatialProblem.of(
         W=W,
         b=np.zeros(3 * pairs),
         friction=springs.problem.friction,
@@ -140,7 +140,7 @@ def test_landings_are_equilibria_where_less_is_stored_than_the_loads_gave(pairs,
     W = np.linalg.inv(S + np.eye(3 * pairs))
     none = np.zeros(3 * pairs)
     friction = np.full(pairs, mu)
-    problem = SpatialProblem(
+    problem = SpatialProblem.of(
         W=(W + W.T) / 2, b=none, friction=friction, motions=np.zeros((3 * pairs, 0)), scale=1.0, facets=facets
     )
     state, before, rng = at_rest(problem, none, motion=none), none, np.random.default_rng((seed, 1))
@@ -169,7 +169,7 @@ def test_increments_find_the_random_jumps_that_every_event_finds(behind, pairs, 
     S, none = stiff_in_space(seed, pairs), np.zeros(3 * pairs)
     W = np.linalg.inv(S + np.eye(3 * pairs))
     given = {"W": (W + W.T) / 2, "b": none, "friction": np.full(pairs, mu), "motions": np.zeros((3 * pairs, 0))}
-    problem, rng = SpatialProblem(**given, scale=1.0), np.random.default_rng((seed, 1))
+    problem, rng = SpatialProblem.of(**given, scale=1.0), np.random.default_rng((seed, 1))
     state, fine = at_rest(problem, none, motion=none), StopSettings(turn=0.1)
     for _ in range(4):
         F = rng.normal(size=3 * pairs)

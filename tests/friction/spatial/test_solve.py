@@ -9,6 +9,7 @@ from spatial_samples import block_on_floor, pressed_punch, random_problem
 
 from signorini import lcp
 from signorini.bench.spatial import hard_random
+from signorini.condense.image import Image
 from signorini.friction.spatial import (
     SLIP,
     STICK,
@@ -58,7 +59,7 @@ def test_turning_the_tangents_turns_the_answer(seed):
     c, s, zero = np.diag(np.cos(angle)), np.diag(np.sin(angle)), np.zeros((10, 10))
     Q = np.block([[np.eye(10), zero, zero], [zero, c, s], [zero, -s, c]])
     W = Q @ problem.W @ Q.T
-    turned = replace(problem, W=(W + W.T) / 2, b=Q @ problem.b)
+    turned = replace(problem, image=Image.of_form((W + W.T) / 2, problem.motions), b=Q @ problem.b)
     np.testing.assert_allclose(solve_spatial(turned).y, Q @ solve_spatial(problem).y, atol=1e-8)
 
 
@@ -165,6 +166,6 @@ def test_a_limit_load_below_what_statics_allow_names_the_motion():
 def test_a_load_that_has_a_solution_is_reached_as_a_whole():
     full, base = random_problem(5, 6, 0.4), random_problem(6, 6, 0.4)
     limit = limit_load(full, base.b)
-    assert replace(full, b=base.b).interface is full.interface
+    assert replace(full, b=base.b).image is full.image
     assert limit.factor == 1.0
     np.testing.assert_allclose(limit.result.y, solve_spatial(full).y, atol=1e-8)

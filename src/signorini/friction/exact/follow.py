@@ -92,7 +92,7 @@ def follow(problem: CoulombProblem, start: PathState, b_end: Array, *, settings:
 
     >>> from signorini.friction.exact import initial_state
     >>> W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    >>> problem = CoulombProblem(W=W, b=np.zeros(2), friction=[1.0], motions=np.zeros((2, 0)), scale=1.0)
+    >>> problem = CoulombProblem.of(W=W, b=np.zeros(2), friction=[1.0], motions=np.zeros((2, 0)), scale=1.0)
     >>> pressed = follow(problem, initial_state(problem, np.zeros(2)), W @ [-1.0, 0.0])
     >>> pulled = follow(problem, pressed.end, W @ [-1.0, 4.0])
     >>> [(round(4.0 * event.factor, 9), event.what) for event in pulled.events], pulled.end.h.round(6).tolist()

@@ -46,7 +46,7 @@ class StateInverse:
 
     Examples
     --------
-    >>> problem = CoulombProblem(
+    >>> problem = CoulombProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.zeros(2), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
     >>> inverse = StateInverse(problem)
@@ -57,7 +57,7 @@ class StateInverse:
     """
 
     def __init__(self, problem: CoulombProblem) -> None:
-        A, self._motions = problem.interface.A, problem.interface.R
+        A, self._motions = problem.image.A, problem.image.R
         self._forces = np.hstack([A, self._motions])  # what all equations see of each, in rows
         equations = self._forces.shape[1]
         self._bound, self._n = problem.bound, problem.pairs

@@ -67,7 +67,7 @@ def land(
 
     >>> from signorini.friction.exact import follow, initial_state
     >>> W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    >>> problem = CoulombProblem(W=W, b=np.zeros(2), friction=[3.0], motions=np.zeros((2, 0)), scale=1.0)
+    >>> problem = CoulombProblem.of(W=W, b=np.zeros(2), friction=[3.0], motions=np.zeros((2, 0)), scale=1.0)
     >>> pressed = follow(problem, initial_state(problem, np.zeros(2)), W @ [-1.0, 0.0]).end
     >>> landing = land(problem, pressed, follow(problem, pressed, W @ [-1.0, 4.0]))
     >>> landing.state.h.round(9).tolist(), round(float(landing.state.dissipation[0]), 9)

@@ -35,7 +35,7 @@ class Responses:
     Examples
     --------
     >>> from signorini.friction import STICK
-    >>> problem = CoulombProblem(
+    >>> problem = CoulombProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.zeros(2), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
     >>> responses = Responses(problem)
@@ -52,11 +52,11 @@ class Responses:
 
     def free(self, b: Array) -> Array:
         """(2n + k,) Motion and resultants of a load b, (2n,)."""
-        return np.concatenate([self.problem.free_motion(b), self.problem.interface.R.T @ b])
+        return np.concatenate([self.problem.free_motion(b), self.problem.image.R.T @ b])
 
     def imposed(self, h: Array, r: Array) -> Array:
         """(2n + k,) What motions and forces, (2n,), are worth that come on top of what a state allows."""
-        interface, acting = self.problem.interface, np.flatnonzero(r)
+        interface, acting = self.problem.image, np.flatnonzero(r)
         return np.concatenate([r[acting] @ interface.A[acting] - h, r[acting] @ interface.R[acting]])
 
     def respond(self, state: IntArray, free: Array) -> tuple[Array, Array]:

@@ -74,7 +74,7 @@ def initial_state(problem: CoulombProblem, b: Array, *, motion: Array | None = N
 
     Examples
     --------
-    >>> problem = CoulombProblem(
+    >>> problem = CoulombProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.zeros(2), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
     >>> state = initial_state(problem, np.array([0.1, 0.0]))

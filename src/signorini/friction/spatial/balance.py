@@ -40,7 +40,7 @@ def passed_over(problem: SpatialProblem, start: PathState, pieces: Sequence[Brea
     --------
     One pair that rubs under a pressure of 1, and then leaves at once for a gap of 1, in a tenth of the way:
 
-    >>> problem = SpatialProblem(
+    >>> problem = SpatialProblem.of(
     ...     W=0.5 * np.eye(3), b=np.zeros(3), friction=[1.0], motions=np.zeros((3, 0)), scale=1.0
     ... )
     >>> def at(h, r, lost):

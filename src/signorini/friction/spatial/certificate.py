@@ -23,7 +23,7 @@ def certify(problem: SpatialProblem, y: Array) -> float:
 
     Examples
     --------
-    >>> problem = SpatialProblem(
+    >>> problem = SpatialProblem.of(
     ...     W=0.5 * np.eye(3), b=np.array([-1.0, 0.0, 0.0]), friction=[0.3], motions=np.zeros((3, 0)), scale=1.0
     ... )
     >>> certify(problem, np.array([2.0, 0.0, 0.0])), certify(problem, np.zeros(3))
@@ -36,7 +36,7 @@ def certify(problem: SpatialProblem, y: Array) -> float:
     if np.abs(h).max(initial=0.0) > FARTHEST * unit:
         return np.inf
     misfit = np.abs(problem.misfit(h, r)).max(initial=0.0) / unit
-    R = problem.interface.R
+    R = problem.image.R
     resultants = np.abs(R.T @ (r + problem.b)) / (unit * np.abs(R).sum(axis=0))
     return float(max(misfit, resultants.max(initial=0.0)))
 

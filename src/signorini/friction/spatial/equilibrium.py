@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Equilibrium in forces, and its solution where the law of every pair is linear: one system in what is unknown.
 
-In the force form (see `friction.interface`) with an optional proximal layer of compliance alpha around r_0, and springs
+In the force form (see `condense.image`) with an optional proximal layer of compliance alpha around r_0, and springs
 of stiffness beta that pull the rigid motions to a_0::
 
     h = A r + c + R a + alpha (r - r_0),    R'(r + b) = beta (a - a_0)
@@ -26,7 +26,7 @@ import scipy.sparse as sp
 from scipy.linalg import lapack, lstsq
 
 from signorini.arrays import Array, IntArray
-from signorini.friction.interface import symmetric_product
+from signorini.condense.image import symmetric_product
 from signorini.friction.spatial.law import Tangent
 from signorini.friction.spatial.problem import SpatialProblem
 
@@ -76,16 +76,16 @@ class Equilibrium:
     @cached_property
     def resultant(self) -> Array:
         """(k,) ``R'b + beta a_0``."""
-        return self.problem.interface.R.T @ self.problem.b + self.beta * self.motion
+        return self.problem.image.R.T @ self.problem.b + self.beta * self.motion
 
     def moved(self, r: Array, a: Array) -> Array:
         """(3n,) Motion h of the pairs under forces r and rigid motion a."""
-        A, R = self.problem.interface.A, self.problem.interface.R
+        A, R = self.problem.image.A, self.problem.image.R
         return symmetric_product(A, r) + self.alpha * r + self.offset + R @ a
 
     def lacking(self, r: Array, a: Array) -> Array:
         """(k,) What the forces lack to balance the resultants."""
-        return self.problem.interface.R.T @ r + self.resultant - self.beta * a
+        return self.problem.image.R.T @ r + self.resultant - self.beta * a
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,10 +122,10 @@ class LinearSystem:
             error = problem.misfit(h, r)
             if np.abs(error).max(initial=0.0) <= REFINE * problem.scale:
                 break
-            response, push = problem.interface.free_motion(error), problem.interface.R.T @ error
+            response, push = problem.image.free_motion(error), problem.image.R.T @ error
             dx = self._back(-np.concatenate([self.motions.T @ response, push]))
             dr, da = self.forces @ dx[: len(dx) - len(a)], dx[len(dx) - len(a) :]
-            A, R = problem.interface.A, problem.interface.R
+            A, R = problem.image.A, problem.image.R
             r, a, h = r + dr, a + da, prescribed(self.law, h + A @ dr + response + R @ da)
         return r, a, h
 
@@ -172,7 +172,7 @@ def linear_system(equilibrium: Equilibrium, law: Tangent) -> LinearSystem:
     Examples
     --------
     >>> from signorini.friction.spatial.law import sticking
-    >>> problem = SpatialProblem(
+    >>> problem = SpatialProblem.of(
     ...     W=0.5 * np.eye(3), b=np.array([-1.0, 0.2, 0.1]), friction=[0.3], motions=np.zeros((3, 0)), scale=1.0
     ... )
     >>> r, a, h = linear_system(Equilibrium.of(problem), sticking(problem)).solve(np.zeros(3), np.zeros(0))
@@ -182,7 +182,7 @@ def linear_system(equilibrium: Equilibrium, law: Tangent) -> LinearSystem:
     problem, alpha = equilibrium.problem, equilibrium.alpha
     forces, motions, resisting = directions(problem.pairs, law)
     taking = np.flatnonzero(np.asarray(abs(forces).sum(axis=1)).ravel() + np.asarray(abs(motions).sum(axis=1)).ravel())
-    A, R = problem.interface.A[np.ix_(taking, taking)], problem.interface.R[taking]
+    A, R = problem.image.A[np.ix_(taking, taking)], problem.image.R[taking]
     if alpha:
         A[np.diag_indices_from(A)] += alpha
     Y, Z = motions[taking].T, forces[taking]

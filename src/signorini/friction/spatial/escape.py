@@ -25,7 +25,7 @@ def escape_motion(problem: SpatialProblem, *, springs: tuple[float, ...], steps:
 
     Examples
     --------
-    >>> problem = SpatialProblem(
+    >>> problem = SpatialProblem.of(
     ...     W=np.eye(3), b=np.array([-1.0, 0.5, 0.0]), friction=[0.3], motions=np.eye(3), scale=1.0
     ... )
     >>> escape_motion(problem, springs=(1e-3, 1e-6), steps=25).round(3).tolist()

@@ -34,7 +34,7 @@ def faceted_lcp(problem: SpatialProblem) -> tuple[Array, Array]:
     Examples
     --------
     >>> from signorini.lcp import solve
-    >>> problem = SpatialProblem(
+    >>> problem = SpatialProblem.of(
     ...     W=np.eye(3) / 2, b=np.array([-1, 0.5, 0]), friction=[0.1], motions=np.zeros((3, 0)), scale=1.0, facets=4
     ... )
     >>> decoded(problem, solve(*faceted_lcp(problem), method="lemke").z).round(12).tolist()
@@ -44,7 +44,7 @@ def faceted_lcp(problem: SpatialProblem) -> tuple[Array, Array]:
         raise InputError("expected facets, as many at every pair, held bodies and Coulomb's law at every pair")
     n, k = problem.pairs, int(problem.sides[0])
     D, most = _corner_forces(problem)
-    A, c = problem.interface.A, problem.free_motion
+    A, c = problem.image.A, problem.free_motion
     forces = np.zeros((3 * n, n + n * k))
     forces[:n, :n] = np.eye(n)
     forces[n:, n:] = D

@@ -94,7 +94,7 @@ def follow_stopping(
     --------
     One pair, pressed by 1 and pulled sideways by up to 1 across an octagon of friction: slips at 0.5.
 
-    >>> problem = SpatialProblem(
+    >>> problem = SpatialProblem.of(
     ...     W=0.5 * np.eye(3), b=np.zeros(3), friction=[0.5], motions=np.zeros((3, 0)), scale=1.0, facets=8
     ... )
     >>> pressed = follow_stopping(problem, at_rest(problem, np.zeros(3)), np.array([-0.5, 0.0, 0.0]))

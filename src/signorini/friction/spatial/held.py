@@ -29,7 +29,7 @@ class Held:
 
     Examples
     --------
-    >>> problem = SpatialProblem(
+    >>> problem = SpatialProblem.of(
     ...     W=0.5 * np.eye(3), b=np.array([-1.0, 0.5, 0.0]), friction=[0.3], motions=np.zeros((3, 0)), scale=1.0
     ... )
     >>> held = Held.of(problem, np.array([True]), np.array([True]))

@@ -24,8 +24,8 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import solve_triangular
 
-from signorini.arrays import Array, BoolArray
-from signorini.friction.interface import symmetric_product
+from signorini.arrays import Array
+from signorini.condense.image import softened, symmetric_product
 from signorini.friction.spatial.equilibrium import Equilibrium, prescribed
 from signorini.friction.spatial.law import Tangent
 
@@ -56,7 +56,7 @@ def iterate(equilibrium: Equilibrium, law: Tangent, r: Array, a: Array) -> tuple
     --------
     >>> from signorini.friction.spatial.law import sticking
     >>> from signorini.friction.spatial.problem import SpatialProblem
-    >>> problem = SpatialProblem(
+    >>> problem = SpatialProblem.of(
     ...     W=0.5 * np.eye(3), b=np.array([-1.0, 0.2, 0.1]), friction=[0.3], motions=np.zeros((3, 0)), scale=1.0
     ... )
     >>> r, a, h = iterate(Equilibrium.of(problem), sticking(problem), np.zeros(3), np.zeros(0))
@@ -65,7 +65,7 @@ def iterate(equilibrium: Equilibrium, law: Tangent, r: Array, a: Array) -> tuple
     """
     problem = equilibrium.problem
     unknown, size = Unknowns.of(law), 3 * problem.pairs
-    (A, W), R = problem.interface.single, problem.interface.R
+    (A, factor), R = problem.image.single, problem.image.R
 
     def balance(x: Array) -> tuple[Array, Array, Array]:
         force = unknown.forces(x[:size]) + unknown.fixed
@@ -79,9 +79,9 @@ def iterate(equilibrium: Equilibrium, law: Tangent, r: Array, a: Array) -> tuple
         return np.concatenate([unknown.seen(motion) + unknown.resisting * x[:size], R.T @ force])
 
     def precondition(y: Array) -> Array:
-        motion = unknown.motions(np.where(unknown.across, 0.0, y[:size]))
-        force = motion - symmetric_product(W, motion) + R @ y[size:]
-        return np.concatenate([np.where(unknown.across, y[:size], unknown.seen(force)), R.T @ motion])
+        motion = unknown.motions(y[:size])
+        force = softened(factor, motion) + R @ (y[size:] - R.T @ motion)
+        return np.concatenate([unknown.along(force) + unknown.across * y[:size], R.T @ motion])
 
     start = np.concatenate([unknown.coordinates(r), a])
     error = balance(start)[2]
@@ -106,82 +106,75 @@ class Unknowns:
     Attributes
     ----------
     law : of every pair, linear
-    closed : (n,) 1 where pairs press
-    first : (2, n) tangential force per second unknown
-    second : (n,) second tangential force per third unknown
-    soft : (n,) what the row of the second unknown is divided by
-    resisting : (3n,) diagonal: kappa, divided so too
+    force : (3, 3, n) force of every pair per unknown
+    motion : (3, 3, n) what the law prescribes of its motion, per motion
+    resisting : (3n,) what the law prescribes, per unknown: kappa, in the units of `motion`
     """
 
     law: Tangent
-    closed: Array
-    first: Array
-    second: Array
-    soft: Array
+    force: Array
+    motion: Array
     resisting: Array
 
     @classmethod
     def of(cls, law: Tangent) -> Unknowns:
         """What a law leaves unknown."""
-        stick, one = law.left == 2, law.left == 1
-        soft = np.where(one, 1.0 + law.kappa, 1.0)
-        first = np.where(one, law.tau.T, 0.0)
-        first[0, stick] = 1.0
-        resisting = np.zeros((3, len(stick)))
-        resisting[1, one] = (law.kappa / soft)[one]
-        return cls(
-            law=law,
-            closed=law.closed.astype(np.float64),
-            first=first,
-            second=stick.astype(np.float64),
-            soft=soft,
-            resisting=resisting.ravel(),
-        )
+        n, stick, one = len(law.left), law.left == 2, law.left == 1
+        force, motion, resisting = np.zeros((3, 3, n)), np.zeros((3, 3, n)), np.zeros((3, n))
+        soft = 1.0 + law.kappa  # across a slip rows are divided by it: kappa may be as large as it likes
+        motion[0, 0] = law.closed
+        motion[1, 1:] = np.where(one, law.tau.T / soft, 0.0)
+        motion[1, 1, stick] = motion[2, 2, stick] = 1.0
+        force[0, 0] = 1.0
+        force[1:, 0] = law.share.T
+        force[1:, 1] = np.where(one, law.tau.T, motion[1, 1:])
+        force[2, 2] = stick
+        resisting[1] = np.where(one, law.kappa / soft, 0.0)
+        return cls(law=law, force=force, motion=motion, resisting=resisting.ravel())
 
     @cached_property
-    def across(self) -> BoolArray:
-        """(3n,) Unknowns across a slip."""
-        return np.asarray(self.resisting > 0, dtype=np.bool_)
+    def across(self) -> Array:
+        """(3n,) 1 for unknowns across a slip, where resistance is all that counts."""
+        return (self.resisting > 0.0).astype(np.float64)
 
     @cached_property
     def fixed(self) -> Array:
         """(3n,) Forces that are known."""
-        return np.concatenate([np.zeros_like(self.closed), self.law.fixed.T.ravel()])
+        return np.concatenate([np.zeros(len(self.law.left)), self.law.fixed.T.ravel()])
 
     @cached_property
-    def _share(self) -> Array:
-        return np.ascontiguousarray(self.law.share.T)
-
-    @cached_property
-    def _seen(self) -> Array:
-        return self.first / self.soft
+    def _along(self) -> Array:
+        return self.motion * (1.0 - self.across.reshape(3, 1, -1))
 
     def forces(self, x: Array) -> Array:
         """(3n,) Forces of the pairs, without those that are known."""
-        p, q, s = x.reshape(3, -1)
-        tangential = self._share * p + self.first * q
-        tangential[1] += self.second * s
-        return np.concatenate([p, tangential.ravel()])
+        return _by_pair("ijn,jn->in", self.force, x)
 
     def seen(self, h: Array) -> Array:
         """(3n,) Of motions those that the law prescribes."""
-        normal, first, second = h.reshape(3, -1)
-        return np.concatenate(
-            [self.closed * normal, self._seen[0] * first + self._seen[1] * second, self.second * second]
-        )
+        return _by_pair("ijn,jn->in", self.motion, h)
+
+    def along(self, h: Array) -> Array:
+        """(3n,) The same without those across a slip."""
+        return _by_pair("ijn,jn->in", self._along, h)
 
     def motions(self, y: Array) -> Array:
-        """(3n,) The transpose of `seen`."""
-        normal, first, second = y.reshape(3, -1)
-        return np.concatenate(
-            [self.closed * normal, self._seen[0] * first, self._seen[1] * first + self.second * second]
-        )
+        """(3n,) The transpose of `along`."""
+        return _by_pair("jin,jn->in", self._along, y)
 
     def coordinates(self, r: Array) -> Array:
         """(3n,) The unknowns of given forces; across a slip what the law does not foresee."""
-        normal = self.closed * r.reshape(3, -1)[0]
-        rest = r.reshape(3, -1)[1:] - self._share * normal - self.law.fixed.T
-        return np.concatenate([normal, (self.first * rest).sum(axis=0), self.second * rest[1]])
+        x = np.zeros((3, len(self.law.left)))
+        x[0] = self.motion[0, 0] * r.reshape(3, -1)[0]
+        rest = (r - self.fixed - self.forces(x.ravel())).reshape(3, -1)
+        x[1] = (self.force[1:, 1] * rest[1:]).sum(axis=0)
+        x[2] = self.force[2, 2] * rest[2]
+        return x.ravel()
+
+
+def _by_pair(indices: str, matrices: Array, values: Array) -> Array:
+    """(3n,) The 3 x 3 matrix of every pair times its three values."""
+    return np.asarray(np.einsum(indices, matrices, values.reshape(3, -1))).ravel()
 
 
 def gmres(

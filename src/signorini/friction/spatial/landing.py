@@ -41,7 +41,7 @@ def land_spatial(
     >>> import numpy as np
     >>> from signorini.friction.spatial.follow import at_rest, follow_stopping
     >>> W = np.linalg.inv(np.array([[3.0, -1.0, 0.0], [-1.0, 3.0, 0.0], [0.0, 0.0, 3.0]]))
-    >>> problem = SpatialProblem(
+    >>> problem = SpatialProblem.of(
     ...     W=W, b=np.zeros(3), friction=[3.0], motions=np.zeros((3, 0)), scale=1.0, facets=8
     ... )
     >>> pressed = follow_stopping(problem, at_rest(problem, np.zeros(3)), W @ [-1.0, 0.0, 0.0]).end

@@ -58,7 +58,7 @@ def split(problem: SpatialProblem, y: Array) -> tuple[Array, Array]:
 
     Examples
     --------
-    >>> problem = SpatialProblem(
+    >>> problem = SpatialProblem.of(
     ...     W=0.5 * np.eye(3), b=np.zeros(3), friction=[0.5], motions=np.zeros((3, 0)), scale=1.0
     ... )
     >>> h, r = split(problem, np.array([2.0, 3.0, 4.0]))

@@ -79,7 +79,7 @@ def newton(
     --------
     >>> from signorini.friction.spatial.law import sticking
     >>> from signorini.friction.spatial.problem import SpatialProblem
-    >>> problem = SpatialProblem(
+    >>> problem = SpatialProblem.of(
     ...     W=0.5 * np.eye(3), b=np.array([-1.0, 0.3, 0.4]), friction=[0.1], motions=np.zeros((3, 0)), scale=1.0
     ... )
     >>> end = newton(Equilibrium.of(problem), sticking(problem))

@@ -31,13 +31,11 @@ class SpatialProblem(PosedContact):
 
     Parameters
     ----------
-    W : (3n, 3n) symmetric, spectrum in [0, 1]; 1 belongs to rigid motions alone. Exactly zero tangential rows say that
-        supports lock the pair's motion along that tangent
+    image : W, (3n, 3n), its compliance and rigid motions; or give W and motions to `of`
     b : (3n,) load: motion of the pairs under the loads plus ``G h0``, h0 = (initial gap, -slip of the step before)
     friction : (n,) mu >= 0, or (n, 2) along the tangents; ``inf`` sticks wherever it is closed. A pair on the verge of
         opening may be in equilibrium neither sticking nor open; it slips then, under a normal force of 1e-6 of its
         friction
-    motions : (3n, k) rigid motions seen by the pairs, W R = R; k = 0 where supports hold every body
     scale : size of b's entries, from the data, that tolerances refer to; in the units of b
     adhesion, limit : (n,) scaled forces of :mod:`signorini.bound`: friction at no normal force, and the most there is,
         along the axis of the larger friction; None stands for none
@@ -45,17 +43,16 @@ class SpatialProblem(PosedContact):
         the pair is open; None stands for none
     facets : corners of a polygon inscribed in the ellipse that stands for it, the first on the first tangent; a
         multiple of 4, or 0 for the ellipse itself; one number, or (n,)
-    interface : what does not depend on the load, shared by ``dataclasses.replace(problem, b=...)``
 
     Raises
     ------
     InputError
-        Where shapes do not fit, entries are not finite, W is not symmetric, friction is negative, or a pair that may
-        never slip is dragged by its supports.
+        Where shapes do not fit, entries are not finite, friction is negative, or a pair that may never slip is dragged
+        by its supports.
 
     Examples
     --------
-    >>> problem = SpatialProblem(
+    >>> problem = SpatialProblem.of(
     ...     W=0.5 * np.eye(3), b=np.array([-1.0, 0.2, 0.0]), friction=[0.3], motions=np.zeros((3, 0)), scale=1.0
     ... )
     >>> problem.pairs, problem.floating
@@ -84,7 +81,7 @@ class SpatialProblem(PosedContact):
     def locked(self) -> BoolArray:
         """(n, 2) Tangents along which the pair moves as its supports do."""
         n = self.pairs
-        return np.asarray(~self.W[n:].any(axis=1).reshape(2, n).T, dtype=np.bool_)
+        return self.image.still[n:].reshape(2, n).T
 
     @cached_property
     def bound(self) -> Bound:
@@ -130,7 +127,7 @@ class SpatialProblem(PosedContact):
     @cached_property
     def free_motion(self) -> Array:
         """(3n,) Motion of the pairs under the load alone, without its rigid part."""
-        return self.interface.free_motion(self.b)
+        return self.image.free_motion(self.b)
 
     def _check(self) -> None:
         n = self.pairs
@@ -181,7 +178,7 @@ def from_compliance(
     X = root[:, None] * compliance * root
     softened = np.linalg.solve(X + np.eye(len(X)), np.column_stack([X, root * offset]))
     W, b = softened[:, :-1], softened[:, -1]
-    problem = SpatialProblem(
+    problem = SpatialProblem.of(
         W=(W + W.T) / 2,
         b=b,
         friction=np.asarray(friction, dtype=np.float64),

@@ -72,7 +72,7 @@ def find_rates(problem: SpatialProblem, now: PathState, width: float) -> Spatial
 
     >>> from dataclasses import replace
     >>> from signorini.friction.spatial.follow import at_rest, follow_stopping
-    >>> problem = SpatialProblem(
+    >>> problem = SpatialProblem.of(
     ...     W=0.5 * np.eye(3), b=np.zeros(3), friction=[0.5], motions=np.zeros((3, 0)), scale=1.0, facets=8
     ... )
     >>> now = follow_stopping(problem, at_rest(problem, np.zeros(3)), np.array([-0.5, 0.25, 0.0])).end

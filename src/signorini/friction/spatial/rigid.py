@@ -30,13 +30,13 @@ def pulled_away(problem: SpatialProblem) -> Array | None:
 
     Examples
     --------
-    >>> problem = SpatialProblem(
+    >>> problem = SpatialProblem.of(
     ...     W=np.eye(3), b=np.array([1.0, 0.0, 0.0]), friction=[0.3], motions=np.eye(3), scale=1.0
     ... )
     >>> pulled_away(problem).tolist()
     [1.0, 0.0, 0.0]
     """
-    R, n = problem.interface.R, problem.pairs
+    R, n = problem.image.R, problem.pairs
     if not R.shape[1] or problem.bounded.any():
         return None
     load = R.T @ problem.b / (problem.scale or 1.0)

@@ -39,7 +39,7 @@ def search_solutions(problem: SpatialProblem, *, seed: int = 0) -> list[Array]:
 
     >>> W = np.linalg.inv(np.array([[3.0, -1.0, 0.0], [-1.0, 3.0, 0.0], [0.0, 0.0, 2.0]]))
     >>> b = W @ [-1.0, 2.5, 0.0]
-    >>> problem = SpatialProblem(W=W, b=b, friction=[3.0], motions=np.zeros((3, 0)), scale=1.0)
+    >>> problem = SpatialProblem.of(W=W, b=b, friction=[3.0], motions=np.zeros((3, 0)), scale=1.0)
     >>> sorted(round(float(y[0]), 6) for y in search_solutions(problem))
     [-0.166667, 0.5, 1.0]
     """

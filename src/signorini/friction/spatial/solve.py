@@ -74,7 +74,7 @@ def solve_spatial(
 
     Examples
     --------
-    >>> problem = SpatialProblem(
+    >>> problem = SpatialProblem.of(
     ...     W=0.5 * np.eye(3), b=np.array([-1.0, 0.3, 0.4]), friction=[0.1], motions=np.zeros((3, 0)), scale=1.0
     ... )
     >>> result = solve_spatial(problem)

@@ -73,13 +73,13 @@ def gauss_seidel(problem: SpatialProblem, force: Array, rigid: Array, *, count: 
 
     Examples
     --------
-    >>> problem = SpatialProblem(
+    >>> problem = SpatialProblem.of(
     ...     W=0.5 * np.eye(3), b=np.array([-1.0, 0.3, 0.4]), friction=[0.1], motions=np.zeros((3, 0)), scale=1.0
     ... )
     >>> gauss_seidel(problem, np.zeros(3), np.zeros(0), count=1)[0].round(12).tolist()
     [2.0, -0.12, -0.16]
     """
-    n, R, A = problem.pairs, problem.interface.R, problem.interface.A
+    n, R, A = problem.pairs, problem.image.R, problem.image.A
     if R.shape[1]:
         A = A + R @ R.T
     pull = R.T @ problem.b
