@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,9 +25,12 @@ from signorini.condense.parts import mirror
 from signorini.errors import InputError
 
 SingleArray = NDArray[np.float32]
+Precision = TypeVar("Precision", Array, SingleArray)
 
 UNRESISTED = 1e-14
 """Stiffness, relative to the interface stiffness D, below which a motion counts as rigid."""
+
+_SOFTNESS = 0.1  # of the mean diagonal of A
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -122,12 +126,7 @@ class Image:
     @cached_property
     def factor(self) -> Array:
         """(m, m) Lower Cholesky factor of I + A, by columns."""
-        shifted = np.array(self.A.T, order="F")
-        shifted[np.diag_indices_from(shifted)] += 1.0
-        factor, failed = lapack.dpotrf(shifted, lower=1, overwrite_a=1, clean=0) if len(shifted) else (shifted, 0)
-        if failed:
-            raise np.linalg.LinAlgError("the compliance of the pairs is not positive semidefinite")
-        return np.asarray(factor)
+        return _cholesky(self.A, 1.0)
 
     @cached_property
     def W(self) -> Array:
@@ -153,9 +152,11 @@ class Image:
         return np.asarray(~(self.A.any(axis=1) | self.R.any(axis=1)), dtype=np.bool_)
 
     @cached_property
-    def single(self) -> tuple[SingleArray, SingleArray]:
-        """A and `factor` in single precision, (m, m) each: half as long to read, where a few digits do."""
-        return self.A.astype(np.float32), self.factor.astype(np.float32)
+    def single(self) -> tuple[SingleArray, SingleArray, float]:
+        """A and the lower Cholesky factor of ``A + softness I``, (m, m), in single precision; softness: some of A."""
+        A = self.A.astype(np.float32)
+        softness = _SOFTNESS * float(self.A.trace()) / max(1, len(A)) or 1.0
+        return A, _cholesky(A, softness), softness
 
     def free_motion(self, b: Array) -> Array:
         """(m,) Motion c of the pairs under the load alone, without its rigid part."""
@@ -163,7 +164,7 @@ class Image:
 
 
 def softened(factor: Array | SingleArray, x: Array) -> Array:
-    """``(I + A)^-1 x`` by the lower Cholesky factor of I + A, in its precision.
+    """``(softness I + A)^-1 x`` by the lower Cholesky factor of that matrix, in its precision.
 
     >>> softened(np.array([[2.0]]), np.array([8.0])).tolist()
     [2.0]
@@ -184,6 +185,19 @@ def symmetric_product(matrix: Array | SingleArray, x: Array) -> Array:
         return x
     symv = blas.ssymv if matrix.dtype == np.float32 else blas.dsymv
     return np.asarray(symv(1.0, matrix.T if matrix.flags.c_contiguous else matrix, x), dtype=np.float64)
+
+
+def _cholesky(A: Precision, softness: float) -> Precision:
+    """Lower Cholesky factor of ``A + softness I``, by columns, in the precision of A."""
+    shifted = np.array(A.T, order="F")
+    shifted[np.diag_indices_from(shifted)] += softness
+    if not len(shifted):
+        return shifted
+    potrf = lapack.spotrf if A.dtype == np.float32 else lapack.dpotrf
+    factor, failed = potrf(shifted, lower=1, overwrite_a=1, clean=0)
+    if failed:
+        raise np.linalg.LinAlgError("the compliance of the pairs is not positive semidefinite")
+    return np.asarray(factor)
 
 
 def _orthonormal(motions: Array) -> Array:

@@ -4,11 +4,11 @@
 The system of `equilibrium` for the problem as posed. Its preconditioner is the interface where every pair sticks,
 
     [ A   R ]^-1     [ G   R ]
-    [ R'  0 ]     =  [ R'  0 ]   nearly,    G = I - W = (I + A)^-1 - R R',
+    [ R'  0 ]     =  [ R'  0 ]   nearly,    G = (A + alpha I)^-1 - R R' / alpha,    alpha a little of A,
 
-restricted to what is unknown: the compliance of a surface is that of its larger eigenvalues, so that a dozen products
-do what a factorisation would, at the cost of a few per cent of one. What is lacking is measured in double precision;
-the products of an iteration that makes it a hundred times less need single precision alone, and read half as much.
+restricted to what is unknown: half a dozen products do what a factorisation would, at the cost of a few per cent of
+one. What is lacking is measured in double precision; the products of an iteration that makes it a few digits less need
+single precision alone, and read half as much.
 
 References
 ----------
@@ -33,13 +33,16 @@ LARGE = 500
 """Unknowns from which a factorisation costs more."""
 
 _MOST = 80  # products; a system that needs more is factorised
-_FORWARD = 1e-2  # of what the last iterate lacks: no Newton step deserves more
+_FAR = 1.0  # slip per force, scaled, from which compliance counts little beside it
+_FORWARD = 1e-2, 1e-4  # of what the last iterate lacks: no Newton step deserves more while states change, or then
 _SHARP = 1e-14  # of the size of the data
-_TRUSTED = 10 * _FORWARD  # products in single precision are, where what they leave has become this much less,
+_TRUSTED = 10.0  # times that: products in single precision are, where they leave no more,
 _ROUNDED = 1e-12  # or where it is this small beside the data
 
 
-def iterate(equilibrium: Equilibrium, law: Tangent, r: Array, a: Array) -> tuple[Array, Array, Array] | None:
+def iterate(
+    equilibrium: Equilibrium, law: Tangent, r: Array, a: Array, *, settled: bool
+) -> tuple[Array, Array, Array] | None:
     """Forces r (3n,), rigid motion a (k,) and motions h (3n,) that nearly balance under a linearised law.
 
     Parameters
@@ -47,6 +50,7 @@ def iterate(equilibrium: Equilibrium, law: Tangent, r: Array, a: Array) -> tuple
     equilibrium : the problem as posed
     law : the law of every pair, linear
     r, a : (3n,) and (k,) where the last iterate ended
+    settled : whether no state changed there
 
     Returns
     -------
@@ -59,13 +63,13 @@ def iterate(equilibrium: Equilibrium, law: Tangent, r: Array, a: Array) -> tuple
     >>> problem = SpatialProblem.of(
     ...     W=0.5 * np.eye(3), b=np.array([-1.0, 0.2, 0.1]), friction=[0.3], motions=np.zeros((3, 0)), scale=1.0
     ... )
-    >>> r, a, h = iterate(Equilibrium.of(problem), sticking(problem), np.zeros(3), np.zeros(0))
+    >>> r, a, h = iterate(Equilibrium.of(problem), sticking(problem), np.zeros(3), np.zeros(0), settled=True)
     >>> r.round(6).tolist(), h.tolist()
     ([2.0, -0.4, -0.2], [0.0, 0.0, 0.0])
     """
     problem = equilibrium.problem
     unknown, size = Unknowns.of(law), 3 * problem.pairs
-    (A, factor), R = problem.image.single, problem.image.R
+    (A, factor, softness), R = problem.image.single, problem.image.R
 
     def balance(x: Array) -> tuple[Array, Array, Array]:
         force = unknown.forces(x[:size]) + unknown.fixed
@@ -80,18 +84,18 @@ def iterate(equilibrium: Equilibrium, law: Tangent, r: Array, a: Array) -> tuple
 
     def precondition(y: Array) -> Array:
         motion = unknown.motions(y[:size])
-        force = softened(factor, motion) + R @ (y[size:] - R.T @ motion)
+        force = softened(factor, motion) + R @ (y[size:] - R.T @ motion / softness)
         return np.concatenate([unknown.along(force) + unknown.across * y[:size], R.T @ motion])
 
     start = np.concatenate([unknown.coordinates(r), a])
     error = balance(start)[2]
-    first, least = float(np.linalg.norm(error)), problem.scale * np.sqrt(len(error))
-    change = gmres(product, precondition, error, max(_FORWARD * first, _SHARP * least))
+    least, aim = problem.scale * np.sqrt(len(error)), _FORWARD[settled] * float(np.linalg.norm(error))
+    change = gmres(product, precondition, error, max(aim, _SHARP * least))
     if change is None:
         return None
     x = start + change
     force, motion, error = balance(x)
-    if not np.linalg.norm(error) <= max(_TRUSTED * first, _ROUNDED * least):
+    if not np.linalg.norm(error) <= max(_TRUSTED * aim, _ROUNDED * least):
         return None
     return force, x[size:], prescribed(law, motion)
 
@@ -134,8 +138,10 @@ class Unknowns:
 
     @cached_property
     def across(self) -> Array:
-        """(3n,) 1 for unknowns across a slip, where resistance is all that counts."""
-        return (self.resisting > 0.0).astype(np.float64)
+        """(3n,) 1 for unknowns across a slip that resist far more than compliance does."""
+        far = (self.law.left == 1) & (self.law.kappa > _FAR)
+        none = np.zeros_like(self.law.kappa)
+        return np.concatenate([none, far.astype(np.float64), none])
 
     @cached_property
     def fixed(self) -> Array:

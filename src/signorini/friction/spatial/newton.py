@@ -89,10 +89,11 @@ def newton(
     problem = equilibrium.problem
     r = np.zeros(3 * problem.pairs) if force is None else force
     a = np.zeros(problem.motions.shape[1]) if rigid is None else rigid
-    h, history, changes = r, [np.inf], []
+    h, history = r, [np.inf]
+    changes: list[int] = []
     best, end, converged = (np.inf, r, a, r - h), "limit reached", False
     for _ in range(limit):
-        found = _balanced(equilibrium, law, r, a)
+        found = _balanced(equilibrium, law, r, a, settled=changes[-1:] == [0])
         if found is None:
             end = "singular system"
             break
@@ -118,10 +119,12 @@ def newton(
     return NewtonEnd(force=r, rigid=a, y=y, residual=residual, attempt=attempt, converged=converged)
 
 
-def _balanced(equilibrium: Equilibrium, law: Tangent, r: Array, a: Array) -> tuple[Array, Array, Array] | None:
+def _balanced(
+    equilibrium: Equilibrium, law: Tangent, r: Array, a: Array, *, settled: bool
+) -> tuple[Array, Array, Array] | None:
     """Forces, rigid motion and motions that balance under the linearised law; None where nothing does."""
     if equilibrium.as_posed and np.count_nonzero(law.closed) + law.left.sum() >= LARGE:
-        found = iterate(equilibrium, law, r, a)
+        found = iterate(equilibrium, law, r, a, settled=settled)
         if found is not None:
             return found
     return linear_system(equilibrium, law).solve(r, a)
