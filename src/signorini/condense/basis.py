@@ -33,7 +33,7 @@ class Basis:
 
 
 def make_basis(motions: Array) -> Basis:
-    """Factorise.
+    """Factorise; rows of motions that are exactly zero stay so.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def make_basis(motions: Array) -> Basis:
     >>> np.abs(basis.R).round(12).tolist(), np.abs(basis.coefficients(np.array([10.0]))).round(12).tolist()
     ([[0.6], [0.8]], [2.0])
     """
-    R, triangle = scipy.linalg.qr(motions, mode="economic") if motions.size else (motions, np.zeros((0, 0)))
+    R, triangle = scipy.linalg.qr(motions, mode="economic") if motions.size else (motions.copy(), np.zeros((0, 0)))
     size = np.abs(np.diag(triangle))
     if len(size) < motions.shape[1] or size.min(initial=1.0) <= _DEPENDENT * size.max(initial=0.0):
         raise np.linalg.LinAlgError("the pairs do not see a rigid motion")

@@ -385,7 +385,7 @@ class Walk:
             factor, step = 1.0, 1.0 - self.factor
         b = self.b_end if factor == 1.0 else (1.0 - factor) * self.start.b + factor * self.b_end
         origin = np.concatenate([np.zeros(n), now.h[n:]])
-        increment = replace(problem, b=frozen(b + problem.W @ origin - origin))
+        increment = replace(problem, b=frozen(problem.misfit(origin, np.zeros(3 * n), b)))
         self.tried += 1
         y = None if not now.r.any() else now.r - np.concatenate([now.h[:n], np.zeros(2 * n)])
         result = solve_spatial(increment, y if ahead is None else ahead, settings=_QUICK if step > shortest else None)
