@@ -9,6 +9,7 @@ import numpy as np
 import scipy.linalg
 
 from signorini.arrays import Array
+from signorini.condense.parts import mirror
 
 _DEPENDENT = 1e-10  # of the largest: what is left of a motion that follows from the others
 
@@ -30,6 +31,23 @@ class Basis:
         """``R^T b`` of any b with the resultants ``N^T b``, both (k,)."""
         solved: Array = scipy.linalg.solve_triangular(self.triangle, resultant, trans=1)
         return solved
+
+    def project(self, A: Array) -> Array:
+        """Overwrite a symmetric A by ``P A P``, P = I - R R^T, and give back ``P A R`` as it was, (n, k).
+
+        >>> A = np.array([[2.0, 1.0], [1.0, 3.0]])
+        >>> np.abs(make_basis(np.array([[0.0], [1.0]])).project(A)).round(12).tolist(), A.round(12).tolist()
+        ([[1.0], [0.0]], [[2.0, 0.0], [0.0, 0.0]])
+        """
+        leaning: Array = A @ self.R
+        if not self.R.size:
+            return leaning
+        leaning -= self.R @ (self.R.T @ leaning)
+        for _ in range(2):  # bodies may travel far along R
+            A -= self.R @ (self.R.T @ A)
+            A -= (A @ self.R) @ self.R.T
+        mirror(A)
+        return leaning
 
 
 def make_basis(motions: Array) -> Basis:

@@ -168,6 +168,15 @@ class Image:
         """(m,) Motion c of the pairs under the load alone, without its rigid part."""
         return b + self.A @ b - self.R @ (self.R.T @ b)
 
+    def load(self, free: Array, resultant: Array) -> Array:
+        """b, (m,), of a free motion, (m,), whose rigid part does not count, and resultants ``R' b``, (k,).
+
+        >>> held = np.zeros((1, 0))
+        >>> Image.of_form(np.array([[0.5]]), held).load(np.array([3.0]), np.zeros(0)).round(12).tolist()
+        [1.5]
+        """
+        return softened(self.factor, free - self.R @ (self.R.T @ free)) + self.R @ resultant
+
 
 def softened(factor: Array | SingleArray, x: Array) -> Array:
     """``(softness I + A)^-1 x`` by the lower Cholesky factor of that matrix, in its precision.
