@@ -6,14 +6,11 @@ python -m benchmarks.space [--dofs 30000 100000 300000] [--dry]
 
 from __future__ import annotations
 
-import argparse
 import json
 import time
 from typing import Any
 
-import numpy as np
-
-from benchmarks import page
+from benchmarks import command, page
 from signorini.bench.cubes import blocks
 
 LARGE = 200_000
@@ -68,18 +65,15 @@ def growth(found: list[dict[str, Any]]) -> str:
     condensed = [each for each in found if each["default"]]
     for name in dict.fromkeys(each["name"] for each in condensed):
         own = [each for each in condensed if each["name"] == name]
-        sizes = np.log([each["dofs"] for each in own])
-        fits = [
-            np.polyfit(sizes, np.log([each[f"{key}_seconds"] for each in own]), 1)[0] for key in ("contact", "linear")
-        ]
+        sizes = [each["dofs"] for each in own]
+        fits = [command.exponent(sizes, [each[f"{key}_seconds"] for each in own]) for key in ("contact", "linear")]
         said.append(f"{name} {fits[0]:.2f} and {fits[1]:.2f}")
     return f"Exponents of contact and linear in the unknowns, condensed: {'; '.join(said)}."
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command.parser(__doc__, dry=True)
     parser.add_argument("--dofs", type=int, nargs="+", default=[30_000, 100_000, 300_000])
-    parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
     parser.add_argument("--one", action="store_true", help="measure in this process")
     options = parser.parse_args()
     if options.one:
@@ -92,9 +86,7 @@ def main() -> None:
         lines.append(growth(found))
     lines.append(f"mu = 0.3, one increment; CPU seconds, one thread, {page.machine()}; iterated: one run.")
     text = "\n\n".join(lines)
-    print(text)
-    if not options.dry:
-        page.write("space", text)
+    command.publish(options, "space", text)
 
 
 if __name__ == "__main__":
