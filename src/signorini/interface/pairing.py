@@ -252,7 +252,7 @@ def _couple_in_space(
     """The same for faces."""
     own, other = (_surface(space.mesh.points, one) for one in (side, mortar))
     if contact.coupling == "nodes" or (contact.coupling == "auto" and not (side.quadratic or mortar.quadratic)):
-        coupling, reason = spatial.node_pairs(own, other, share=share)
+        coupling, reason = spatial.node_pairs(own, other, share=share, faces=contact.coupling == "auto")
         if coupling is not None:
             return coupling, "nodes"
         if contact.coupling == "nodes":
