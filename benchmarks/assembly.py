@@ -1,20 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Assembly of the stiffness matrix against scikit-fem's own form, in one run: CPU seconds, one thread, code warm.
 
-usage: python benchmarks/assembly.py [--small]
+usage: python -m benchmarks.assembly [--small]
 """
 
 from __future__ import annotations
 
-import argparse
-import time
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import skfem
 from skfem.models.elasticity import linear_elasticity
 
+from benchmarks import command
 from signorini.fem.assembly import Cells, stiffness
 from signorini.fem.elasticity import isotropic, law_tensor
 
@@ -31,18 +29,12 @@ def cells_of(mesh: Any, element: Any) -> tuple[Any, Cells]:
     )
 
 
-def cpu(function: Callable[[], Any]) -> tuple[float, Any]:
-    start = time.process_time()
-    result = function()
-    return time.process_time() - start, result
-
-
 def grid(*cells: int) -> list[Any]:
     return [np.linspace(0, 1, k + 1) for k in cells]
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = command.parser(__doc__)
     parser.add_argument("--small", action="store_true", help="a tenth of the unknowns")
     side, edge = (223, 15) if parser.parse_args().small else (706, 32)
     cases = {
@@ -54,9 +46,9 @@ def main() -> None:
     print(f"{'element':8} {'unknowns':>9} {'kernel s':>9} {'scikit-fem s':>12} {'ratio':>6} {'difference':>11}")
     for name, (mesh, element) in cases.items():
         points, cells = cells_of(mesh, element)
-        ours, K = cpu(lambda points=points, cells=cells: stiffness(points, cells))
+        ours, K = command.cpu(stiffness, points, cells)
         # basis and form: what a user of scikit-fem pays from the mesh to the matrix
-        theirs, reference = cpu(
+        theirs, reference = command.cpu(
             lambda mesh=mesh, element=element: linear_elasticity(1.3, 0.7).assemble(
                 skfem.Basis(mesh, skfem.ElementVector(element))
             )

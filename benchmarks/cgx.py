@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Results in ``.frd`` files as cgx, CalculiX's own viewer, reads them: nodes, elements and displacements come back.
 
-    python benchmarks/cgx.py DECK...
+    python -m benchmarks.cgx DECK...
 
 Needs ``cgx`` on the path. Every deck is solved, its ``.frd`` is read by ``cgx -bg``, which writes what it has read as
 an Abaqus mesh and a table of displacements, with six decimals; both are compared with the model.
@@ -9,15 +9,14 @@ an Abaqus mesh and a table of displacements, with six decimals; both are compare
 
 from __future__ import annotations
 
-import argparse
 import re
 import subprocess
-import tempfile
 from pathlib import Path
 
 import numpy as np
 
 import signorini as sg
+from benchmarks import command
 from signorini.deck import load
 
 _COMMANDS = "read result.frd\nsend all abq\nds 1 e {}\nsend all abq ds1 e{}\nquit\n"
@@ -65,13 +64,5 @@ def check(deck: Path, folder: Path) -> str:
     )
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("decks", type=Path, nargs="+")
-    for deck in parser.parse_args().decks:
-        with tempfile.TemporaryDirectory() as folder:
-            print(check(deck, Path(folder)), flush=True)
-
-
 if __name__ == "__main__":
-    main()
+    command.deck_by_deck(__doc__, check)

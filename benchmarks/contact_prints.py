@@ -14,7 +14,6 @@ difference with next to none of it. With ``--write`` the table replaces the one 
 
 from __future__ import annotations
 
-import argparse
 import re
 import shutil
 import subprocess
@@ -25,7 +24,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks import page
+from benchmarks import command, page
 from benchmarks.decks import plain
 from signorini.cli import main as run_here
 
@@ -203,10 +202,9 @@ def remark(name: str, table: str) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command.parser(__doc__, write=True)
     parser.add_argument("folder", nargs="?", type=Path)
     parser.add_argument("names", nargs="*", help="decks in it, without .inp")
-    parser.add_argument("--write", type=Path, metavar="DOCUMENT", help="put the table between its marks")
     options = parser.parse_args()
     if not shutil.which("ccx"):
         parser.error("there is no ccx; expected CalculiX on the path")

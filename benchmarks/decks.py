@@ -16,7 +16,6 @@ displacements nor penalty. With ``--write`` the table replaces the one in a docu
 
 from __future__ import annotations
 
-import argparse
 import re
 import shutil
 import subprocess
@@ -30,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import signorini as sg
-from benchmarks import page
+from benchmarks import command, page
 from signorini.deck import load
 
 _TABLE = re.compile(r"displacements \(vx,vy,vz\) for set (\S+) and time +(\S+)\s*\n\s*\n((?:[ \d].*\n?)+)")
@@ -186,11 +185,10 @@ def document(rows: list[Compared]) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command.parser(__doc__, write=True)
     parser.add_argument("folder", type=Path)
     parser.add_argument("names", nargs="*", help="decks without .inp (default: all in the folder)")
     parser.add_argument("--ccx", action="store_true", help="let CalculiX take the differences apart")
-    parser.add_argument("--write", type=Path, metavar="DOCUMENT", help="put the table between its marks")
     options = parser.parse_args()
     if options.ccx and not shutil.which("ccx"):
         parser.error("there is no ccx; expected CalculiX on the path")

@@ -13,7 +13,6 @@ finds nothing in a minute.
 
 from __future__ import annotations
 
-import argparse
 import math
 import re
 import shutil
@@ -27,7 +26,7 @@ from pathlib import Path
 import numpy as np
 
 import signorini as sg
-from benchmarks import page
+from benchmarks import command, page
 from benchmarks.deck_text import deck_text
 from benchmarks.decks import Values, by_calculix, plain, spelled
 from signorini.deck import load
@@ -174,10 +173,9 @@ def compared(deck: Path, folder: Path) -> list[str]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command.parser(__doc__, write=True)
     parser.add_argument("folder", type=Path)
     parser.add_argument("names", nargs="*", help="examples (default: all)")
-    parser.add_argument("--write", type=Path, metavar="DOCUMENT", help="put the tables between their marks")
     options = parser.parse_args()
     for program in ("cgx", "ccx"):
         if not shutil.which(program):

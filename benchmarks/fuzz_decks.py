@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Decks damaged at random: each must be read, or refused with one clear message, quickly and in little memory.
 
-    python benchmarks/fuzz_decks.py FOLDER [--count 20000] [--seed 0]
+    python -m benchmarks.fuzz_decks FOLDER [--count 20000] [--seed 0]
 
 FOLDER holds sound decks (``*.inp``). Every damaged deck is read and examined as ``signorini check`` does; nothing is
 solved. The process may use 1 GB more than at its start, and 5 seconds for a deck.
@@ -9,7 +9,6 @@ solved. The process may use 1 GB more than at its start, and 5 seconds for a dec
 
 from __future__ import annotations
 
-import argparse
 import random
 import resource
 import signal
@@ -20,6 +19,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from types import FrameType
 
+from benchmarks import command
 from signorini.deck import load
 from signorini.engine.prepare import examine
 from signorini.errors import InputError
@@ -138,7 +138,7 @@ def _late(_: int, __: FrameType | None) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command.parser(__doc__)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--count", type=int, default=20_000)
     parser.add_argument("--seed", type=int, default=0)

@@ -9,7 +9,6 @@ large run is the command line's, with its own choice of threads and seconds on t
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import subprocess
@@ -22,8 +21,8 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks import page
-from benchmarks.peers.run_signorini import CpuClock
+from benchmarks import command, page
+from signorini.bench.price import TimerClock
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.fem.generators import rectangle
@@ -97,7 +96,7 @@ def measure(model: Model) -> dict[str, Any]:
     history = None
     while len(runs) < REPEATS and sum(run["whole"] for run in runs) < LONG:
         history = None  # the next repeat finds the memory as this one found it
-        clock, began = CpuClock(), time.process_time()
+        clock, began = TimerClock(time.process_time), time.process_time()
         history = solve_prepared(prepare(model, clock=clock))
         runs.append({**clock.seconds, "whole": time.process_time() - began})
     assert history is not None
@@ -115,21 +114,9 @@ def measure(model: Model) -> dict[str, Any]:
 
 def in_process(which: str, *sizes: int) -> dict[str, Any]:
     """Measure in a process of its own, on one thread."""
-    done = subprocess.run(
-        [sys.executable, "-m", "benchmarks.growth", "--one", which, *map(str, sizes)],
-        stdout=subprocess.PIPE,
-        text=True,
-        check=True,
-        env={**os.environ, **page.ONE_THREAD},
-    )
-    found: dict[str, Any] = json.loads(done.stdout)
+    (found,) = page.measured("benchmarks.growth", which, *sizes, keep=False)
     print(f"{found['unknowns']} unknowns, {found['pairs']} pairs: {found['whole']:.2f} s", flush=True)
     return found
-
-
-def exponent(x: list[float], y: list[float]) -> float:
-    """Of the power law that fits best."""
-    return float(np.polyfit(np.log(x), np.log(y), 1)[0])
 
 
 def unknowns(small: bool) -> str:
@@ -138,9 +125,9 @@ def unknowns(small: bool) -> str:
     large = [each for each in found if each["unknowns"] > 2e4] or found
     sizes = [each["unknowns"] for each in large]
     fits = {
-        "whole": exponent(sizes, [each["whole"] for each in large]),
-        **{name: exponent(sizes, [each[name] for each in large]) for name in PHASES},
-        "memory": exponent(sizes, [each["memory"] - each["before"] for each in large]),
+        "whole": command.exponent(sizes, [each["whole"] for each in large]),
+        **{name: command.exponent(sizes, [each[name] for each in large]) for name in PHASES},
+        "memory": command.exponent(sizes, [each["memory"] - each["before"] for each in large]),
     }
     rows = [_row([each["unknowns"], each["pairs"]], each) for each in found]
     rows.append(["exponent from 2e4 on", "", *(f"{fits[name]:.2f}" for name in ("whole", *PHASES, "memory")), ""])
@@ -154,7 +141,7 @@ def pairs(small: bool) -> str:
     found = [in_process("block", each, size) for each in many]
     counts = [each["pairs"] for each in found]
     names = ("whole", *PHASES)
-    fits = [exponent(counts, [each[name] for each in found]) for name in names]
+    fits = [command.exponent(counts, [each[name] for each in found]) for name in names]
     rows = [_row([each["pairs"], *each["states"]], each) for each in found]
     rows.append(["exponent", "", "", "", *(f"{fit:.2f}" for fit in fits), "", ""])
     head = ("contact pairs", "open", "stick", "slip", "all s", *(f"{name} s" for name in PHASES), "memory GB")
@@ -205,23 +192,20 @@ TABLES: dict[str, Callable[[bool], str]] = {"unknowns": unknowns, "pairs": pairs
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command.parser(__doc__, dry=True)
     parser.add_argument("tables", nargs="*", help=", ".join(TABLES))
     parser.add_argument("--small", action="store_true", help="sizes that take seconds")
-    parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
     parser.add_argument("--one", action="store_true", help="measure in this process")
     options = parser.parse_args()
     if options.one:
         which, *sizes = options.tables
         cylinder = which == "cylinder"
         model = zhu_cylinder(refine=int(sizes[0])) if cylinder else dragged_block(*map(int, sizes))
-        print(json.dumps(measure(model)))
+        print(json.dumps([measure(model)]))
         return
     for name in options.tables or TABLES:
         text = TABLES[name](options.small)
-        print(text)
-        if not options.dry:
-            page.write(f"growth, {name}", text)
+        command.publish(options, f"growth, {name}", text)
 
 
 if __name__ == "__main__":

@@ -8,12 +8,11 @@ Writes the table of docs/exact_paths.md. Loads grow in proportion, or as (i/n)^2
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
 import numpy as np
 
-from benchmarks import page
+from benchmarks import command, page
 from signorini.engine.solve import solve
 from signorini.errors import SolveFailed
 from signorini.gallery.cylinder import zhu_cylinder
@@ -61,13 +60,10 @@ def table() -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
+    parser = command.parser(__doc__, dry=True)
     options = parser.parse_args()
     text = table()
-    print(text)
-    if not options.dry:
-        page.write("increments", text, PAGE)
+    command.publish(options, "increments", text, PAGE)
 
 
 if __name__ == "__main__":

@@ -4,17 +4,15 @@
 contact: analyse, factorise, Schur complement, condense a load, solve the dense interface, expand.
 plain: analyse, factorise and solve the same matrix with the interface fixed.
 
-usage: python benchmarks/linalg.py [CASE...] [--backends a,b] [--repeats N]
+usage: python -m benchmarks.linalg [CASE...] [--backends a,b] [--repeats N]
 """
 
 from __future__ import annotations
 
-import argparse
 import os
 import resource
 import subprocess
 import sys
-import time
 from typing import Any
 
 import numpy as np
@@ -22,12 +20,12 @@ import scipy.linalg
 import skfem
 from scipy import sparse
 
+from benchmarks import command, page
 from signorini.fem.assembly import Cells, stiffness
 from signorini.fem.elasticity import isotropic, law_tensor
 from signorini.linalg import BACKENDS, factorise
 from signorini.linalg.pardiso import available
 
-ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 CASES: dict[str, tuple[int, ...]] = {
     "2d_2e4": (141, 70),
     "2d_2e5": (447, 223),
@@ -75,12 +73,6 @@ def plain(K: Any, nodes: Any, backend: str) -> Any:
     return factor
 
 
-def cpu(function: Any, *arguments: Any) -> tuple[float, Any]:
-    start = time.process_time()
-    result = function(*arguments)
-    return time.process_time() - start, result
-
-
 def measure(case: str, backend: str, repeats: int) -> None:
     """One case, in a process of its own, so that the peak of memory is its own."""
     K, interface, nodes = block((4,) * len(CASES[case]))
@@ -91,10 +83,10 @@ def measure(case: str, backend: str, repeats: int) -> None:
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     pairs = []
     for _ in range(repeats):
-        seconds, factor = cpu(contact, K, interface, nodes, backend)
+        seconds, factor = command.cpu(contact, K, interface, nodes, backend)
         nnz = factor.nnz_factor
         del factor
-        pairs.append((seconds, cpu(plain, fixed, nodes[inside], backend)[0]))
+        pairs.append((seconds, command.cpu(plain, fixed, nodes[inside], backend)[0]))
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     ours, theirs = np.median(pairs, axis=0)
     print(
@@ -105,7 +97,7 @@ def measure(case: str, backend: str, repeats: int) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command.parser(__doc__)
     parser.add_argument("cases", nargs="*", default=["2d_2e4", "2d_2e5", "3d_3e4"], help=", ".join(CASES))
     parser.add_argument("--backends", default=",".join(b for b in BACKENDS if b != "pardiso" or available()))
     parser.add_argument("--repeats", type=int, default=3)
@@ -118,7 +110,8 @@ def main() -> None:
     for case in options.cases:
         for backend in options.backends.split(","):
             arguments = [case, "--backends", backend, "--repeats", str(options.repeats), "--one"]
-            subprocess.run([sys.executable, __file__, *arguments], check=False, env={**os.environ, **ONE_THREAD})
+            again = [sys.executable, "-m", "benchmarks.linalg", *arguments]
+            subprocess.run(again, check=False, env={**os.environ, **page.ONE_THREAD})
 
 
 if __name__ == "__main__":

@@ -6,12 +6,10 @@ python -m benchmarks.ordering [--dry]     (with gmsh also for unstructured meshe
 
 from __future__ import annotations
 
-import argparse
 import importlib.util
 import os
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
@@ -19,7 +17,7 @@ from typing import Any
 import numpy as np
 import skfem
 
-from benchmarks import page
+from benchmarks import command, page
 from benchmarks.assembly import cells_of, grid
 from signorini.fem.assembly import stiffness
 from signorini.gallery.cylinder import zhu_cylinder
@@ -94,14 +92,9 @@ def system(mesh: Any, element: Any) -> System:
     return check(stiffness(points, cells)[free][:, free], [], np.repeat(np.arange(len(points)), d)[free], points)
 
 
-def cpu(function: Callable[[], Any]) -> float:
+def least(function: Callable[[], Any]) -> float:
     """CPU seconds, the least of some repeats."""
-    found = []
-    for _ in range(REPEATS):
-        start = time.process_time()
-        function()
-        found.append(time.process_time() - start)
-    return min(found)
+    return min(command.cpu(function)[0] for _ in range(REPEATS))
 
 
 def rows() -> Iterator[list[object]]:
@@ -109,14 +102,13 @@ def rows() -> Iterator[list[object]]:
         by_cuts = system(mesh, element)
         each = (replace(by_cuts, points=None), by_cuts)
         work = [f"{analyse(one).flops / 1e9:.1f}" for one in each]
-        order = [page.seconds(cpu(lambda one=one: nested_dissection(node_graph(one)))) for one in each]
-        whole = [page.seconds(cpu(lambda one=one: factorise(one))) for one in each]
+        order = [page.seconds(least(lambda one=one: nested_dissection(node_graph(one)))) for one in each]
+        whole = [page.seconds(least(lambda one=one: factorise(one))) for one in each]
         yield [name, by_cuts.n, *work, *order, *whole]
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
+    parser = command.parser(__doc__, dry=True)
     parser.add_argument("--here", action="store_true", help="measure in this process")
     options = parser.parse_args()
     if not options.here:
@@ -127,9 +119,7 @@ def main() -> None:
         return
     note = f"CPU seconds, one thread, {page.machine()}; a factorisation includes its order."
     text = f"{page.table(HEAD, list(rows()))}\n\n{note}"
-    print(text)
-    if not options.dry:
-        page.write("ordering", text)
+    command.publish(options, "ordering", text)
 
 
 if __name__ == "__main__":

@@ -20,10 +20,15 @@ KEEP_MEMORY = {"MALLOC_MMAP_MAX_": "0", "MALLOC_TRIM_THRESHOLD_": str(10**12)}
 pages, which on a virtual machine cost as much as the computing. All codes gain."""
 
 
-def measured(module: str, *options: object) -> list[dict[str, Any]]:
-    """What a benchmark prints as JSON, ``--one`` with options, in a process of its own on one thread."""
+def measured(module: str, *options: object, keep: bool = True) -> list[dict[str, Any]]:
+    """What a benchmark prints as JSON, ``--one`` with options, in a process of its own on one thread.
+
+    Parameters
+    ----------
+    keep : whether the process keeps freed memory; not where its memory is measured
+    """
     command = [sys.executable, "-m", module, "--one", *map(str, options)]
-    environment = {**os.environ, **ONE_THREAD, **KEEP_MEMORY}
+    environment = {**os.environ, **ONE_THREAD, **(KEEP_MEMORY if keep else {})}
     done = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=environment)
     rows: list[dict[str, Any]] = json.loads(done.stdout)
     return rows

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Results in ``.frd`` files as ccx2paraview converts them for ParaView: every field of every step comes back.
 
-    python benchmarks/paraview.py DECK...
+    python -m benchmarks.paraview DECK...
 
 Needs ``ccx2paraview`` with VTK on the path (``pip install ccx2paraview[vtk]``). Every deck is solved and its ``.frd``
 converted to ``.vtu``, one step at a time, for ccx2paraview 3.2 writes a step while it fills in the next. Points and the
@@ -10,9 +10,7 @@ fields U, RF, S and CONTACT are compared with the solution: the largest differen
 
 from __future__ import annotations
 
-import argparse
 import subprocess
-import tempfile
 from dataclasses import replace
 from pathlib import Path
 
@@ -21,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import signorini as sg
+from benchmarks import command
 from signorini.arrays import padded
 from signorini.deck import load
 from signorini.fem.space import make_space
@@ -77,13 +76,5 @@ def check(deck: Path, folder: Path) -> str:
     )
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("decks", type=Path, nargs="+")
-    for deck in parser.parse_args().decks:
-        with tempfile.TemporaryDirectory() as folder:
-            print(check(deck, Path(folder)), flush=True)
-
-
 if __name__ == "__main__":
-    main()
+    command.deck_by_deck(__doc__, check)

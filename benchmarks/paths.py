@@ -9,7 +9,6 @@ memory; medians of five runs after one to warm up.
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import time
@@ -17,10 +16,10 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks import page
+from benchmarks import command, page
 from benchmarks.growth import FLOOR, dragged_block
 from benchmarks.increments import PAGE
-from benchmarks.peers.run_signorini import CpuClock
+from signorini.bench.price import TimerClock
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.gallery.cylinder import zhu_cylinder
@@ -57,7 +56,7 @@ def measure(model: Model) -> dict[str, Any]:
     """Sizes, seconds of one factorisation and of each segment, and of all behind the factorisation."""
     runs = []
     for _ in range(REPEATS + 1):
-        clock = CpuClock()
+        clock = TimerClock(time.process_time)
         prepared = prepare(model, clock=clock)
         factorisation = clock.seconds["factorisation"]
         began = time.process_time()
@@ -89,8 +88,7 @@ def row(problem: str, found: dict[str, Any]) -> list[object]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
+    parser = command.parser(__doc__, dry=True)
     parser.add_argument("--one", help="measure one problem in this process")
     options = parser.parse_args()
     if options.one:
@@ -104,9 +102,7 @@ def main() -> None:
         "\n\nThe cylinder is pressed and nearly let go, the block pressed, dragged and dragged back. "
         f"{page.machine()}, one thread, load average {load:.1f} before."
     )
-    print(text)
-    if not options.dry:
-        page.write("cost of a path", text, PAGE)
+    command.publish(options, "cost of a path", text, PAGE)
 
 
 if __name__ == "__main__":

@@ -6,12 +6,11 @@ python -m benchmarks.ratio [--dofs 5000 50000 200000 1000000] [--dry]
 
 from __future__ import annotations
 
-import argparse
 import json
 import time
 from typing import Any
 
-from benchmarks import page
+from benchmarks import command, page
 from signorini.bench.cylinder import cylinder
 
 HEAD = (
@@ -44,9 +43,8 @@ def row(found: dict[str, Any]) -> list[object]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command.parser(__doc__, dry=True)
     parser.add_argument("--dofs", type=int, nargs="+", default=[5_000, 50_000, 200_000, 1_000_000])
-    parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
     parser.add_argument("--one", action="store_true", help="measure in this process")
     options = parser.parse_args()
     if options.one:
@@ -57,9 +55,7 @@ def main() -> None:
     text = (
         f"{page.table(HEAD, [row(each) for each in found])}\n\nCPU seconds, one thread, {backends}, {page.machine()}."
     )
-    print(text)
-    if not options.dry:
-        page.write("ratio", text)
+    command.publish(options, "ratio", text)
 
 
 if __name__ == "__main__":

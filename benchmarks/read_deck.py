@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Seconds and memory to read a large deck of keywords into a model.
 
-    python benchmarks/read_deck.py [--side 1000]
+    python -m benchmarks.read_deck [--side 1000]
 
 The deck is a square of side x side nodes and as many 4-node elements as fit, written to a temporary file.
 """
 
 from __future__ import annotations
 
-import argparse
 import resource
 import tempfile
 import time
@@ -16,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks import command
 from signorini.deck import load
 
 _END = """*ELSET, ELSET=ROW, GENERATE
@@ -52,7 +52,7 @@ def write(path: Path, side: int) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command.parser(__doc__)
     parser.add_argument("--side", type=int, default=1000)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:

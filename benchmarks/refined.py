@@ -12,7 +12,6 @@ the displaced sides even without ``NLGEOM``.
 
 from __future__ import annotations
 
-import argparse
 import shutil
 import tempfile
 from collections.abc import Iterable, Iterator
@@ -25,7 +24,7 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
 import signorini as sg
-from benchmarks import page
+from benchmarks import command, page
 from benchmarks.deck_text import data_lines, keyword_line, scaled_lines
 from benchmarks.decks import by_calculix, plain
 from signorini.deck.inp.block import Block
@@ -184,9 +183,8 @@ def compared(deck: Path, n: int, share: float, folder: Path) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command.parser(__doc__, write=True)
     parser.add_argument("folder", type=Path)
-    parser.add_argument("--write", type=Path, metavar="DOCUMENT", help="put the table between its marks")
     options = parser.parse_args()
     if not shutil.which("ccx"):
         parser.error("there is no ccx; expected CalculiX on the path")

@@ -10,18 +10,14 @@ in pieces, whenever the machine is quiet.
 
 from __future__ import annotations
 
-import argparse
 import json
-import os
-import subprocess
-import sys
 import time
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from benchmarks import page
+from benchmarks import command, page
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.fem.solids import box
@@ -98,16 +94,14 @@ def in_process(problem: str, way: str, dofs: int, kept: Path | None) -> dict[str
         before, found = json.loads(line)
         if before == case:
             return dict(found)
-    environment = {**os.environ, **page.ONE_THREAD}
-    command = [sys.executable, "-m", "benchmarks.size", "--one", problem, way, str(dofs)]
-    found = json.loads(subprocess.run(command, env=environment, stdout=subprocess.PIPE, text=True, check=True).stdout)
+    (found,) = page.measured("benchmarks.size", *case, keep=False)
     if kept:
         with kept.open("a") as file:
             file.write(json.dumps([case, found]) + "\n")
     print(
         f"{problem}, {way}: {found['unknowns']} unknowns, {found['pairs']} pairs: {found['seconds']:.1f} s", flush=True
     )
-    return dict(found)
+    return found
 
 
 def row(problem: str, way: str, found: dict[str, Any]) -> list[object]:
@@ -133,8 +127,7 @@ def growth(rows: list[tuple[str, dict[str, Any]]], key: str) -> str:
     for way in WAYS:
         own = [found for name, found in rows if name == way]
         if len({found[key] for found in own}) > 1:
-            sizes = np.log([found[key] for found in own])
-            fit = np.polyfit(sizes, np.log([found["seconds"] for found in own]), 1)[0]
+            fit = command.exponent([found[key] for found in own], [found["seconds"] for found in own])
             said.append(f"{way} {fit:.2f}")
     return f"Exponents of the seconds in the {key}: {', '.join(said)}."
 
@@ -142,9 +135,7 @@ def growth(rows: list[tuple[str, dict[str, Any]]], key: str) -> str:
 def table(cases: list[tuple[str, str, int]], key: str, kept: Path | None) -> str:
     """Measure cases of (problem, way, dofs)."""
     found = [(problem, way, in_process(problem, way, dofs, kept)) for problem, way, dofs in cases]
-    lines = [
-        row(f"{problem} cells across" if problem.isdigit() else problem, way, each) for problem, way, each in found
-    ]
+    lines = [row(problem, way, each) for problem, way, each in found]
     worst = max(each["worst"] for _, _, each in found)
     words = (
         "mu = 0.3, one increment. Iterations: Newton's systems, or rounds / conjugate gradients. The worst certificate "
@@ -173,22 +164,19 @@ def pairs(small: bool, kept: Path | None) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command.parser(__doc__, dry=True)
     parser.add_argument("tables", nargs="*", help="unknowns, pairs")
     parser.add_argument("--small", action="store_true", help="sizes that take seconds")
-    parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
     parser.add_argument("--kept", type=Path, help="what was measured before, and is added to")
     parser.add_argument("--one", action="store_true", help="measure in this process")
     options = parser.parse_args()
     if options.one:
         problem, way, dofs = options.tables
-        print(json.dumps(measure(problem, way, int(dofs))))
+        print(json.dumps([measure(problem, way, int(dofs))]))
         return
     for name in options.tables or ("unknowns", "pairs"):
         text = {"unknowns": unknowns, "pairs": pairs}[name](options.small, options.kept)
-        print(text)
-        if not options.dry:
-            page.write(f"size, {name}", text)
+        command.publish(options, f"size, {name}", text)
 
 
 if __name__ == "__main__":

@@ -6,14 +6,11 @@ python -m benchmarks.space [--dofs 30000 100000 300000] [--dry]
 
 from __future__ import annotations
 
-import argparse
 import json
 import time
 from typing import Any
 
-import numpy as np
-
-from benchmarks import page
+from benchmarks import command, page
 from signorini.bench.cubes import blocks
 
 LARGE = 200_000
@@ -23,6 +20,7 @@ REPEATS = 31
 PHASES = ("factorisation", "condensation", "complementarity", "recovery")
 HEAD = (
     "problem",
+    "way",
     "unknowns",
     "contact pairs",
     "iterations",
@@ -39,41 +37,43 @@ def measure(dofs: int) -> list[dict[str, Any]]:
     """The rows of one size, from a process of its own."""
     rows = page.measured("benchmarks.space", "--dofs", dofs)
     for row in rows:
-        print(f"{row['name']}, {row['dofs']} unknowns: {row['ratio']:.2f}", flush=True)
+        print(f"{row['name']}, {row['backend']}, {row['dofs']} unknowns: {row['ratio']:.2f}", flush=True)
     return rows
 
 
 def row(found: dict[str, Any]) -> list[object]:
     """A line of the table."""
-    seconds = [found["assembly_seconds"], *(found["phases"][name] for name in PHASES)]
+    phases = [page.seconds(found["phases"][name]) if found["phases"] else "" for name in PHASES]
+    memory = found["peak_memory_bytes"]
     return [
         found["name"],
+        found["backend"],
         found["dofs"],
         found["contact_pairs"],
         found["iterations"],
-        *(page.seconds(value) for value in (*seconds, found["contact_seconds"], found["linear_seconds"])),
+        page.seconds(found["assembly_seconds"]),
+        *phases,
+        *(page.seconds(found[f"{name}_seconds"]) for name in ("contact", "linear")),
         f"{found['ratio']:.2f}",
-        page.gigabytes(found["peak_memory_bytes"]),
+        "" if memory is None else page.gigabytes(memory),
     ]
 
 
 def growth(found: list[dict[str, Any]]) -> str:
     """Exponents of the power laws in the unknowns that fit best."""
     said = []
-    for name in dict.fromkeys(each["name"] for each in found):
-        own = [each for each in found if each["name"] == name]
-        sizes = np.log([each["dofs"] for each in own])
-        fits = [
-            np.polyfit(sizes, np.log([each[f"{key}_seconds"] for each in own]), 1)[0] for key in ("contact", "linear")
-        ]
+    condensed = [each for each in found if each["default"]]
+    for name in dict.fromkeys(each["name"] for each in condensed):
+        own = [each for each in condensed if each["name"] == name]
+        sizes = [each["dofs"] for each in own]
+        fits = [command.exponent(sizes, [each[f"{key}_seconds"] for each in own]) for key in ("contact", "linear")]
         said.append(f"{name} {fits[0]:.2f} and {fits[1]:.2f}")
-    return f"Exponents of contact and linear in the unknowns: {'; '.join(said)}."
+    return f"Exponents of contact and linear in the unknowns, condensed: {'; '.join(said)}."
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command.parser(__doc__, dry=True)
     parser.add_argument("--dofs", type=int, nargs="+", default=[30_000, 100_000, 300_000])
-    parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
     parser.add_argument("--one", action="store_true", help="measure in this process")
     options = parser.parse_args()
     if options.one:
@@ -81,15 +81,12 @@ def main() -> None:
         print(json.dumps(list(blocks(dofs, timer=time.process_time, repeats=1 if dofs > LARGE else REPEATS))))
         return
     found = [row for dofs in options.dofs for row in measure(dofs)]
-    backends = ", ".join(dict.fromkeys(row["backend"] for row in found))
     lines = [page.table(HEAD, [row(each) for each in found])]
     if len(options.dofs) > 1:
         lines.append(growth(found))
-    lines.append(f"mu = 0.3, one increment; CPU seconds, one thread, {backends}, {page.machine()}.")
+    lines.append(f"mu = 0.3, one increment; CPU seconds, one thread, {page.machine()}; iterated: one run.")
     text = "\n\n".join(lines)
-    print(text)
-    if not options.dry:
-        page.write("space", text)
+    command.publish(options, "space", text)
 
 
 if __name__ == "__main__":

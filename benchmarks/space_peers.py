@@ -8,7 +8,6 @@ CalculiX (program ccx) and GetFEM (Python module of the system's python3) are le
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import subprocess
@@ -19,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks import page
+from benchmarks import command, page
 from benchmarks.peers import run_calculix, run_getfem
 from signorini.arrays import Array, IntArray
 from signorini.engine.prepare import prepare
@@ -56,9 +55,8 @@ class Found:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command.parser(__doc__, dry=True)
     parser.add_argument("--cells", type=int, nargs=3, default=[14, 17, 10], help="of the cube; of the block, layers")
-    parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
     options = parser.parse_args()
     model = cube_on_block(*options.cells, friction=FRICTION)
     found, said = [with_signorini(model)], []
@@ -74,9 +72,7 @@ def main() -> None:
         "top, its pressures and shears are nodal values made of those at points inside faces. GetFEM's integral brick."
     )
     text = "\n\n".join([page.table(HEAD, [_row(model, each) for each in found]), *said])
-    print(text)
-    if not options.dry:
-        page.write("space, peers", text)
+    command.publish(options, "space, peers", text)
 
 
 def _row(model: Model, found: Found) -> list[object]:

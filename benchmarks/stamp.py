@@ -10,14 +10,13 @@ face.
 
 from __future__ import annotations
 
-import argparse
 import tempfile
 from pathlib import Path
 
 import numpy as np
 
 import signorini as sg
-from benchmarks import page
+from benchmarks import command, page
 from benchmarks.decks import by_calculix
 
 _FAMILIES = {"C3D8": "hexahedron", "C3D20": "hexahedron20", "CAX4": "quad", "CAX8": "quad8"}
@@ -76,8 +75,7 @@ def rings(kind: str, n: int) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--write", type=Path, metavar="DOCUMENT", help="put the table between its marks")
+    parser = command.parser(__doc__, write=True)
     options = parser.parse_args()
     rows = ["| elements | along an edge | difference | signorini | CalculiX |", "|---|---|---|---|---|"]
     with tempfile.TemporaryDirectory() as folder:

@@ -9,13 +9,12 @@ and solved, with its certificate, if it is read.
 
 from __future__ import annotations
 
-import argparse
 import re
 from collections import Counter
 from pathlib import Path
 
 import signorini as sg
-from benchmarks import page
+from benchmarks import command, page
 from signorini.deck import load
 
 
@@ -35,9 +34,8 @@ def outcome(deck: Path) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command.parser(__doc__, write=True)
     parser.add_argument("folder", type=Path)
-    parser.add_argument("--write", type=Path, metavar="DOCUMENT", help="put the table between its marks")
     options = parser.parse_args()
     rows = ["| repository | decks | solved | refused by, or lacking |", "|---|---|---|---|"]
     for home in sorted(path for path in options.folder.iterdir() if path.is_dir()):

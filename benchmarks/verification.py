@@ -8,10 +8,9 @@ Writes the table of docs/verification.md; it is that of ``signorini verify --all
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
-from benchmarks import page
+from benchmarks import command
 from signorini.verify.check import Check
 from signorini.verify.suite import QUICK, SLOW
 
@@ -45,16 +44,13 @@ def table(checks: list[Check]) -> str:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
+    parser = command.parser(__doc__, dry=True)
     options = parser.parse_args()
     checks = []
     for name, cases in (("quick", QUICK), ("slow", SLOW)):
         checks += (found := [check for case in cases for check in case()])
         text = table(found)
-        print(text, flush=True)
-        if not options.dry:
-            page.write(name, text, PAGE)
+        command.publish(options, name, text, PAGE)
     failed = [check for check in checks if not check.passed]
     print(f"{len(checks)} quantities, {len(failed)} failed")
     return 1 if failed else 0

@@ -8,13 +8,12 @@ CalculiX (program ccx) and GetFEM (Python module of the system's python3) are le
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Callable
 from functools import partial
 
 import numpy as np
 
-from benchmarks import page
+from benchmarks import command, page
 from benchmarks.peers import run_calculix, run_getfem, run_signorini
 from benchmarks.peers.case import Case, cylinder_case
 from benchmarks.peers.result import Result
@@ -41,9 +40,8 @@ HEAD = (
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command.parser(__doc__, dry=True)
     parser.add_argument("--refine", type=int, nargs="+", default=[18, 36], help="5e4 and 2e5 unknowns")
-    parser.add_argument("--dry", action="store_true", help="print, but leave the page as it is")
     options = parser.parse_args()
     fine = cylinder_case(FINE * max(options.refine))
     refined = {mu: run_signorini.run(fine, FINE * max(options.refine), mu, "auto").pressure for mu in FRICTION}
@@ -56,9 +54,7 @@ def main() -> None:
             rows += [_row(result, case, mu, fine, refined[mu]) for result in results]
             verdicts += _verdict(results, case, mu)
     text = "\n\n".join([page.table(HEAD, rows), "\n".join(verdicts), _cold(max(options.refine)), *_said()])
-    print(text)
-    if not options.dry:
-        page.write("peers", text)
+    command.publish(options, "peers", text)
 
 
 def _all(case: Case, refine: int, mu: float) -> list[Result]:

@@ -13,32 +13,18 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 
 import numpy as np
 
 from benchmarks.page import KEEP_MEMORY, ONE_THREAD, peak_memory
 from benchmarks.peers.case import Case
 from benchmarks.peers.result import Result
-from signorini.clock import Clock
+from signorini.bench.price import TimerClock
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.gallery.cylinder import zhu_cylinder
 
 REPEATS, LONG = 5, 10.0
-
-
-class CpuClock(Clock):
-    """Adds up CPU seconds instead of those on the wall."""
-
-    @contextmanager
-    def phase(self, name: str) -> Iterator[None]:
-        start = time.process_time()
-        try:
-            yield
-        finally:
-            self.seconds[name] = self.seconds.get(name, 0.0) + time.process_time() - start
 
 
 def run(case: Case, refine: int, friction: float, backend: str, *, cold: bool = False) -> Result:
@@ -78,7 +64,7 @@ def main() -> None:
         start = time.process_time()
         model = zhu_cylinder(friction=friction, refine=refine)
         made = time.process_time()
-        clock = CpuClock()
+        clock = TimerClock(time.process_time)
         history = solve_prepared(prepare(model, backend=backend, clock=clock))
         whole = time.process_time() - made
         assembly = clock.seconds["assembly"]

@@ -43,11 +43,14 @@ def test_rows_of_the_contract() -> None:
 
 def test_cubes_in_space() -> None:
     rows = run(["cubes"], 1500)
-    assert [row["name"] for row in rows] == ["cubes", "cubes, not matching"]
+    assert [row["name"] for row in rows] == 2 * ["cubes"] + 2 * ["cubes, not matching"]
+    assert [row["default"] for row in rows] == [True, False, True, False]
     for row in rows:
         assert set(row) == KEYS
         assert 0.6 * 1500 < row["dofs"] < 1.2 * 1500
-        assert set(row["phases"]) == {"factorisation", "condensation", "complementarity", "recovery"}
+        assert math.isclose(row["ratio"], row["contact_seconds"] / row["linear_seconds"])
+        phases = {"factorisation", "condensation", "complementarity", "recovery"}
+        assert set(row["phases"]) == (phases if row["default"] else set())
 
 
 def test_contact_seconds_leave_nothing_out(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -133,6 +133,18 @@ def test_releasing_open_pairs_changes_nothing():
     np.testing.assert_allclose(few.tangential_force, whole.tangential_force[kept], atol=1e-9)
 
 
+@pytest.mark.parametrize("problem", [block_on_floor(8, (-1.0, 0.2, 0.9)), random_problem(3, 8)], ids=["floats", "held"])
+def test_what_is_left_is_the_schur_complement_of_the_image_form(problem):
+    """``r_o = 0`` leaves ``W_cc + W_co G_oo^-1 W_oc`` and ``b_c + W_co G_oo^-1 b_o``."""
+    kept = np.arange(8) % 3 > 0
+    c, o = np.flatnonzero(np.tile(kept, 2)), np.flatnonzero(~np.tile(kept, 2))
+    way = problem.W[np.ix_(c, o)] @ np.linalg.inv(np.eye(len(o)) - problem.W[np.ix_(o, o)])
+    few = released(problem, kept)
+    np.testing.assert_allclose(few.W, problem.W[np.ix_(c, c)] + way @ problem.W[np.ix_(o, c)], atol=1e-12)
+    np.testing.assert_allclose(few.b, problem.b[c] + way @ problem.b[o], atol=1e-12)
+    assert np.array_equal(few.friction, problem.friction[kept])
+
+
 def test_pairs_that_hold_nothing_cannot_be_kept_alone():
     problem = block_on_floor(8, (-1.0, 0.2, 0.0))
     assert released(problem, np.zeros(8, dtype=bool)) is None

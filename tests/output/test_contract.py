@@ -205,6 +205,7 @@ def test_series(results: tuple[Results, dict[str, Any]]) -> None:
     names = [f"solution_{number:04d}.vtu" for number in range(1, steps + 1)] if steps > 1 else []
     expected = {"summary.json", "contact.csv", "history.csv", "state.npz", "solution.vtu", "solution.h5", *names}
     expected |= ({"solution.pvd"} if names else set()) | ({"contact.vtu"} if found.solid else set())
+    expected |= {"contact.pvd", "fields"} if names and found.solid else set()
     assert {file.name for file in found.folder.iterdir()} == expected
     if names:
         text = (found.folder / "solution.pvd").read_text()
@@ -218,3 +219,21 @@ def test_cylinder_carries_its_load(results: tuple[Results, dict[str, Any]]) -> N
     if "cylinder on a rigid" not in deck["title"]:
         pytest.skip("another example")
     assert found.summary["steps"][0]["contacts"][0]["normal_force"] == pytest.approx([0.0, 78.0], abs=1e-9)
+
+
+def test_bracket_carries_its_bolt_and_its_cable(results: tuple[Results, dict[str, Any]]) -> None:
+    """Forces and moment of the joint are those of the loads; it sticks and slips, and slip costs work."""
+    found, deck = results
+    if "bracket" not in deck["title"]:
+        pytest.skip("another example")
+    load = {load["name"]: load["force"] for load in deck["load"]}
+    tighten, pull = (step["contacts"][0] for step in found.summary["steps"])
+    joint = np.array([pull["normal_force"], pull["tangential_force"]]).sum(axis=0)
+    assert joint[[0, 2]] == pytest.approx([-load["cable"][0], -load["bolt head"][2]], rel=1e-9)
+    last = found.values["step"] == found.values["step"].max()
+    x, force = found.values["x"][last], (found.values["pressure"] * found.values["area"])[last]
+    assert x @ force == pytest.approx(load["cable"][0] * 40.0, rel=1e-3)  # the height of the eye
+    assert pull["stick"] > 10
+    assert pull["slip"] > 10
+    assert 0.0 < tighten["dissipation"] < pull["dissipation"]
+    assert abs(found.summary["steps"][1]["energy_defect"]) < 1e-3 * pull["dissipation"]

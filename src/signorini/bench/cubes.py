@@ -9,8 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from signorini.bench.price import REPEATS, Timer, price, warm_up
+from signorini.bench.price import REPEATS, Timer, iterated, price, warm_up
+from signorini.engine.prepare import prepare
+from signorini.engine.solve import solve_prepared
 from signorini.gallery.cubes import cubes
+from signorini.iterative.bodies import ITERATIVE
 
 _ENTRIES = 40.0
 """Numbers held at the worst time of the contact solve, of z^(4/3): their pages are touched before a long run."""
@@ -21,15 +24,19 @@ def blocks(dofs: int, *, timer: Timer = time.perf_counter, repeats: int = REPEAT
 
     Yields
     ------
-    rows of the contract, see :func:`signorini.bench.price.price`: "cubes" and "cubes, not matching"
+    rows of the contract, see :func:`signorini.bench.price.price`: "cubes" and "cubes, not matching", each condensed and
+    then iterated
     """
     n = max(2, round(np.cbrt(dofs / 6.0)) - 1)
     upper = max(1, round(0.92 * n))  # the coarser side carries the pairs
     lower = max(2, round(np.cbrt(dofs / 3.0 - (upper + 1) ** 3)) - 1)
+    solve_prepared(prepare(cubes(2), backend=ITERATIVE))  # loads what the rows after it find loaded
     for name, model in (("cubes", cubes(n)), ("cubes, not matching", cubes(lower, upper))):
         if repeats > 1:
             warm_up(model, timer)
         else:  # of long runs only the compiled code and the memory
             warm_up(cubes(2, 2 if name == "cubes" else 3), timer)
             np.ones(int(_ENTRIES * dofs ** (4.0 / 3.0)))
-        yield price(name, model, timer, repeats=repeats)
+        condensed = price(name, model, timer, repeats=repeats)
+        yield condensed
+        yield iterated(condensed, model, timer)

@@ -17,6 +17,7 @@ from signorini.clock import Clock
 from signorini.engine.increments import free_load
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.solve import solve_prepared
+from signorini.iterative.bodies import ITERATIVE
 from signorini.linalg.registry import factorise
 from signorini.memory import peak_memory
 from signorini.model.model import Model
@@ -93,6 +94,26 @@ def price(name: str, model: Model, timer: Timer, *, repeats: int = REPEATS) -> d
         "cpu_seconds": statistics.median(cpu),
         "peak_memory_bytes": peak_memory(),
         **found,
+    }
+
+
+def iterated(row: dict[str, Any], model: Model, timer: Timer) -> dict[str, Any]:
+    """The same model on the bodies as they are, once: a row beside one of `price`, with its assembly and linear solve.
+
+    Its memory is nothing that can be told of a part of a process.
+    """
+    began, cpu_began = timer(), time.process_time()
+    history = solve_prepared(prepare(model, backend=ITERATIVE))
+    seconds = timer() - began - row["assembly_seconds"]
+    return row | {
+        "backend": history.backend,
+        "default": False,
+        "contact_seconds": seconds,
+        "ratio": seconds / row["linear_seconds"],
+        "phases": {},
+        "iterations": sum(history.last.iterations),
+        "cpu_seconds": time.process_time() - cpu_began,
+        "peak_memory_bytes": None,
     }
 
 

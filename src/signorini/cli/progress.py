@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
 from signorini.clock import Clock, Listener
+from signorini.linalg.multifrontal import compiled
 
 
 @contextmanager
@@ -26,7 +27,10 @@ def progress(*, quiet: bool, seconds: Mapping[str, float] | None = None) -> Iter
         TimeElapsedColumn(),
         TextColumn("{task.description}"),
     )
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    console = Console(stderr=True)
+    if not compiled():
+        console.print("first solve on this machine: compiling takes half a minute, once", highlight=False)
+    with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task("starting", total=1.0)
         yield _clock(lambda words, done: bar.update(task, description=words, completed=done), seconds)
 

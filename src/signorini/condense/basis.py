@@ -9,6 +9,7 @@ import numpy as np
 import scipy.linalg
 
 from signorini.arrays import Array
+from signorini.condense.parts import mirror
 
 _DEPENDENT = 1e-10  # of the largest: what is left of a motion that follows from the others
 
@@ -31,9 +32,26 @@ class Basis:
         solved: Array = scipy.linalg.solve_triangular(self.triangle, resultant, trans=1)
         return solved
 
+    def project(self, A: Array) -> Array:
+        """Overwrite a symmetric A by ``P A P``, P = I - R R^T, and give back ``P A R`` as it was, (n, k).
+
+        >>> A = np.array([[2.0, 1.0], [1.0, 3.0]])
+        >>> np.abs(make_basis(np.array([[0.0], [1.0]])).project(A)).round(12).tolist(), A.round(12).tolist()
+        ([[1.0], [0.0]], [[2.0, 0.0], [0.0, 0.0]])
+        """
+        leaning: Array = A @ self.R
+        if not self.R.size:
+            return leaning
+        leaning -= self.R @ (self.R.T @ leaning)
+        for _ in range(2):  # bodies may travel far along R
+            A -= self.R @ (self.R.T @ A)
+            A -= (A @ self.R) @ self.R.T
+        mirror(A)
+        return leaning
+
 
 def make_basis(motions: Array) -> Basis:
-    """Factorise.
+    """Factorise; rows of motions that are exactly zero stay so.
 
     Parameters
     ----------
@@ -50,7 +68,7 @@ def make_basis(motions: Array) -> Basis:
     >>> np.abs(basis.R).round(12).tolist(), np.abs(basis.coefficients(np.array([10.0]))).round(12).tolist()
     ([[0.6], [0.8]], [2.0])
     """
-    R, triangle = scipy.linalg.qr(motions, mode="economic") if motions.size else (motions, np.zeros((0, 0)))
+    R, triangle = scipy.linalg.qr(motions, mode="economic") if motions.size else (motions.copy(), np.zeros((0, 0)))
     size = np.abs(np.diag(triangle))
     if len(size) < motions.shape[1] or size.min(initial=1.0) <= _DEPENDENT * size.max(initial=0.0):
         raise np.linalg.LinAlgError("the pairs do not see a rigid motion")

@@ -14,8 +14,8 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.clock import Clock
 from signorini.condense.basis import Basis, make_basis
-from signorini.condense.image import Image, softened
-from signorini.condense.parts import make_parts, mirror
+from signorini.condense.image import Image
+from signorini.condense.parts import make_parts
 from signorini.condense.response import ByNodes, Response, keep_pairs
 from signorini.condense.ties import Ties, make_ties
 from signorini.interface.interface import Interface
@@ -106,8 +106,7 @@ class Condensed:
         basis = self._basis
         resultant = basis.coefficients(self.response.resultant(load))
         free = self.root * (self.response.moved(load) + offset) - self._leaning @ resultant
-        free -= basis.R @ (basis.R.T @ free)
-        return softened(self.image.factor, free) + basis.R @ resultant
+        return self.image.load(free, resultant)
 
     def displacement(self, reduced: Reduced, h: Array, r: Array, offset: Array) -> Array:
         """Free displacements (z,) under a load and the solution h, r (d a,), in the units of the problem."""
@@ -233,22 +232,11 @@ def _image(response: Response, root: Array, compliance: Array) -> dict[str, Any]
     A *= root
     A *= root[:, None]
     A[np.diag_indices_from(A)] += root**2 * compliance
-    leaning = A @ basis.R
-    if basis.R.size:
-        if A.diagonal().max(initial=0.0) > _HARDLY:
-            raise np.linalg.LinAlgError("contact hardly resists a rigid motion")
-        leaning -= basis.R @ (basis.R.T @ leaning)
-        _project(A, basis.R)
+    if basis.R.size and A.diagonal().max(initial=0.0) > _HARDLY:
+        raise np.linalg.LinAlgError("contact hardly resists a rigid motion")
+    leaning = basis.project(A)
     A.flags.writeable = motions.flags.writeable = False
     return {"image": Image.of_compliance(A, motions, basis.R), "_basis": basis, "_leaning": leaning}
-
-
-def _project(A: Array, R: Array) -> None:
-    """Overwrite a symmetric A by ``P A P``, P = I - R R^T; twice, for bodies may travel far along R."""
-    for _ in range(2):
-        A -= R @ (R.T @ A)
-        A -= (A @ R) @ R.T
-    mirror(A)
 
 
 def _interface_stiffness(K_c: sp.csr_array, B_c: sp.csr_array, interface: Interface, pairs: IntArray) -> Array:

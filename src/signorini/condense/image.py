@@ -18,9 +18,10 @@ from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import blas, lapack, qr
+from scipy.linalg import blas, lapack
 
 from signorini.arrays import Array, BoolArray, frozen, read_only
+from signorini.condense.basis import make_basis
 from signorini.condense.parts import mirror
 from signorini.errors import InputError
 
@@ -80,7 +81,12 @@ class Image:
                 raise InputError("has entries that are not finite", where=(name,))
         if np.abs(W - W.T).max(initial=0.0) > 1e-12:
             raise InputError("is not symmetric", where=("W",))
-        R = _orthonormal(motions)
+        try:
+            R = make_basis(motions).R
+        except np.linalg.LinAlgError as dependent:
+            raise InputError(
+                "rigid motions are linearly dependent; expected independent columns", where=("motions",)
+            ) from dependent
         if R.size:
             wrong = np.abs(W @ R - R).max()
             if wrong > 1e-8 * np.abs(R).max():
@@ -162,6 +168,15 @@ class Image:
         """(m,) Motion c of the pairs under the load alone, without its rigid part."""
         return b + self.A @ b - self.R @ (self.R.T @ b)
 
+    def load(self, free: Array, resultant: Array) -> Array:
+        """b, (m,), of a free motion, (m,), whose rigid part does not count, and resultants ``R' b``, (k,).
+
+        >>> held = np.zeros((1, 0))
+        >>> Image.of_form(np.array([[0.5]]), held).load(np.array([3.0]), np.zeros(0)).round(12).tolist()
+        [1.5]
+        """
+        return softened(self.factor, free - self.R @ (self.R.T @ free)) + self.R @ resultant
+
 
 def softened(factor: Array | SingleArray, x: Array) -> Array:
     """``(softness I + A)^-1 x`` by the lower Cholesky factor of that matrix, in its precision.
@@ -198,17 +213,6 @@ def _cholesky(A: Precision, softness: float) -> Precision:
     if failed:
         raise np.linalg.LinAlgError("the compliance of the pairs is not positive semidefinite")
     return np.asarray(factor)
-
-
-def _orthonormal(motions: Array) -> Array:
-    """A basis of independent motions."""
-    if not motions.size:
-        return motions
-    Q, triangle = qr(motions, mode="economic")
-    diagonal = np.abs(np.diag(triangle))
-    if len(diagonal) < motions.shape[1] or diagonal.min() <= 1e-10 * diagonal.max():
-        raise InputError("rigid motions are linearly dependent; expected independent columns", where=("motions",))
-    return np.asarray(Q, dtype=np.float64)
 
 
 def _inverse(factor: Array) -> Array:

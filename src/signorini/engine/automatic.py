@@ -19,10 +19,9 @@ from signorini.engine.exact import follow_to_events, stored_energy
 from signorini.engine.increments import follow_increments, is_straight
 from signorini.engine.leg import Leg
 from signorini.engine.prepare import Prepared
-from signorini.engine.span import Span
+from signorini.engine.stretch import Stretch
 from signorini.errors import SolveFailed
 from signorini.iterative.bodies import Bodies
-from signorini.solution.state import LoadPoint, State
 
 MOST = 4096
 """Increments of one straight part of a step; in space the part of it that they need not undercut."""
@@ -31,15 +30,10 @@ _MORE = 'expected less? Give the step increments = "auto" or their number'
 
 
 def follow_automatically(
-    prepared: Prepared,
+    stretch: Stretch,
     tolerance: float,
-    where: str,
-    span: Span,
-    state: State,
-    end: LoadPoint,
     *,
     enough: int | None = None,
-    whole: bool = False,
     jump: Literal["stop", "follow"] | None = None,
 ) -> Leg:
     """Follow a straight part of a step in more and more increments, each time from its beginning.
@@ -48,9 +42,7 @@ def follow_automatically(
     ----------
     tolerance : largest change from one number to the next: of a contact force, of the largest one; and of what friction
         dissipates, of the work done on the way
-    where : name of the step, for messages
     enough : number at which to stop whatever it still changes, and to say so; None: go on to 4096
-    whole : whether the displacement of the bodies is recovered at every event, in space
     jump : what to do at a jump, in space: stop, follow it to its landing, or None to go on without
 
     Raises
@@ -59,11 +51,12 @@ def follow_automatically(
         If an increment has no certified solution however short, or 4096 are not enough.
     """
     coarse: Leg | None = None
+    prepared = stretch.prepared
     changes, number = "the answer, where one is found", 1
     more, fewer = (2, "half as many") if prepared.interface.directions == 2 else (4, "a quarter as many")
     while number <= MOST:
         try:
-            fine, words = _followed(prepared, number, where, span, state, end, whole, jump)
+            fine, words = _followed(stretch, number, jump)
         except SolveFailed as failure:
             certain = failure.status == "no_equilibrium" or (failure.status == "jump" and number >= _CERTAIN)
             if certain or more * number > MOST:
@@ -82,7 +75,7 @@ def follow_automatically(
                 return replace(fine, path="increments", notes=(*fine.notes, f"{note}; {_MORE}"))
         coarse, number = fine, more * number
     raise SolveFailed(
-        f'{where}: {MOST} increments still change {changes}; expected a larger tolerance, or path = "exact"',
+        f'{stretch.where}: {MOST} increments still change {changes}; expected a larger tolerance, or path = "exact"',
         status="not_found",
     )
 
@@ -107,28 +100,19 @@ def _defect(prepared: Prepared, leg: Leg) -> float:
     return abs(work - stored - lost) / (abs(work) or 1.0)
 
 
-def _followed(
-    prepared: Prepared,
-    number: int,
-    where: str,
-    span: Span,
-    state: State,
-    end: LoadPoint,
-    whole: bool,
-    jump: Literal["stop", "follow"] | None,
-) -> tuple[Leg, str]:
+def _followed(stretch: Stretch, number: int, jump: Literal["stop", "follow"] | None) -> tuple[Leg, str]:
     """A way in at most so many increments, and their number in words."""
     notes: tuple[str, ...] = ()
-    if prepared.interface.directions == 3 and not isinstance(prepared.bodies, Bodies):
+    if stretch.prepared.interface.directions == 3 and not isinstance(stretch.prepared.bodies, Bodies):
         try:
-            leg = follow_to_events(prepared, number, where, span, state, end, whole=whole, jumps=jump == "follow")
+            leg = follow_to_events(stretch, number, jumps=jump == "follow")
             return leg, f"{_counted(len(leg.trace))} to events, none needs to be shorter than 1/{number}"
         except SolveFailed as failure:
             if failure.status == "jump" and jump == "stop":
                 raise
             if failure.status == "jump":
                 notes = (f"{failure}; followed in {number} increments to what is a candidate",)
-    leg = follow_increments(prepared, number, where, span, state, end)
+    leg = follow_increments(stretch, number)
     return replace(leg, notes=notes), _counted(number)
 
 

@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Literal
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from signorini.bound import plain
 from signorini.engine.increments import applied, certified, free_load, moved_by_supports, refuse_overlap
 from signorini.engine.leg import Leg, Snapshot, joined, keep
 from signorini.engine.prepare import Prepared
-from signorini.engine.span import Span
+from signorini.engine.stretch import Stretch
 from signorini.errors import SolveFailed
 from signorini.friction.exact import Landing, PathState, Segment, follow, initial_state, land
 from signorini.friction.law import OPEN, STICK
@@ -30,23 +29,37 @@ _NO_LANDING = "no equilibrium that it could land on was found"
 _SPENT = 1e-9  # of the friction bound: what a slipping pair may lack of it
 
 
-def follow_exactly(
-    prepared: Prepared,
-    where: str,
-    span: Span,
-    state: State,
-    end: LoadPoint,
-    *,
-    whole: bool = False,
-    jumps: bool = False,
-) -> Leg:
-    """Follow a straight part of a step from a state to a point of the load history.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Followed:
+    """A stretch as it was followed on the condensed interface.
+
+    Attributes
+    ----------
+    start : its state before, in the scaled units of the law
+    stops : how increments were chosen, None on an exact path
+    """
+
+    stretch: Stretch
+    start: PathState
+    segment: Segment
+    stops: StopSettings | None
+
+    @property
+    def reached(self) -> float:
+        """Part of the stretch that is behind, 0 .. 1."""
+        return self.segment.pieces[-1].factor
+
+    @property
+    def cut(self) -> _Followed:
+        """The same where the stretch ends as far as it was followed."""
+        return replace(self, stretch=self.stretch.cut(self.reached))
+
+
+def follow_exactly(stretch: Stretch, *, jumps: bool = False) -> Leg:
+    """Follow a straight part of a step from event to event.
 
     Parameters
     ----------
-    where : name of the step, for messages
-    span : the part of the history that this is
-    whole : whether the displacement of the bodies is recovered at every event
     jumps : whether the history goes on behind jumps, from the next equilibrium that is found at their load
 
     Raises
@@ -54,103 +67,83 @@ def follow_exactly(
     SolveFailed
         With status "jump" where the history cannot go on gradually, or not at all; "not_found" where the path was lost.
     """
-    prepared.clock.increment(f"{where}, event by event")
-    refuse_overlap(prepared, _offset(prepared, end)[: len(prepared.interface)], where)
-    return _beyond_jumps(prepared, where, span, state, end, whole=whole, jumps=jumps)
+    return _beyond_jumps(stretch, "event by event", jumps=jumps)
 
 
-def _beyond_jumps(
-    prepared: Prepared,
-    where: str,
-    span: Span,
-    state: State,
-    end: LoadPoint,
-    *,
-    whole: bool,
-    jumps: bool,
-    stops: StopSettings | None = None,
-) -> Leg:
-    """Leg after leg, from one jump to the next; parameters as of `follow_exactly` and of `_followed`."""
-    path: Literal["exact", "increments"] = "exact" if stops is None else "increments"
-    legs: list[Leg] = []
-    while True:
-        with prepared.clock.phase("complementarity"):
-            start = _start(prepared, state)
-            segment = _followed(prepared.law, start, _right_hand_side(prepared, end), stops)
-        if segment.followed:
-            leg = _leg(prepared, where, span, state, start, segment, end, whole=whole, path=path)
-            return joined([*legs, leg])
-        lost = _lost(prepared, where, span, segment)
-        landing = _landing(prepared.law, start, segment, stops) if jumps and len(legs) < _JUMPS else None
-        if segment.jump is None or landing is None:
-            if jumps and segment.jump is not None:
-                lost = SolveFailed(f"{lost}; {_NO_LANDING}", status="jump")
-            raise keep(lost, [*legs, *_so_far(prepared, where, span, state, start, segment, end, whole, path)])
-        limit, before = _cut(span, state, segment, end)
-        leg = _leg(prepared, where, before, state, start, segment, limit, whole=whole, path=path)
-        legs += [leg, _landed(prepared, where, before, leg.after, landing)]
-        state, span = legs[-1].after, replace(span, low=before.high)
-
-
-def _cut(span: Span, state: State, segment: Segment, end: LoadPoint) -> tuple[LoadPoint, Span]:
-    """Where a segment ended before its load was reached, and the part of the span up to there."""
-    factor = segment.pieces[-1].factor
-    return state.point.towards(end, factor), replace(span, high=span.part(factor), ends="jump")
-
-
-def _so_far(
-    prepared: Prepared,
-    where: str,
-    span: Span,
-    state: State,
-    start: PathState,
-    segment: Segment,
-    end: LoadPoint,
-    whole: bool,
-    path: Literal["exact", "increments"],
-) -> list[Leg]:
-    """What was followed of a segment that does not go on; nothing where that does not pass the certificate."""
-    if segment.pieces[-1].factor == 0.0:
-        return []
-    limit, before = _cut(span, state, segment, end)
-    try:
-        return [_leg(prepared, where, before, state, start, segment, limit, whole=whole, path=path)]
-    except SolveFailed:
-        return []
-
-
-def follow_to_events(
-    prepared: Prepared,
-    number: int,
-    where: str,
-    span: Span,
-    state: State,
-    end: LoadPoint,
-    *,
-    whole: bool = False,
-    jumps: bool = False,
-) -> Leg:
+def follow_to_events(stretch: Stretch, number: int, *, jumps: bool = False) -> Leg:
     """Follow a straight part of a step in space in increments that end at events.
 
     Parameters
     ----------
     number : an increment need not be shorter than 1 / number of the span, whatever happens in it
-    where, span, whole, jumps : see `follow_exactly`
+    jumps : see `follow_exactly`
 
     Raises
     ------
     SolveFailed
         As `follow_exactly` does.
     """
-    prepared.clock.increment(f"{where}, increments to events")
-    refuse_overlap(prepared, _offset(prepared, end)[: len(prepared.interface)], where)
     stops = StopSettings(shortest=1.0 / number, turn=_TURN / number**0.5)
-    return _beyond_jumps(prepared, where, span, state, end, whole=whole, jumps=jumps, stops=stops)
+    return _beyond_jumps(stretch, "increments to events", jumps=jumps, stops=stops)
 
 
-def _trace(segment: Segment, path: str) -> tuple[tuple[Attempt, ...], ...]:
+def _beyond_jumps(stretch: Stretch, how: str, *, jumps: bool, stops: StopSettings | None = None) -> Leg:
+    """Leg after leg, from one jump to the next; ``how`` for the clock, the others as of `_Followed`."""
+    prepared = stretch.prepared
+    prepared.clock.increment(f"{stretch.where}, {how}")
+    refuse_overlap(prepared, _offset(prepared, stretch.end)[: len(prepared.interface)], stretch.where)
+    legs: list[Leg] = []
+    while True:
+        followed = _follow(stretch, stops)
+        jump = followed.segment.jump
+        if followed.segment.followed:
+            return joined([*legs, _leg(followed)])
+        lost = _lost(followed)
+        landing = _landing(followed) if jumps and len(legs) < _JUMPS else None
+        if jump is None or landing is None:
+            if jumps and jump is not None:
+                lost = SolveFailed(f"{lost}; {_NO_LANDING}", status="jump")
+            raise keep(lost, [*legs, *_so_far(followed)])
+        cut = followed.cut
+        leg = _leg(cut)
+        legs += [leg, _landed(cut.stretch, leg.after, landing)]
+        stretch = stretch.rest(cut.stretch, legs[-1].after)
+
+
+def _so_far(followed: _Followed) -> list[Leg]:
+    """What was followed of a segment that does not go on; nothing where that does not pass the certificate."""
+    if followed.reached == 0.0:
+        return []
+    try:
+        return [_leg(followed.cut)]
+    except SolveFailed:
+        return []
+
+
+def _follow(stretch: Stretch, stops: StopSettings | None) -> _Followed:
+    """The history up to a load, in the plane or in space."""
+    prepared = stretch.prepared
+    with prepared.clock.phase("complementarity"):
+        start, b = _start(prepared, stretch.before), _right_hand_side(prepared, stretch.end)
+        if isinstance(prepared.law, SpatialProblem):
+            segment = follow_stopping(prepared.law, start, b, settings=stops)
+        else:
+            segment = follow(prepared.law, start, b)
+    return _Followed(stretch=stretch, start=start, segment=segment, stops=stops)
+
+
+def _landing(followed: _Followed) -> Landing | None:
+    """Where a jump lands, in the plane or in space."""
+    law = followed.stretch.prepared.law
+    if isinstance(law, SpatialProblem):
+        return land_spatial(law, followed.start, followed.segment, settings=followed.stops)
+    return land(law, followed.start, followed.segment)
+
+
+def _trace(followed: _Followed) -> tuple[tuple[Attempt, ...], ...]:
     """What was tried: for an exact path in one entry, in increments for each of them."""
-    if path == "exact":
+    segment = followed.segment
+    if followed.stops is None:
         return ((Attempt(method="exact path", iterations=segment.pivots, end=segment.message),),)
     return tuple(
         (Attempt(method="increments to events", iterations=piece.tried, end="certified"),)
@@ -158,68 +151,41 @@ def _trace(segment: Segment, path: str) -> tuple[tuple[Attempt, ...], ...]:
     )
 
 
-def _followed(
-    law: CoulombProblem | SpatialProblem, start: PathState, b: Array, stops: StopSettings | None = None
-) -> Segment:
-    """The history up to a load, in the plane or in space."""
-    if isinstance(law, SpatialProblem):
-        return follow_stopping(law, start, b, settings=stops)
-    return follow(law, start, b)
-
-
-def _landing(
-    law: CoulombProblem | SpatialProblem, start: PathState, segment: Segment, stops: StopSettings | None
-) -> Landing | None:
-    """Where a jump lands, in the plane or in space."""
-    if isinstance(law, SpatialProblem):
-        return land_spatial(law, start, segment, settings=stops)
-    return land(law, start, segment)
-
-
-def _leg(
-    prepared: Prepared,
-    where: str,
-    span: Span,
-    state: State,
-    start: PathState,
-    segment: Segment,
-    end: LoadPoint,
-    *,
-    whole: bool,
-    path: Literal["exact", "increments"],
-) -> Leg:
-    """A segment that was followed as far as to ``end``."""
+def _leg(followed: _Followed) -> Leg:
+    """A segment that was followed as far as the end of its stretch."""
+    stretch, segment = followed.stretch, followed.segment
+    prepared = stretch.prepared
     with prepared.clock.phase("recovery"):
-        whole = whole or bool(state.point.given.any())
-        visited = _visited(prepared, span, state, start, segment, end, whole=whole, every=path == "increments")
+        visited = _visited(followed)
         after = visited[-1].state
     last = max(0, len(segment.pieces) - 2)
-    before = state.tangential.copy()
+    before = stretch.before.tangential.copy()
     before[_along(prepared)] = _tangential(prepared, segment.pieces[last].h)
     # the law of the rate, on the last piece, is the law of the increment from where the piece began
-    certificate = certified(prepared, after, before, where)
+    certificate = certified(prepared, after, before, stretch.where)
     return Leg(
-        path=path,
-        before=state,
+        path="exact" if followed.stops is None else "increments",
+        before=stretch.before,
         after=after,
         certificates=(certificate,),
-        trace=_trace(segment, path),
+        trace=_trace(followed),
         snapshots=visited,
-        events=_events(prepared, span, segment),
+        events=_events(followed),
     )
 
 
-def _landed(prepared: Prepared, where: str, span: Span, state: State, landing: Landing) -> Leg:
-    """From a jump to where it lands, at the same load."""
+def _landed(stretch: Stretch, state: State, landing: Landing) -> Leg:
+    """From a jump at the end of a stretch to where it lands, at the same load."""
+    prepared, span = stretch.prepared, stretch.span
     with prepared.clock.phase("recovery"):
         recovered = _recovered(prepared, state, state.point, landing.state)
         after = set_free(prepared, state, recovered, taken=recovered.dissipation - state.dissipation)
     # its slip is that of a whole curve: the law is asked of its last state alone
-    certificate = certified(prepared, after, after.tangential, where)
+    certificate = certified(prepared, after, after.tangential, stretch.where)
     freed = after.released - state.released
     note = (
-        f"{where} at {span.high:.6%}: a jump, followed through {landing.events} events to the next equilibrium at that "
-        f"load; it sets energy {freed:.6g} free and is a candidate: inertia may lead elsewhere"
+        f"{stretch.where} at {span.high:.6%}: a jump, followed through {landing.events} events to the next equilibrium "
+        f"at that load; it sets energy {freed:.6g} free and is a candidate: inertia may lead elsewhere"
     )
     attempt = Attempt(method="beyond a jump", iterations=landing.events, end="landed")
     return Leg(
@@ -309,37 +275,28 @@ def _start(prepared: Prepared, state: State) -> PathState:
     )
 
 
-def _visited(
-    prepared: Prepared,
-    span: Span,
-    state: State,
-    start: PathState,
-    segment: Segment,
-    end: LoadPoint,
-    *,
-    whole: bool,
-    every: bool,
-) -> tuple[Snapshot, ...]:
-    """The states at the start, at every event and at the end, with work and displacement where they are ``whole``.
+def _visited(followed: _Followed) -> tuple[Snapshot, ...]:
+    """The states at the start, at every event and at the end, with work and displacement where they are whole.
 
-    Parameters
-    ----------
-    every : whether pieces are increments, whose ends are shown too
+    Where pieces are increments their ends are shown too.
     """
+    stretch, start, segment = followed.stretch, followed.start, followed.segment
+    prepared, span, state = stretch.prepared, stretch.span, stretch.before
+    whole = stretch.whole or bool(state.point.given.any())
     last, since, losses, found = state, 0.0, _losses(segment), []
     if start.r.any() and not state.forces.any():
         pressed = _recovered(prepared, state, state.point, start)
         last = _balanced(prepared, state, pressed, float(start.dissipation.sum()))
         found.append(Snapshot(load_factor=span.factor(0.0), what="start", state=last))
-    reached = segment.pieces[-1].factor
+    reached = followed.reached
     visited = {event.factor: event.state for event in segment.events if 0.0 < event.factor < reached}
     happens = set(visited)
-    if every:
+    if followed.stops is not None:
         ends = {piece.factor: piece.state for piece in segment.pieces[1:-1] if piece.state is not None}
         visited = dict(sorted((ends | visited).items()))
     for factor, now in {**visited, reached: segment.end}.items():
         s = 1.0 if factor == reached else factor / reached
-        point, recovered = state.point.towards(end, s), whole or s == 1.0
+        point, recovered = state.point.towards(stretch.end, s), whole or s == 1.0
         if recovered:
             lost = sum(loss for t, loss in losses if since < t <= factor)
             here = _balanced(prepared, last, _recovered(prepared, last, point, now), lost)
@@ -430,18 +387,19 @@ def _along(prepared: Prepared) -> BoolArray:
     return np.tile(prepared.condensed.active, prepared.interface.directions - 1)
 
 
-def _events(prepared: Prepared, span: Span, segment: Segment) -> tuple[PairEvent, ...]:
+def _events(followed: _Followed) -> tuple[PairEvent, ...]:
     """The events by contact and node."""
+    prepared, reached = followed.stretch.prepared, followed.reached
     interface, labels = prepared.interface, [contact.label for contact in prepared.model.contacts]
-    pairs, reached = np.nonzero(prepared.condensed.active)[0], segment.pieces[-1].factor
+    pairs = np.nonzero(prepared.condensed.active)[0]
     found = []
-    for event in segment.events:
+    for event in followed.segment.events:
         own = pairs[list(event.pairs)]
         for contact in np.unique(interface.contact[own]):
             nodes = interface.node[own[interface.contact[own] == contact]]
             found.append(
                 PairEvent(
-                    load_factor=span.factor(event.factor / reached if reached else 0.0),
+                    load_factor=followed.stretch.span.factor(event.factor / reached if reached else 0.0),
                     contact=labels[contact],
                     nodes=tuple(int(node) for node in nodes),
                     what=event.what,
@@ -450,8 +408,10 @@ def _events(prepared: Prepared, span: Span, segment: Segment) -> tuple[PairEvent
     return tuple(found)
 
 
-def _lost(prepared: Prepared, where: str, span: Span, segment: Segment) -> SolveFailed:
+def _lost(followed: _Followed) -> SolveFailed:
     """Why the path does not go on, with the load and the acting nodes."""
+    stretch, segment = followed.stretch, followed.segment
+    prepared, where = stretch.prepared, stretch.where
     if segment.jump is None:
         return SolveFailed(
             f"{where}: the exact path was lost: {segment.message}; follow the step in increments", status="not_found"
@@ -460,7 +420,7 @@ def _lost(prepared: Prepared, where: str, span: Span, segment: Segment) -> Solve
     nodes = ", ".join(str(node) for node in prepared.model.mesh.labels[prepared.interface.node[pairs]])
     what = "gross sliding" if segment.jump.gross_sliding else "a jump"
     return SolveFailed(
-        f"{where} at {span.part(segment.jump.factor):.6%}: {what}: no equilibrium continues the history gradually "
-        f"(acting nodes {nodes}; {segment.jump.proof})",
+        f"{where} at {stretch.span.part(segment.jump.factor):.6%}: {what}: no equilibrium continues the history "
+        f"gradually (acting nodes {nodes}; {segment.jump.proof})",
         status="jump",
     )

@@ -11,7 +11,7 @@ import numpy as np
 from signorini.arrays import Array, IntArray, frozen
 from signorini.engine.leg import Leg, Snapshot, keep
 from signorini.engine.prepare import Prepared
-from signorini.engine.span import Span
+from signorini.engine.stretch import Stretch
 from signorini.errors import SolveFailed
 from signorini.fem.rigid import describe_motion
 from signorini.friction.law import OPEN, STICK
@@ -30,23 +30,21 @@ _REFINEMENTS = 2
 _CANCELLED = 1e-14  # of the largest displacement that supports impose: less between two sides is rounding
 
 
-def follow_increments(prepared: Prepared, number: int, where: str, span: Span, state: State, end: LoadPoint) -> Leg:
-    """Follow a straight part of a step in equal increments from a state to a point of the load history.
+def follow_increments(stretch: Stretch, number: int) -> Leg:
+    """Follow a straight part of a step in equal increments.
 
     Where bodies are not condensed every increment starts from where the last one leads if it is repeated.
 
     Parameters
     ----------
     number : of increments
-    where : name of the step, for messages
-    span : the part of the history that this is
 
     Raises
     ------
     SolveFailed
         If an increment has no certified solution; it carries the increments before.
     """
-    start, before = state.point, state
+    prepared, span, state = stretch.prepared, stretch.span, stretch.before
     path = "single" if number == 1 else "increments"
     certificates: list[Certificate] = []
     trace: list[tuple[Attempt, ...]] = []
@@ -55,7 +53,7 @@ def follow_increments(prepared: Prepared, number: int, where: str, span: Span, s
     def followed() -> Leg:
         return Leg(
             path=path,
-            before=before,
+            before=stretch.before,
             after=state,
             certificates=tuple(certificates),
             trace=tuple(trace),
@@ -64,10 +62,11 @@ def follow_increments(prepared: Prepared, number: int, where: str, span: Span, s
 
     last: State | None = None
     for k in range(1, number + 1):
-        words = f"{where} at {span.part(k / number):.0%}"
+        words = f"{stretch.where} at {span.part(k / number):.0%}"
+        point = stretch.before.point.towards(stretch.end, k / number)
         prepared.clock.increment(words)
         try:
-            new, certificate, result = advance(prepared, state, start.towards(end, k / number), words, last=last)
+            new, certificate, result = advance(prepared, state, point, words, last=last)
         except (SolveFailed, KeyboardInterrupt) as stop:
             raise keep(stop, [followed()] if snapshots else []) from None
         last, state = state, new

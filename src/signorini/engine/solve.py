@@ -20,6 +20,7 @@ from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
 from signorini.engine.span import Span, spans
 from signorini.engine.staged import nominal_gap, staged
+from signorini.engine.stretch import Stretch
 from signorini.engine.upheld import at_the_end, handed_over
 from signorini.engine.wellposed import assess
 from signorini.errors import InputError, SolveFailed
@@ -190,14 +191,16 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
         reaction=reaction,
         offset=offset,
     )
+    at_events = stage.step.at == "events"
     # the work of temperatures needs the displacements, see signorini.engine.heat
     heated = any(load.temperature is not None for load in prepared.model.loads)
     for span, point in spans(stage, state.point, end):
+        stretch = Stretch(prepared=prepared, where=stage.name, span=span, before=state, end=point, whole=at_events)
         try:
-            leg = _leg(prepared, stage, span, state, point)
+            leg = _leg(stage, stretch)
         except (SolveFailed, KeyboardInterrupt) as stop:
             raise keep(stop, legs) from None
-        leg = lightened(leg, every=stage.step.at == "events", end=span.asked, heated=heated)
+        leg = lightened(leg, every=at_events, end=span.asked, heated=heated)
         legs = [joined([*legs, leg])]
         state = leg.after
         if span.cycle:
@@ -205,31 +208,29 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
     return legs[0], cycle_ends
 
 
-def _leg(prepared: Prepared, stage: Stage, span: Span, state: State, end: LoadPoint) -> Leg:
+def _leg(stage: Stage, stretch: Stretch) -> Leg:
     """Follow a straight part of a step as asked; where nothing was asked, exactly if there is Coulomb friction.
 
     In space, where the exact cone has no exact path, in increments to events, more of them until the answer stays.
     Where the exact path that nobody asked for ends in a jump or is lost, it is followed in increments, and the notes
     say so: what they reach behind a jump is a candidate.
     """
-    step, interface, whole = stage.step, prepared.interface, stage.step.at == "events"
+    step, interface = stage.step, stretch.prepared.interface
     jump = "follow" if step.follows_jumps else step.jump
-    rubbing = bool((interface.rubs & ~interface.sticks & ~prepared.absent).any())
+    rubbing = bool((interface.rubs & ~interface.sticks & ~stretch.prepared.absent).any())
     if step.path != "exact" and (step.path is not None or step.increments is not None or not rubbing):
         if step.increments == "auto":
-            return follow_automatically(prepared, step.tolerance, stage.name, span, state, end, whole=whole, jump=jump)
-        return follow_increments(prepared, _increments(step, span, stage), stage.name, span, state, end)
-    if step.path is None and prepared.interface.directions == 3:
-        return follow_automatically(
-            prepared, step.tolerance, stage.name, span, state, end, enough=_ENOUGH, whole=whole, jump=jump
-        )
+            return follow_automatically(stretch, step.tolerance, jump=jump)
+        return follow_increments(stretch, _increments(step, stretch.span, stage))
+    if step.path is None and interface.directions == 3:
+        return follow_automatically(stretch, step.tolerance, enough=_ENOUGH, jump=jump)
     try:
-        return follow_exactly(prepared, stage.name, span, state, end, whole=whole, jumps=step.follows_jumps)
+        return follow_exactly(stretch, jumps=step.follows_jumps)
     except SolveFailed as failure:
         if step.path == "exact" or step.jump == "stop":
             raise
         try:
-            leg = follow_increments(prepared, _BEHIND_A_JUMP, stage.name, span, state, end)
+            leg = follow_increments(stretch, _BEHIND_A_JUMP)
         except SolveFailed as nothing:
             words = f"{failure}; nor do increments go on: {nothing}"
             worse = SolveFailed(words, status=nothing.status, motion=nothing.motion)

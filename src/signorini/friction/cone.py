@@ -20,8 +20,11 @@ import numpy as np
 from scipy.linalg import lapack, lstsq
 
 from signorini.arrays import Array, IntArray
+from signorini.friction.iterated import Unknowns, iterate
 from signorini.friction.law import OPEN, STICK, split
 from signorini.friction.problem import CoulombProblem
+
+_FORWARD = 1e-3  # of what the last states lack in the next ones
 
 SINGULAR = 1e-13
 """Reciprocal condition below which a cone's system counts as singular."""
@@ -108,6 +111,39 @@ def cone_system(problem: CoulombProblem, state: IntArray) -> ConeSystem:
     odd = np.count_nonzero(pivots != np.arange(size)) + np.count_nonzero(np.diag(lu) < 0) + k
     index = 0 if rcond < SINGULAR else -1 if odd % 2 else 1
     return ConeSystem(problem=problem, state=state, lu=lu, pivots=pivots, index=index)
+
+
+def balanced(problem: CoulombProblem, state: IntArray, near: Array) -> Array | None:
+    """The y = r - h that is nearly in equilibrium in a state, by iteration; None where that does not get there.
+
+    Parameters
+    ----------
+    state : (n,) see `cone_system`
+    near : (2n,) a y to begin with
+
+    Examples
+    --------
+    >>> problem = CoulombProblem.of(
+    ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.2]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
+    ... )
+    >>> balanced(problem, np.array([STICK]), np.zeros(2)).round(3).tolist()
+    [2.0, -0.4]
+    """
+    n, stick, slips = problem.pairs, state == STICK, state > STICK
+    force, motion = np.zeros((2, 2, n)), np.zeros((2, 2, n))
+    force[0, 0], motion[0, 0] = 1.0, state != OPEN
+    force[1, 0, slips] = problem.bound.slope(state)[slips]
+    force[1, 1] = motion[1, 1] = stick
+    given, none = _given(problem, state), np.zeros(2 * n)
+    unknown = Unknowns(force=force, motion=motion, fixed=none if given is None else given, resisting=none, apart=none)
+    h, r = split(near, problem.bound)
+    found = iterate(problem, unknown, problem.free_motion(problem.b), r, problem.image.R.T @ h, forward=_FORWARD)
+    if found is None:
+        return None
+    r, _, h = found
+    h[:n][state != OPEN] = 0.0
+    h[n:][stick] = 0.0
+    return r - h
 
 
 def _unknown_rows(state: IntArray) -> tuple[IntArray, IntArray]:

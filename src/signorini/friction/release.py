@@ -3,20 +3,23 @@
 
 from __future__ import annotations
 
-import numpy as np
-from scipy.linalg import cho_factor, cho_solve
+from dataclasses import replace
 
-from signorini.arrays import Array, BoolArray
-from signorini.errors import InputError
+import numpy as np
+
+from signorini.arrays import BoolArray
+from signorini.condense.basis import make_basis
+from signorini.condense.image import Image
 from signorini.friction.problem import CoulombProblem
 
 
 def released(problem: CoulombProblem, kept: BoolArray) -> CoulombProblem | None:
-    """The problem of the kept pairs, all others open: the springs D of their image form are taken away.
+    """The problem of the kept pairs, all others open, which takes from compliance and motions the rows of the others.
 
-    With o the released and c the kept unknowns, r_o = 0 leaves::
+    With c the rows kept, ``R_c = Q T`` and P = I - Q Q', what is left is again of the form of `condense.image`::
 
-        W_c = W_cc + W_co G_oo^-1 W_oc,    b_c = b_c + W_co G_oo^-1 b_o
+        h_c = A_cc r_c + c_c + R_c a,    R_c' r_c = -R'b
+        A = P A_cc P,    Q'b = T^-T R'b,    c = P (c_c - A_cc Q Q'b)
 
     Parameters
     ----------
@@ -25,7 +28,7 @@ def released(problem: CoulombProblem, kept: BoolArray) -> CoulombProblem | None:
 
     Returns
     -------
-    problem : None where the kept pairs do not hold the bodies (G_oo is singular, or the motions seen are dependent)
+    problem : None where the kept pairs do not hold the bodies: the motions that they see are dependent
 
     Examples
     --------
@@ -34,20 +37,19 @@ def released(problem: CoulombProblem, kept: BoolArray) -> CoulombProblem | None:
     >>> released(problem, np.array([True, False])).W.round(12).tolist()
     [[0.625, 0.0], [0.0, 0.5]]
     """
-    c, o = np.flatnonzero(np.tile(kept, 2)), np.flatnonzero(~np.tile(kept, 2))
-    G = np.eye(len(o)) - problem.W[np.ix_(o, o)]
-    coupling = problem.W[np.ix_(o, c)]
+    c, image = np.flatnonzero(np.tile(kept, 2)), problem.image
     try:
-        answer = cho_solve(cho_factor(G, lower=True), np.column_stack([coupling, problem.b[o]]))
-        W: Array = problem.W[np.ix_(c, c)] + coupling.T @ answer[:, :-1]
-        return CoulombProblem.of(
-            W=(W + W.T) / 2,
-            b=problem.b[c] + coupling.T @ answer[:, -1],
-            friction=problem.friction[kept],
-            adhesion=None if problem.adhesion is None else problem.adhesion[kept],
-            limit=None if problem.limit is None else problem.limit[kept],
-            motions=problem.motions[c],
-            scale=problem.scale,
-        )
-    except (np.linalg.LinAlgError, InputError):
+        basis = make_basis(image.R[c])
+    except np.linalg.LinAlgError:
         return None
+    A, resultant = image.A[np.ix_(c, c)], basis.coefficients(image.R.T @ problem.b)
+    free = problem.free_motion(problem.b)[c] - basis.project(A) @ resultant
+    few = Image.of_compliance(A, problem.motions[c], basis.R)
+    return replace(
+        problem,
+        image=few,
+        b=few.load(free, resultant),
+        friction=problem.friction[kept],
+        adhesion=None if problem.adhesion is None else problem.adhesion[kept],
+        limit=None if problem.limit is None else problem.limit[kept],
+    )

@@ -70,7 +70,7 @@ def mu_low(problem: PosedContact) -> float | None:
     1.732051
     """
     n = problem.pairs
-    moves = np.asarray(problem.W[n:].any(axis=1), dtype=np.bool_)
+    moves = ~problem.image.still[n:]
     d = len(moves) // n if n else 1
     rubs = np.flatnonzero((problem.bound.slopes[0] > 0) & moves.reshape(d, n).any(axis=0))
     if not len(rubs):

@@ -91,7 +91,7 @@ def dissect(indptr: Int32Array, indices: Int32Array, along: Int32Array, first: i
         low, high = stack.pop()
         size = high - low
         if size <= LEAF:
-            order[low:high] = along[0, low:high]
+            _copy(along[0, low:high], order[low:high])
             continue
         for v in along[0, low:high]:
             label[v] = base
@@ -110,7 +110,7 @@ def dissect(indptr: Int32Array, indices: Int32Array, along: Int32Array, first: i
             if shorter == count:
                 break
             count = shorter
-        order[high - count : high] = separator[:count]
+        _copy(separator[:count], order[high - count : high])
         near = 0
         for k in range(directions if size > LARGE else first):
             near = _partition(along[k, low:high], label, base, other)
@@ -118,6 +118,13 @@ def dissect(indptr: Int32Array, indices: Int32Array, along: Int32Array, first: i
         stack.append((low + near, high - count))
         base += 3
     return order
+
+
+@njit(cache=True)
+def _copy(source: Int32Array, target: Int32Array) -> None:
+    """Element by element: the assignment of a slice takes seconds to compile, for the words of its errors."""
+    for i in range(len(source)):
+        target[i] = source[i]
 
 
 @njit(cache=True)
@@ -195,7 +202,7 @@ def _partition(line: Int32Array, label: Int32Array, base: int, other: Int32Array
         elif label[v] == base + FAR:
             other[far] = v
             far += 1
-    line[near : near + far] = other[:far]
+    _copy(other[:far], line[near : near + far])
     return near
 
 

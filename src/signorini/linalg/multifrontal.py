@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
@@ -25,6 +26,11 @@ from signorini.linalg.definite import SUSPICIOUS, check_energy
 from signorini.linalg.plan import Plan, analyse
 from signorini.linalg.protocol import NotPositiveDefinite, Reduced
 from signorini.linalg.system import Int32Array, System, columns, like
+
+
+def compiled() -> bool:
+    """Whether compiled loops are on disk, where the first factorisation after an installation leaves them."""
+    return any(Path(_fronts.factorise_fronts.stats.cache_path or ".").glob("_fronts.factorise_fronts-*.nbi"))
 
 
 @contextmanager

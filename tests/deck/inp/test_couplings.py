@@ -5,34 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from two_cells import two_cells
 
 import signorini as sg
 from signorini.deck import DeckError, load
 
-MESH = """*NODE
-1,0,0
-2,1,0
-3,2,0
-4,0,1
-5,1,1
-6,2,1
-99,0.7,2.
-*ELEMENT,TYPE=CPE4,ELSET=E
-1,1,2,5,4
-2,2,3,6,5
-*NSET,NSET=TOP
-4,5,6
-*NSET,NSET=BOT
-1,2,3
-*SURFACE,NAME=STOP
-E,S3
-*MATERIAL,NAME=M
-*ELASTIC
-100.,0.3
-*SOLID SECTION,ELSET=E,MATERIAL=M
-*BOUNDARY
-BOT,1,2
-"""
+MESH = two_cells("99,0.7,2.") + "*SURFACE,NAME=STOP\nE,S3\n"
 LOADS = "*CLOAD\n99,1,0.3\n99,2,-1.\n99,6,0.5\n"
 CUBE = """*NODE
 1,0,0,0

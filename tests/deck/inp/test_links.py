@@ -5,34 +5,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from two_cells import two_cells
 
 import signorini as sg
 from signorini.deck import DeckError, load
 from signorini.deck.write import write_deck
 
-BLOCK = """*NODE, NSET=ALL
-1,0,0
-2,1,0
-3,2,0
-4,0,1
-5,1,1
-6,2,1
-99,1.,2.
-100,5,5
-*ELEMENT,TYPE=CPE4,ELSET=E
-1,1,2,5,4
-2,2,3,6,5
-*NSET,NSET=TOP
-4,5,6
-*NSET,NSET=BOT
-1,2,3
-*MATERIAL,NAME=M
-*ELASTIC
-100.,0.3
-*SOLID SECTION,ELSET=E,MATERIAL=M
-*BOUNDARY
-BOT,1,2
-"""
+BLOCK = two_cells("99,1.,2.", "100,5,5")
 LOADS = "*CLOAD\n99,2,-1.\n99,1,0.3\n"
 
 

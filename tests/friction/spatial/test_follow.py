@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from spatial_samples import block_on_floor
 
+from signorini.errors import InputError
 from signorini.friction import CoulombProblem
 from signorini.friction.exact import follow, initial_state
 from signorini.friction.spatial import SpatialProblem, StopSettings, at_rest, follow_stopping, solve_spatial
@@ -160,3 +161,12 @@ def test_a_block_pulled_along_a_corner_slides_at_the_friction_of_its_weight(face
     assert second.jump.factor == pytest.approx(0.3 / 0.5, abs=1e-9)
     Q = R.T @ second.end.r
     assert Q[1] == pytest.approx(-0.3 * Q[0], abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("end", "said"), [(np.zeros(2), r"b_end: is of shape \(2,\); expected \(3,\)"), (np.full(3, np.nan), "not finite")]
+)
+def test_loads_that_are_no_loads_are_refused(end, said):
+    problem = in_space(0.5 * np.eye(3), 0.5, 0)
+    with pytest.raises(InputError, match=said):
+        follow_stopping(problem, at_rest(problem, np.zeros(3)), end)

@@ -23,8 +23,9 @@ from signorini.friction.exact.inverse import SingularState
 from signorini.friction.exact.jump import explain
 from signorini.friction.exact.rates import CORNER, RateLaw, Rates, weight
 from signorini.friction.exact.responses import ROUNDING, Responses
-from signorini.friction.exact.segment import Breakpoint, Event, Jump, Outcome, Segment, What
+from signorini.friction.exact.segment import Breakpoint, Segment
 from signorini.friction.exact.state import PathState
+from signorini.friction.exact.way import Way, check_loads
 from signorini.friction.law import OPEN, SLIP_PLUS, STICK, UNDECIDED
 from signorini.friction.problem import CoulombProblem
 
@@ -106,8 +107,8 @@ def follow(problem: CoulombProblem, start: PathState, b_end: Array, *, settings:
     return walk.segment("followed", None, f"followed through {len(walk.events)} events")
 
 
-class Walk:
-    """One straight way of the load from a state, gone piece by piece.
+class Walk(Way):
+    """One straight way of the load from a state in the plane, gone from event to event.
 
     Parameters
     ----------
@@ -115,20 +116,14 @@ class Walk:
 
     Attributes
     ----------
-    now, factor : the state reached, and the part of the way behind
     acting : pairs whose event it is
     load : (2n,) rate of b
     responses : of the interface
     """
 
     def __init__(self, problem: CoulombProblem, start: PathState, b_end: Array, settings: PathSettings) -> None:
-        n = problem.pairs
         target = np.array(b_end, dtype=np.float64)
-        for name, b in (("start", start.b), ("b_end", target)):
-            if b.shape != (2 * n,):
-                raise InputError(f"is of shape {b.shape}; expected {(2 * n,)}", where=(name,))
-            if not np.isfinite(b).all():
-                raise InputError("has entries that are not finite", where=(name,))
+        check_loads(2 * problem.pairs, start=start.b, b_end=target)
         self.b_start, self.b_end, self.settings = start.b, target, settings
         self.problem = replace(problem, b=frozen(target - start.b))
         self.load = self.problem.b
@@ -140,12 +135,10 @@ class Walk:
         unit = problem.scale or 1.0
         # a kink at small pressures is told from the corner
         self.width = np.minimum(settings.width * unit, np.maximum(_APART * self.bound.kinks[1], _ROUNDING * unit))
-        self.now, self.factor = self._entered(start), 0.0
-        self.events: list[Event] = []
-        self.pieces = [Breakpoint(factor=0.0, h=start.h, r=self.now.r)]
+        super().__init__(self._entered(start))
         self.acting: IntArray = np.zeros(0, dtype=np.int64)
         self.rates: Rates | None = None
-        self.residual, self.still = 0.0, 0
+        self.still = 0
 
     def _entered(self, start: PathState) -> PathState:
         """The first state; pairs that supports drag turn their friction at once where the load turns."""
@@ -220,25 +213,23 @@ class Walk:
 
     def _change(self, state: IntArray) -> None:
         """Enter new states at the present load."""
-        now, which = self.now, np.flatnonzero(state != self.now.state)
-        if not len(which):
+        now, old = self.now, self.now.state
+        if np.array_equal(state, old):
             return
-        sticking = (state == STICK) & (now.state != STICK)
+        sticking = (state == STICK) & (old != STICK)
         anchor = np.where(sticking, now.h[len(state) :], now.anchor)
         self.now = replace(now, state=state, anchor=anchor)
-        old, state, forced = now.state[which], state[which], self.forced[which]
         turned = plain(state) != plain(old)
-        kinds: tuple[tuple[What, Array], ...] = (
-            ("opens", (old != OPEN) & (state == OPEN)),
-            ("closes", (old == OPEN) & (state != OPEN)),
-            ("sticks", (old > STICK) & (state == STICK)),
-            ("slips", (old != OPEN) & (state > STICK) & turned & (forced == UNDECIDED)),
-            ("kinks", (old > STICK) & (state > STICK) & (state != old) & ~turned),
+        self.happens(
+            {
+                "opens": (old != OPEN) & (state == OPEN),
+                "closes": (old == OPEN) & (state != OPEN),
+                "sticks": (old > STICK) & (state == STICK),
+                "slips": (old != OPEN) & (state > STICK) & turned & (self.forced == UNDECIDED),
+                "kinks": (old > STICK) & (state > STICK) & (state != old) & ~turned,
+            },
+            self.now,
         )
-        for what, happens in kinds:
-            pairs = tuple(which[happens].tolist())
-            if pairs:
-                self.events.append(Event(factor=self.factor, pairs=pairs, what=what, state=self.now))
 
     def advance(self) -> NoRates | None:
         """Go on to the next event or the end, and certify it."""
@@ -353,18 +344,8 @@ class Walk:
         jump = explain(self.problem, self.now, self.b_end, self.factor, self.acting, failure.proof, self.width)
         return self.segment("jump", jump, f"no gradual continuation at factor {self.factor:.12g}: {jump.proof}")
 
-    def segment(self, outcome: Outcome, jump: Jump | None, message: str) -> Segment:
-        """All that is known now."""
+    @property
+    def effort(self) -> tuple[int, int, int]:
+        """States tried, dense factorisations and their updates, so far."""
         done = self.responses
-        return Segment(
-            end=self.now,
-            events=tuple(self.events),
-            pieces=tuple(self.pieces),
-            outcome=outcome,
-            jump=jump,
-            pivots=done.pivots,
-            factorisations=done.inverse.factorisations,
-            updates=done.inverse.updates,
-            residual=self.residual,
-            message=message,
-        )
+        return done.pivots, done.inverse.factorisations, done.inverse.updates

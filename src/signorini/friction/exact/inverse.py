@@ -11,6 +11,7 @@ import numpy as np
 from scipy.linalg import blas, lapack
 
 from signorini.arrays import Array, IntArray
+from signorini.condense.parts import mirror
 from signorini.friction.law import OPEN, STICK
 from signorini.friction.problem import CoulombProblem
 
@@ -114,18 +115,15 @@ class StateInverse:
         self._place[:] = -1
         self._place[self.unknowns] = np.arange(m)
         columns = self._columns[:, :m]
-        columns[:, : len(forces)] = self._forces[forces].T
+        np.take(self._forces, forces, axis=0, out=columns.T[: len(forces)], mode="clip")
         columns[: 2 * n, len(forces) :], columns[2 * n :, len(forces) :] = self._motions, 0.0
         slips = np.flatnonzero(self.slope[closed])
         columns[:, slips] += (self._forces[n + closed[slips]] * self.slope[closed[slips], None]).T
         self._inverse = np.zeros((m + ROOM, m + ROOM), order="F")
         if m:
-            matrix = np.asfortranarray(columns[self.unknowns])
-            norm = float(np.abs(matrix).sum(axis=0).max())
-            lu, order, failed = lapack.dgetrf(matrix, overwrite_a=1)
-            if failed or lapack.dgecon(lu, norm)[0] < SINGULAR:
-                raise SingularState
-            self._inverse[:m, :m] = lapack.dgetri(lu, order, overwrite_lu=1)[0]
+            matrix = np.take(columns.T, self.unknowns, axis=1).T  # by columns: LAPACK overwrites it
+            symmetric = not len(slips) and m == len(forces)
+            self._inverse[:m, :m] = _inverse_of_compliance(matrix) if symmetric else _inverse(matrix)
         self._state = state.copy()
 
     def _change(self, state: IntArray) -> bool:
@@ -241,6 +239,26 @@ class StateInverse:
             self._inverse = larger
 
 
+def _inverse(matrix: Array) -> Array:
+    """Of a state's system, which is overwritten; SingularState where there is none."""
+    norm = float(np.abs(matrix).sum(axis=0).max())
+    lu, order, failed = lapack.dgetrf(matrix, overwrite_a=1)
+    if failed or lapack.dgecon(lu, norm)[0] < SINGULAR:
+        raise SingularState
+    return _from_factors(lu, order)
+
+
+def _inverse_of_compliance(matrix: Array) -> Array:
+    """The same where all that is closed sticks, for half the operations: symmetric and positive definite."""
+    norm = float(np.abs(matrix).sum(axis=0).max())
+    factor, failed = lapack.dpotrf(matrix, lower=1, overwrite_a=1)
+    if failed or lapack.dpocon(factor, norm, uplo="L")[0] < SINGULAR:
+        raise SingularState
+    lower, _ = lapack.dpotri(factor, lower=1, overwrite_c=1)
+    mirror(lower)
+    return np.asarray(lower)
+
+
 def _inverted(block: Array, size: float) -> Array | None:
     """Inverse of a block that pivots, None where it is next to singular beside what cancels in it, of a size."""
     if len(block) == 1:
@@ -248,4 +266,10 @@ def _inverted(block: Array, size: float) -> Array | None:
     lu, order, failed = lapack.dgetrf(block)
     if failed or np.abs(np.diag(lu)).min() < SMALL * size:
         return None
-    return np.asarray(lapack.dgetri(lu, order, overwrite_lu=1)[0], dtype=np.float64)
+    return _from_factors(lu, order)
+
+
+def _from_factors(lu: Array, order: IntArray) -> Array:
+    """The inverse, in place of its factors; with room for blocks, without which it takes several times as long."""
+    room = int(lapack.dgetri_lwork(len(lu))[0])
+    return np.asarray(lapack.dgetri(lu, order, lwork=room, overwrite_lu=1)[0], dtype=np.float64)

@@ -73,8 +73,8 @@ def land(
     >>> landing.state.h.round(9).tolist(), round(float(landing.state.dissipation[0]), 9)
     ([0.333333333, 1.666666667], 1.5)
     """
-    jump = segment.jump
-    if jump is None or jump.gross_sliding or jump.factor <= 0.0:
+    jump = segment.departure
+    if jump is None:
         return None
     settings = settings or PathSettings()
     limit = segment.end

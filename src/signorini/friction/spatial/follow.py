@@ -19,8 +19,9 @@ from signorini.arrays import Array, IntArray, frozen
 from signorini.bound import STEEP
 from signorini.errors import InputError
 from signorini.friction.exact.fallback import NoRates
-from signorini.friction.exact.segment import Breakpoint, Event, Jump, Outcome, Segment, What
+from signorini.friction.exact.segment import Breakpoint, Jump, Segment
 from signorini.friction.exact.state import PathState
+from signorini.friction.exact.way import Way, check_loads
 from signorini.friction.spatial.balance import passed_over
 from signorini.friction.spatial.law import OPEN, SLIP, STICK
 from signorini.friction.spatial.pieces import columns, held_until, lasts, spare, turned
@@ -161,28 +162,20 @@ class _Trial:
     turn: float
 
 
-class Walk:
-    """One straight way of the load from a state, gone increment by increment.
+class Walk(Way):
+    """One straight way of the load from a state in space, gone increment by increment.
 
     Parameters
     ----------
     problem, start, b_end, settings : see `follow_stopping`
-
-    Attributes
-    ----------
-    now, factor : the state reached, and the part of the way behind
     """
 
     def __init__(self, problem: SpatialProblem, start: PathState, b_end: Array, settings: StopSettings) -> None:
-        for name, b in (("start", start.b), ("b_end", b_end)):
-            if b.shape != (3 * problem.pairs,) or not np.isfinite(b).all():
-                raise InputError(f"is of shape {b.shape}; expected {(3 * problem.pairs,)} numbers", where=(name,))
+        check_loads(3 * problem.pairs, start=start.b, b_end=b_end)
+        super().__init__(start)
         self.problem, self.start, self.b_end, self.settings = problem, start, b_end, settings
         self.width = settings.width * (problem.scale or 1.0)
-        self.now, self.factor, self.last = start, 0.0, _FIRST / _PROBE
-        self.events: list[Event] = []
-        self.pieces = [Breakpoint(factor=0.0, h=start.h, r=start.r)]
-        self.tried, self.residual = 0, 0.0
+        self.last, self.tried = _FIRST / _PROBE, 0
         # up to where every event ends an increment; whether that failed; up to where no energy is missing
         self.careful, self.trusting, self.balanced = 0.0, False, 0.0
         self.smooth = bool(((problem.mu > 0).any(axis=1) & (problem.sides == 0)).any())
@@ -385,7 +378,7 @@ class Walk:
             factor, step = 1.0, 1.0 - self.factor
         b = self.b_end if factor == 1.0 else (1.0 - factor) * self.start.b + factor * self.b_end
         origin = np.concatenate([np.zeros(n), now.h[n:]])
-        increment = replace(problem, b=frozen(b + problem.W @ origin - origin))
+        increment = replace(problem, b=frozen(problem.misfit(origin, np.zeros(3 * n), b)))
         self.tried += 1
         y = None if not now.r.any() else now.r - np.concatenate([now.h[:n], np.zeros(2 * n)])
         result = solve_spatial(increment, y if ahead is None else ahead, settings=_QUICK if step > shortest else None)
@@ -407,18 +400,15 @@ class Walk:
     def _enter(self, trial: _Trial, after: PathState, tried: int) -> None:
         """Go on from the end of an increment; what is in another state than before changed at its beginning."""
         old, new = self.now.state, after.state
-        kinds: tuple[tuple[What, Array], ...] = (
-            ("opens", (old != OPEN) & (new == OPEN)),
-            ("closes", (old == OPEN) & (new != OPEN)),
-            ("sticks", (old == SLIP) & (new == STICK)),
-            ("slips", (old == STICK) & (new == SLIP)),
+        self.happens(
+            {
+                "opens": (old != OPEN) & (new == OPEN),
+                "closes": (old == OPEN) & (new != OPEN),
+                "sticks": (old == SLIP) & (new == STICK),
+                "slips": (old == STICK) & (new == SLIP),
+            },
+            replace(self.now, state=new),
         )
-        for what, which in kinds:
-            pairs = tuple(int(k) for k in np.flatnonzero(which))
-            if pairs:
-                self.events.append(
-                    Event(factor=self.factor, pairs=pairs, what=what, state=replace(self.now, state=new))
-                )
         self.factor = 1.0 if self.factor + trial.step >= 1.0 - SHORTEST else self.factor + trial.step
         self.now, self.last = after, trial.step
         self.pieces.append(Breakpoint(factor=self.factor, h=after.h, r=after.r, state=after, tried=tried))
@@ -441,20 +431,10 @@ class Walk:
         )
         return self.segment("jump", jump, lost.proof)
 
-    def segment(self, outcome: Outcome, jump: Jump | None, message: str) -> Segment:
-        """All that is known now."""
-        return Segment(
-            end=self.now,
-            events=tuple(self.events),
-            pieces=tuple(self.pieces),
-            outcome=outcome,
-            jump=jump,
-            pivots=self.tried,
-            factorisations=0,
-            updates=0,
-            residual=self.residual,
-            message=message,
-        )
+    @property
+    def effort(self) -> tuple[int, int, int]:
+        """Increments tried; nothing dense is kept between them."""
+        return self.tried, 0, 0
 
 
 def _split(result: SpatialResult) -> tuple[Array, Array]:

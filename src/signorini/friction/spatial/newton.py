@@ -13,9 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.friction.iterated import LARGE
 from signorini.friction.spatial.certificate import certify
 from signorini.friction.spatial.equilibrium import Equilibrium, linear_system
-from signorini.friction.spatial.iterated import LARGE, iterate
+from signorini.friction.spatial.iterated import balanced
 from signorini.friction.spatial.law import Tangent, split, tangent
 from signorini.trace import Attempt
 
@@ -124,7 +125,7 @@ def _balanced(
 ) -> tuple[Array, Array, Array] | None:
     """Forces, rigid motion and motions that balance under the linearised law; None where nothing does."""
     if equilibrium.as_posed and np.count_nonzero(law.closed) + law.left.sum() >= LARGE:
-        found = iterate(equilibrium, law, r, a, settled=settled)
+        found = balanced(equilibrium.problem, law, r, a, settled=settled)
         if found is not None:
             return found
     return linear_system(equilibrium, law).solve(r, a)

@@ -9,6 +9,7 @@ triangles from its centroid. Where faces are curved, a line along that normal te
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
@@ -20,6 +21,47 @@ from signorini.interface.spatial.projection import land
 _EMPTY = 1e-14
 _AT = 1e-9  # below 1 a hat is at the corner that it belongs to
 _STEPS = 30
+
+
+class Side(NamedTuple):
+    """The faces of one side and the plane pieces that stand for them.
+
+    Attributes
+    ----------
+    corners : (p, 3 or 4, 3) of the pieces, piece after piece of every face
+    nodes : (m, c, 3) of the faces
+    places : (s, 3 or 4, 2) reference coordinates of the pieces of a face
+    """
+
+    corners: Array
+    nodes: Array
+    places: Array
+
+
+class _Sight(NamedTuple):
+    """What of two pieces is seen along a normal: arrays that one pair after the other is written into.
+
+    Attributes
+    ----------
+    axes, centre : (3, 3) two directions across the normal and the normal itself, and (3,) the origin
+    flat, projected : (4, 2) corners of both pieces in that plane
+    polygon : (16, 2) corners of their common part
+    spare : (16, 2)
+    """
+
+    axes: Array
+    centre: Array
+    flat: Array
+    projected: Array
+    polygon: Array
+    spare: Array
+
+
+@njit(cache=True)
+def _sight() -> _Sight:
+    return _Sight(
+        np.empty((3, 3)), np.empty(3), np.empty((4, 2)), np.empty((4, 2)), np.empty((16, 2)), np.empty((16, 2))
+    )
 
 
 @njit(cache=True)
@@ -132,6 +174,14 @@ def _common(flat: Array, c: int, other: Array, o: int, polygon: Array, spare: Ar
 
 
 @njit(cache=True)
+def _seen(piece: Array, opposite: Array, normal: Array, sight: _Sight) -> tuple[float, int]:
+    """Look from a piece along a normal at one of the other side: its area, and the corners of the common part."""
+    whole = _plane(piece, normal, sight.axes, sight.centre, sight.flat)
+    _flatten(opposite, sight.axes, sight.centre, sight.projected)
+    return whole, _common(sight.flat, len(piece), sight.projected, len(opposite), sight.polygon, sight.spare)
+
+
+@njit(cache=True)
 def _height(piece: Array, at: Array, direction: Array, normal: Array) -> float:
     """How far along a direction from a point the plane of a piece is."""
     _upright(piece, normal)
@@ -155,15 +205,11 @@ def overlap_areas(first: Array, second: Array, normals: Array, i: IntArray, j: I
     normals : (p, 3) unit normals along which the first pieces see the second
     i, j : (k,) the pairs
     """
-    c, o = first.shape[1], second.shape[1]
-    axes, centre, flat, other = np.empty((3, 3)), np.empty(3), np.empty((4, 2)), np.empty((4, 2))
-    polygon, spare = np.empty((16, 2)), np.empty((16, 2))
-    at, normal = np.empty(3), np.empty(3)
+    sight, at, normal = _sight(), np.empty(3), np.empty(3)
+    axes, centre, polygon = sight.axes, sight.centre, sight.polygon
     area, distance = np.zeros(len(i)), np.zeros(len(i))
     for k in range(len(i)):
-        whole = _plane(first[i[k]], normals[i[k]], axes, centre, flat)
-        _flatten(second[j[k]], axes, centre, other)
-        count = _common(flat, c, other, o, polygon, spare)
+        whole, count = _seen(first[i[k]], second[j[k]], normals[i[k]], sight)
         if count < 3:
             continue
         common = _area(polygon, count)
@@ -251,13 +297,9 @@ def _turn(vector: Array, before: Array, after: Array) -> None:
 
 @njit(cache=True)
 def spread_gaps(
-    first: Array,
-    first_nodes: Array,
-    first_places: Array,
+    first: Side,
+    second: Side,
     normals: Array,
-    second: Array,
-    second_nodes: Array,
-    second_places: Array,
     i: IntArray,
     j: IntArray,
     chosen: BoolArray,
@@ -271,30 +313,28 @@ def spread_gaps(
 
     Parameters
     ----------
-    first, ..., chosen : see :func:`integrate`
+    first, second, normals, i, j, chosen : see :func:`integrate`
     ends : (m, corners), lowered where a corner of the face is opposite the other side, length
     low, high : (m,), lowered and raised
     """
-    c, o, nodes, corners = first.shape[1], second.shape[1], first_nodes.shape[1], ends.shape[1]
-    s_1, s_2 = len(first_places), len(second_places)
-    axes, centre, flat, projected = np.empty((3, 3)), np.empty(3), np.empty((4, 2)), np.empty((4, 2))
-    polygon, spare = np.empty((16, 2)), np.empty((16, 2))
+    c, o, nodes, corners = first.corners.shape[1], second.corners.shape[1], first.nodes.shape[1], ends.shape[1]
+    s_1, s_2 = len(first.places), len(second.places)
+    sight = _sight()
+    axes, flat, projected, polygon = sight.axes, sight.flat, sight.projected, sight.polygon
     hats, N, here, there, point = np.empty(4), np.empty(9), np.empty(2), np.empty(2), np.empty(3)
     for k in range(len(i)):
         if not chosen[k]:
             continue
         face = i[k] // s_1
-        _plane(first[i[k]], normals[i[k]], axes, centre, flat)
-        _flatten(second[j[k]], axes, centre, projected)
-        count = _common(flat, c, projected, o, polygon, spare)
+        _, count = _seen(first.corners[i[k]], second.corners[j[k]], normals[i[k]], sight)
         polygon[count, 0], polygon[count, 1] = _middle(polygon, count)
         for a in range(count + 1):
             x, y = polygon[a, 0], polygon[a, 1]
-            _inside(flat, c, x, y, first_places[i[k] % s_1], here)
-            _inside(projected, o, x, y, second_places[j[k] % s_2], there)
+            _inside(flat, c, x, y, first.places[i[k] % s_1], here)
+            _inside(projected, o, x, y, second.places[j[k] % s_2], there)
             shapes(nodes, here[0], here[1], N)
-            _point(first_nodes[face], N, point)
-            distance = land(point, axes[2], second_nodes[j[k] // s_2], there)
+            _point(first.nodes[face], N, point)
+            distance = land(point, axes[2], second.nodes[j[k] // s_2], there)
             if math.isnan(distance):
                 continue
             low[face], high[face] = min(low[face], distance), max(high[face], distance)
@@ -306,21 +346,17 @@ def spread_gaps(
 
 @njit(cache=True)
 def integrate(
-    first: Array,
-    first_nodes: Array,
-    first_places: Array,
+    first: Side,
+    second: Side,
     normals: Array,
-    second: Array,
-    second_nodes: Array,
-    second_places: Array,
     i: IntArray,
     j: IntArray,
+    chosen: BoolArray,
     rule: Array,
     weights: Array,
     mass: Array,
     own: Array,
     other: Array,
-    chosen: BoolArray,
 ) -> None:
     """Add up integrals over the common parts of pairs of pieces.
 
@@ -330,31 +366,27 @@ def integrate(
 
     Parameters
     ----------
-    first, second : (p, 3 or 4, 3) corners of the pieces, piece after piece of every face
-    first_nodes, second_nodes : (m, c, 3) nodes of the faces
-    first_places, second_places : (s, 3 or 4, 2) reference coordinates of the pieces of a face
+    first, second : the nonmortar and the mortar side
     normals : (p, 3) unit normals along which the first pieces see the second
     i, j : (k,) pairs of pieces
+    chosen : (k,) pairs to integrate
     rule, weights : (q, 3) barycentric coordinates and weights of a quadrature of the triangle, which sum to 1
     mass, own : (m, corners, corners), (m, corners, c, 3), added to
     other : (k, corners, c of the mortar faces, 3), added to
-    chosen : (k,) pairs to integrate
     """
-    c, o, nodes, count_2 = first.shape[1], second.shape[1], first_nodes.shape[1], second_nodes.shape[1]
-    s_1, s_2 = len(first_places), len(second_places)
+    c, o, nodes, count_2 = first.corners.shape[1], second.corners.shape[1], first.nodes.shape[1], second.nodes.shape[1]
+    s_1, s_2 = len(first.places), len(second.places)
     curved = nodes > c or count_2 > o
-    axes, centre, flat, projected = np.empty((3, 3)), np.empty(3), np.empty((4, 2)), np.empty((4, 2))
-    polygon, spare = np.empty((16, 2)), np.empty((16, 2))
+    sight = _sight()
+    axes, flat, projected, polygon = sight.axes, sight.flat, sight.projected, sight.polygon
     hats, N, M, D = np.empty(4), np.empty(9), np.empty(9), np.empty((2, 9))
     here, there, normal, upright, point = np.empty(2), np.empty(2), np.empty(3), np.empty(3), np.empty(3)
     for k in range(len(i)):
         if not chosen[k]:
             continue
         face = i[k] // s_1
-        _upright(first[i[k]], upright)
-        whole = _plane(first[i[k]], normals[i[k]], axes, centre, flat)
-        _flatten(second[j[k]], axes, centre, projected)
-        count = _common(flat, c, projected, o, polygon, spare)
+        _upright(first.corners[i[k]], upright)
+        whole, count = _seen(first.corners[i[k]], second.corners[j[k]], normals[i[k]], sight)
         m_x, m_y = _middle(polygon, count)
         for a in range(count):
             b = (a + 1) % count
@@ -365,16 +397,16 @@ def integrate(
             for g in range(len(weights)):
                 x = rule[g, 0] * m_x + rule[g, 1] * p_x + rule[g, 2] * q_x
                 y = rule[g, 0] * m_y + rule[g, 1] * p_y + rule[g, 2] * q_y
-                stretch = _inside(flat, c, x, y, first_places[i[k] % s_1], here)
-                _inside(projected, o, x, y, second_places[j[k] % s_2], there)
+                stretch = _inside(flat, c, x, y, first.places[i[k] % s_1], here)
+                _inside(projected, o, x, y, second.places[j[k] % s_2], there)
                 share = weights[g] * triangle / stretch
-                w = share * _true_area(first_nodes[face], here, D, normal)
+                w = share * _true_area(first.nodes[face], here, D, normal)
                 _turn(normal, upright, axes[2])
                 shapes(c, here[0], here[1], hats)
                 shapes(nodes, here[0], here[1], N)
                 if curved:
-                    _point(first_nodes[face], N, point)
-                    land(point, axes[2], second_nodes[j[k] // s_2], there)
+                    _point(first.nodes[face], N, point)
+                    land(point, axes[2], second.nodes[j[k] // s_2], there)
                 shapes(count_2, there[0], there[1], M)
                 for e in range(c):
                     for f in range(c):

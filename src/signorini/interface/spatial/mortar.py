@@ -13,7 +13,7 @@ from signorini.errors import InputError, Where
 from signorini.interface.coupling import Coupling, FacetGaps, joined_gaps
 from signorini.interface.dual import dual_functions
 from signorini.interface.spatial.candidates import near_pairs, nearest_layers
-from signorini.interface.spatial.clip import integrate, overlap_areas, spread_gaps
+from signorini.interface.spatial.clip import Side, integrate, overlap_areas, spread_gaps
 from signorini.interface.spatial.faces import pieces
 from signorini.interface.spatial.surface import Block, Surface, reference_rule, search_distance
 from signorini.interface.tilt import normals_between
@@ -109,6 +109,11 @@ def _corners(block: Block) -> Array:
     return np.ascontiguousarray(corners.reshape(-1, *corners.shape[2:]))
 
 
+def _side(block: Block) -> Side:
+    """A block as the integrals over common parts see it."""
+    return Side(corners=_corners(block), nodes=block.points, places=pieces(block.nodes_a_face))
+
+
 def _normals(block: Block) -> Array:
     """(p, 3) Outward unit normals of all pieces of a block."""
     corners = _corners(block)
@@ -155,21 +160,7 @@ def _facet_gaps(block: Block, overlaps: list[_Overlaps], normals: Array) -> Face
     corners = block.corners
     ends, low, high = np.full(corners.shape, np.inf), np.full(len(corners), np.inf), np.full(len(corners), -np.inf)
     for part in overlaps:
-        spread_gaps(
-            _corners(block),
-            block.points,
-            pieces(block.nodes_a_face),
-            normals,
-            _corners(part.mortar),
-            part.mortar.points,
-            pieces(part.mortar.nodes_a_face),
-            part.i,
-            part.j,
-            part.chosen,
-            ends,
-            low,
-            high,
-        )
+        spread_gaps(_side(block), _side(part.mortar), normals, part.i, part.j, part.chosen, ends, low, high)
     seen = low <= high
     return FacetGaps(corners=corners[seen], ends=ends[seen], low=low[seen], high=high[seen])
 
@@ -189,21 +180,17 @@ def _block_integrals(
         other = np.zeros((len(part.i), c, count, 3))
         places, weights = reference_rule(3, _points(block, part.mortar))
         integrate(
-            _corners(block),
-            block.points,
-            pieces(block.nodes_a_face),
+            _side(block),
+            _side(part.mortar),
             normals,
-            _corners(part.mortar),
-            part.mortar.points,
-            pieces(count),
             part.i,
             part.j,
+            part.chosen,
             np.column_stack([1.0 - places.sum(axis=1), places]),
             2.0 * weights,
             mass,
             own,
             other,
-            part.chosen,
         )
         others.append(other)
     dual = -dual_functions(mass)
