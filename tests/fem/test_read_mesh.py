@@ -187,7 +187,7 @@ def test_gmsh(tmp_path, version, recombine):
     assert ("quad" in mesh.cells) is recombine
     space = make_space(mesh)
     assert sum(volumes.sum() for volumes in space.volumes) == pytest.approx(4 * np.pi, rel=0.01)
-    side = boundary(space, "rim", ("test",))
+    (side,) = boundary(space, "rim", ("test",)).blocks
     assert side.lengths.sum() == pytest.approx(4 * np.pi, rel=0.01)
     middles = mesh.points[side.facets].mean(axis=1)
     np.testing.assert_allclose(side.normals, middles / np.linalg.norm(middles, axis=1, keepdims=True), atol=1e-9)

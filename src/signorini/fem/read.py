@@ -174,22 +174,14 @@ def _boundaries(named: dict[str, dict[str, IntArray]], cells: dict[str, list[Int
     return {name: parts[0] for name, parts in found.items()} | shared
 
 
-def _surfaces(named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntArray]]) -> dict[str, IntArray]:
-    """Faces by name.
-
-    Raises
-    ------
-    InputError
-        If triangles and quadrilaterals, or linear and quadratic faces, bear one name.
-    """
-    found: dict[str, IntArray] = {}
+def _surfaces(
+    named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntArray]]
+) -> dict[str, tuple[IntArray, ...]]:
+    """Faces by name, those of every kind apart."""
+    found: dict[str, tuple[IntArray, ...]] = defaultdict(tuple)
     for family in NODES_PER_PLANE_CELL:
         for name, index in named[family].items():
-            if name in found:
-                raise InputError(
-                    f"'{name}' holds faces of several kinds; expected one kind a boundary", where=("mesh", "boundaries")
-                )
-            found[name] = np.vstack(cells[family])[index]
+            found[name] = (*found[name], np.vstack(cells[family])[index])
     return found
 
 
