@@ -10,11 +10,55 @@ import pytest
 
 import signorini as sg
 from signorini.cli import main
-from signorini.cli.suspicion import far_notes, held_notes, mesh_notes, unit_notes
+from signorini.cli.suspicion import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
 from signorini.engine import solve as engine
 from signorini.engine.prepare import examine
+from signorini.engine.twice import same_loads
 
 DECK = Path(__file__).parents[1] / "deck" / "inp" / "decks" / "two_blocks.inp"
+
+
+FLOATING = """
+[[mesh]]
+name = "lower"
+generator = "box"
+x = [0, 2]
+y = [0, 2]
+z = [0, 1]
+
+[[mesh]]
+name = "upper"
+generator = "box"
+x = [0, 0.5, 1, 1.5, 2]
+y = [0, 0.5, 1, 1.5, 2]
+z = [1, 2]
+
+[material.soft]
+E = 1.0
+nu = 0.3
+
+[[body]]
+name = "lower"
+material = "soft"
+
+[[body]]
+name = "upper"
+material = "soft"
+
+[[support]]
+on = "lower.bottom"
+u = [0, 0, 0]
+
+[[load]]
+on = "upper.top"
+pressure = 0.01
+
+[[contact]]
+name = "joint"
+nonmortar = "upper.bottom"
+mortar = "lower.top"
+friction = 0.3
+"""
 
 
 def block(**changes: object) -> sg.Model:
@@ -75,6 +119,34 @@ def test_contacts_that_are_far_or_held() -> None:
     assert list(far_notes(examine(far))) == ["contact 'bottom' starts far open: by 25% of the model's size"]
     held = block(supports=[sg.Support("left", u=(0, 0))])
     assert list(held_notes(examine(held))) == ["supports hold 1 nodes of contact 'bottom' along its normal: 1"]
+
+
+def test_what_is_given_twice() -> None:
+    twice = block(
+        supports=[sg.Support("left", u=(0, None)), sg.Support("left", u=(0, None), name="again")],
+        loads=[sg.Load("top", pressure=1.0), sg.Load("top", traction=(0, -1), name="other")],
+    )
+    assert list(idle_notes(examine(twice))) == [
+        "support 'again' holds nothing that those before it do not: its reaction is zero"
+    ]
+    said = "loads 'top' and 'other' are the same forces, and act together: twice what one of them is"
+    assert list(same_loads(twice, examine(twice).loads)) == [said]
+    turns = [sg.Step(name="one", scale={"top": 1.0}), sg.Step(name="two", scale={"top": 0.0, "other": 1.0})]
+    after = replace(twice, steps=turns)
+    assert list(same_loads(after, examine(after).loads)) == []
+
+
+def test_a_floating_body_takes_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    deck = tmp_path / "deck.toml"
+    deck.write_text(FLOATING)
+    assert main(["check", str(deck)]) == 0
+    notes = capsys.readouterr().out.split("notes\n")[1].splitlines()
+    assert notes == [
+        "  contact 'joint': the nonmortar side is the finer one, its pressures can oscillate; name the sides the other "
+        "way round, or take side = 'coarser'",
+        "  body 'upper' can move along x, y and z, and rotate about the axes through (1, 1, 1.5) along (1, 0, 0), (0, "
+        "1, 0) and (0, 0, 1): only contact can hold that",
+    ]
 
 
 def test_plain_data(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -81,7 +81,7 @@ def test_check_says_what_would_be_solved(capsys: pytest.CaptureFixture[str]) -> 
     assert "block.bottom on foundation.top  nodes  friction 0.3  25 pairs  initial gap 0 to 0" in said
     assert "total force (0, -40) at factor 1" in said
     assert "ends at press 0.7, drag 0" in said
-    assert "body 'block' can move along y: only contact can hold that" in said
+    assert "body 'block' can move along y, and rotate about (0, 2): only contact can hold that" in said
 
 
 def test_check_notes_what_looks_wrong(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

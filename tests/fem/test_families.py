@@ -56,7 +56,7 @@ def test_patch(family, formulation, kind):
     np.testing.assert_allclose(stress.stress, np.tile([xx, yy, zz, xy, 0, 0], (len(stress.nodes), 1)), atol=1e-12)
     forces = np.zeros_like(u)
     for name in model.mesh.boundaries:
-        side = boundary(space, name, ())
+        (side,) = boundary(space, name, ()).blocks
         normals = side.outward / side.weights[..., None]
         traction = normals @ np.array([[xx, xy], [xy, yy]])
         forces[side.nodes] += side.nodal(facet_areas(model, side)[..., None] * traction)
@@ -127,12 +127,12 @@ def test_weight(family):
 def test_sides_of_a_circle(family, rate):
     def error(n):
         space = make_space(annulus(inner=1.0, outer=2.0, n_radial=1, n_angular=n, cells=family))
-        side = boundary(space, "outer", ())
+        (side,) = boundary(space, "outer", ()).blocks
         radial = space.mesh.points[side.nodes] / 2.0
         np.testing.assert_allclose(np.linalg.norm(radial, axis=1), 1.0, atol=1e-14)
         np.testing.assert_allclose(side.nodal_normals, radial, atol=2e-3 if rate == 4 else 1e-12)
         assert side.nodal_lengths.sum() == pytest.approx(side.lengths.sum())
-        assert len(side.ends) == n
+        assert len(np.unique(side.facets[:, : side.corners])) == n
         return 4.0 * np.pi - side.lengths.sum()
 
     assert np.log2(error(12) / error(24)) == pytest.approx(rate, abs=0.1)
@@ -146,7 +146,7 @@ def test_areas_of_a_disc():
         areas = nodal_areas(model, side)
         assert areas.sum() == pytest.approx(np.pi * 4.0, rel=1e-14)
         assert areas[np.argmin(model.mesh.points[side.nodes, 0])] == pytest.approx(first, abs=1e-15)
-    straight = boundary(make_space(rectangle(width=6.0, nx=2, cells="quad9")), "top", ())
+    straight = boundary(make_space(rectangle(width=6.0, nx=2, cells="quad9")), "top", ()).blocks[0]
     np.testing.assert_allclose(np.sort(straight.nodal_lengths), [0.5, 0.5, 1.0, 2.0, 2.0])
 
 
@@ -232,7 +232,7 @@ def test_a_quarter_point_is_allowed():
 def test_middle_nodes_of_boundaries():
     bottom = SQUARES.boundaries["bottom"]
     ends = changed(SQUARES, boundaries={"bottom": bottom[:, :2]})
-    np.testing.assert_array_equal(boundary(make_space(ends), "bottom", ()).facets, bottom)
+    np.testing.assert_array_equal(boundary(make_space(ends), "bottom", ()).blocks[0].facets, bottom)
     wrong = np.array(bottom)
     wrong[0, 2] = 9
     with pytest.raises(InputError, match=r"'bottom' has node 10 between nodes \d+ and \d+, where the cell has node"):

@@ -134,6 +134,20 @@ def test_lines_alone_are_no_mesh(tmp_path):
         read_mesh(write(tmp_path, text + "\n"))
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        VERSION_2.replace("$Elements\n6\n", "$Elements\n8\n7 1 2 2 1 1 2\n8 1 2 2 1 2 5\n"),
+        VERSION_4.replace("1 0 0 0 2 0 0 1 1 0", "1 0 0 0 2 0 0 2 1 2 0"),
+    ],
+    ids=["msh 2.2", "msh 4.1"],
+)
+def test_a_curve_of_several_groups_is_in_all_of_them(tmp_path, text):
+    mesh = read_mesh(write(tmp_path, text))
+    assert sorted(mesh.boundaries["bottom"].tolist()) == [[0, 1], [1, 4]]
+    assert sorted(mesh.boundaries["top"].tolist()) == [[0, 1], [1, 4], [2, 3]]
+
+
 def test_a_missing_file(tmp_path):
     with pytest.raises(InputError, match=r"mesh.file: there is no file '.*none.msh'"):
         read_mesh(tmp_path / "none.msh")
@@ -173,7 +187,7 @@ def test_gmsh(tmp_path, version, recombine):
     assert ("quad" in mesh.cells) is recombine
     space = make_space(mesh)
     assert sum(volumes.sum() for volumes in space.volumes) == pytest.approx(4 * np.pi, rel=0.01)
-    side = boundary(space, "rim", ("test",))
+    (side,) = boundary(space, "rim", ("test",)).blocks
     assert side.lengths.sum() == pytest.approx(4 * np.pi, rel=0.01)
     middles = mesh.points[side.facets].mean(axis=1)
     np.testing.assert_allclose(side.normals, middles / np.linalg.norm(middles, axis=1, keepdims=True), atol=1e-9)

@@ -29,7 +29,7 @@ def test_tetrahedra_fill_the_same_body(cells):
     space, exact = make_space(mesh), sum(float(parts.sum()) for parts in make_space(whole).volumes)
     assert mesh.number_of_cells == 6 * whole.number_of_cells
     assert all((parts > 0.0).all() for parts in space.volumes)
-    sides = [boundary(space, name, ()) for name in mesh.boundaries]
+    sides = [boundary(space, name, ()).blocks[0] for name in mesh.boundaries]
     forces = [side.nodal(side.outward) for side in sides]
     np.testing.assert_allclose(sum(force.sum(axis=0) for force in forces), 0.0, atol=1e-12)
     flux = sum(float((force * mesh.points[side.nodes]).sum()) / 3.0 for force, side in zip(forces, sides, strict=True))

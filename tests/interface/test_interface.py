@@ -70,7 +70,7 @@ def test_friction_turns_a_shaft_as_exactly_as_pressure_presses_it(cells, along):
     prepared = prepare(press_fit(n_radial=1, n_angular=along, cells=cells))
     interface, space = prepared.interface, prepared.space
     n, x = len(interface), space.mesh.points
-    side = boundary(space, "shaft.outer", ())
+    (side,) = boundary(space, "shaft.outer", ()).blocks
     pressing, turning = (interface.B[rows].T @ interface.area for rows in (slice(n), slice(n, 2 * n)))
     f, q = pressing.reshape(-1, 2), turning.reshape(-1, 2)
     near = 2.0 * np.sin(1.01 * np.pi / 2.0 / along[0])  # the facets at the planes of symmetry, where nothing slides

@@ -34,7 +34,7 @@ def two_sides(upper, lower, angle=0.0):
 
 def coupled(mesh, measure=lambda x, *_: np.ones(x.shape[:-1])):
     space = make_space(mesh)
-    first, second = boundary(space, "upper.bottom", ()), boundary(space, "lower.top", ())
+    first, second = (boundary(space, name, ()).blocks[0] for name in ("upper.bottom", "lower.top"))
     overlaps = find_overlaps(mesh.points, first, second, None, ())
     return first, second, mortar_coupling(mesh.points, first, second, overlaps, measure, ())
 

@@ -285,11 +285,32 @@ IN_THE_MESH = [
     ),
 ]
 
+SIDES = [
+    (
+        lambda: pair(contacts=[Contact("upper.bottom", "lower.top", name="a"), Contact("upper.bottom", "lower.top")]),
+        "contact[1]: 'upper.bottom' is between the same sides as contact 'a': nothing determines how they share",
+    ),
+    (
+        lambda: pair(contacts=[Contact("upper.bottom", "lower.top"), Contact("lower.top", "upper.bottom")]),
+        "contact[1]: 'lower.top' is between the same sides as contact 'upper.bottom', named the other way round: ",
+    ),
+    (
+        lambda: block(contacts=[Contact("bottom", FLOOR), Contact("bottom", Plane((0, 0), (0, 1)), name="again")]),
+        "contact[1]: 'again' is between the same sides as contact 'bottom'",
+    ),
+    (
+        lambda: block(
+            mesh=replace(BLOCK, boundaries={**BLOCK.boundaries, "foot": BLOCK.boundaries["bottom"][::-1, ::-1]}),
+            contacts=[Contact("bottom", FLOOR), Contact("foot", FLOOR)],
+        ),
+        "contact[1]: 'foot' is between the same sides as contact 'bottom'",
+    ),
+]
+
 FREE = [
     (
         lambda: block(supports=[], contacts=[]),
-        "body 'block' can move along x, and body 'block' can move along y, and body 'block' can rotate about (1, 0.5): "
-        "no support or contact holds it; add a support",
+        "body 'block' can move along x and y, and rotate about (1, 0.5): no support or contact holds it; add a support",
     ),
     (
         lambda: block(supports=[]),
@@ -310,7 +331,7 @@ FREE = [
     ),
     (
         lambda: pair(supports=[Support("lower.bottom", u=(0, 0))], contacts=[]),
-        "body 'upper' can move along x, and body 'upper' can move along y, and body 'upper' can rotate about (1, 1.5)",
+        "body 'upper' can move along x and y, and rotate about (1, 1.5): no support or contact holds it; add a support",
     ),
 ]
 
@@ -323,7 +344,7 @@ def test_the_model_refuses(make, message):
 
 
 @pytest.mark.parametrize(
-    ("make", "message"), IN_THE_MESH + FREE, ids=[message[:50] for _, message in IN_THE_MESH + FREE]
+    ("make", "message"), IN_THE_MESH + SIDES + FREE, ids=[message[:50] for _, message in IN_THE_MESH + SIDES + FREE]
 )
 def test_preparing_refuses(make, message):
     model = make()  # what only the mesh can tell is not the model's to check
@@ -352,6 +373,19 @@ def test_one_contact_node_resists_a_rotation_one_way_only(at, rests):
     if not rests:
         assert history.status == "no_equilibrium"
         assert "body 'block' can rotate about" in history.message
+
+
+def test_contacts_may_share_a_part_of_a_side_or_take_turns():
+    top = BLOCK.boundaries["top"]
+    lower = replace(BLOCK, boundaries={**BLOCK.boundaries, "half": top[:1], "other half": top[1:]})
+    halves = [Contact("upper.bottom", f"lower.{name}", name=name) for name in ("half", "other half")]
+    assert len(prepare(pair(lower=lower, contacts=halves)).model.contacts) == 2
+    turns = [Contact("upper.bottom", "lower.top", friction=0.2, name="dry"), Contact("upper.bottom", "lower.top")]
+    steps = [
+        Step(name="dry", inactive=("upper.bottom",)),
+        Step(name="wet", active=("upper.bottom",), inactive=("dry",)),
+    ]
+    assert solve(pair(contacts=turns, steps=steps)).solved
 
 
 def test_a_hinge_at_one_node_is_named():

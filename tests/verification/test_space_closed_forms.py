@@ -63,7 +63,7 @@ def test_boundaries_may_leave_out_middle_nodes():
     """Supports and loads then act on those too, in the plane and in space."""
     for model in (ball(n=1, cells="quad8", size=3.0), press_fit(n_radial=1, n_angular=3, cells="quad8")):
         mesh, ends = model.mesh, model.dimension**2 // 2  # 2 of an edge, 4 of a face
-        full = {name: boundary(make_space(mesh), name, ()).facets for name in mesh.boundaries}
+        full = {name: boundary(make_space(mesh), name, ()).blocks[0].facets for name in mesh.boundaries}
         one, other = (
             solve(replace(model, mesh=replace(mesh, boundaries=sides)))
             for sides in (full, {name: facets[:, :ends] for name, facets in full.items()})
@@ -81,7 +81,7 @@ def test_a_raised_disk_has_its_volume_and_closes(cells, angle):
     total, flux = 0.0, np.zeros(3)
     for name in mesh.boundaries:
         side = boundary(space, name, ())
-        forces = side.nodal(side.outward)
+        forces = side.nodal(block.outward for block in side.blocks)
         total += float((forces * mesh.points[side.nodes]).sum()) / 3.0
         flux += forces.sum(axis=0)
     turn = np.radians(angle)

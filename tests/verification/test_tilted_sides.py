@@ -118,7 +118,7 @@ def test_forces_of_every_pair_balance_with_their_moments_in_the_plane():
     upper, lower = (quarter_disk(radius=1.0, contact_length=0.5, contact_spacing=h) for h in (0.1, 0.125))
     mesh = join({"upper": upper, "lower": replace(lower, points=lower.points * [1.0, -1.0] - [0.0, 0.1])})
     space = make_space(mesh)
-    sides = [boundary(space, name, ()) for name in ("upper.arc", "lower.arc")]
+    sides = [boundary(space, name, ()).blocks[0] for name in ("upper.arc", "lower.arc")]
     overlaps = find_overlaps(mesh.points, *sides, 0.5, ())
     coupling = mortar_coupling(mesh.points, *sides, overlaps, lambda x, *_: np.ones(x.shape[:-1]), ())
     assert np.abs(coupling.normals[:, 0]).max() < 0.1  # their own are tilted by up to 45 degrees and more
@@ -128,7 +128,9 @@ def test_forces_of_every_pair_balance_with_their_moments_in_the_plane():
 def test_forces_of_every_pair_balance_with_their_moments_in_space():
     mesh = equal_spheres(approach=4.0, n=1, other=2, cells="triangle").mesh
     space = make_space(mesh)
-    sides = [make_surface(mesh.points, boundary(space, f"{name}.seat", ()).facets) for name in ("upper", "lower")]
+    sides = [
+        make_surface(mesh.points, boundary(space, f"{name}.seat", ()).blocks[0].facets) for name in ("upper", "lower")
+    ]
     coupling = mortar_in_space(*sides)
     np.testing.assert_allclose(moments(coupling, mesh.points), 0.0, atol=1e-10)
 

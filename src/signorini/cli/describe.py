@@ -6,12 +6,13 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.cli.suspicion import far_notes, held_notes, mesh_notes, unit_notes
+from signorini.cli.suspicion import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
 from signorini.deck import Deck
 from signorini.engine.prepare import Examined
-from signorini.engine.report import chord_notes
+from signorini.engine.report import chord_notes, finer_notes
+from signorini.engine.twice import same_loads
 from signorini.fem.locking import stiffened_bodies, thin_bodies
-from signorini.fem.rigid import describe_motion
+from signorini.fem.rigid import describe_motions
 from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.step import Step
@@ -60,9 +61,12 @@ def all_notes(deck: Deck, examined: Examined) -> list[str]:
         *unit_notes(deck.model),
         *_stiffness_notes(examined),
         *_contact_notes(examined),
+        *finer_notes(examined),
         *chord_notes(examined),
         *far_notes(examined),
         *held_notes(examined),
+        *idle_notes(examined),
+        *same_loads(deck.model, examined.loads),
         *_motion_notes(examined),
     ]
 
@@ -246,4 +250,4 @@ def _contact_notes(examined: Examined) -> list[str]:
 
 
 def _motion_notes(examined: Examined) -> list[str]:
-    return [f"{describe_motion(examined.parts, motion)}: only contact can hold that" for motion in examined.floating.T]
+    return [f"{words}: only contact can hold that" for words in describe_motions(examined.parts, examined.floating)]

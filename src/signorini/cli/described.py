@@ -41,7 +41,7 @@ def described(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str,
             for body, thickness in zip(model.bodies, model.thicknesses, strict=True)
         ],
         "node_sets": {name: len(nodes) for name, nodes in mesh.nodes.items()},
-        "surfaces": {name: len(facets) for name, facets in mesh.boundaries.items()},
+        "surfaces": {name: sum(map(len, mesh.facets(name))) for name in mesh.boundaries},
         "supports": [
             {"name": support.label, "u": list(support.u), "dofs": int((examined.constraints.owner == i).sum())}
             for i, support in enumerate(model.supports)

@@ -11,6 +11,7 @@ from scipy.spatial import KDTree
 from signorini.arrays import IntArray
 from signorini.engine.prepare import Examined
 from signorini.model.model import Model
+from signorini.model.stage import stages
 
 _SAME = 1e-9  # of the size: nodes that are nearer lie at one place
 _FAR = 0.05  # of the size: contacts that are farther apart hardly mean to touch
@@ -79,6 +80,15 @@ def held_notes(examined: Examined) -> Iterator[str]:
         if len(blocked):
             numbers = examined.model.mesh.labels[blocked]
             yield f"supports hold {len(blocked)} nodes of contact '{contact.label}' along its normal: {_some(numbers)}"
+
+
+def idle_notes(examined: Examined) -> Iterator[str]:
+    """Supports that hold nothing, because others hold it already."""
+    released = next(stages(examined.model)).released
+    holding = np.unique(examined.constraints.owner)
+    for i, support in enumerate(examined.model.supports):
+        if i not in holding and support.label not in released:
+            yield f"support '{support.label}' holds nothing that those before it do not: its reaction is zero"
 
 
 def far_notes(examined: Examined) -> Iterator[str]:

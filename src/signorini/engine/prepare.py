@@ -16,6 +16,7 @@ from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
 from signorini.condense.size import condensing_bytes
 from signorini.condense.ties import Ties
+from signorini.engine.twice import refuse_same_contacts
 from signorini.engine.unheld import refuse_free_motions, refuse_unheld
 from signorini.errors import InputError, one_of
 from signorini.fem.links import linked_nodes
@@ -220,12 +221,14 @@ def examine(model: Model) -> Examined:
     Raises
     ------
     InputError
-        If something in the model does not fit the mesh, or a body can move freely: it is named, with its motion.
+        If something in the model does not fit the mesh, two contacts are between the same sides, or a body can move
+        freely: it is named, with its motion.
     """
     refuse_locking(model)
+    schedule = list(stages(model))
+    refuse_same_contacts(model, schedule)
     carriers = len(model.obstacles) + len(model.rigid_bodies)
     space = make_space(model.mesh, axisymmetric=model.axisymmetric, obstacles=carriers, linked=linked_nodes(model))
-    schedule = list(stages(model))
     first = schedule[0].released
     sometimes = frozenset().union(*(stage.released for stage in schedule))
     constraints = make_constraints(space, model, without=first)

@@ -86,7 +86,7 @@ def step_result(
         notes=(
             *_notes(prepared, leg),
             *_facet_notes(prepared),
-            *_finer_notes(prepared),
+            *finer_notes(prepared),
             *chord_notes(prepared),
             *_open_notes(prepared, leg),
             *large_notes(prepared, state),
@@ -113,12 +113,12 @@ def _facet_notes(prepared: Prepared) -> tuple[str, ...]:
     )
 
 
-def _finer_notes(prepared: Prepared) -> tuple[str, ...]:
+def finer_notes(examined: Examined) -> tuple[str, ...]:
     """Contacts whose nonmortar side is the finer one."""
     return tuple(
         f"contact '{contact.label}': the nonmortar side is the finer one, its pressures can oscillate; name the sides "
         "the other way round, or take side = 'coarser'"
-        for contact, sides in zip(prepared.model.contacts, prepared.interface.sides, strict=True)
+        for contact, sides in zip(examined.model.contacts, examined.interface.sides, strict=True)
         if sides.finer and not contact.tied
     )
 

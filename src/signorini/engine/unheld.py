@@ -10,7 +10,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array
 from signorini.errors import InputError
-from signorini.fem.rigid import Part, describe_motion, free_motions
+from signorini.fem.rigid import Part, describe_motions, free_motions
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.interface import Interface, pairs_of
@@ -81,4 +81,4 @@ def refuse_free_motions(
 
 
 def _say(parts: tuple[Part, ...], motions: Array) -> str:
-    return ", and ".join(describe_motion(parts, motion) for motion in motions.T)
+    return ", and ".join(describe_motions(parts, motions))

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Facets of named boundaries, flat or curved: which way is out, how large they are, and integrals over them."""
+"""Facets of named boundaries, of one kind or, in space, several: normals, sizes and integrals at their nodes."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,8 +11,8 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
-from signorini.fem.faces import CORNERS, outer_faces
-from signorini.fem.facets import facet_nodes, facet_rule, facet_shapes
+from signorini.fem.faces import outer_faces
+from signorini.fem.facet_block import FacetBlock
 from signorini.fem.space import Space
 
 
@@ -21,116 +22,59 @@ class Boundary:
 
     Attributes
     ----------
-    facets : (m, k) nodes. In the plane first and second end, the body on the left of the way between them, and the
-        middle; in space corners, anticlockwise seen from outside, then middles
-    points : (m, k, d) their coordinates, length
-    nodes : (n,) sorted nodes
-    cells : (m,) numbers of the cells that they bound
+    blocks : facets by the number of their nodes, ascending; all linear or all quadratic; in the plane one block
     """
 
-    facets: IntArray
-    points: Array
-    nodes: IntArray
-    cells: IntArray
+    blocks: tuple[FacetBlock, ...]
 
     @property
     def dimension(self) -> int:
         """Of space."""
-        return int(self.points.shape[2])
-
-    @property
-    def corners(self) -> int:
-        """Corners of a facet; its other nodes are in the middle of an edge, or of the facet."""
-        return 2 if self.dimension == 2 else CORNERS[self.facets.shape[1]]
+        return self.blocks[0].dimension
 
     @property
     def quadratic(self) -> bool:
         """Whether the facets have nodes in the middle."""
-        return self.facets.shape[1] > self.corners
+        return self.blocks[0].quadratic
+
+    @cached_property
+    def nodes(self) -> IntArray:
+        """(n,) Sorted nodes."""
+        return np.unique(np.concatenate([block.nodes for block in self.blocks]))
 
     @property
-    def ends(self) -> IntArray:
-        """Sorted nodes at corners of facets; the others are in the middle of one."""
-        return np.unique(self.facets[:, : self.corners])
-
-    @cached_property
-    def shapes(self) -> tuple[Array, Array]:
-        """Shape functions of a facet at its quadrature points (q, k), and their derivatives (q, k, d - 1)."""
-        return facet_shapes(self.dimension, self.facets.shape[1], self._rule[0])
-
-    @cached_property
-    def at(self) -> Array:
-        """Quadrature points of every facet, (m, q, d)."""
-        return np.einsum("qa,mai->mqi", self.shapes[0], self.points)
-
-    @cached_property
-    def outward(self) -> Array:
-        """Outward normal at every quadrature point times its share of the length or area, (m, q, d)."""
-        return _outward(self.points, self.shapes[1]) * self._rule[1][:, None]
-
-    @cached_property
-    def weights(self) -> Array:
-        """Length or area that belongs to every quadrature point, (m, q)."""
-        return np.linalg.norm(self.outward, axis=-1)
+    def cells(self) -> IntArray:
+        """(m,) Numbers of the cells that the facets bound, block after block."""
+        return np.concatenate([block.cells for block in self.blocks])
 
     @property
     def lengths(self) -> Array:
-        """Of every facet, (m,); in space the side of a square of its area."""
-        total: Array = self.weights.sum(axis=1)
-        return total if self.dimension == 2 else np.sqrt(total)
-
-    @cached_property
-    def normals(self) -> Array:
-        """Outward unit normal of every facet, of a curved one the mean, (m, d)."""
-        total = self.outward.sum(axis=1)
-        normals: Array = total / np.linalg.norm(total, axis=1, keepdims=True) + 0.0
-        return normals
-
-    def nodal(self, integrand: Array) -> Array:
-        """``int N_k f`` at every node, (k, ...) in the order of ``nodes``.
-
-        Parameters
-        ----------
-        integrand : (m, q, ...) f at the quadrature points times what belongs to them, ``weights`` in the plane
-        """
-        shares = np.einsum("qa,mq...->ma...", self.shapes[0], integrand)
-        result = np.zeros((len(self.nodes), *integrand.shape[2:]))
-        np.add.at(result, np.searchsorted(self.nodes, self.facets), shares)
-        return result
-
-    @property
-    def nodal_lengths(self) -> Array:
-        """Tributary length of every node, (n,); in space the side of a square of its area."""
-        total = self.nodal(self.weights)
-        return total if self.dimension == 2 else np.sqrt(np.maximum(total, 0.0))
+        """(m,) Of the facets, block after block; in space the sides of squares of their areas."""
+        return np.concatenate([block.lengths for block in self.blocks])
 
     @cached_property
     def nodal_normals(self) -> Array:
-        """Outward unit normals at the nodes, averaged with the sizes of their facets, (n, d)."""
-        count = self.facets.shape[1]
-        own = _outward(self.points, facet_shapes(self.dimension, count, facet_nodes(self.dimension, count))[1])
-        own *= (self.weights.sum(axis=1)[:, None] / np.linalg.norm(own, axis=-1))[..., None]
-        total = np.zeros((len(self.nodes), self.dimension))
-        np.add.at(total, np.searchsorted(self.nodes, self.facets), own)
+        """(n, d) Outward unit normals at the nodes, averaged with the sizes of the facets there."""
+        total = self._gathered(block.nodal_spans for block in self.blocks)
         normals: Array = total / np.linalg.norm(total, axis=1, keepdims=True)
         return normals
 
-    @property
-    def places(self) -> Array:
-        """Reference coordinates of the quadrature points, (q, d - 1)."""
-        return self._rule[0]
+    def nodal(self, integrands: Iterable[Array]) -> Array:
+        """``int N_k f`` at every node, (n, ...) in the order of ``nodes``.
 
-    @property
-    def _rule(self) -> tuple[Array, Array]:
-        return facet_rule(self.dimension, self.facets.shape[1])
+        Parameters
+        ----------
+        integrands : for every block f at the quadrature points times what belongs to them, (m, q, ...)
+        """
+        return self._gathered(block.nodal(own) for block, own in zip(self.blocks, integrands, strict=True))
 
-
-def _outward(points: Array, slopes: Array) -> Array:
-    """Outward normals of facets (m, k, d) from the derivatives (q, k, d - 1) of their shape functions, (m, q, d)."""
-    along = np.einsum("qas,mai->mqsi", slopes, points)
-    if points.shape[-1] == 2:
-        return np.stack([along[..., 0, 1], -along[..., 0, 0]], axis=-1)
-    return np.cross(along[..., 0, :], along[..., 1, :])
+    def _gathered(self, parts: Iterable[Array]) -> Array:
+        """Values at the nodes of every block, summed at those of all, (n, ...)."""
+        given = list(parts)
+        total = np.zeros((len(self.nodes), *given[0].shape[1:]))
+        for block, values in zip(self.blocks, given, strict=True):
+            total[np.searchsorted(self.nodes, block.nodes)] += values
+        return total
 
 
 def boundary(space: Space, name: str, where: Where) -> Boundary:
@@ -146,17 +90,27 @@ def boundary(space: Space, name: str, where: Where) -> Boundary:
     --------
     >>> from signorini.fem.generators import rectangle
     >>> from signorini.fem.space import make_space
-    >>> boundary(make_space(rectangle(width=2, height=1, nx=2, ny=1)), "top", ("load", 0)).normals
+    >>> boundary(make_space(rectangle(width=2, height=1, nx=2, ny=1)), "top", ("load", 0)).nodal_normals
     array([[0., 1.],
+           [0., 1.],
            [0., 1.]])
     """
-    given = space.mesh.boundaries[name]
+    kinds = space.mesh.facets(name)
     points = space.mesh.points
-    if not len(given):
+    if not len(kinds[0]):
         raise InputError(f"'{name}' is empty; expected a boundary with edges or faces", where=where)
     if space.dimension == 3:
-        facets, cells = outer_faces(space.faces, given, len(points), name, where)
-        return Boundary(facets=facets, points=points[facets], nodes=np.unique(facets), cells=cells)
+        found = outer_faces(space.faces, kinds, len(points), name, where)
+    else:
+        found = [_outer_edges(space, kinds[0], name, where)]
+    return Boundary(
+        blocks=tuple(FacetBlock(facets=facets, points=points[facets], cells=cells) for facets, cells in found)
+    )
+
+
+def _outer_edges(space: Space, given: IntArray, name: str, where: Where) -> tuple[IntArray, IntArray]:
+    """Edges with the body on their left, (m, 2 or 3), and their cells, (m,)."""
+    points = space.mesh.points
     empty = (points[given[:, 0]] == points[given[:, 1]]).all(axis=1)
     if empty.any():
         raise InputError(
@@ -176,7 +130,7 @@ def boundary(space: Space, name: str, where: Where) -> Boundary:
     if quadratic.any() and not quadratic.all():
         raise InputError(f"'{name}' belongs to linear and to quadratic cells; expected one order", where=where)
     facets = np.column_stack([ends, middle]) if quadratic.any() else ends
-    return Boundary(facets=facets, points=points[facets], nodes=np.unique(facets), cells=space.edges.cell[edge])
+    return facets, space.edges.cell[edge]
 
 
 def _edges(space: Space, facets: IntArray, name: str, where: Where) -> IntArray:

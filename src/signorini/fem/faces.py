@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, distinct
 from signorini.errors import InputError, Where
 from signorini.model.mesh import FACES, Mesh
 
@@ -77,43 +77,68 @@ def face_key(faces: IntArray, points: int) -> IntArray:
 
 
 def outer_faces(
-    faces: Mapping[int, Faces], given: IntArray, points: int, name: str, where: Where
-) -> tuple[IntArray, IntArray]:
+    faces: Mapping[int, Faces], given: Sequence[IntArray], points: int, name: str, where: Where
+) -> list[tuple[IntArray, IntArray]]:
     """The faces of a named boundary, (m, k), anticlockwise seen from outside, and the cells that have them, (m,).
+
+    Parameters
+    ----------
+    given : (m, k) nodes of the faces, by kinds; corners suffice
+
+    Returns
+    -------
+    By the number of their nodes, ascending
 
     Raises
     ------
     InputError
-        If a face belongs to no cell or to two, is given twice, or the faces differ in their number of nodes.
+        If a face belongs to no cell or to two, is given twice, or the faces belong to linear and to quadratic cells.
     """
+    found: dict[int, list[tuple[IntArray, IntArray, IntArray]]] = {}
+    for own in given:
+        for kind in _outer(faces, own, points, name, where):
+            found.setdefault(kind[0].shape[1], []).append(kind)
+    merged = [
+        (np.concatenate(n), np.concatenate(c), np.concatenate(k))
+        for n, c, k in (zip(*p, strict=True) for _, p in sorted(found.items()))
+    ]
+    if any(len(distinct(key)) != len(key) for _, _, key in merged):
+        raise InputError(f"'{name}' has a face twice", where=where)
+    if len({nodes.shape[1] > CORNERS[nodes.shape[1]] for nodes, _, _ in merged}) > 1:
+        raise InputError(f"'{name}' belongs to linear and to quadratic cells; expected one order", where=where)
+    return [(nodes, cells) for nodes, cells, _ in merged]
+
+
+def _outer(
+    faces: Mapping[int, Faces], given: IntArray, points: int, name: str, where: Where
+) -> list[tuple[IntArray, IntArray, IntArray]]:
+    """Of faces that name as many nodes each, by the number of nodes that cells have there: nodes, cells and keys."""
     corners = CORNERS[given.shape[1]]
     wanted = face_key(given, points)
-    found = {}
+    total = np.zeros(len(wanted), np.int64)
+    found = []
     for count, every in faces.items():
-        if CORNERS[count] != corners:
-            continue
-        left = np.searchsorted(every.key, wanted, side="left")
-        times = np.searchsorted(every.key, wanted, side="right") - left
-        if times.any():
-            found[count] = (every, left, times)
-    total = sum((times for _, _, times in found.values()), np.zeros(len(wanted), np.int64))
+        if CORNERS[count] == corners:
+            left = np.searchsorted(every.key, wanted, side="left")
+            times = np.searchsorted(every.key, wanted, side="right") - left
+            total += times
+            here = np.flatnonzero(times)
+            if len(here):
+                found.append((here, every.nodes[left[here]], every.cell[left[here]]))
     for bad, why in ((total == 0, "that no cell has"), (total > 1, "between two cells")):
         if bad.any():
             first = ", ".join(str(node + 1) for node in given[np.argmax(bad), :corners])
             also = "" if why.startswith("that") else ": it lies inside. Bodies that touch need nodes of their own there"
             raise InputError(f"'{name}' has a face with corners {first} {why}{also}", where=where)
-    if len(np.unique(wanted)) != len(wanted):
-        raise InputError(f"'{name}' has a face twice", where=where)
-    if len(found) > 1:
-        raise InputError(f"'{name}' belongs to linear and to quadratic cells; expected one order", where=where)
-    every, left, _ = next(iter(found.values()))
-    own = every.nodes[left]
-    if given.shape[1] > corners:
-        foreign = (np.sort(given, axis=1) != np.sort(own, axis=1)).any(axis=1) if given.shape == own.shape else [True]
-        if np.any(foreign):
-            said, there = (", ".join(map(str, nodes[np.argmax(foreign)] + 1)) for nodes in (given, own))
-            raise InputError(f"'{name}' has a face of nodes {said}, but the cell has {there}", where=where)
-    return own, every.cell[left]
+    for here, own, _ in found if given.shape[1] > corners else ():
+        said = given[here]
+        foreign = np.ones(len(own), bool)
+        if said.shape == own.shape:
+            foreign = (np.sort(said, axis=1) != np.sort(own, axis=1)).any(axis=1)
+        if foreign.any():
+            one, other = (", ".join(map(str, nodes[np.argmax(foreign)] + 1)) for nodes in (said, own))
+            raise InputError(f"'{name}' has a face of nodes {one}, but the cell has {other}", where=where)
+    return [(own, cells, wanted[here]) for here, own, cells in found]
 
 
 def _mirrored(points: Array, cells: IntArray) -> Array:

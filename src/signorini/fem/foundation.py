@@ -8,6 +8,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array
 from signorini.fem.boundary import boundary
+from signorini.fem.facet_block import FacetBlock
 from signorini.fem.measure import facet_areas
 from signorini.fem.space import Space
 from signorini.model.conditions import Foundation
@@ -28,21 +29,28 @@ def make_springs(space: Space, model: Model) -> dict[str, sp.csr_array]:
 
 def _springs(space: Space, model: Model, foundation: Foundation, where: tuple[str | int, ...]) -> sp.csr_array:
     side = boundary(space, foundation.on, (*where, "on"))
-    normals = side.outward / side.weights[..., None]
-    areas, parts = facet_areas(model, side), []
+    return sp.csr_array(
+        sp.vstack([part for block in side.blocks for part in _of_block(space, model, foundation, block)])
+    )
+
+
+def _of_block(space: Space, model: Model, foundation: Foundation, block: FacetBlock) -> list[sp.csr_array]:
+    """Springs on facets of one kind: along the normal, then along tangents."""
+    normals = block.outward / block.weights[..., None]
+    areas, parts = facet_areas(model, block), []
     for stiffness, directions in (
         (foundation.normal_stiffness, normals),
         *((foundation.tangential_stiffness, tangents) for tangents in _across(normals)),
     ):
         if stiffness > 0.0:
             size = np.sqrt(stiffness * np.maximum(areas, 0.0))[..., None] * directions
-            values = np.einsum("mqi,qa->mqai", size, side.shapes[0])
+            values = np.einsum("mqi,qa->mqai", size, block.shapes[0])
             rows = np.arange(areas.size).reshape(*areas.shape, 1, 1)
-            columns = space.dofs(side.facets)[:, None]
+            columns = space.dofs(block.facets)[:, None]
             rows, columns = np.broadcast_to(rows, values.shape), np.broadcast_to(columns, values.shape)
             entries = (values.ravel(), (rows.ravel(), columns.ravel()))
             parts.append(sp.csr_array(entries, shape=(areas.size, space.number_of_dofs)))
-    return sp.csr_array(sp.vstack(parts))
+    return parts
 
 
 def _across(normals: Array) -> tuple[Array, ...]:

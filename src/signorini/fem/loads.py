@@ -48,14 +48,14 @@ def _on_mesh(space: Space, model: Model, load: Load, where: Where) -> Array:
         _check_axis(model, nodes, forces, where)
         return forces.ravel()
     side = boundary(space, str(load.on), (*where, "on"))
-    area = facet_areas(model, side)[..., None]
-    if load.force is not None:
-        force = area / area.sum() * _given(load.force)
-    elif load.pressure is not None:
-        force = -load.pressure * measure(model, side.at, side.cells)[..., None] * side.outward
+    if load.pressure is not None:
+        parts = [-load.pressure * measure(model, b.at, b.cells)[..., None] * b.outward for b in side.blocks]
     else:
-        force = area * np.array(load.traction)
-    forces[side.nodes] = side.nodal(force)
+        areas = [facet_areas(model, block)[..., None] for block in side.blocks]
+        total = sum(float(area.sum()) for area in areas)
+        traction = np.array(load.traction) if load.force is None else _given(load.force) / total
+        parts = [area * traction for area in areas]
+    forces[side.nodes] = side.nodal(parts)
     return forces.ravel()
 
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.fem.boundary import Boundary
+from signorini.fem.facet_block import FacetBlock
 from signorini.model.model import Model
 
 
@@ -36,9 +37,9 @@ def contact_measure(model: Model, points: Array, one: IntArray, other: IntArray)
     return smaller
 
 
-def facet_areas(model: Model, side: Boundary) -> Array:
+def facet_areas(model: Model, block: FacetBlock) -> Array:
     """Area that belongs to each quadrature point of the facets, (m, q)."""
-    areas: Array = side.weights * measure(model, side.at, side.cells)
+    areas: Array = block.weights * measure(model, block.at, block.cells)
     return areas
 
 
@@ -48,10 +49,10 @@ def nodal_areas(model: Model, side: Boundary) -> Array:
     Linear facets: the trapezoidal rule, except that a node on the axis of an axisymmetric body has its share of the
     circle around it, ``pi h^2 / 3``. Quadratic facets: 1/6, 1/6 and 4/6 of a straight one.
     """
-    return side.nodal(facet_areas(model, side))
+    return side.nodal(facet_areas(model, block) for block in side.blocks)
 
 
-def nodal_contact_areas(model: Model, side: Boundary, opposite: IntArray) -> Array:
+def nodal_contact_areas(model: Model, side: FacetBlock, opposite: IntArray) -> Array:
     """``int N_k n dS`` of every node of a side in contact, (k, d) in the order of its nodes, n its outward normals.
 
     Parameters

@@ -48,5 +48,6 @@ def nodes_at(space: Space, on: Place, where: Where, *, completed: bool = True) -
 
 def _corners_only(space: Space, name: str) -> bool:
     """Whether a boundary of quadratic cells leaves out the middle nodes."""
-    linear = space.mesh.boundaries[name].shape[1] <= (2 if space.dimension == 2 else 4)
+    most = 2 if space.dimension == 2 else 4
+    linear = any(facets.shape[1] <= most for facets in space.mesh.facets(name))
     return linear and any(NODES_PER_CELL[family] > CORNERS[family] for family in space.mesh.cells)

@@ -44,11 +44,11 @@ def mesh_profile(mesh: Mesh, name: str, *, fillet: float = 0.0, flip: bool = Fal
     if name not in mesh.boundaries:
         raise InputError(one_of(name, mesh.boundaries, "boundary"), where=("boundary",))
     if mesh.bounds_nothing(name):
-        facets = mesh.boundaries[name]
+        (facets,) = mesh.facets(name)
     else:
         # the tool is on the left of its facets
-        side = boundary(make_space(mesh), name, ("boundary",)).facets
-        facets = np.column_stack([side[:, 1], side[:, 0], side[:, 2:]])
+        (side,) = boundary(make_space(mesh), name, ("boundary",)).blocks
+        facets = np.column_stack([side.facets[:, 1], side.facets[:, 0], side.facets[:, 2:]])
     return _profile(mesh.points, facets, f"'{name}'", fillet, flip)
 
 

@@ -174,22 +174,14 @@ def _boundaries(named: dict[str, dict[str, IntArray]], cells: dict[str, list[Int
     return {name: parts[0] for name, parts in found.items()} | shared
 
 
-def _surfaces(named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntArray]]) -> dict[str, IntArray]:
-    """Faces by name.
-
-    Raises
-    ------
-    InputError
-        If triangles and quadrilaterals, or linear and quadratic faces, bear one name.
-    """
-    found: dict[str, IntArray] = {}
+def _surfaces(
+    named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntArray]]
+) -> dict[str, tuple[IntArray, ...]]:
+    """Faces by name, those of every kind apart."""
+    found: dict[str, tuple[IntArray, ...]] = defaultdict(tuple)
     for family in NODES_PER_PLANE_CELL:
         for name, index in named[family].items():
-            if name in found:
-                raise InputError(
-                    f"'{name}' holds faces of several kinds; expected one kind a boundary", where=("mesh", "boundaries")
-                )
-            found[name] = np.vstack(cells[family])[index]
+            found[name] = (*found[name], np.vstack(cells[family])[index])
     return found
 
 
@@ -241,13 +233,13 @@ def _named_parts(found: meshio.Mesh, path: Path) -> tuple[dict[str, dict[str, In
         index = counts[family] + np.arange(len(block.data))
         for tag in np.unique(tag_of_cell[tag_of_cell > 0]):
             name = tags.get((block.dim, int(tag)), f"{_DIMENSIONS[block.dim]} {tag}")
-            named[family][name].append(index[tag_of_cell == tag])
-        if "gmsh:physical" not in found.cell_data:
-            for name, members in found.cell_sets.items():
-                if name.startswith(_OF_GMSH):  # what entities of the geometry bound
-                    continue
-                if members[number] is not None and len(members[number]):
-                    named[family][name].append(counts[family] + np.asarray(members[number], int))
+            if name not in found.cell_sets:  # of an entity in several groups sets name all, the tag only the first
+                named[family][name].append(index[tag_of_cell == tag])
+        for name, members in found.cell_sets.items():
+            if name.startswith(_OF_GMSH):  # what entities of the geometry bound
+                continue
+            if members[number] is not None and len(members[number]):
+                named[family][name].append(counts[family] + np.asarray(members[number], int))
         for key, on in found.cell_data.items():
             if key.startswith(NAMED) and on[number].any():
                 named[family][key.removeprefix(NAMED)].append(counts[family] + np.flatnonzero(on[number]))

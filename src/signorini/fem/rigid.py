@@ -18,6 +18,7 @@ from signorini.model.model import Model
 
 # of the largest eigenvalue of the Gram matrix of the motions: below it a motion is not held
 _UNSEEN = 1e-12
+_ALONG = "move along"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -188,34 +189,77 @@ def describe_motion(parts: tuple[Part, ...], motion: Array) -> str:
     >>> describe_motion((block,), np.array([1.0, 0.0, 0.0]))
     "body 'block' can move along x"
     """
-    words = []
+    return " while ".join(f"{part.label} can {' '.join(_way(part, own))}" for part, own in _moving(parts, motion))
+
+
+def describe_motions(parts: tuple[Part, ...], motions: Array) -> list[str]:
+    """Several rigid motions in words, one sentence for all that the same parts can do.
+
+    Parameters
+    ----------
+    motions : (motions of all parts, k) coefficients of :func:`rigid_motions`
+
+    Examples
+    --------
+
+    >>> block = Part(bodies=("block",), nodes=np.arange(4), centre=np.array([1.0, 0.5]), size=1.0)
+    >>> describe_motions((block,), np.eye(3))
+    ["body 'block' can move along x and y, and rotate about (1, 0.5)"]
+    """
+    alike: dict[tuple[int, ...], list[Array]] = {}
+    for motion in motions.T:
+        alike.setdefault(tuple(id(part) for part, _ in _moving(parts, motion)), []).append(motion)
+    return [_sentence(parts, group) for group in alike.values()]
+
+
+def _sentence(parts: tuple[Part, ...], motions: list[Array]) -> str:
+    """Motions of the same parts in words."""
+    moving = [_moving(parts, motion) for motion in motions]
+    if len(moving[0]) > 1:
+        return ", and ".join(describe_motion(parts, motion) for motion in motions)
+    ways: dict[str, list[str]] = {_ALONG: []}
+    for ((part, own),) in moving:
+        how, what = _way(part, own)
+        ways.setdefault(how, []).append(what)
+    words = [
+        f"{how.replace('the axis', 'the axes') if len(what) > 1 else how} {_listed(what)}"
+        for how, what in ways.items()
+        if what
+    ]
+    return f"{moving[0][0][0].label} can {', and '.join(words)}"
+
+
+def _moving(parts: tuple[Part, ...], motion: Array) -> list[tuple[Part, Array]]:
+    """The parts that move, and their coefficients without rounding."""
     clean = np.where(np.abs(motion) < 1e-6 * np.abs(motion).max(), 0.0, motion)
     ends = np.cumsum([part.motions for part in parts])
-    for part, own in zip(parts, np.split(clean, ends[:-1]), strict=True):
-        along = np.zeros(len(part.centre))
-        along[list(part.axes)] = own[: len(part.axes)]
-        if part.axes == (1,) and own.any():
-            words.append(f"{part.label} can move along the axis")
-        elif own.any():
-            words.append(f"{part.label} can {_way(part, along, own[len(part.axes) :])}")
-    return " while ".join(words)
+    return [(part, own) for part, own in zip(parts, np.split(clean, ends[:-1]), strict=True) if own.any()]
 
 
-def _way(part: Part, along: Array, turn: Array) -> str:
-    """How a part moves: along a direction, or about a point (in space an axis)."""
+def _way(part: Part, own: Array) -> tuple[str, str]:
+    """How a part moves, and along which direction or about which point (in space an axis)."""
+    along, turn = np.zeros(len(part.centre)), own[len(part.axes) :]
+    along[list(part.axes)] = own[: len(part.axes)]
+    if part.axes == (1,):
+        return _ALONG, "the axis"
     if not turn.any():
         direction = along / np.linalg.norm(along)
         named = "xyz"[int(np.argmax(np.abs(direction)))]
-        return f"move along {named if np.count_nonzero(along) == 1 else _spell(direction)}"
+        return _ALONG, named if np.count_nonzero(along) == 1 else _spell(direction)
     if len(turn) == 1:
         centre = part.centre + part.size * np.array([-along[1], along[0]]) / turn
-        return f"rotate about {_spell(centre, part.size)}"
+        return "rotate about", _spell(centre, part.size)
     rate = float(np.linalg.norm(turn))
     axis: Array = turn / rate
     centre = part.centre + part.size * np.cross(axis, along) / rate
     upward = axis * np.sign(axis[np.argmax(np.abs(axis))])
-    words = f"rotate about the axis through {_spell(centre, part.size)} along {_spell(upward)}"
-    return words if abs(along @ axis) < 1e-6 * rate else f"{words} while it moves along it"
+    screw = " while it moves along it" if abs(along @ axis) >= 1e-6 * rate else ""
+    return f"rotate about the axis through {_spell(centre, part.size)} along", f"{_spell(upward)}{screw}"
+
+
+def _listed(words: list[str]) -> str:
+    """As in "x, y and z"."""
+    return " and ".join(part for part in (", ".join(words[:-1]), words[-1]) if part)
 
 
 def _spell(values: Array, size: float = 1.0) -> str:

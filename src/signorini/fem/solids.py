@@ -13,7 +13,7 @@ from signorini.arrays import Array, IntArray
 from signorini.checks import choice, text, vector
 from signorini.errors import InputError, Where
 from signorini.fem.faces import HEXAHEDRON, make_faces
-from signorini.model.mesh import NODES_PER_SOLID_CELL, Mesh
+from signorini.model.mesh import CORNERS, NODES_PER_CELL, NODES_PER_SOLID_CELL, Mesh
 
 SolidCells = Literal["hexahedron", "hexahedron20", "hexahedron27", "tetra", "tetra10"]
 SIDES = (("left", "right"), ("front", "back"), ("bottom", "top"))
@@ -67,14 +67,15 @@ def extruded(mesh: Mesh, *, z: ArrayLike, ends: tuple[str, str] = ("bottom", "to
 
     Parameters
     ----------
-    mesh : with two coordinates, of "quad", "quad8", "quad9", "triangle" or "triangle6"
+    mesh : with two coordinates, of "quad" and "triangle", or of "quad8", "quad9" and "triangle6"
     z : increasing heights of the layers, length
     ends : names of the boundaries across z, the lower and the upper one
 
     Raises
     ------
     InputError
-        If the mesh is of other cells, heights do not increase, or a boundary or node set has the name of an end.
+        If the mesh is of other cells or of linear and quadratic ones, heights do not increase, or a boundary or node
+        set has the name of an end.
 
     Examples
     --------
@@ -88,45 +89,59 @@ def extruded(mesh: Mesh, *, z: ArrayLike, ends: tuple[str, str] = ("bottom", "to
     >>> extruded(rectangle(nx=2), z=[0, 0.5, 1], ends=("front", "back"))
     Mesh(18 nodes, 4 hexahedrons; bodies: block; boundaries: bottom, top, left, right, front, back)
     """
-    if mesh.points.shape[1] != 2 or len(mesh.cells) != 1 or not set(mesh.cells) <= set(_RAISED):
-        raise InputError(f"is {mesh!r}; expected plane cells of one family of {', '.join(_RAISED)}", where=("mesh",))
+    steps = {1 if NODES_PER_CELL[plane] == CORNERS[plane] else 2 for plane in mesh.cells}
+    if mesh.points.shape[1] != 2 or len(steps) != 1 or not set(mesh.cells) <= set(_RAISED):
+        raise InputError(f"is {mesh!r}; expected plane cells of one order of {', '.join(_RAISED)}", where=("mesh",))
     names = tuple(text(name, ("ends", i)) for i, name in enumerate(ends))
     if len(set(names)) != 2:
         raise InputError(f"is {ends!r}; expected two names", where=("ends",))
     for i, name in enumerate(names):
         if name in (*mesh.boundaries, *mesh.nodes):
             raise InputError(f"'{name}' is taken: the plane mesh has it; expected another name", where=("ends", i))
-    ((plane, cells),) = mesh.cells.items()
-    family = _RAISED[plane]
-    step = 1 if family in ("hexahedron", "wedge") else 2
+    (step,) = steps
     heights = _line(z, ("mesh", "z"), step)
     n, layers = len(mesh.points), np.arange(0, len(heights) - 1, step)
     points = np.column_stack([np.tile(mesh.points, (len(heights), 1)), np.repeat(heights, n)])
-    if family == "wedge":
-        nodes = np.hstack([cells, cells + n])
-    elif family == "wedge15":
-        corners, middles = cells[:, :3], cells[:, 3:]
-        nodes = np.hstack([corners, corners + 2 * n, middles, middles + 2 * n, corners + n])
-    else:
-        offsets = np.array(HEXAHEDRON[: NODES_PER_SOLID_CELL[family]])
-        column = [_QUADRILATERAL.index((a, b)) for a, b in offsets[:, :2]]
-        nodes = cells[:, column] + n * (offsets[:, 2] // (3 - step))
-    raised = np.concatenate([nodes + n * k for k in layers])
-    walls = {}
-    for name, edges in mesh.boundaries.items():
+    solids = {_RAISED[plane]: _layer(plane, cells, n, step) for plane, cells in mesh.cells.items()}
+    raised = {family: np.concatenate([nodes + n * k for k in layers]) for family, nodes in solids.items()}
+    walls: dict[str, tuple[IntArray, ...]] = {}
+    for name in mesh.boundaries:
+        (edges,) = mesh.facets(name)
         corners = np.hstack([edges[:, :2], edges[:, 1::-1] + step * n])
-        walls[name] = np.concatenate([corners + n * k for k in layers])
-    corners = cells[:, : 3 if family.startswith("wedge") else 4]
-    walls |= {names[0]: corners, names[1]: corners + n * (len(heights) - 1)}
-    used, compact = np.unique(raised, return_inverse=True)  # hexahedra of 20 nodes have none inside faces
-    first = mesh.number_of_cells * np.arange(len(layers))[:, None]
+        walls[name] = (np.concatenate([corners + n * k for k in layers]),)
+    floor = tuple(cells[:, : CORNERS[plane]] for plane, cells in mesh.cells.items())
+    walls |= {names[0]: floor, names[1]: tuple(corners + n * (len(heights) - 1) for corners in floor)}
+    # hexahedra of 20 nodes have none inside faces
+    used = np.unique(np.concatenate([nodes.ravel() for nodes in raised.values()]))
     return Mesh(
         points=points[used],
-        cells={family: compact.reshape(raised.shape)},
-        bodies={name: (own + first).ravel() for name, own in mesh.bodies.items()},
-        boundaries={name: np.searchsorted(used, faces) for name, faces in walls.items()},
+        cells={family: np.searchsorted(used, nodes) for family, nodes in raised.items()},
+        bodies={name: _in_layers(mesh, own, len(layers)) for name, own in mesh.bodies.items()},
+        boundaries={name: tuple(np.searchsorted(used, faces) for faces in kinds) for name, kinds in walls.items()},
         nodes={name: np.flatnonzero(np.isin(used % n, own)) for name, own in mesh.nodes.items()},
     )
+
+
+def _layer(plane: str, cells: IntArray, n: int, step: int) -> IntArray:
+    """Nodes of the solids of the lowest layer; those of the next ``step`` heights are n more each."""
+    if plane == "triangle":
+        return np.hstack([cells, cells + n])
+    if plane == "triangle6":
+        corners, middles = cells[:, :3], cells[:, 3:]
+        return np.hstack([corners, corners + 2 * n, middles, middles + 2 * n, corners + n])
+    offsets = np.array(HEXAHEDRON[: NODES_PER_CELL[_RAISED[plane]]])
+    column = [_QUADRILATERAL.index((a, b)) for a, b in offsets[:, :2]]
+    return cells[:, column] + n * (offsets[:, 2] // (3 - step))
+
+
+def _in_layers(mesh: Mesh, own: IntArray, layers: int) -> IntArray:
+    """Numbers of the solids over cells of a plane mesh: family by family, in each layer by layer."""
+    found, first = [], 0
+    for cells in mesh.cells.values():
+        here = own[(first <= own) & (own < first + len(cells))] - first
+        found.append(layers * first + (here + len(cells) * np.arange(layers)[:, None]).ravel())
+        first += len(cells)
+    return np.concatenate(found)
 
 
 def _line(given: ArrayLike, where: Where, step: int) -> Array:

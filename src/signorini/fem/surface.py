@@ -54,10 +54,10 @@ def mesh_surface(mesh: Mesh, name: str, *, flip: bool = False) -> Surface:
     if mesh.points.shape[1] != 3:
         raise InputError(f"'{name}' lies in the plane; expected a mesh in space", where=("boundary",))
     if mesh.bounds_nothing(name):
-        facets = mesh.boundaries[name]
+        parts = mesh.facets(name)
     else:
-        facets = boundary(make_space(mesh), name, ("boundary",)).facets
-    return _surface(mesh.points, [facets], flip)
+        parts = tuple(block.facets for block in boundary(make_space(mesh), name, ("boundary",)).blocks)
+    return _surface(mesh.points, parts, flip)
 
 
 def read_surface(path: str | Path, *, boundary: str = "", flip: bool = False) -> Surface:

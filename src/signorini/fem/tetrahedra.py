@@ -63,7 +63,7 @@ def tetrahedra(mesh: Mesh) -> Mesh:
         points=mesh.points,
         cells={_CUT[family]: nodes},
         bodies={name: (6 * own[:, None] + np.arange(6)).ravel() for name, own in mesh.bodies.items()},
-        boundaries={name: _triangles(faces[:, :4]) for name, faces in mesh.boundaries.items()},
+        boundaries={name: tuple(_triangles(faces[:, :4]) for faces in mesh.facets(name)) for name in mesh.boundaries},
         nodes=mesh.nodes,
     )
 

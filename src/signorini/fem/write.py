@@ -21,7 +21,7 @@ _FACETS = {
 def write_mesh(mesh: Mesh, path: Path) -> None:
     """Write a mesh as VTU: :func:`signorini.fem.read.read_mesh` gives the same mesh.
 
-    Names are arrays of 0 and 1 called ``set:NAME``, on cells for bodies and boundaries, on points for node sets; edges
+    Names are arrays of 0 and 1 called ``set:NAME``, on cells for bodies and boundaries, on points for node sets; facets
     of boundaries are cells of their own. The arrays ``number`` hold the numbers of nodes and cells.
 
     Parameters
@@ -33,7 +33,8 @@ def write_mesh(mesh: Mesh, path: Path) -> None:
     complete_meshio()
     blocks: list[tuple[str, IntArray]] = list(mesh.cells.items())
     kinds = _FACETS[mesh.points.shape[1]]
-    edges = [(kinds[facets.shape[1]], facets) for facets in mesh.boundaries.values()]
+    named = [(name, facets) for name in mesh.boundaries for facets in mesh.facets(name)]
+    edges = [(kinds[facets.shape[1]], facets) for _, facets in named]
     sizes = [len(nodes) for _, nodes in (*blocks, *edges)]
     ends = np.cumsum(sizes)[:-1]
     count = mesh.number_of_cells
@@ -43,7 +44,7 @@ def write_mesh(mesh: Mesh, path: Path) -> None:
         flag[cells] = 1
         data[NAMED + name] = np.split(flag, ends)
     first = count
-    for (name, _), (_, facets) in zip(mesh.boundaries.items(), edges, strict=True):
+    for name, facets in named:
         flag = np.zeros(sum(sizes), np.int8)
         flag[first : first + len(facets)] = 1
         previous = data.get(NAMED + name)

@@ -58,7 +58,7 @@ def block_on_foundation(*, friction: float = 0.0, cells: Cells = "quad", across:
     """
     foundation = rectangle(width=3.0, height=1.0, nx=3 * across[1], ny=3, cells=cells)
     inside = _along_x(foundation, "top", 1.0, 2.0)
-    top = foundation.boundaries["top"]
+    (top,) = foundation.facets("top")
     foundation = replace(foundation, boundaries={**foundation.boundaries, "seat": top[inside], "free": top[~inside]})
     block = rectangle(nx=across[0], ny=3, origin=(1.0, 1.0), cells=cells)
     elastic = Elastic(E=2000.0, nu=0.3)
@@ -186,5 +186,6 @@ def dragged_block(*, friction: float = 0.2, increments: int = 10, cells: Cells =
 
 def _along_x(mesh: Mesh, name: str, low: float, high: float) -> BoolArray:
     """Which facets of a boundary have their middle between two coordinates."""
-    middle = mesh.points[mesh.boundaries[name]].mean(axis=1)[:, 0]
+    (facets,) = mesh.facets(name)
+    middle = mesh.points[facets].mean(axis=1)[:, 0]
     return np.asarray((low < middle) & (middle < high))

@@ -47,7 +47,7 @@ def cylinder_on_block(
     spacing = SEAT / across[1]
     x, depth = graded(SEAT, spacing, 0.5 * BLOCK), graded(4.0 * spacing, spacing, BLOCK)
     block = rectangle(x=x, y=-depth[::-1], cells=cells)
-    top = block.boundaries["top"]
+    (top,) = block.facets("top")
     inside = block.points[top][:, :, 0].max(axis=1) <= SEAT * (1.0 + 1e-9)
     block = replace(block, boundaries={**block.boundaries, "seat": top[inside]})
     return Model(

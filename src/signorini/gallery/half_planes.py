@@ -158,6 +158,6 @@ def _bent(mesh: Mesh, radius: float) -> Mesh:
 
 def _with_seat(mesh: Mesh, side: str, half_width: float) -> Mesh:
     """The part of a boundary with ``|x| <= half_width`` as "seat"."""
-    facets = mesh.boundaries[side]
+    (facets,) = mesh.facets(side)
     inside = np.abs(mesh.points[facets][:, :, 0]).max(axis=1) <= half_width * (1.0 + 1e-9)
     return replace(mesh, boundaries={**mesh.boundaries, "seat": facets[inside]})

@@ -177,6 +177,6 @@ def _bent(mesh: Mesh, radius: float) -> Mesh:
 
 def _with_seat(mesh: Mesh, side: Literal["bottom", "top"], radius: float) -> Mesh:
     """The faces of a boundary within a distance of the axis as "seat"."""
-    faces = mesh.boundaries[side]
+    (faces,) = mesh.facets(side)
     inside = np.hypot(*mesh.points[faces][..., :2].T).T.max(axis=1) <= radius * (1.0 + 1e-9)
     return replace(mesh, boundaries={**mesh.boundaries, "seat": faces[inside]})

@@ -67,7 +67,7 @@ def _block(count: int, size: float, cells: Cells) -> Mesh:
     """A block over y = 0, x = 0 its left side, "seat" the part of its lower side that may touch, "far" the upper."""
     spacing = SEAT / count
     mesh = rectangle(x=graded(SEAT, spacing, size), y=graded(6.0 * spacing, spacing, size), cells=cells)
-    bottom = mesh.boundaries["bottom"]
+    (bottom,) = mesh.facets("bottom")
     inside = mesh.points[bottom][:, :, 0].max(axis=1) <= SEAT * (1.0 + 1e-9)
     boundaries = {"left": mesh.boundaries["left"], "far": mesh.boundaries["top"], "seat": bottom[inside]}
     return replace(mesh, boundaries=boundaries)

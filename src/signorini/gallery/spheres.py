@@ -50,7 +50,7 @@ def hemisphere(*, radius: float, seat: float, n: int, cells: Cells = "quad") -> 
     spacing = 0.5 * core / n
     rings = core + graded(seat - core, spacing, _CAP * radius - core, 1.3)[1:]
     mesh = extruded(target(radii=[core, *rings], n=n, cells=cells), z=graded(2.0 * spacing, spacing, radius, 1.3))
-    faces = mesh.boundaries["bottom"]
+    (faces,) = mesh.facets("bottom")
     inside = np.hypot(*mesh.points[faces][..., :2].T).T.max(axis=1) <= seat * (1.0 + 1e-9)
     boundaries = {name: mesh.boundaries[name] for name in ("start", "end", "top")}
     return replace(mesh, points=_rounded(mesh.points, radius), boundaries={**boundaries, "seat": faces[inside]})

@@ -3,40 +3,47 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array
 from signorini.fem.boundary import Boundary
+from signorini.fem.facet_block import FacetBlock
 from signorini.fem.facets import facet_shapes
 from signorini.interface.coupling import Coupling
 from signorini.interface.dual import dual_functions
 
 
-def corner_coupling(side: Boundary, areas: Array, normals: Array, count: int) -> Coupling:
+def corner_coupling(side: Boundary, areas: Sequence[Array], normals: Sequence[Array], count: int) -> Coupling:
     """Forces ``int psi_k N_j n`` with psi dual to the hats of the corners, N the shape functions.
 
     The consistent weights of a quadratic facet are 0 or negative at its corners; these are positive.
 
     Parameters
     ----------
-    areas : (m, q) area of the quadrature points of the side
-    normals : (m, q, d) of the obstacle there
+    areas : for every block of the side the area of its quadrature points, (m, q)
+    normals : of the obstacle there, (m, q, d)
     count : nodes of the mesh
 
     References
     ----------
     Popp, Wohlmuth, Gee, Wall (2012), SIAM Journal on Scientific Computing 34:B421-B446.
     """
-    corners = side.facets[:, : side.corners]
-    hats = facet_shapes(side.dimension, side.corners, side.places)[0]
-    mass = np.einsum("mq,qa,qb->mab", areas, hats, hats)
-    multiplier = np.einsum("mab,qb,mq,mqd->dmqa", dual_functions(mass), hats, areas, normals)
-    values = np.einsum("dmqa,qj->dmaj", multiplier, side.shapes[0])
-    rows, columns = (np.broadcast_to(x, values.shape[1:]).ravel() for x in (corners[:, :, None], side.facets[:, None]))
-    nodes = np.unique(corners)
-    forces = tuple(
-        sp.csr_array(sp.csr_array((part.ravel(), (rows, columns)), shape=(count, count))[nodes]) for part in values
-    )
+    nodes = np.unique(np.concatenate([block.facets[:, : block.corners].ravel() for block in side.blocks]))
+    by_block = [_of_block(*given, count) for given in zip(side.blocks, areas, normals, strict=True)]
+    forces = tuple(sp.csr_array(sum(parts[1:], parts[0])[nodes]) for parts in zip(*by_block, strict=True))
     vectors = np.column_stack([force.sum(axis=1) for force in forces])
     return Coupling(nodes=nodes, normal_areas=vectors, forces=forces)
+
+
+def _of_block(block: FacetBlock, areas: Array, normals: Array, count: int) -> tuple[sp.csr_array, ...]:
+    """The forces of facets of one kind, for each direction (count, count): rows of corners, columns of nodes."""
+    corners = block.facets[:, : block.corners]
+    hats = facet_shapes(block.dimension, block.corners, block.places)[0]
+    mass = np.einsum("mq,qa,qb->mab", areas, hats, hats)
+    multiplier = np.einsum("mab,qb,mq,mqd->dmqa", dual_functions(mass), hats, areas, normals)
+    values = np.einsum("dmqa,qj->dmaj", multiplier, block.shapes[0])
+    rows, columns = (np.broadcast_to(x, values.shape[1:]).ravel() for x in (corners[:, :, None], block.facets[:, None]))
+    return tuple(sp.csr_array((part.ravel(), (rows, columns)), shape=(count, count)) for part in values)

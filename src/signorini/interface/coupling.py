@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -73,6 +74,18 @@ class Coupling:
         minus those of the mortar side, which sum to 1 too.
         """
         return sp.csr_array(sp.diags_array(1.0 / self.area) @ along(self.forces, self.normals))
+
+
+def joined_gaps(parts: Sequence[FacetGaps]) -> FacetGaps:
+    """Of facets of all kinds; one with fewer corners than others names its first ones twice."""
+    width = max(part.corners.shape[1] for part in parts)
+    columns = [np.arange(width) % part.corners.shape[1] for part in parts]
+    return FacetGaps(
+        corners=np.concatenate([part.corners[:, own] for part, own in zip(parts, columns, strict=True)]),
+        ends=np.concatenate([part.ends[:, own] for part, own in zip(parts, columns, strict=True)]),
+        low=np.concatenate([part.low for part in parts]),
+        high=np.concatenate([part.high for part in parts]),
+    )
 
 
 def along(forces: tuple[sp.csr_array, ...], directions: Array) -> sp.csr_array:

@@ -7,7 +7,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
-from signorini.fem.boundary import Boundary
+from signorini.fem.facet_block import FacetBlock
 from signorini.interface.coupling import Coupling
 from signorini.model.contact import Contact
 
@@ -72,7 +72,7 @@ def resolved(gap: Array, coupling: Coupling) -> Array:
     return np.where(lost, np.maximum(gap, least[nodes]), gap)
 
 
-def without_chords(gap: Array, coupling: Coupling, nonmortar: Boundary, mortar: Boundary) -> Array:
+def without_chords(gap: Array, coupling: Coupling, nonmortar: FacetBlock, mortar: FacetBlock) -> Array:
     """Gaps (n,), 0 where they are no more than what facets leave between two surfaces that are meant to match.
 
     Two different polygons on one curve of curvature kappa are up to ``h^2 kappa / 8`` of both apart, parabolas
@@ -95,7 +95,7 @@ def without_chords(gap: Array, coupling: Coupling, nonmortar: Boundary, mortar: 
     return gap if meant.any() else np.zeros_like(gap)
 
 
-def _chord_sags(side: Boundary) -> Array:
+def _chord_sags(side: FacetBlock) -> Array:
     """Largest ``h^2 kappa / 8`` of the straight facets at each node, positive where the side bulges, (k,)."""
     start, end = (np.searchsorted(side.nodes, side.facets[:, i]) for i in (0, 1))
     leaving = np.full(len(side.nodes), -1)
@@ -115,7 +115,7 @@ def _chord_sags(side: Boundary) -> Array:
     return result
 
 
-def _parabola_sags(side: Boundary) -> Array:
+def _parabola_sags(side: FacetBlock) -> Array:
     """Largest ``h^4 kappa^3 / 512`` of the quadratic facets at each node, positive where the side bulges, (k,)."""
     first, second, middle = (side.points[:, i] for i in range(3))
     length = np.linalg.norm(second - first, axis=1)

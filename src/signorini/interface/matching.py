@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from signorini.arrays import Array, IntArray
-from signorini.fem.boundary import Boundary
+from signorini.fem.facet_block import FacetBlock
 
 # of the tributary length: how far a partner may lie beside the normal
 _BESIDE = 0.05
@@ -82,7 +82,7 @@ def match_nodes(points: Array, nonmortar: Side, mortar: Side, labels: IntArray) 
     return partner, ""
 
 
-def facing_cells(side: Boundary, other: Boundary) -> IntArray:
+def facing_cells(side: FacetBlock, other: FacetBlock) -> IntArray:
     """For every facet of a side the cell of the nearest facet of the other, (m,)."""
     _, nearest = KDTree(other.points.mean(axis=1)).query(side.points.mean(axis=1))
     cells: IntArray = other.cells[nearest]

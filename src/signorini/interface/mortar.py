@@ -10,7 +10,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
-from signorini.fem.boundary import Boundary
+from signorini.fem.facet_block import FacetBlock
 from signorini.fem.line import line_shapes
 from signorini.interface.coupling import Coupling, FacetGaps
 from signorini.interface.dual import dual_functions
@@ -23,8 +23,8 @@ _POINTS = {2: 2, 3: 8}  # of Gauss on every piece, by nodes of the facets; two s
 
 def mortar_coupling(
     points: Array,
-    nonmortar: Boundary,
-    mortar: Boundary,
+    nonmortar: FacetBlock,
+    mortar: FacetBlock,
     overlaps: Overlaps,
     measure: Callable[[Array, IntArray, IntArray], Array],
     where: Where,
@@ -73,7 +73,7 @@ def mortar_coupling(
     return Coupling(nodes=nodes, normal_areas=vectors[nodes], forces=forces, facets=facets)
 
 
-def _facet_gaps(points: Array, nonmortar: Boundary, mortar: Boundary, overlaps: Overlaps) -> FacetGaps:
+def _facet_gaps(points: Array, nonmortar: FacetBlock, mortar: FacetBlock, overlaps: Overlaps) -> FacetGaps:
     """Gaps on the facets that anything is opposite, at the ends and in the middle of every piece."""
     at = np.column_stack([overlaps.low, 0.5 * (overlaps.low + overlaps.high), overlaps.high])
     one = interpolate(points[nonmortar.facets[overlaps.first]], parameter(overlaps.own, at))
@@ -90,7 +90,7 @@ def _facet_gaps(points: Array, nonmortar: Boundary, mortar: Boundary, overlaps: 
     )
 
 
-def _whole(points: Array, side: Boundary) -> Overlaps:
+def _whole(points: Array, side: FacetBlock) -> Overlaps:
     """Every facet of a side, from end to end."""
     ends = points[side.facets]
     chord = ends[:, 1] - ends[:, 0]
@@ -104,8 +104,8 @@ def _whole(points: Array, side: Boundary) -> Overlaps:
 
 def _quadrature(
     points: Array,
-    side: Boundary,
-    other: Boundary,
+    side: FacetBlock,
+    other: FacetBlock,
     overlaps: Overlaps,
     measure: Callable[[Array, IntArray, IntArray], Array],
 ) -> tuple[Array, Array]:
@@ -125,7 +125,7 @@ def _quadrature(
     return at, weights[..., None] * tilted
 
 
-def _duals(side: Boundary, overlaps: Overlaps, at: Array, areas: Array) -> tuple[Array, Array]:
+def _duals(side: FacetBlock, overlaps: Overlaps, at: Array, areas: Array) -> tuple[Array, Array]:
     """``int psi_k`` of both corners of every facet (m, 2), and psi of both times the areas, (p, q, 2, 2)."""
     s = parameter(overlaps.own, at)
     hats = line_shapes(2, s.ravel())[0].reshape(*s.shape, 2)
@@ -136,7 +136,7 @@ def _duals(side: Boundary, overlaps: Overlaps, at: Array, areas: Array) -> tuple
 
 
 def _own_forces(
-    side: Boundary, overlaps: Overlaps, at: Array, vectors: Array, multiplier: Array
+    side: FacetBlock, overlaps: Overlaps, at: Array, vectors: Array, multiplier: Array
 ) -> tuple[sp.csr_array, ...]:
     """``int psi_k N_j n`` of the side itself, two of (n, n): diagonal for linear facets, along which n is constant."""
     if not side.quadratic:
@@ -159,7 +159,7 @@ def _spread(rows: IntArray, columns: IntArray, multiplier: Array, shapes: Array,
     return tuple(sp.csr_array((part.ravel(), (i, j)), shape=(n, n)) for part in values)
 
 
-def _full(points: Array, side: Boundary, measure: Callable[[Array, IntArray, IntArray], Array]) -> Array:
+def _full(points: Array, side: FacetBlock, measure: Callable[[Array, IntArray, IntArray], Array]) -> Array:
     """``int psi_k`` of every node of the mesh if all facets were covered, (n,)."""
     whole = _whole(points, side)
     share, _ = _duals(side, whole, *_quadrature(points, side, side, whole, measure))

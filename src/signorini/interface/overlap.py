@@ -10,7 +10,7 @@ from scipy.spatial import KDTree
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
-from signorini.fem.boundary import Boundary
+from signorini.fem.facet_block import FacetBlock
 from signorini.fem.line import line_shapes
 from signorini.interface.near import near
 from signorini.interface.tilt import normals_between, turns
@@ -69,7 +69,7 @@ def interpolate(points: Array, s: Array) -> Array:
 
 
 def find_overlaps(
-    points: Array, nonmortar: Boundary, mortar: Boundary, search: float | None, where: Where, share: float = 0.5
+    points: Array, nonmortar: FacetBlock, mortar: FacetBlock, search: float | None, where: Where, share: float = 0.5
 ) -> Overlaps:
     """Pieces of facets that look at each other, along the normals between both sides where these are tilted.
 
@@ -105,7 +105,7 @@ def _within(found: Overlaps, distance: Array, search: float, lengths: Array) -> 
     return (found.high - found.low > _EMPTY * lengths[found.first]) & (np.abs(distance) <= search)
 
 
-def _between(nonmortar: Boundary, mortar: Boundary, seen: Overlaps, share: float) -> Array:
+def _between(nonmortar: FacetBlock, mortar: FacetBlock, seen: Overlaps, share: float) -> Array:
     """(m, 2) Outward normals along which the facets of the nonmortar side see what is opposite."""
     own, other = (turns(side.normals, _at_nodes(side)) for side in (nonmortar, mortar))
     np.maximum.at(own, seen.first, other[seen.second])
@@ -114,19 +114,19 @@ def _between(nonmortar: Boundary, mortar: Boundary, seen: Overlaps, share: float
     return normals_between(nonmortar.normals, opposite, own, share)
 
 
-def _at_nodes(side: Boundary) -> Array:
+def _at_nodes(side: FacetBlock) -> Array:
     """(m, k, 2) Mean normals of a side at the nodes of its facets."""
     return side.nodal_normals[np.searchsorted(side.nodes, side.facets)]
 
 
-def search_distance(points: Array, nonmortar: Boundary, mortar: Boundary, search: float | None) -> float:
+def search_distance(points: Array, nonmortar: FacetBlock, mortar: FacetBlock, search: float | None) -> float:
     """How far apart facets can be and still be opposite each other: as given, or half the size of the smaller side."""
     if search is not None:
         return search
     return min(0.5 * float(np.linalg.norm(np.ptp(points[side.nodes], axis=0))) for side in (nonmortar, mortar))
 
 
-def _near(points: Array, nonmortar: Boundary, mortar: Boundary, search: float) -> tuple[IntArray, IntArray]:
+def _near(points: Array, nonmortar: FacetBlock, mortar: FacetBlock, search: float) -> tuple[IntArray, IntArray]:
     """Pairs of facets that may be opposite each other."""
     ends = [points[side.facets[:, :2]] for side in (nonmortar, mortar)]
     centres = [end.mean(axis=1) for end in ends]
@@ -135,7 +135,7 @@ def _near(points: Array, nonmortar: Boundary, mortar: Boundary, search: float) -
 
 
 def _pieces(
-    points: Array, nonmortar: Boundary, mortar: Boundary, first: IntArray, second: IntArray, outward: Array
+    points: Array, nonmortar: FacetBlock, mortar: FacetBlock, first: IntArray, second: IntArray, outward: Array
 ) -> tuple[Overlaps, Array]:
     """Pieces of all pairs, empty ones included, and the distances at their middles along normals (m, 2)."""
     one, two, normal = points[nonmortar.facets[first]], points[mortar.facets[second]], outward[first]
@@ -172,7 +172,7 @@ def _take(found: Overlaps, chosen: BoolArray) -> Overlaps:
 
 
 def _apart(
-    points: Array, nonmortar: Boundary, mortar: Boundary, turned: IntArray, search: float, where: Where
+    points: Array, nonmortar: FacetBlock, mortar: FacetBlock, turned: IntArray, search: float, where: Where
 ) -> InputError:
     """Why no facets are opposite each other."""
     if len(turned):

@@ -12,12 +12,13 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary, boundary
+from signorini.fem.facet_block import FacetBlock
 from signorini.fem.measure import contact_measure, facet_areas, nodal_areas, nodal_contact_areas
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface import spatial
 from signorini.interface.corners import corner_coupling
-from signorini.interface.coupling import Coupling, FacetGaps, picked, point_coupling
+from signorini.interface.coupling import Coupling, FacetGaps, joined_gaps, picked, point_coupling
 from signorini.interface.frames import in_symmetry_planes, symmetric_partners
 from signorini.interface.gaps import initial_gaps, normal_gap, refuse_deep_overlap, resolved, without_chords
 from signorini.interface.matching import facing_cells, match_nodes
@@ -113,12 +114,12 @@ def _on_obstacle(
     if (np.sum(side.nodal_normals * normals, axis=1) >= 0).all():
         raise InputError(f"'{contact.nonmortar}' faces away from {_turned(obstacle)}", where=where)
     if side.quadratic:
-        _, there = obstacle.nearest(side.at.reshape(-1, side.dimension))
-        coupling = corner_coupling(side, facet_areas(model, side), there.reshape(side.at.shape), len(points))
-        on_facets = distance[np.searchsorted(side.nodes, side.facets)]
-        corners, ends = side.facets[:, : side.corners], on_facets[:, : side.corners]
-        low, high = on_facets.min(axis=1), on_facets.max(axis=1)
-        coupling = replace(coupling, facets=FacetGaps(corners=corners, ends=ends, low=low, high=high))
+        there = [obstacle.nearest(b.at.reshape(-1, b.dimension))[1].reshape(b.at.shape) for b in side.blocks]
+        coupling = corner_coupling(side, [facet_areas(model, block) for block in side.blocks], there, len(points))
+        on_facets = [distance[np.searchsorted(side.nodes, block.facets)] for block in side.blocks]
+        coupling = replace(
+            coupling, facets=joined_gaps([_nodal_gaps(*own) for own in zip(side.blocks, on_facets, strict=True)])
+        )
     else:
         areas = nodal_areas(model, side)[:, None] * normals
         coupling = point_coupling(side.nodes, areas, picked(side.nodes, len(points)))
@@ -132,6 +133,17 @@ def _on_obstacle(
         sliding=coupling.forces,
         mirrored=np.zeros(coupling.normals.shape, bool),
         sides=Sides(nonmortar=contact.nonmortar, mortar=str(obstacle), coupling="obstacle"),
+    )
+
+
+def _nodal_gaps(block: FacetBlock, distance: Array) -> FacetGaps:
+    """Gaps of facets that are known at their nodes, (m, k)."""
+    corners = block.corners
+    return FacetGaps(
+        corners=block.facets[:, :corners],
+        ends=distance[:, :corners],
+        low=distance.min(axis=1),
+        high=distance.max(axis=1),
     )
 
 
@@ -170,9 +182,9 @@ def _on_side(
     gap = found = resolved(gap, seen)
     plane = side.dimension == 2
     if how != "nodes" and plane:
-        gap = without_chords(gap, seen, side, mortar)
+        gap = without_chords(gap, seen, *side.blocks, *mortar.blocks)  # one of edges each
     elif how != "nodes":
-        gap = spatial.without_chords(gap, seen, *(spatial.make_surface(points, b.facets) for b in (side, mortar)))
+        gap = spatial.without_chords(gap, seen, *(_surface(points, one) for one in (side, mortar)))
     one = normal_gap(coupling, side.nodes, -side.nodal_normals, np.ones(len(side.nodes)))
     partner = symmetric_partners(space, constraints, coupling.nodes, coupling.normals, mortar.nodes)
     coupling = replace(coupling, forces=_without_removed(seen, coupling.normal_areas, partner))
@@ -200,6 +212,14 @@ def _couple(
     """The coupling of two meshed sides, and its name."""
     if side.dimension == 3:
         return _couple_in_space(space, side, mortar, contact, where, _share(model, side, mortar))
+    (own,), (other,) = side.blocks, mortar.blocks
+    return _couple_in_plane(space, model, own, other, contact, where)
+
+
+def _couple_in_plane(
+    space: Space, model: Model, side: FacetBlock, mortar: FacetBlock, contact: Contact, where: Where
+) -> tuple[Coupling, str]:
+    """The same for edges."""
     points, count = space.mesh.points, len(space.mesh.points)
     linear = not (side.quadratic or mortar.quadratic)
     if contact.coupling == "nodes" or (contact.coupling == "auto" and linear):
@@ -219,7 +239,7 @@ def _couple(
     return mortar_coupling(points, side, mortar, overlaps, partial(contact_measure, model), where), "mortar"
 
 
-def _share(model: Model, *sides: Boundary) -> float:
+def _share(model: Model, *sides: Boundary | FacetBlock) -> float:
     """Of the first of two sides in the stiffness of both, 0 to 1: of the moduli of the cells there."""
     moduli = np.array([body.material.smallest_modulus for body in model.bodies])[model.body_of_cells()]
     first, second = (float(moduli[side.cells].mean()) for side in sides)
@@ -230,9 +250,9 @@ def _couple_in_space(
     space: Space, side: Boundary, mortar: Boundary, contact: Contact, where: Where, share: float
 ) -> tuple[Coupling, str]:
     """The same for faces."""
-    own, other = (spatial.make_surface(space.mesh.points, boundary.facets) for boundary in (side, mortar))
+    own, other = (_surface(space.mesh.points, one) for one in (side, mortar))
     if contact.coupling == "nodes" or (contact.coupling == "auto" and not (side.quadratic or mortar.quadratic)):
-        coupling, reason = spatial.node_pairs(own, other, share=share)
+        coupling, reason = spatial.node_pairs(own, other, share=share, faces=contact.coupling == "auto")
         if coupling is not None:
             return coupling, "nodes"
         if contact.coupling == "nodes":
@@ -240,6 +260,10 @@ def _couple_in_space(
     if contact.coupling == "node-to-segment":
         return spatial.node_to_face(own, other, search=contact.search, where=where), "node-to-segment"
     return spatial.mortar_coupling(own, other, share=share, search=contact.search, where=where), "mortar"
+
+
+def _surface(points: Array, side: Boundary) -> spatial.Surface:
+    return spatial.make_surface(points, *(block.facets for block in side.blocks))
 
 
 def _refuse_no_normal(space: Space, coupling: Coupling, where: Where) -> None:

@@ -8,7 +8,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
-from signorini.fem.boundary import Boundary
+from signorini.fem.facet_block import FacetBlock
 from signorini.fem.line import line_shapes
 from signorini.interface.coupling import Coupling, point_coupling
 from signorini.interface.near import near
@@ -18,7 +18,7 @@ _BESIDE = 1e-9  # of half a facet: how far beyond its end a node still lies on i
 
 
 def node_to_segment(
-    points: Array, nonmortar: Boundary, mortar: Boundary, areas: Array, search: float | None, where: Where
+    points: Array, nonmortar: FacetBlock, mortar: FacetBlock, areas: Array, search: float | None, where: Where
 ) -> Coupling:
     """Every nonmortar node against the point that its normal meets on the mortar side; nodes that meet none are left.
 
@@ -63,7 +63,7 @@ def node_to_segment(
     return point_coupling(nodes, areas[own], _rows(nodes, mortar.facets[facet[best]], values, len(points)))
 
 
-def _near(points: Array, nonmortar: Boundary, mortar: Boundary, search: float) -> tuple[IntArray, IntArray]:
+def _near(points: Array, nonmortar: FacetBlock, mortar: FacetBlock, search: float) -> tuple[IntArray, IntArray]:
     """Nodes (indices into ``nonmortar.nodes``) and facets that may be opposite each other."""
     centres = points[mortar.facets[:, :2]].mean(axis=1)
     return near(points[nonmortar.nodes], centres, mortar.lengths.max(), search)

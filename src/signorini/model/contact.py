@@ -45,7 +45,7 @@ class Contact:
     name : what results call it; the nonmortar side by default
     coupling : how the sides see each other. "nodes": node opposite node, for meshes that match; "mortar": integrals
         over both sides, for any meshes; "node-to-segment": nodes on the facets opposite, simple and less accurate;
-        "auto": nodes where linear meshes match, otherwise mortar
+        "auto": nodes where linear meshes match (in space face opposite face), otherwise mortar
     side : which side is the nonmortar one: "named", as given here, or "coarser", the one with the longer facets (with
         "mortar" its pressures are the smoother ones)
     friction_axis : in space, direction (3,) of the first tangents, projected on the surface, along which the first of

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray, distinct, frozen
+from signorini.arrays import Array, IntArray, among, distinct, frozen
 from signorini.errors import InputError
 
 NODES_PER_PLANE_CELL = {"triangle": 3, "quad": 4, "triangle6": 6, "quad8": 8, "quad9": 9}
@@ -68,6 +69,9 @@ FACES: Mapping[str, tuple[tuple[int, ...], ...]] = {
 
 _NODES_PER_FACET = {2: (2, 3), 3: (3, 4, 6, 8, 9)}
 
+Facets = IntArray | tuple[IntArray, ...]
+"""Of a boundary: an array (m, k) of their nodes; in space a tuple of such arrays where they differ in k."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Mesh:
@@ -84,7 +88,9 @@ class Mesh:
         either orientation: corners, then the middles of the edges, then the centre
     bodies : name to indices of cells
     boundaries : name to (m, 2) or (m, 3) array, the two end nodes of each facet, and the middle one of a quadratic cell
-        (it may be left out); in space (m, 3), (m, 4), (m, 6), (m, 8) or (m, 9): corners, then middle nodes
+        (it may be left out); in space (m, 3), (m, 4), (m, 6), (m, 8) or (m, 9): corners, then middle nodes. Triangles
+        and quadrilaterals together: a tuple of such arrays, one for each number of nodes (:meth:`facets` has a tuple
+        for every boundary)
     nodes : name to node indices, for supports and forces on points
     node_numbers : (n,) what results call the nodes, each once; 1, 2, ... if not given
     cell_numbers : (m,) what they call the cells
@@ -100,12 +106,20 @@ class Mesh:
     ...               bodies={"block": [0]}, boundaries={"bottom": [[0, 1]]})
     >>> square
     Mesh(4 nodes, 1 quad; bodies: block; boundaries: bottom)
+
+    A wedge, whose skin is triangles and quadrilaterals:
+
+    >>> wedge = Mesh(points=[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]],
+    ...              cells={"wedge": [[0, 1, 2, 3, 4, 5]]}, bodies={"wedge": [0]},
+    ...              boundaries={"skin": ([[0, 2, 1], [3, 4, 5]], [[0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]])})
+    >>> [faces.shape for faces in wedge.boundaries["skin"]]
+    [(2, 3), (3, 4)]
     """
 
     points: Array
     cells: Mapping[str, IntArray]
     bodies: Mapping[str, IntArray]
-    boundaries: Mapping[str, IntArray] = field(default_factory=dict)
+    boundaries: Mapping[str, Facets] = field(default_factory=dict)
     nodes: Mapping[str, IntArray] = field(default_factory=dict)
     node_numbers: IntArray | None = None
     cell_numbers: IntArray | None = None
@@ -126,13 +140,11 @@ class Mesh:
                 raise InputError(f"unknown family '{family}'; expected one of {known}", where=("mesh", "cells"))
             cells[family] = self._indices(nodes, len(points), "cells", family, (NODES_PER_CELL[family],))
         object.__setattr__(self, "cells", MappingProxyType(cells))
-        for part, limit, widths in (
-            ("bodies", self.number_of_cells, ()),
-            ("boundaries", len(points), _NODES_PER_FACET[points.shape[1]]),
-            ("nodes", len(points), ()),
-        ):
-            named = {name: self._indices(i, limit, part, name, widths) for name, i in getattr(self, part).items()}
+        for part, limit in (("bodies", self.number_of_cells), ("nodes", len(points))):
+            named = {name: self._indices(i, limit, part, name, ()) for name, i in getattr(self, part).items()}
             object.__setattr__(self, part, MappingProxyType(named))
+        boundaries = {name: self._facets(given, name) for name, given in self.boundaries.items()}
+        object.__setattr__(self, "boundaries", MappingProxyType(boundaries))
         for part, count in (("node_numbers", len(points)), ("cell_numbers", self.number_of_cells)):
             if getattr(self, part) is not None:
                 object.__setattr__(self, part, _numbers(getattr(self, part), count, part))
@@ -150,6 +162,21 @@ class Mesh:
             )
         return array
 
+    def _facets(self, given: Facets, name: str) -> Facets:
+        """One array where all facets have as many nodes, otherwise one for each number of nodes, ascending."""
+        count, widths = len(self.points), _NODES_PER_FACET[self.points.shape[1]]
+        apart = isinstance(given, tuple | list) and len(given) > 0 and np.ndim(given[0]) == 2
+        arrays: Iterable[Any] = given if apart else (given,)
+        parts = [self._indices(part, count, "boundaries", name, widths) for part in arrays]
+        there = [part for part in parts if len(part)] or parts[:1]
+        kinds = [[part for part in there if part.shape[1] == width] for width in widths]
+        merged = [frozen(np.concatenate(own), np.int64) if len(own) > 1 else own[0] for own in kinds if own]
+        if len(merged) > 1 and widths == _NODES_PER_FACET[2]:
+            raise InputError(
+                "holds edges with and without a middle node; expected one kind", where=("mesh", "boundaries", name)
+            )
+        return merged[0] if len(merged) == 1 else tuple(merged)
+
     @property
     def number_of_cells(self) -> int:
         """Cells of all families together."""
@@ -165,17 +192,20 @@ class Mesh:
         """What results call the cells, (m,)."""
         return np.arange(1, self.number_of_cells + 1) if self.cell_numbers is None else self.cell_numbers
 
+    def facets(self, name: str) -> tuple[IntArray, ...]:
+        """The facets of a boundary, an array (m, k) for each number k of nodes that they have."""
+        found = self.boundaries[name]
+        return found if isinstance(found, tuple) else (found,)
+
     def nodes_of(self, name: str) -> IntArray:
         """The sorted nodes of a boundary or node set."""
-        found = self.boundaries[name] if name in self.boundaries else self.nodes[name]
-        return np.unique(found)
+        found = self.facets(name) if name in self.boundaries else (self.nodes[name],)
+        return np.unique(np.concatenate([part.ravel() for part in found]))
 
     def bounds_nothing(self, name: str) -> bool:
         """Whether no node of a boundary belongs to a cell: a line or surface of its own, for a rigid obstacle."""
-        used = np.zeros(len(self.points), bool)
-        for nodes in self.cells.values():
-            used[nodes] = True
-        return not used[self.boundaries[name]].any()
+        used = among(self.cells.values(), len(self.points))
+        return not used[self.nodes_of(name)].any()
 
     def __repr__(self) -> str:
         families = ", ".join(f"{len(n)} {f}{'s' if len(n) != 1 else ''}" for f, n in self.cells.items())
@@ -223,12 +253,14 @@ def join(meshes: Mapping[str, Mesh]) -> Mesh:
                     count += len(nodes)
                 start += len(nodes)
     bodies: dict[str, IntArray] = {}
-    boundaries: dict[str, IntArray] = {}
+    boundaries: dict[str, Facets] = {}
     nodes_named: dict[str, IntArray] = {}
     for (key, mesh), shift, numbers in zip(meshes.items(), point_shift, cell_number, strict=False):
         for name, index in mesh.bodies.items():
             bodies[key if len(mesh.bodies) == 1 else f"{key}.{name}"] = numbers[index]
-        boundaries |= {f"{key}.{name}": facets + shift for name, facets in mesh.boundaries.items()}
+        boundaries |= {
+            f"{key}.{name}": tuple(facets + shift for facets in mesh.facets(name)) for name in mesh.boundaries
+        }
         nodes_named |= {f"{key}.{name}": index + shift for name, index in mesh.nodes.items()}
     return Mesh(
         points=np.vstack([mesh.points for mesh in meshes.values()]),

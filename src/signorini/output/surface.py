@@ -29,10 +29,10 @@ def write_surfaces(model: Model, results: Sequence[ContactResult], path: Path) -
     start = np.cumsum([0, *(len(result.node) for result in results)])
     blocks, owner = [], []
     for i, result in enumerate(results):
-        faces = contact_faces(model, result)
-        if len(faces):
-            blocks.append((_KINDS[faces.shape[1]], start[i] + faces))
-            owner.append(np.full(len(faces), i))
+        for faces in contact_faces(model, result):
+            if len(faces):
+                blocks.append((_KINDS[faces.shape[1]], start[i] + faces))
+                owner.append(np.full(len(faces), i))
 
     def joined(values: list[Any]) -> Any:
         return np.concatenate(values)

@@ -177,7 +177,7 @@ class ResultFolder:
 
         found, last = meshio.read(self._file("contact.vtu")), self.summary["steps"][-1]
         data, patches = found.point_data, []
-        faces = np.concatenate([padded_faces(block.data) for block in found.cells])
+        faces = padded_faces(*(block.data for block in found.cells))
         owner = np.concatenate(found.cell_data["contact"])
         for i, contact in enumerate(last["contacts"]):
             nodes, index = np.unique(faces[owner == i], return_inverse=True)

@@ -61,7 +61,7 @@ def patches_of(history: History, step: StepResult) -> list[Patch]:
             contact=result.name,
             step=step.name,
             points=result.points,
-            faces=padded_faces(contact_faces(history.model, result)),
+            faces=padded_faces(*contact_faces(history.model, result)),
             pressure=result.pressure,
             shear=result.shear,
             status=status_codes(result),
@@ -70,9 +70,9 @@ def patches_of(history: History, step: StepResult) -> list[Patch]:
     ]
 
 
-def padded_faces(faces: IntArray) -> IntArray:
-    """Faces (m, 3) or (m, 4) as quadrangles, (m, 4): a triangle has its last node twice."""
-    return faces if faces.shape[1] == 4 else faces[:, [0, 1, 2, 2]]
+def padded_faces(*kinds: IntArray) -> IntArray:
+    """Faces (m, 3) and (m, 4) as quadrangles, (m, 4): a triangle has its last node twice."""
+    return np.concatenate([faces[:, [0, 1, 2, -1]] for faces in kinds])
 
 
 def draw_patches(patches: Sequence[Patch], title: str) -> Figure:

@@ -10,15 +10,16 @@ from signorini.model.model import Model
 from signorini.solution.results import OPEN, SLIP, STICK, ContactResult
 
 
-def contact_faces(model: Model, result: ContactResult) -> IntArray:
-    """Corners of the nonmortar faces as indices into the nodes of a contact, (m, 3 or 4)."""
-    given = model.mesh.boundaries[result.nonmortar]
-    corners = given[:, : 3 if given.shape[1] in (3, 6) else 4]
+def contact_faces(model: Model, result: ContactResult) -> tuple[IntArray, ...]:
+    """Corners of the nonmortar faces as indices into the nodes of a contact, (m, 3 or 4), by kinds of faces."""
     order = np.argsort(result.node)
-    at = np.searchsorted(result.node, corners, sorter=order)
-    at = np.minimum(at, len(order) - 1)
-    index: IntArray = order[at]
-    return index[(result.node[index] == corners).all(axis=1)]
+    found = []
+    for given in model.mesh.facets(result.nonmortar):
+        corners = given[:, : 3 if given.shape[1] in (3, 6) else 4]
+        at = np.searchsorted(result.node, corners, sorter=order)
+        index: IntArray = order[np.minimum(at, len(order) - 1)]
+        found.append(index[(result.node[index] == corners).all(axis=1)])
+    return tuple(found)
 
 
 def status_codes(result: ContactResult) -> IntArray:

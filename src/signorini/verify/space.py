@@ -113,7 +113,7 @@ def _mindlin(*, spacing: float, shift: float) -> Iterator[Check]:
     ]
     model = equal_half_spaces(steps, spacing=spacing)
     history = solve(model)
-    contact, top = history.last.contacts[0], np.unique(model.mesh.boundaries["upper.top"])[0]
+    contact, top = history.last.contacts[0], model.mesh.nodes_of("upper.top")[0]
     before, little, much = (step.displacement[top, 0] for step in history.steps)
     Q, most = _PULL * EQUAL.most, EQUAL.friction * EQUAL.normal.peak_pressure
     r, c = np.hypot(*contact.points.T[:2]), EQUAL.stick_radius(Q)

@@ -315,11 +315,11 @@ def test_one_load_on_linear_and_quadratic_elements(tmp_path: Path) -> None:
         np.testing.assert_allclose(step.displacement[top, 1], -0.02, rtol=1e-12)
 
 
-def test_a_contact_surface_is_of_one_kind(tmp_path: Path) -> None:
+def test_a_contact_surface_is_of_one_order(tmp_path: Path) -> None:
     path = tmp_path / "deck.inp"
     pair = "*SURFACE INTERACTION,NAME=I\n*CONTACT PAIR,INTERACTION=I\nS,S\n"
     path.write_text(f"{MIXED}{pair}*STEP\n*STATIC\n*END STEP\n")
-    with pytest.raises(DeckError, match=r"deck.inp:\d+: surface 'S' has faces of 2 kinds"):
+    with pytest.raises(DeckError, match=r"deck.inp:\d+: surface 'S' has faces of linear and of quadratic elements"):
         load(path)
 
 

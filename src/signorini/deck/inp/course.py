@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -154,10 +154,10 @@ class Course:
         return self._amplitudes.index(amplitude)
 
 
-def unique_label(label: str, taken: Mapping[str, object]) -> str:
+def unique_label(label: str, taken: Container[str]) -> str:
     """The label, or with a number behind it if another bears it.
 
-    >>> unique_label("top", {"top": 0})
+    >>> unique_label("top", {"top"})
     'top (2)'
     """
     number, name = 1, label

@@ -120,11 +120,8 @@ def _side(item: Placed, row: Row, i: int, surfaces: Surfaces, edges: Edges) -> s
     keys = surfaces.keys[name.upper()]
     if not len(keys):
         raise row.error(f"surface '{name}' has no edge of an element")
-    kinds = len(edges.by_kind(keys))
-    if kinds > 1:
-        raise row.error(
-            f"surface '{name}' has faces of {kinds} kinds, by corners or order; expected one kind, or a pair for each"
-        )
+    if len(edges.facets(keys)) > 1:
+        raise row.error(f"surface '{name}' has faces of linear and of quadratic elements; expected a pair for each")
     return name
 
 

@@ -18,13 +18,13 @@ class Places:
 
     Attributes
     ----------
-    boundaries : name to (m, k) nodes of edges or faces
+    boundaries : name to nodes of edges or faces, as a mesh has them
     nodes : name to sorted nodes; no name is that of a boundary
     """
 
     def __init__(self, edges: Edges, surfaces: Surfaces, sets: Sets) -> None:
         self._edges = edges
-        self.boundaries: dict[str, IntArray] = dict(surfaces.facets(edges))
+        self.boundaries: dict[str, tuple[IntArray, ...]] = dict(surfaces.facets(edges))
         self.nodes: dict[str, IntArray] = {}
         self._by_nodes: dict[bytes, str] = {}
         for name in sets.names:
@@ -38,21 +38,21 @@ class Places:
         """A name for sorted nodes: that of the set ``label`` if it has just these."""
         key = label.upper().encode() + nodes.tobytes()
         if key not in self._by_nodes:
-            name = unique_label(label, self.boundaries | self.nodes)
+            name = unique_label(label, {*self.boundaries, *self.nodes})
             self.nodes[name] = nodes
             self._by_nodes[key] = name
         return self._by_nodes[key]
 
     def unused(self, label: str, others: Sequence[str]) -> str:
         """The label, or with a number behind it where a place or one of the others bears it."""
-        return unique_label(label, self.boundaries | self.nodes | dict.fromkeys(others))
+        return unique_label(label, {*self.boundaries, *self.nodes, *others})
 
     def at_edges(self, keys: IntArray, label: str) -> list[str]:
-        """Names for edges, one for each kind of face: that of the surface ``label`` if it has just these."""
+        """Names for edges, one for each order of elements: that of the surface ``label`` if it has just these."""
         names = []
-        for ends in self._edges.facets(keys):
-            known = self.boundaries.get(label)
-            same = known is not None and np.array_equal(known, ends)
-            names.append(label if same else unique_label(label, self.boundaries | self.nodes))
-            self.boundaries[names[-1]] = ends
+        for kinds in self._edges.facets(keys):
+            known = self.boundaries.get(label, ())
+            same = len(known) == len(kinds) and all(map(np.array_equal, known, kinds))
+            names.append(label if same else unique_label(label, {*self.boundaries, *self.nodes}))
+            self.boundaries[names[-1]] = kinds
         return names

@@ -47,15 +47,14 @@ class Edges:
         self.outer = np.zeros(len(self.ends), bool)
         self.outer[there] = ~shared
 
-    def facets(self, keys: IntArray) -> list[IntArray]:
-        """Nodes of faces, (m, k), apart by kind: the number of their nodes, and the order of their elements."""
-        parts = [self.ends[own] for own in self.by_kind(keys)]
-        return [part[:, : int((part[0] >= 0).sum())] for part in parts]
-
-    def by_kind(self, keys: IntArray) -> list[IntArray]:
-        """Faces apart by the number of their nodes, and in the plane by the order of their elements."""
-        kinds = 2 * (self.ends[keys] >= 0).sum(axis=1) + self._quadratic[keys // FACES]
-        return [keys[kinds == kind] for kind in distinct(kinds)]
+    def facets(self, keys: IntArray) -> list[tuple[IntArray, ...]]:
+        """Nodes of faces, (m, k) for each number k of nodes; apart by the order of their elements."""
+        count, quadratic = (self.ends[keys] >= 0).sum(axis=1), self._quadratic[keys // FACES]
+        return [
+            tuple(self.ends[keys[own & (count == k)], :k] for k in distinct(count[own]).tolist())
+            for own in (~quadratic, quadratic)
+            if own.any()
+        ]
 
     def keys(self, elements: IntArray, face: str, at: Row, name: str) -> IntArray:
         """Keys of one face, as ``S2`` or ``P2``, of elements."""
@@ -108,8 +107,8 @@ class Surfaces:
                 return self._spelled[name]
         raise at.error(one_of(word, self._spelled.values(), "surface"))
 
-    def facets(self, edges: Edges) -> Mapping[str, IntArray]:
-        """Nodes of the faces, (m, k), of every surface that has any, all with the same number of nodes."""
+    def facets(self, edges: Edges) -> Mapping[str, tuple[IntArray, ...]]:
+        """Nodes of the faces of every surface that has any, all of linear or all of quadratic elements."""
         found = {name: edges.facets(self.keys[key]) for key, name in self._spelled.items()}
         return {name: parts[0] for name, parts in found.items() if len(parts) == 1}
 

@@ -10,7 +10,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
-from signorini.interface.coupling import Coupling, FacetGaps
+from signorini.interface.coupling import Coupling, FacetGaps, joined_gaps
 from signorini.interface.dual import dual_functions
 from signorini.interface.spatial.candidates import near_pairs, nearest_layers
 from signorini.interface.spatial.clip import Side, integrate, overlap_areas, spread_gaps
@@ -100,7 +100,7 @@ def mortar_coupling(
             where=where,
         )
     forces = tuple(sp.csr_array((one - two)[nodes]) for one, two in zip(keeps, gives, strict=True))
-    return Coupling(nodes=nodes, normal_areas=vectors[nodes], forces=forces, facets=_joined(gaps))
+    return Coupling(nodes=nodes, normal_areas=vectors[nodes], forces=forces, facets=joined_gaps(gaps))
 
 
 def _corners(block: Block) -> Array:
@@ -163,17 +163,6 @@ def _facet_gaps(block: Block, overlaps: list[_Overlaps], normals: Array) -> Face
         spread_gaps(_side(block), _side(part.mortar), normals, part.i, part.j, part.chosen, ends, low, high)
     seen = low <= high
     return FacetGaps(corners=corners[seen], ends=ends[seen], low=low[seen], high=high[seen])
-
-
-def _joined(gaps: list[FacetGaps]) -> FacetGaps:
-    """Of all blocks; a triangle names its first corner twice."""
-    first = [np.arange(4) % part.corners.shape[1] for part in gaps]
-    return FacetGaps(
-        corners=np.concatenate([part.corners[:, own] for part, own in zip(gaps, first, strict=True)]),
-        ends=np.concatenate([part.ends[:, own] for part, own in zip(gaps, first, strict=True)]),
-        low=np.concatenate([part.low for part in gaps]),
-        high=np.concatenate([part.high for part in gaps]),
-    )
 
 
 def _block_integrals(

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import scipy.sparse as sp
 
@@ -59,12 +61,16 @@ def node_to_face(nonmortar: Surface, mortar: Surface, *, search: float | None = 
     return point_coupling(nodes[met], areas, sp.csr_array((picked(nodes, n) - gives)[met]))
 
 
-def node_pairs(nonmortar: Surface, mortar: Surface, *, share: float = 0.5) -> tuple[Coupling | None, str]:
+def node_pairs(
+    nonmortar: Surface, mortar: Surface, *, share: float = 0.5, faces: bool = False
+) -> tuple[Coupling | None, str]:
     """Node opposite node, where two linear sides match; otherwise None and why they do not, in words.
 
     Parameters
     ----------
     share : of the nonmortar side in the stiffness of both, see :mod:`signorini.interface.tilt`
+    faces : whether faces have to be opposite faces too: where a quadrilateral is opposite two triangles, or triangles
+        are cut along the other diagonal, uniform pressure does not pass from node to node
     """
     if not (nonmortar.linear and mortar.linear):
         return None, "quadratic faces have no pairs at their middle nodes; expected linear faces"
@@ -72,10 +78,30 @@ def node_pairs(nonmortar: Surface, mortar: Surface, *, share: float = 0.5) -> tu
     if reason:
         return None, reason
     nodes, n = nonmortar.nodes, len(nonmortar.points)
+    if faces and not _same_faces(nonmortar, mortar, partner):
+        return None, "nodes are opposite nodes, but not faces opposite faces; expected meshes that match"
     relative = sp.csr_array(picked(nodes, n) - picked(partner, n))
     opposite = mortar.nodal_normals[np.searchsorted(mortar.nodes, partner)]
     areas = areas_between(-nonmortar.nodal_normal_areas, nonmortar.nodal_normals, opposite, share)
     return point_coupling(nodes, areas, relative), ""
+
+
+def _same_faces(nonmortar: Surface, mortar: Surface, partner: IntArray) -> bool:
+    """Whether the faces of one side are those of the other with every node replaced by its partner."""
+    place = np.zeros(len(nonmortar.points), np.int64)
+    place[nonmortar.nodes] = partner
+    for count in (3, 4):
+        one = [place[block.faces] for block in nonmortar.blocks if block.nodes_a_face == count]
+        other = [block.faces for block in mortar.blocks if block.nodes_a_face == count]
+        if bool(one) != bool(other) or (one and not np.array_equal(_ordered(one), _ordered(other))):
+            return False
+    return True
+
+
+def _ordered(faces: Sequence[IntArray]) -> IntArray:
+    """Faces in an order, and with their nodes in one, that depends on which they are alone."""
+    rows = np.sort(np.concatenate(faces), axis=1)
+    return rows[np.lexsort(rows.T)]
 
 
 def _nearest(points: Array, normals: Array, block: Block, search: float, n: int) -> tuple[Array, sp.csr_array]:

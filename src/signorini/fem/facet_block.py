@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Facets of one kind, flat or curved: which way is out, how large they are, and integrals over them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.fem.faces import CORNERS
+from signorini.fem.facets import facet_nodes, facet_rule, facet_shapes
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FacetBlock:
+    """Facets with one number of nodes: edges in the plane, triangles or quadrilaterals in space.
+
+    Attributes
+    ----------
+    facets : (m, k) nodes. In the plane first and second end, the body on the left of the way between them, and the
+        middle; in space corners, anticlockwise seen from outside, then middles
+    points : (m, k, d) their coordinates, length
+    cells : (m,) numbers of the cells that they bound
+    """
+
+    facets: IntArray
+    points: Array
+    cells: IntArray
+
+    @cached_property
+    def nodes(self) -> IntArray:
+        """(n,) Sorted nodes."""
+        return np.unique(self.facets)
+
+    @property
+    def dimension(self) -> int:
+        """Of space."""
+        return int(self.points.shape[2])
+
+    @property
+    def corners(self) -> int:
+        """Corners of a facet; its other nodes are in the middle of an edge, or of the facet."""
+        return 2 if self.dimension == 2 else CORNERS[self.facets.shape[1]]
+
+    @property
+    def quadratic(self) -> bool:
+        """Whether the facets have nodes in the middle."""
+        return self.facets.shape[1] > self.corners
+
+    @cached_property
+    def shapes(self) -> tuple[Array, Array]:
+        """Shape functions of a facet at its quadrature points (q, k), and their derivatives (q, k, d - 1)."""
+        return facet_shapes(self.dimension, self.facets.shape[1], self._rule[0])
+
+    @cached_property
+    def at(self) -> Array:
+        """Quadrature points of every facet, (m, q, d)."""
+        return np.einsum("qa,mai->mqi", self.shapes[0], self.points)
+
+    @cached_property
+    def outward(self) -> Array:
+        """Outward normal at every quadrature point times its share of the length or area, (m, q, d)."""
+        return _outward(self.points, self.shapes[1]) * self._rule[1][:, None]
+
+    @cached_property
+    def weights(self) -> Array:
+        """Length or area that belongs to every quadrature point, (m, q)."""
+        return np.linalg.norm(self.outward, axis=-1)
+
+    @property
+    def lengths(self) -> Array:
+        """Of every facet, (m,); in space the side of a square of its area."""
+        total: Array = self.weights.sum(axis=1)
+        return total if self.dimension == 2 else np.sqrt(total)
+
+    @cached_property
+    def normals(self) -> Array:
+        """Outward unit normal of every facet, of a curved one the mean, (m, d)."""
+        total = self.outward.sum(axis=1)
+        normals: Array = total / np.linalg.norm(total, axis=1, keepdims=True) + 0.0
+        return normals
+
+    def nodal(self, integrand: Array) -> Array:
+        """``int N_k f`` at every node, (k, ...) in the order of ``nodes``.
+
+        Parameters
+        ----------
+        integrand : (m, q, ...) f at the quadrature points times what belongs to them, ``weights`` in the plane
+        """
+        shares = np.einsum("qa,mq...->ma...", self.shapes[0], integrand)
+        result = np.zeros((len(self.nodes), *integrand.shape[2:]))
+        np.add.at(result, np.searchsorted(self.nodes, self.facets), shares)
+        return result
+
+    @property
+    def nodal_lengths(self) -> Array:
+        """Tributary length of every node, (n,); in space the side of a square of its area."""
+        total = self.nodal(self.weights)
+        return total if self.dimension == 2 else np.sqrt(np.maximum(total, 0.0))
+
+    @property
+    def nodal_normals(self) -> Array:
+        """Outward unit normals at the nodes, averaged with the sizes of their facets, (n, d)."""
+        normals: Array = self.nodal_spans / np.linalg.norm(self.nodal_spans, axis=1, keepdims=True)
+        return normals
+
+    @cached_property
+    def nodal_spans(self) -> Array:
+        """Outward unit normals of the facets at the nodes times their sizes, summed, (n, d)."""
+        count = self.facets.shape[1]
+        own = _outward(self.points, facet_shapes(self.dimension, count, facet_nodes(self.dimension, count))[1])
+        own *= (self.weights.sum(axis=1)[:, None] / np.linalg.norm(own, axis=-1))[..., None]
+        total = np.zeros((len(self.nodes), self.dimension))
+        np.add.at(total, np.searchsorted(self.nodes, self.facets), own)
+        return total
+
+    @property
+    def places(self) -> Array:
+        """Reference coordinates of the quadrature points, (q, d - 1)."""
+        return self._rule[0]
+
+    @property
+    def _rule(self) -> tuple[Array, Array]:
+        return facet_rule(self.dimension, self.facets.shape[1])
+
+
+def _outward(points: Array, slopes: Array) -> Array:
+    """Outward normals of facets (m, k, d) from the derivatives (q, k, d - 1) of their shape functions, (m, q, d)."""
+    along = np.einsum("qas,mai->mqsi", slopes, points)
+    if points.shape[-1] == 2:
+        return np.stack([along[..., 0, 1], -along[..., 0, 0]], axis=-1)
+    return np.cross(along[..., 0, :], along[..., 1, :])
