@@ -148,6 +148,22 @@ def test_a_curve_of_several_groups_is_in_all_of_them(tmp_path, text):
     assert sorted(mesh.boundaries["top"].tolist()) == [[0, 1], [1, 4], [2, 3]]
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        VERSION_2.replace("$Elements\n6\n", "$Elements\n7\n7 3 2 5 1 1 2 3 4\n"),
+        VERSION_4.replace("1 0 0 0 1 1 0 1 4 0", "1 0 0 0 1 1 0 2 4 5 0"),
+    ],
+    ids=["msh 2.2", "msh 4.1"],
+)
+def test_a_cell_of_several_groups_is_there_once(tmp_path, text):
+    """Version 2 writes it once for every group, which would make the body twice as stiff."""
+    mesh = read_mesh(write(tmp_path, text))
+    square, both = sorted(mesh.bodies.values(), key=len)
+    assert (mesh.number_of_cells, len(square), len(both)) == (2, 1, 2)
+    assert mesh.cells["quad"].tolist() == [[0, 1, 2, 3]]
+
+
 def test_a_missing_file(tmp_path):
     with pytest.raises(InputError, match=r"mesh.file: there is no file '.*none.msh'"):
         read_mesh(tmp_path / "none.msh")

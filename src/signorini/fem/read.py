@@ -245,4 +245,21 @@ def _named_parts(found: meshio.Mesh, path: Path) -> tuple[dict[str, dict[str, In
                 named[family][key.removeprefix(NAMED)].append(counts[family] + np.flatnonzero(on[number]))
         cells[family].append(np.asarray(block.data, np.int64))
         counts[family] += len(block.data)
-    return defaultdict(dict, {f: {n: np.concatenate(p) for n, p in parts.items()} for f, parts in named.items()}), cells
+    parts = defaultdict(dict, {f: {n: np.concatenate(p) for n, p in own.items()} for f, own in named.items()})
+    if "gmsh:physical" in found.cell_data:
+        for family in cells:
+            _merge(cells[family], parts[family])
+    return parts, cells
+
+
+def _merge(blocks: list[IntArray], named: dict[str, IntArray]) -> None:
+    """Make one of cells that are written once for every group that they are in, as Gmsh 2 does; in place."""
+    cells = np.vstack(blocks)
+    factors = np.random.default_rng(0).integers(1, 2**62, cells.shape[1]) * 2 + 1
+    _, first, twin = np.unique(cells @ factors, return_index=True, return_inverse=True)  # sums of products that wrap
+    if len(first) == len(cells) or not np.array_equal(cells, cells[first[twin]]):
+        return
+    kept = np.sort(first)
+    blocks[:] = [cells[kept]]
+    for name, index in named.items():
+        named[name] = np.unique(np.searchsorted(kept, first[twin[index]]))
