@@ -134,6 +134,20 @@ def test_lines_alone_are_no_mesh(tmp_path):
         read_mesh(write(tmp_path, text + "\n"))
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        VERSION_2.replace("$Elements\n6\n", "$Elements\n8\n7 1 2 2 1 1 2\n8 1 2 2 1 2 5\n"),
+        VERSION_4.replace("1 0 0 0 2 0 0 1 1 0", "1 0 0 0 2 0 0 2 1 2 0"),
+    ],
+    ids=["msh 2.2", "msh 4.1"],
+)
+def test_a_curve_of_several_groups_is_in_all_of_them(tmp_path, text):
+    mesh = read_mesh(write(tmp_path, text))
+    assert sorted(mesh.boundaries["bottom"].tolist()) == [[0, 1], [1, 4]]
+    assert sorted(mesh.boundaries["top"].tolist()) == [[0, 1], [1, 4], [2, 3]]
+
+
 def test_a_missing_file(tmp_path):
     with pytest.raises(InputError, match=r"mesh.file: there is no file '.*none.msh'"):
         read_mesh(tmp_path / "none.msh")

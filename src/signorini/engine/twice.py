@@ -66,6 +66,7 @@ def _side(model: Model, on: str | Obstacle, facets: dict[str, Side]) -> Side:
     if not isinstance(on, str) or on not in model.mesh.boundaries:
         return on
     if on not in facets:
-        rows = np.sort(model.mesh.boundaries[on], axis=1)
-        facets[on] = np.unique(rows, axis=0).tobytes()
+        given = model.mesh.boundaries[on]
+        kinds = given if isinstance(given, tuple) else (given,)
+        facets[on] = b"".join(np.unique(np.sort(rows, axis=1), axis=0).tobytes() for rows in kinds)
     return facets[on]

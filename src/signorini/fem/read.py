@@ -233,13 +233,13 @@ def _named_parts(found: meshio.Mesh, path: Path) -> tuple[dict[str, dict[str, In
         index = counts[family] + np.arange(len(block.data))
         for tag in np.unique(tag_of_cell[tag_of_cell > 0]):
             name = tags.get((block.dim, int(tag)), f"{_DIMENSIONS[block.dim]} {tag}")
-            named[family][name].append(index[tag_of_cell == tag])
-        if "gmsh:physical" not in found.cell_data:
-            for name, members in found.cell_sets.items():
-                if name.startswith(_OF_GMSH):  # what entities of the geometry bound
-                    continue
-                if members[number] is not None and len(members[number]):
-                    named[family][name].append(counts[family] + np.asarray(members[number], int))
+            if name not in found.cell_sets:  # of an entity in several groups sets name all, the tag only the first
+                named[family][name].append(index[tag_of_cell == tag])
+        for name, members in found.cell_sets.items():
+            if name.startswith(_OF_GMSH):  # what entities of the geometry bound
+                continue
+            if members[number] is not None and len(members[number]):
+                named[family][name].append(counts[family] + np.asarray(members[number], int))
         for key, on in found.cell_data.items():
             if key.startswith(NAMED) and on[number].any():
                 named[family][key.removeprefix(NAMED)].append(counts[family] + np.flatnonzero(on[number]))

@@ -7,10 +7,10 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.friction.law import split
+from signorini.friction.posed import PosedContact
 from signorini.friction.problem import CoulombProblem
 
-FARTHEST = 1e9
-"""Motions beyond this many times the data are a body that has left, not a solution."""
+_FARTHEST = 1e9  # times the data: motions beyond are a body that has left, not a solution
 
 
 def certify(problem: CoulombProblem, y: Array, *, b: Array | None = None, origin: Array | None = None) -> float:
@@ -38,8 +38,15 @@ def certify(problem: CoulombProblem, y: Array, *, b: Array | None = None, origin
     if not np.isfinite(y).all():
         return np.inf
     h, r = split(y, problem.bound)
+    return imbalance(problem, h, r, b=b, origin=origin)
+
+
+def imbalance(
+    problem: PosedContact, h: Array, r: Array, *, b: Array | None = None, origin: Array | None = None
+) -> float:
+    """What motions h and forces r, (d n,) each, lack of equilibrium, relative to the data; see `certify`."""
     unit = problem.scale if problem.scale > 0 else 1.0
-    if np.abs(h).max(initial=0.0) > FARTHEST * unit:
+    if np.abs(h).max(initial=0.0) > _FARTHEST * unit:
         return np.inf
     load, whole = problem.b if b is None else b, h if origin is None else h + origin
     misfit = np.abs(problem.misfit(whole, r, load)).max(initial=0.0) / unit

@@ -12,6 +12,7 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.facet_block import FacetBlock
 from signorini.fem.line import line_shapes
+from signorini.interface.near import near
 from signorini.interface.tilt import normals_between, turns
 
 FACING = -0.05  # cosine between outward normals: from here on two facets look at each other
@@ -130,13 +131,7 @@ def _near(points: Array, nonmortar: FacetBlock, mortar: FacetBlock, search: floa
     ends = [points[side.facets[:, :2]] for side in (nonmortar, mortar)]
     centres = [end.mean(axis=1) for end in ends]
     radii = [side.lengths / 2.0 for side in (nonmortar, mortar)]
-    tree = KDTree(centres[1])
-    closest, _ = tree.query(centres[0])
-    # along the normal it can be twice as far as the closest, which is 60 degrees aside
-    reach = radii[0] + radii[1].max() + np.minimum(2.0 * closest, search)
-    lists = tree.query_ball_point(centres[0], reach * (1.0 + 1e-9), return_sorted=True)
-    count = np.array([len(found) for found in lists], int)
-    return np.repeat(np.arange(len(count)), count), np.concatenate([np.asarray(found, int) for found in lists])
+    return near(centres[0], centres[1], radii[0] + radii[1].max(), search)
 
 
 def _pieces(

@@ -5,13 +5,13 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.spatial import KDTree
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.facet_block import FacetBlock
 from signorini.fem.line import line_shapes
 from signorini.interface.coupling import Coupling, point_coupling
+from signorini.interface.near import near
 from signorini.interface.overlap import FACING, interpolate, parameter, search_distance
 
 _BESIDE = 1e-9  # of half a facet: how far beyond its end a node still lies on it
@@ -66,13 +66,7 @@ def node_to_segment(
 def _near(points: Array, nonmortar: FacetBlock, mortar: FacetBlock, search: float) -> tuple[IntArray, IntArray]:
     """Nodes (indices into ``nonmortar.nodes``) and facets that may be opposite each other."""
     centres = points[mortar.facets[:, :2]].mean(axis=1)
-    tree = KDTree(centres)
-    own = points[nonmortar.nodes]
-    closest, _ = tree.query(own)
-    reach = mortar.lengths.max() + np.minimum(2.0 * closest, search)
-    lists = tree.query_ball_point(own, reach, return_sorted=True)
-    count = np.array([len(found) for found in lists], int)
-    return np.repeat(np.arange(len(count)), count), np.concatenate([np.asarray(found, int) for found in lists])
+    return near(points[nonmortar.nodes], centres, mortar.lengths.max(), search)
 
 
 def _rows(nodes: IntArray, others: IntArray, values: Array, n: int) -> sp.csr_array:

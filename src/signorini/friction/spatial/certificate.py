@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, IntArray
-from signorini.friction.certificate import FARTHEST
+from signorini.friction.certificate import imbalance
 from signorini.friction.spatial.law import split
 from signorini.friction.spatial.problem import SpatialProblem
 from signorini.friction.spatial.section import outermost, project
@@ -31,14 +31,7 @@ def certify(problem: SpatialProblem, y: Array) -> float:
     """
     if not np.isfinite(y).all():
         return np.inf
-    h, r = split(problem, y)
-    unit = problem.scale if problem.scale > 0 else 1.0
-    if np.abs(h).max(initial=0.0) > FARTHEST * unit:
-        return np.inf
-    misfit = np.abs(problem.misfit(h, r)).max(initial=0.0) / unit
-    R = problem.image.R
-    resultants = np.abs(R.T @ (r + problem.b)) / (unit * np.abs(R).sum(axis=0))
-    return float(max(misfit, resultants.max(initial=0.0)))
+    return imbalance(problem, *split(problem, y))
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.interface.near import near
 
 FACING = -0.05
 """Cosine between outward normals from which on two faces look at each other."""
@@ -26,14 +26,7 @@ def near_pairs(first: Array, second: Array, search: float) -> tuple[IntArray, In
     """
     centre_1, radius_1, normal_1 = _bounds(first)
     centre_2, radius_2, normal_2 = _bounds(second)
-    tree = KDTree(centre_2)
-    closest, _ = tree.query(centre_1)
-    # along the normal it can be twice as far as the closest, which is 60 degrees aside
-    reach = radius_1 + radius_2.max() + np.minimum(2.0 * closest, search)
-    lists = tree.query_ball_point(centre_1, reach * (1.0 + 1e-9), return_sorted=True)
-    count = np.array([len(found) for found in lists], int)
-    i = np.repeat(np.arange(len(count)), count)
-    j = np.concatenate([np.asarray(found, int) for found in lists])
+    i, j = near(centre_1, centre_2, radius_1 + radius_2.max(), search)
     across = centre_2[j] - centre_1[i]
     height = np.sum(across * normal_1[i], axis=1)
     beside = np.sqrt(np.maximum(np.sum(across**2, axis=1) - height**2, 0.0))

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.spatial import KDTree
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.faces import CORNERS
 from signorini.interface.coupling import Coupling, picked, point_coupling
 from signorini.interface.matching import match_nodes
+from signorini.interface.near import near
 from signorini.interface.spatial.candidates import FACING
 from signorini.interface.spatial.faces import shapes_at
 from signorini.interface.spatial.projection import meet
@@ -129,11 +129,7 @@ def _near(points: Array, block: Block, search: float) -> tuple[IntArray, IntArra
     """Pairs of a point and a face that it may meet."""
     centres = block.points.mean(axis=1)
     radius = np.linalg.norm(block.points - centres[:, None], axis=2).max()
-    tree = KDTree(centres)
-    closest, _ = tree.query(points)
-    lists = tree.query_ball_point(points, radius + np.minimum(2.0 * closest, search), return_sorted=True)
-    count = np.array([len(found) for found in lists], int)
-    return np.repeat(np.arange(len(count)), count), np.concatenate([np.asarray(found, int) for found in lists])
+    return near(points, centres, radius, search)
 
 
 def _within(count: int, places: Array) -> BoolArray:
