@@ -189,4 +189,4 @@ def test_facets_of_a_curved_interface_feign_no_gaps(kinds, counts):
     touching = interface(0.0)
     assert touching.sides[0].chords > 1e-3
     np.testing.assert_array_equal(touching.gap, 0.0)
-    assert interface(0.15).gap.min() > 0.1  # meant: it stays
+    assert interface(0.5).gap.min() > 0.4  # meant: it stays
