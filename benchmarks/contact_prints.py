@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks import command, page
-from benchmarks.decks import plain
+from benchmarks.decks import fields, plain
 from signorini.cli import main as run_here
 
 _SECONDS = 300  # for CalculiX
@@ -140,17 +140,7 @@ def printed(path: Path) -> dict[str, Rows]:
 
 def field(path: Path) -> Rows:
     """The last field CONTACT of a ``.frd`` file."""
-    found: Rows = {}
-    inside = False
-    for line in path.read_text(errors="replace").splitlines():
-        if line.startswith(" -4"):
-            inside = line.split()[1] == "CONTACT"
-            found = {} if inside else found
-        elif inside and line.startswith(" -1"):
-            found[int(line[3:13])] = np.array([line[13 + 12 * i : 25 + 12 * i] for i in range(6)], float)
-        elif line.startswith(" -3"):
-            inside = False
-    return found
+    return (fields(path, "CONTACT", 6) or [{}])[-1]
 
 
 def apart(here: Rows, there: Rows, kinds: tuple[str, ...]) -> float:

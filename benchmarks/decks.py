@@ -76,17 +76,17 @@ def tables(path: Path) -> list[Values]:
     return found
 
 
-def fields(path: Path) -> list[Values]:
-    """The same of every field DISP in a ``.frd`` file."""
+def fields(path: Path, name: str = "DISP", width: int = 3) -> list[Values]:
+    """The same of every field of a name in a ``.frd`` file, so many numbers a node."""
     found: list[Values] = []
     inside = False
     for line in path.read_text(errors="replace").splitlines():
         if line.startswith(" -4"):
-            inside = line.split()[1] == "DISP"
+            inside = line.split()[1] == name
             if inside:
                 found.append({})
         elif inside and line.startswith(" -1"):
-            found[-1][int(line[3:13])] = np.array([line[13 + 12 * i : 25 + 12 * i] for i in range(3)], float)
+            found[-1][int(line[3:13])] = np.array([line[13 + 12 * i : 25 + 12 * i] for i in range(width)], float)
         elif line.startswith(" -3"):
             inside = False
     return found

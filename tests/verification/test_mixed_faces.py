@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Boundaries in space of triangles and quadrilaterals: wedges beside hexahedra, linear and quadratic."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 import signorini as sg
+from signorini.engine.prepare import prepare
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
 from signorini.fem.generators import rectangle
@@ -128,6 +131,25 @@ def test_on_a_rigid_plane_and_on_springs(order):
     np.testing.assert_allclose(step.displacement[top, 2], -25.0 * SIZE / 2e5 - 25.0 / 1e3, rtol=1e-9)
 
 
+def test_a_boundary_that_names_corners_holds_the_middles_too():
+    mesh = block(2, 2)
+    model = sg.Model(
+        mesh,
+        bodies=[sg.Body("block", STEEL)],
+        supports=[sg.Support("bottom", u=(0, 0, 0))],
+        loads=[sg.Load("top", pressure=25.0)],
+    )
+    assert len(mesh.nodes_of("bottom")) == 9
+    foot = mesh.points[:, 2] == 0.0
+    assert foot.sum() == 23  # 9 corners, 12 edges and 2 diagonals
+    np.testing.assert_array_equal(sg.solve(model).last.displacement[foot], 0.0)
+
+
+def test_a_rigid_surface_of_both_kinds():
+    surface = sg.mesh_surface(block(3, 2), "top")
+    np.testing.assert_allclose(surface.nearest([[0.3, 0.4, 5.0]])[0], [3.0])
+
+
 def test_linear_beside_quadratic_faces_are_refused():
     one, other = block(2, 1), block(2, 2, z=5.0)
     mesh = join({"one": one, "other": other})
@@ -139,3 +161,32 @@ def test_linear_beside_quadratic_faces_are_refused():
     )
     with pytest.raises(InputError, match="'ends' belongs to linear and to quadratic cells; expected one order"):
         boundary(make_space(both), "ends", ("load", 0))
+
+
+@pytest.mark.parametrize("kinds", ["mixed", "triangles"])
+@pytest.mark.parametrize("counts", [(3, 2), (2, 3), (5, 4)])
+def test_facets_of_a_curved_interface_feign_no_gaps(kinds, counts):
+    """Two nets of flat faces on one cylinder, also where a triangle at the rim turns to no neighbour."""
+
+    def bent(count, z):
+        grid = np.linspace(0.0, SIZE, count + 1)
+        mesh = block(count, 1, z=z) if kinds == "mixed" else box(x=grid, y=grid, z=z + grid, cells="tetra")
+        x, _, z = mesh.points.T
+        z = z - 0.15 * (x - 1.0) ** 2 * (1.0 - np.abs(z - SIZE) / SIZE)
+        return replace(mesh, points=np.column_stack([mesh.points[:, :2], z]))
+
+    def interface(lift):
+        upper = bent(counts[0], SIZE)
+        mesh = join({"low": bent(counts[1], 0.0), "up": replace(upper, points=upper.points + [0, 0, lift])})
+        model = sg.Model(
+            mesh,
+            bodies=[sg.Body(name, STEEL) for name in ("low", "up")],
+            supports=[sg.Support("low.bottom", u=(0, 0, 0)), sg.Support("up.top", u=(0, 0, -0.001))],
+            contacts=[sg.Contact("up.bottom", "low.top")],
+        )
+        return prepare(model).interface
+
+    touching = interface(0.0)
+    assert touching.sides[0].chords > 1e-3
+    np.testing.assert_array_equal(touching.gap, 0.0)
+    assert interface(0.5).gap.min() > 0.4  # meant: it stays

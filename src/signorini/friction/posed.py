@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, BoolArray, read_only
-from signorini.bound import STICKY as STICKY
 from signorini.bound import Bound
 from signorini.condense.image import Image
 from signorini.errors import InputError

@@ -8,6 +8,7 @@ from typing import Literal
 
 from signorini.deck.inp.block import Block, Row, to_number
 from signorini.deck.inp.flatten import Placed
+from signorini.deck.inp.named import gathered
 
 INTERACTION_WORDS = ("SURFACE BEHAVIOR", "FRICTION")
 """Keywords that belong to the ``*SURFACE INTERACTION`` before them and that are read here."""
@@ -42,21 +43,12 @@ def make_interactions(placed: list[Placed]) -> dict[str, Interaction]:
     DeckError
         For laws that are not Signorini's and Coulomb's, possibly with a linear compliance.
     """
-    found: dict[str, Interaction] = {}
-    current = ""
-    for item in placed:
-        block = item.block
-        if block.keyword == "SURFACE INTERACTION":
-            block.refuse_unknown(("NAME",))
-            current = block.value("NAME").upper()
-            if current in found:
-                raise block.error(f"there is another surface interaction '{block.value('NAME')}'")
-            found[current] = Interaction(block=block)
-        elif block.keyword in INTERACTION_WORDS:
-            if not current:
-                raise block.error("stands before any *SURFACE INTERACTION")
-            found[current] = _with(found[current], block)
-    return found
+    return gathered(placed, "SURFACE INTERACTION", INTERACTION_WORDS, _begun, _with)
+
+
+def _begun(block: Block) -> Interaction:
+    block.refuse_unknown(("NAME",))
+    return Interaction(block=block)
 
 
 def _with(law: Interaction, block: Block) -> Interaction:

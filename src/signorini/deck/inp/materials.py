@@ -11,6 +11,7 @@ from signorini.arrays import IntArray, distinct
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.grid import Grid, nodes_of
+from signorini.deck.inp.named import gathered
 from signorini.deck.inp.sets import Sets
 from signorini.errors import InputError, one_of
 from signorini.model.material import Elastic, Material, Orthotropic
@@ -68,20 +69,7 @@ def make_materials(placed: list[Placed]) -> dict[str, Substance]:
     DeckError
         For laws that are not linear elasticity with constant moduli.
     """
-    materials: dict[str, Substance] = {}
-    current = ""
-    for item in placed:
-        block = item.block
-        if block.keyword == "MATERIAL":
-            current = block.value("NAME").upper()
-            if current in materials:
-                raise block.error(f"there is another material '{block.value('NAME')}'")
-            materials[current] = Substance(block=block)
-        elif block.keyword in MATERIAL_WORDS:
-            if not current:
-                raise block.error("stands before any *MATERIAL")
-            materials[current] = _with(materials[current], block)
-    return materials
+    return gathered(placed, "MATERIAL", MATERIAL_WORDS, lambda block: Substance(block=block), _with)
 
 
 def _with(substance: Substance, block: Block) -> Substance:

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, BoolArray, IntArray, frozen
-from signorini.bound import Bound
+from signorini.bound import STICKY, Bound
 from signorini.errors import InputError
-from signorini.friction.posed import STICKY, PosedContact
+from signorini.friction.posed import PosedContact
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,8 +68,8 @@ class SpatialProblem(PosedContact):
     facets: int | IntArray = 0
 
     def __post_init__(self) -> None:
-        bounded = np.zeros(len(self.friction), np.bool_) if self.tresca is None else self.tresca
-        object.__setattr__(self, "tresca", frozen(bounded, dtype=np.bool_))
+        if self.tresca is not None:
+            object.__setattr__(self, "tresca", frozen(self.tresca, dtype=np.bool_))
         super().__post_init__()
 
     @cached_property

@@ -62,7 +62,23 @@ def _sags(side: Surface) -> Array:
     for nodes, sags in parts:
         for kind, own in enumerate((np.maximum(sags, 0.0), np.maximum(-sags, 0.0))):
             np.maximum.at(found[kind], np.searchsorted(side.nodes, nodes), own.max(axis=0)[:, None])
-    return found
+    return _continued(side, found) if side.linear else found
+
+
+def _continued(side: Surface, found: Array) -> Array:
+    """Sags (2, k) of flat faces, at the rim of the side as beside it where no face there turns to a neighbour.
+
+    The two triangles of a plane quadrilateral do not turn to each other: one at the rim may have no other neighbour.
+    """
+    edges, _, start = _edges(side)
+    rim = np.zeros(len(side.nodes), np.bool_)
+    rim[np.searchsorted(side.nodes, edges[start[:-1][np.diff(start) == 1]])] = True
+    beside = np.zeros_like(found)
+    for block in side.blocks:
+        place = np.searchsorted(side.nodes, block.corners)
+        for kind in (0, 1):
+            np.maximum.at(beside[kind], place, found[kind][place].max(axis=1, keepdims=True))
+    return np.where(rim & (found == 0.0).all(axis=0), beside, found)
 
 
 def _curved_sags(block: Block) -> Array:
@@ -120,17 +136,22 @@ def _faces(side: Surface) -> tuple[list[tuple[IntArray, IntArray]], Array, Array
 
 def _neighbours(side: Surface) -> tuple[IntArray, IntArray]:
     """Faces on both sides of every edge that two share."""
-    ends, owner, start = [], [], 0
+    _, faces, start = _edges(side)
+    pairs = start[:-1][np.diff(start) == 2]
+    return faces[pairs], faces[pairs + 1]
+
+
+def _edges(side: Surface) -> tuple[IntArray, IntArray, IntArray]:
+    """Edges of all faces (e, 2), equal ones behind each other, the face of each, and where different ones start."""
+    ends, owner, first = [], [], 0
     for block in side.blocks:
         corners = block.corners
         ends.append(np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1).reshape(-1, 2))
-        owner.append(np.repeat(start + np.arange(len(corners)), corners.shape[1]))
-        start += len(corners)
+        owner.append(np.repeat(first + np.arange(len(corners)), corners.shape[1]))
+        first += len(corners)
     edges, faces = np.sort(np.concatenate(ends), axis=1), np.concatenate(owner)
     order = np.lexsort(edges.T)
     edges, faces = edges[order], faces[order]
-    first: BoolArray = np.ones(len(edges) + 1, np.bool_)
-    first[1:-1] = (edges[1:] != edges[:-1]).any(axis=1)
-    start_of = np.flatnonzero(first)
-    pairs = start_of[:-1][np.diff(start_of) == 2]
-    return faces[pairs], faces[pairs + 1]
+    new: BoolArray = np.ones(len(edges) + 1, np.bool_)
+    new[1:-1] = (edges[1:] != edges[:-1]).any(axis=1)
+    return edges, faces, np.flatnonzero(new)

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a keyword begins under a name, and the keywords behind it say more of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+from signorini.deck.inp.block import Block
+from signorini.deck.inp.flatten import Placed
+
+Named = TypeVar("Named")
+
+
+def gathered(
+    placed: list[Placed],
+    opening: str,
+    words: Sequence[str],
+    begun: Callable[[Block], Named],
+    extended: Callable[[Named, Block], Named],
+) -> dict[str, Named]:
+    """All that a keyword begins, by name in capitals.
+
+    Parameters
+    ----------
+    opening : the keyword, with a NAME
+    words : keywords that belong to the last one before them
+    begun : what the keyword alone says
+    extended : what it says with one of the words
+
+    Raises
+    ------
+    DeckError
+        Where a name is given twice, or a word stands before anything that it could belong to.
+    """
+    found: dict[str, Named] = {}
+    current = ""
+    for item in placed:
+        block = item.block
+        if block.keyword == opening:
+            first, current = begun(block), block.value("NAME").upper()
+            if current in found:
+                raise block.error(f"there is another {opening.lower()} '{block.value('NAME')}'")
+            found[current] = first
+        elif block.keyword in words:
+            if not current:
+                raise block.error(f"stands before any *{opening}")
+            found[current] = extended(found[current], block)
+    return found
