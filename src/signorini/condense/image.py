@@ -22,7 +22,7 @@ from scipy.linalg import blas, lapack
 
 from signorini.arrays import Array, BoolArray, frozen, read_only
 from signorini.condense.basis import make_basis
-from signorini.condense.parts import mirror
+from signorini.condense.parts import inverse_of
 from signorini.errors import InputError
 
 SingleArray = NDArray[np.float32]
@@ -125,8 +125,9 @@ class Image:
                 "has an eigenvalue 1 (a motion that nothing resists) beyond the rigid motions given; add that motion",
                 where=("W",),
             )
-        A = _inverse(factor)
+        A = inverse_of(factor, overwrite=True).T
         A[np.diag_indices(len(A))] -= 1.0
+        A.flags.writeable = False
         return A
 
     @cached_property
@@ -137,7 +138,7 @@ class Image:
     @cached_property
     def W(self) -> Array:
         """(m, m) Image form, symmetric, spectrum in [0, 1]."""
-        W = _inverse(self.factor)
+        W = inverse_of(self.factor).T
         np.negative(W, out=W)
         W += self.R @ self.R.T
         W[np.diag_indices_from(W)] += 1.0
@@ -213,12 +214,3 @@ def _cholesky(A: Precision, softness: float) -> Precision:
     if failed:
         raise np.linalg.LinAlgError("the compliance of the pairs is not positive semidefinite")
     return np.asarray(factor)
-
-
-def _inverse(factor: Array) -> Array:
-    """The inverse of a matrix, by rows, from its lower Cholesky factor, which stays."""
-    if not len(factor):
-        return np.zeros((0, 0))
-    lower, _ = lapack.dpotri(factor, lower=1)
-    mirror(lower)
-    return np.asarray(lower.T)

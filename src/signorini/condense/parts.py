@@ -43,9 +43,7 @@ class Part:
 
     def inverse(self) -> Array:
         """Of the stiffness, (p, p), symmetric to the last digit."""
-        inverse, _ = lapack.dpotri(self.cholesky, lower=1)
-        mirror(inverse)
-        return np.asarray(inverse, dtype=np.float64)
+        return inverse_of(self.cholesky)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -156,6 +154,19 @@ def _part(stiffness: Array, dofs: IntArray, rigid: Array, size: float) -> Part:
         matrix += size * (Q @ Q.T)
     cholesky, _ = scipy.linalg.cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)
     return Part(dofs=dofs, cholesky=cholesky)
+
+
+def inverse_of(cholesky: Array, *, overwrite: bool = False) -> Array:
+    """Of the matrix with a lower Cholesky factor, (p, p), by columns, symmetric to the last digit.
+
+    >>> inverse_of(np.array([[2.0]])).tolist()
+    [[0.25]]
+    """
+    if not len(cholesky):
+        return np.zeros((0, 0))
+    inverse, _ = lapack.dpotri(cholesky, lower=1, overwrite_c=overwrite)
+    mirror(inverse)
+    return np.asarray(inverse, dtype=np.float64)
 
 
 @njit(cache=True)

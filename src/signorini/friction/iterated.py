@@ -33,7 +33,7 @@ LARGE = 500
 """Unknowns from which a factorisation costs more."""
 
 _SHARP = 1e-14  # of the size of the data: less is rounding
-_TRUSTED = 10.0  # times what was asked for: products in single precision are, where they leave no more,
+_TRUSTED = 10.0  # times what was asked for: products in single precision are trusted where they leave no more,
 _ROUNDED = 1e-12  # or where it is this small beside the data
 
 

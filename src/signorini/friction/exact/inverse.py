@@ -11,7 +11,7 @@ import numpy as np
 from scipy.linalg import blas, lapack
 
 from signorini.arrays import Array, IntArray
-from signorini.condense.parts import mirror
+from signorini.condense.parts import inverse_of
 from signorini.friction.law import OPEN, STICK
 from signorini.friction.problem import CoulombProblem
 
@@ -254,9 +254,7 @@ def _inverse_of_compliance(matrix: Array) -> Array:
     factor, failed = lapack.dpotrf(matrix, lower=1, overwrite_a=1)
     if failed or lapack.dpocon(factor, norm, uplo="L")[0] < SINGULAR:
         raise SingularState
-    lower, _ = lapack.dpotri(factor, lower=1, overwrite_c=1)
-    mirror(lower)
-    return np.asarray(lower)
+    return inverse_of(factor, overwrite=True)
 
 
 def _inverted(block: Array, size: float) -> Array | None:

@@ -12,7 +12,7 @@ from signorini.friction.spatial.law import Tangent
 from signorini.friction.spatial.problem import SpatialProblem
 
 _FAR = 1.0  # slip per force, scaled, from which compliance counts little beside it
-_FORWARD = 1e-2, 1e-4  # of what the last iterate lacks: no Newton step deserves more while states change, or then
+_FORWARD = 1e-2, 1e-4  # of what the last iterate lacks: what may be left while states change, and once none does
 
 
 def balanced(
