@@ -8,7 +8,6 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
 from signorini.clock import Clock, Listener
-from signorini.linalg.multifrontal import compiled
 
 
 @contextmanager
@@ -20,6 +19,8 @@ def progress(*, quiet: bool, seconds: Mapping[str, float] | None = None) -> Iter
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    from signorini.linalg.multifrontal import compiled
 
     columns = (
         BarColumn(),
