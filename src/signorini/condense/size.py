@@ -9,6 +9,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.interface.interface import Interface
 from signorini.linalg.plan import analyse
+from signorini.linalg.registry import takes_borders
 from signorini.linalg.system import check
 
 _GENEROUS = 300.0, 1.0, 60.0, 4.0 / 3.0  # entries of the factor: at most 300 z in the plane, 60 z^(4/3) in space
@@ -38,7 +39,9 @@ def condensing_bytes(
     """
     chosen = interface.rows(candidates | interface.tied)
     dofs = np.unique(B[np.flatnonzero(chosen)].indices)
-    dense = _SQUARE[0] * len(dofs) ** 2 + _SQUARE[1] * int(np.count_nonzero(chosen)) ** 2
+    dense = _SQUARE[1] * int(np.count_nonzero(chosen)) ** 2
+    if interface.directions == 2 or interface.tied.any() or not takes_borders("auto"):
+        dense += _SQUARE[0] * len(dofs) ** 2  # where contact nodes are kept; else nothing is dense but pairs
     factor, power = _GENEROUS[:2] if interface.directions == 2 else _GENEROUS[2:]
     bound = 8.0 * (factor * K.shape[0] ** power + dense)
     return bound if bound <= plenty else analyse(check(K, dofs, nodes, points)).peak_bytes + 8.0 * dense
