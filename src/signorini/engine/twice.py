@@ -66,7 +66,6 @@ def _side(model: Model, on: str | Obstacle, facets: dict[str, Side]) -> Side:
     if not isinstance(on, str) or on not in model.mesh.boundaries:
         return on
     if on not in facets:
-        given = model.mesh.boundaries[on]
-        kinds = given if isinstance(given, tuple) else (given,)
+        kinds = model.mesh.facets(on)
         facets[on] = b"".join(np.unique(np.sort(rows, axis=1), axis=0).tobytes() for rows in kinds)
     return facets[on]
