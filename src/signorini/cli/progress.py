@@ -11,16 +11,14 @@ from signorini.clock import Clock, Listener
 
 
 @contextmanager
-def progress(*, quiet: bool, seconds: Mapping[str, float] | None = None) -> Iterator[Clock]:
-    """A clock whose phases are shown while they last; it goes on from the seconds of another."""
+def progress(*, quiet: bool, seconds: Mapping[str, float] | None = None, note: str = "") -> Iterator[Clock]:
+    """A clock whose phases are shown while they last, below a note; it goes on from the seconds of another."""
     shown = not quiet and sys.stderr.isatty()
     if not shown:
         yield _clock(None, seconds)
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
-    from signorini.linalg.multifrontal import compiled
 
     columns = (
         BarColumn(),
@@ -29,8 +27,8 @@ def progress(*, quiet: bool, seconds: Mapping[str, float] | None = None) -> Iter
         TextColumn("{task.description}"),
     )
     console = Console(stderr=True)
-    if not compiled():
-        console.print("first solve on this machine: compiling takes half a minute, once", highlight=False)
+    if note:
+        console.print(note, highlight=False)
     with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task("starting", total=1.0)
         yield _clock(lambda words, done: bar.update(task, description=words, completed=done), seconds)

@@ -18,6 +18,7 @@ from signorini.deck import Deck
 from signorini.engine.solve import INTERRUPTED
 from signorini.errors import InputError, SolveFailed, one_of
 from signorini.iterative.bodies import ITERATIVE
+from signorini.linalg.multifrontal import compiled
 from signorini.linalg.registry import BACKENDS
 from signorini.output.archive import read_archive
 from signorini.output.checkpoint import read_checkpoint
@@ -45,7 +46,8 @@ def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: f
         raise InputError(one_of(options.backend, known, "back end"), where=("--backend",))
     start = _start(options.start)
     folder = open_folder(Path(options.folder) if options.folder else Path("out", deck.path.stem))
-    with progress(quiet=options.quiet or options.json, seconds=clock.seconds) as clock:
+    note = "" if compiled() else "first solve on this machine: compiling takes half a minute, once"
+    with progress(quiet=options.quiet or options.json, seconds=clock.seconds, note=note) as clock:
         history = _solve(deck, options, clock, start)
         files = publish(history, folder, clock, started=started, prints=deck.prints)
     if options.json:
