@@ -211,3 +211,28 @@ def test_increments_until_the_answer_stays(monkeypatch):
 def test_wrong_steps(make, message):
     with pytest.raises(sg.InputError, match=message):
         make()
+
+
+@pytest.mark.parametrize("d", [2, 3], ids=["plane", "space"])
+def test_what_friction_has_taken_stays_when_everything_has_let_go(d):
+    """Press, let go altogether, press: where nothing acts and nothing is displaced need not be the beginning."""
+    if d == 2:
+        down, place, normal = (0.0, -0.01), (0.0, -0.001), (0.0, 1.0)
+        mesh = sg.rectangle(width=2.0, height=1.0, nx=8, ny=4)
+    else:
+        down, place, normal = (0.0, 0.0, -0.01), (0.0, 0.0, -0.001), (0.0, 0.0, 1.0)
+        mesh = sg.box(x=np.linspace(0.0, 2.0, 5), y=np.linspace(0.0, 2.0, 3), z=np.linspace(0.0, 1.0, 3))
+    model = sg.Model(
+        mesh,
+        bodies=[sg.Body("block", sg.Elastic(E=1000.0, nu=0.3))],
+        supports=[sg.Support("top", u=down, name="press")],
+        contacts=[sg.Contact("bottom", sg.Plane(place, normal), friction=0.05, name="floor")],
+        steps=[sg.Step(scale={"press": [1.0, 0.0]}, repeat=2), sg.Step(scale={"press": 1.0})],
+    )
+    rock, again = sg.solve(model).steps
+    whole, slid = rock.cycles[0].dissipation, rock.cycles[0].sliding
+    assert rock.cycles[1].dissipation == pytest.approx(whole, rel=1e-6)
+    assert rock.cycles[1].sliding == pytest.approx(slid, rel=1e-6)
+    pressed = next(instant for instant in rock.instants if instant.load_factor == 0.25)
+    assert again.dissipation == pytest.approx(sum(contact.dissipation for contact in pressed.contacts), rel=1e-6)
+    assert abs(rock.energy_defect) + abs(again.energy_defect) < 1e-3 * again.work  # the tolerance of increments

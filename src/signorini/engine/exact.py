@@ -246,7 +246,7 @@ def _right_hand_side(prepared: Prepared, point: LoadPoint) -> Array:
 
 
 def _start(prepared: Prepared, state: State) -> PathState:
-    """The state in the scaled units of the law; at the very beginning overlaps press first."""
+    """The state in the scaled units of the law; overlaps of bodies that nothing has moved yet press first."""
     condensed, rows, active, law = (
         prepared.condensed,
         prepared.condensed.active_rows,
@@ -255,24 +255,15 @@ def _start(prepared: Prepared, state: State) -> PathState:
     )
     b, n = _right_hand_side(prepared, state.point), law.pairs
     h = condensed.root * np.concatenate([state.gap, state.tangential])[rows]
-    if not state.forces.any() and not state.displacement.any():
-        motion = h if bool((h[:n] >= 0.0).all()) else None
-        return (
-            at_rest(law, b, motion=motion) if isinstance(law, SpatialProblem) else initial_state(law, b, motion=motion)
-        )
+    slip, dissipation = condensed.root[n:] * state.slip[_along(prepared)], state.dissipation[active]
+    if not state.forces.any() and not state.displacement.any() and (h[:n] < 0.0).any():
+        pressed = at_rest(law, b) if isinstance(law, SpatialProblem) else initial_state(law, b)
+        return replace(pressed, slip=slip + pressed.slip, dissipation=dissipation + pressed.dissipation)
     r, status = state.forces[rows] / condensed.root, state.status[active]
     if isinstance(law, CoulombProblem):  # friction that has risen since leaves some to spare
         spare = (status > STICK) & (np.abs(r[n:]) < (1.0 - _SPENT) * law.bound.at(r[:n]))
         status = np.where(spare, STICK, status)
-    return PathState(
-        b=b,
-        h=h,
-        r=r,
-        state=status,
-        anchor=h[n:],
-        slip=condensed.root[n:] * state.slip[_along(prepared)],
-        dissipation=state.dissipation[active],
-    )
+    return PathState(b=b, h=h, r=r, state=status, anchor=h[n:], slip=slip, dissipation=dissipation)
 
 
 def _visited(followed: _Followed) -> tuple[Snapshot, ...]:
@@ -286,7 +277,8 @@ def _visited(followed: _Followed) -> tuple[Snapshot, ...]:
     last, since, losses, found = state, 0.0, _losses(segment), []
     if start.r.any() and not state.forces.any():
         pressed = _recovered(prepared, state, state.point, start)
-        last = _balanced(prepared, state, pressed, float(start.dissipation.sum()))
+        lost = float(pressed.dissipation.sum() - state.dissipation.sum())
+        last = _balanced(prepared, state, pressed, lost)
         found.append(Snapshot(load_factor=span.factor(0.0), what="start", state=last))
     reached = followed.reached
     visited = {event.factor: event.state for event in segment.events if 0.0 < event.factor < reached}
