@@ -13,7 +13,19 @@ import signorini
 ROOT = Path(signorini.__file__).parent
 FILES = sorted(ROOT.rglob("*.py"))
 
-BASE = {"errors", "arrays", "checks", "clock", "formats", "memory", "bound", "pairstate", "trace", "_version"}
+BASE = {
+    "errors",
+    "arrays",
+    "checks",
+    "clock",
+    "formats",
+    "memory",
+    "bound",
+    "pairstate",
+    "sources",
+    "trace",
+    "_version",
+}
 CORE = {"model", "linalg", "lcp", "fem", "interface", "condense", "iterative", "friction", "solution"}
 BELOW_CLI = BASE | CORE | {"engine", "deck", "output", "plot", "reference"}
 

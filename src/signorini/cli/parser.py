@@ -27,6 +27,9 @@ def make_parser() -> argparse.ArgumentParser:
     keywords.add_argument(
         "--increments", choices=("own", "deck"), default="own", help="of an .inp deck (own: as few as are exact)"
     )
+    keywords.add_argument(
+        "--allow", action="append", default=[], metavar="DIR", help="let the deck name files in DIR and below too"
+    )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     _add_run(commands, [shared, keywords])

@@ -10,4 +10,9 @@ from signorini.deck import Deck, load
 
 def load_deck(options: argparse.Namespace) -> Deck:
     """Read ``options.deck``."""
-    return load(options.deck, small_strain=options.small_strain, deck_increments=options.increments == "deck")
+    return load(
+        options.deck,
+        small_strain=options.small_strain,
+        deck_increments=options.increments == "deck",
+        allow=options.allow,
+    )

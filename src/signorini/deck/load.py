@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
@@ -32,6 +32,7 @@ from signorini.deck.table import check_keys
 from signorini.errors import InputError, Where
 from signorini.model.model import Model
 from signorini.model.prints import Prints
+from signorini.sources import Reach
 
 _KEYS = (
     "title",
@@ -94,7 +95,9 @@ class KeywordDeck(Deck):
         return located(error, self.places, self.path)
 
 
-def read(path: str | Path, *, small_strain: bool = False, deck_increments: bool = False) -> Model:
+def read(
+    path: str | Path, *, small_strain: bool = False, deck_increments: bool = False, allow: Iterable[str | Path] = ()
+) -> Model:
     """Read a deck.
 
     Parameters
@@ -102,23 +105,27 @@ def read(path: str | Path, *, small_strain: bool = False, deck_increments: bool 
     path : a TOML file, or an Abaqus or CalculiX deck (``.inp``); files that it names are relative to it
     small_strain : solve an ``.inp`` deck that asks for large displacements (NLGEOM) with small ones
     deck_increments : follow the increments of an ``.inp`` deck instead of the package's rule
+    allow : folders in which files that the deck names may be, besides those near it (:class:`signorini.sources.Reach`)
 
     Raises
     ------
     DeckError
         An :class:`InputError` that begins with file and line: ``deck.toml:12: contact[0].friction: ...``.
     """
-    return load(path, small_strain=small_strain, deck_increments=deck_increments).model
+    return load(path, small_strain=small_strain, deck_increments=deck_increments, allow=allow).model
 
 
-def load(path: str | Path, *, small_strain: bool = False, deck_increments: bool = False) -> Deck:
+def load(
+    path: str | Path, *, small_strain: bool = False, deck_increments: bool = False, allow: Iterable[str | Path] = ()
+) -> Deck:
     """Read a deck and keep its lines, so that errors found later can be told with theirs; see :func:`read`."""
     path = Path(path)
+    reach = Reach.of(path, allow)
     if path.suffix.lower() == ".inp":
-        return _keywords(load_inp(path, small_strain=small_strain, deck_increments=deck_increments), path)
+        return _keywords(load_inp(path, reach, small_strain=small_strain, deck_increments=deck_increments), path)
     data, lines = parse(path)
     try:
-        return _deck(data, path, lines)
+        return _deck(data, path, lines, reach)
     except DeckError:
         raise
     except InputError as error:
@@ -137,7 +144,7 @@ def _keywords(built: Built, path: Path) -> KeywordDeck:
     )
 
 
-def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int]) -> Deck:
+def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int], reach: Reach) -> Deck:
     check_keys(data, (), known=_KEYS)
     for key in ("title", "units"):
         if not isinstance(data.get(key, ""), str):
@@ -146,13 +153,13 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int]) -> De
         raise InputError("there is no mesh; expected [mesh] with a generator or a file")
     materials = deck_materials(data)
     bodies = deck_bodies(data, materials)
-    mesh = deck_mesh(data["mesh"], path.parent)
+    mesh = deck_mesh(data["mesh"], reach)
     parts: dict[str, Any] = {
         "supports": deck_supports(data),
         "foundations": deck_foundations(data),
         "loads": deck_loads(data),
-        "contacts": deck_contacts(data, path.parent, mesh),
-        "obstacles": deck_obstacles(data, path.parent, mesh),
+        "contacts": deck_contacts(data, reach, mesh),
+        "obstacles": deck_obstacles(data, reach, mesh),
         "rigid_bodies": deck_rigid_bodies(data),
         "equations": deck_equations(data),
     }

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any
 
 from signorini.checks import choice, text, vector
@@ -14,6 +13,7 @@ from signorini.errors import InputError, Where
 from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
 from signorini.fem.solids import box
 from signorini.model.mesh import Mesh, join
+from signorini.sources import Reach
 
 GENERATORS: Mapping[str, Callable[..., Mesh]] = {
     "rectangle": rectangle,
@@ -24,16 +24,16 @@ GENERATORS: Mapping[str, Callable[..., Mesh]] = {
 }
 
 
-def deck_mesh(value: Any, folder: Path) -> Mesh:
+def deck_mesh(value: Any, reach: Reach) -> Mesh:
     """The mesh of ``[mesh]``, or of all ``[[mesh]]`` joined: names become "name.boundary".
 
     Parameters
     ----------
     value : what the deck has under ``mesh``
-    folder : of the deck; files are relative to it
+    reach : of the deck: files that it may name
     """
     if not isinstance(value, list):
-        return _one(table(value, ("mesh",)), ("mesh",), folder)
+        return _one(table(value, ("mesh",)), ("mesh",), reach)
     parts: dict[str, Mesh] = {}
     for i, entry in enumerate(value):
         where = ("mesh", i)
@@ -43,31 +43,31 @@ def deck_mesh(value: Any, folder: Path) -> Mesh:
         name = text(data.pop("name"), (*where, "name"))
         if name in parts:
             raise InputError(f"another mesh is called '{name}' too; expected a name of its own", where=(*where, "name"))
-        parts[name] = _one(data, where, folder)
+        parts[name] = _one(data, where, reach)
     if not parts:
         raise InputError("there is none; expected a generator or a file", where=("mesh",))
     return join(parts)
 
 
-def _one(data: dict[str, Any], where: Where, folder: Path) -> Mesh:
+def _one(data: dict[str, Any], where: Where, reach: Reach) -> Mesh:
     sources = [key for key in ("generator", "file") if key in data]
     if len(sources) != 1:
         found = "both 'generator' and 'file'" if sources else "neither 'generator' nor 'file'"
         raise InputError(f"has {found}; expected one of them", where=where)
     try:
-        return _from_file(data, folder) if sources == ["file"] else _generated(data)
+        return _from_file(data, reach) if sources == ["file"] else _generated(data)
     except InputError as error:
         inner = error.where[1:] if error.where[:1] == ("mesh",) else error.where
         raise InputError(error.message, where=where + inner) from error
 
 
-def _from_file(data: Mapping[str, Any], folder: Path) -> Mesh:
+def _from_file(data: Mapping[str, Any], reach: Reach) -> Mesh:
     from signorini.fem.read import read_mesh  # brings every format of meshio with it
 
     check_keys(data, ("mesh",), known=["file", "name"])
-    path = folder / text(data["file"], ("mesh", "file"))
+    name = text(data["file"], ("mesh", "file"))
     try:
-        return read_mesh(path)
+        return read_mesh(reach.file(name))
     except InputError as error:
         raise InputError(error.message, where=("mesh", "file")) from error
 

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from signorini.checks import text
@@ -22,6 +21,7 @@ from signorini.model.rigid import Rigid
 from signorini.model.step import Step
 from signorini.model.triangulated import Surface
 from signorini.model.varying import Along
+from signorini.sources import Reach
 
 _CONTACT_KEYS = (
     "name",
@@ -116,9 +116,9 @@ def deck_steps(data: Mapping[str, Any]) -> list[Step]:
     return [make(Step, entry, ("step", i)) for i, entry in enumerate(tables(data, "step"))]
 
 
-def deck_contacts(data: Mapping[str, Any], folder: Path, mesh: Mesh) -> list[Contact]:
-    """``[[contact]]``, each with a ``mortar`` boundary or a rigid obstacle; its file is relative to the folder."""
-    return [_contact(entry, ("contact", i), folder, mesh) for i, entry in enumerate(tables(data, "contact"))]
+def deck_contacts(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> list[Contact]:
+    """``[[contact]]``, each with a ``mortar`` boundary or a rigid obstacle; its file is one that the deck may name."""
+    return [_contact(entry, ("contact", i), reach, mesh) for i, entry in enumerate(tables(data, "contact"))]
 
 
 def _along(entry: dict[str, Any], where: Where) -> Along:
@@ -131,12 +131,12 @@ def _along(entry: dict[str, Any], where: Where) -> Along:
     return make(Along, {"axis": axes[0], "at": entry[axes[0]], "values": entry["mu"]}, where)
 
 
-def deck_obstacles(data: Mapping[str, Any], folder: Path, mesh: Mesh) -> list[Rigid]:
-    """``[[obstacle]]``, each with a shape; its file is relative to the folder."""
-    return [_obstacle(entry, ("obstacle", i), folder, mesh) for i, entry in enumerate(tables(data, "obstacle"))]
+def deck_obstacles(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> list[Rigid]:
+    """``[[obstacle]]``, each with a shape; its file is one that the deck may name."""
+    return [_obstacle(entry, ("obstacle", i), reach, mesh) for i, entry in enumerate(tables(data, "obstacle"))]
 
 
-def _shape(key: str, value: Any, where: Where, folder: Path, mesh: Mesh) -> Obstacle:
+def _shape(key: str, value: Any, where: Where, reach: Reach, mesh: Mesh) -> Obstacle:
     """A rigid shape; profiles and surfaces may be in a file, or be a boundary of the deck's mesh."""
     entry = {"file": value} if key == "surface" and isinstance(value, str) else table(value, where)
     if key not in ("profile", "surface") or not {"file", "boundary"} & set(entry):
@@ -151,7 +151,7 @@ def _shape(key: str, value: Any, where: Where, folder: Path, mesh: Mesh) -> Obst
         raise InputError(f"is {given['flip']!r}; expected true or false", where=(*where, "flip"))
     try:
         if "file" in given:
-            file = folder / text(given.pop("file"), ("file",))
+            file = reach.file(text(given.pop("file"), ("file",)), ("file",))
             return (read_profile if key == "profile" else read_surface)(file, **given)
         del given["boundary"]
         _refuse_body(mesh, name)
@@ -169,14 +169,14 @@ def _refuse_body(mesh: Mesh, name: str) -> None:
         )
 
 
-def _obstacle(entry: dict[str, Any], where: Where, folder: Path, mesh: Mesh) -> Rigid:
+def _obstacle(entry: dict[str, Any], where: Where, reach: Reach, mesh: Mesh) -> Rigid:
     check_keys(entry, where, known=_OBSTACLE_KEYS, needed=["name"])
     given = dict(entry)
     shapes = [key for key in _OBSTACLES if key in given]
     if len(shapes) != 1:
         raise InputError(f"has {len(shapes)} shapes; expected one of {', '.join(_OBSTACLES)}", where=where)
     key = shapes[0]
-    given["shape"] = _shape(key, given.pop(key), (*where, key), folder, mesh)
+    given["shape"] = _shape(key, given.pop(key), (*where, key), reach, mesh)
     return make(Rigid, given, where)
 
 
@@ -203,7 +203,7 @@ def _sided(entry: dict[str, Any], where: Where) -> dict[str, Any]:
     return {"side": "coarser", **rest, "nonmortar": sides[0], "mortar": sides[1]}
 
 
-def _contact(entry: dict[str, Any], where: Where, folder: Path, mesh: Mesh) -> Contact:
+def _contact(entry: dict[str, Any], where: Where, reach: Reach, mesh: Mesh) -> Contact:
     check_keys(entry, where, known=_CONTACT_KEYS, needed=[] if "between" in entry else ["nonmortar"])
     given = _sided(entry, where)
     if isinstance(given.get("friction"), dict):
@@ -216,5 +216,5 @@ def _contact(entry: dict[str, Any], where: Where, folder: Path, mesh: Mesh) -> C
     if key == "mortar":
         text(given["mortar"], (*where, "mortar"))
     else:
-        given["mortar"] = _shape(key, given.pop(key), (*where, key), folder, mesh)
+        given["mortar"] = _shape(key, given.pop(key), (*where, key), reach, mesh)
     return make(Contact, given, where)

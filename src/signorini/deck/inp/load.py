@@ -8,13 +8,15 @@ from pathlib import Path
 from signorini.deck.inp.build import Built, build
 from signorini.deck.inp.flatten import flatten
 from signorini.deck.inp.syntax import read_blocks
+from signorini.sources import Reach
 
 
-def load_inp(path: Path, *, small_strain: bool = False, deck_increments: bool = False) -> Built:
+def load_inp(path: Path, reach: Reach, *, small_strain: bool = False, deck_increments: bool = False) -> Built:
     """Read a deck of keywords.
 
     Parameters
     ----------
+    reach : files that it may include
     small_strain : solve with small displacements what asks for large ones (NLGEOM)
     deck_increments : follow the deck's increments instead of the package's rule
 
@@ -23,4 +25,4 @@ def load_inp(path: Path, *, small_strain: bool = False, deck_increments: bool = 
     DeckError
         With file and line, for what is wrong, or would change the answer and is not supported.
     """
-    return build(flatten(read_blocks(path)), path, small_strain=small_strain, deck_increments=deck_increments)
+    return build(flatten(read_blocks(path, reach)), path, small_strain=small_strain, deck_increments=deck_increments)

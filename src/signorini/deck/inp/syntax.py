@@ -15,17 +15,20 @@ from pathlib import Path
 from signorini.deck.error import DeckError
 from signorini.deck.inp.block import Block, decode
 from signorini.deck.inp.words import canonical
+from signorini.errors import InputError
+from signorini.sources import Reach
 
 _DEPTH = 10  # of files that include files
 _SHOWN = 60  # characters of a line in messages
 
 
-def read_blocks(path: Path) -> list[Block]:
+def read_blocks(path: Path, reach: Reach | None = None) -> list[Block]:
     """All keywords of a deck in order, with those of the files that it includes.
 
     Parameters
     ----------
-    path : the deck; files that it includes must lie in its folder or below
+    path : the deck
+    reach : files that it may include, by default those near it; their names are relative to its folder
 
     Raises
     ------
@@ -33,7 +36,7 @@ def read_blocks(path: Path) -> list[Block]:
         If a file is missing or unreadable, or a keyword line is malformed.
     """
     blocks: list[_Open] = []
-    _read(path, path.parent.resolve(), blocks, 0, None)
+    _read(path, reach or Reach.of(path), blocks, 0, None)
     return [block.closed() for block in blocks]
 
 
@@ -54,7 +57,7 @@ class _Open:
         )
 
 
-def _read(path: Path, root: Path, blocks: list[_Open], depth: int, by: _Open | None) -> None:
+def _read(path: Path, reach: Reach, blocks: list[_Open], depth: int, by: _Open | None) -> None:
     """Append the keywords of one file; data before its first keyword belong to the keyword before it, if any."""
     for line, starred, data in _pieces(_bytes(path, by)):
         if not starred:
@@ -65,11 +68,12 @@ def _read(path: Path, root: Path, blocks: list[_Open], depth: int, by: _Open | N
         if opened.keyword == "INCLUDE":
             if depth == _DEPTH:
                 raise _error(opened, f"is the {_DEPTH + 1}th file inside another; does a file include itself?")
-            _read(_inside(opened, root), root, blocks, depth + 1, opened)
+            _read(_named(opened, reach), reach, blocks, depth + 1, opened)
             continue
         blocks.append(opened)
         if opened.keyword in ("NODE", "ELEMENT", "NSET", "ELSET", "AMPLITUDE") and "INPUT" in opened.parameters:
-            opened.chunks.append((_inside(opened, root), 1, _bytes(_inside(opened, root), opened)))
+            file = _named(opened, reach)
+            opened.chunks.append((file, 1, _bytes(file, opened)))
 
 
 def _bytes(path: Path, by: _Open | None) -> bytes:
@@ -164,18 +168,15 @@ def _unquoted(word: str) -> str:
     return word[1:-1] if len(word) > 1 and word[0] == word[-1] == '"' else word
 
 
-def _inside(opened: _Open, root: Path) -> Path:
-    """The file that INPUT names, which must lie in the deck's folder or below."""
+def _named(opened: _Open, reach: Reach) -> Path:
+    """The file that INPUT names."""
     name = opened.parameters.get("INPUT", "")
     if not name:
         raise _error(opened, "has no INPUT; expected INPUT= and a file")
     try:
-        path = (root / name).resolve()
-    except (OSError, ValueError, RuntimeError) as error:
-        raise _error(opened, f"'{name[:_SHOWN]}' is no file name") from error
-    if not path.is_relative_to(root):
-        raise _error(opened, f"'{name[:_SHOWN]}' lies outside the folder of the deck; expected a file in it")
-    return path
+        return reach.file(name)
+    except InputError as error:
+        raise _error(opened, error.message) from error
 
 
 def _error(opened: _Open, message: str) -> DeckError:
