@@ -162,6 +162,7 @@ def condense(
     *,
     candidates: BoolArray,
     rigid: Array,
+    stiffness: float,
     backend: str,
     clock: Clock,
 ) -> Condensed:
@@ -176,6 +177,7 @@ def condense(
     points : (nodes, d) where the nodes are
     candidates : (n,) pairs that may touch; the nodes of the others are eliminated like any other
     rigid : (z, k) rigid motions that neither supports nor ties resist
+    stiffness : of the size of the data, force per length: what pairs count with whose sides are both rigid
     backend : of the factorisation, "auto" or a name
     clock : counts the factorisation and the condensation apart
 
@@ -200,15 +202,15 @@ def condense(
         if interface.directions == 3 and B.shape[0] and not len(ties.rows) and takes_borders(backend):
             at = points[interface.node[active]]
             with suppress(NotPositiveDefinite):  # the contact may still hold what moves
-                response = keep_pairs(K, B, nodes, points, at=at, rigid=rigid, backend=backend)
+                response = keep_pairs(K, B, nodes, points, at=at, rigid=rigid, stiffness=stiffness, backend=backend)
         if response is None:
             factorisation = factorise(K, dofs, nodes=nodes, points=points, backend=backend)
     with clock.phase("condensation"):
         B_c, K_c = sp.csr_array(B[:, dofs]), sp.csr_array(K[dofs][:, dofs])
-        root = np.sqrt(_interface_stiffness(K_c, B_c, interface, np.flatnonzero(active)))
+        root = np.sqrt(_interface_stiffness(K_c, B_c, interface, np.flatnonzero(active), stiffness))
         compliance = (interface.compliance / interface.areas)[interface.rows(active)]
         if response is None:
-            size = float(K_c.diagonal().mean()) if len(dofs) else 1.0
+            size = float(K_c.diagonal().mean()) if K_c.nnz else stiffness
             parts = make_parts(factorisation.schur(), ties.B[:, dofs].toarray(), rigid[dofs], size=size)
             response = ByNodes(factorisation=factorisation, parts=parts, B=B_c, rigid=rigid[dofs])
         return Condensed(
@@ -239,7 +241,9 @@ def _image(response: Response, root: Array, compliance: Array) -> dict[str, Any]
     return {"image": Image.of_compliance(A, motions, basis.R), "_basis": basis, "_leaning": leaning}
 
 
-def _interface_stiffness(K_c: sp.csr_array, B_c: sp.csr_array, interface: Interface, pairs: IntArray) -> Array:
+def _interface_stiffness(
+    K_c: sp.csr_array, B_c: sp.csr_array, interface: Interface, pairs: IntArray, stiffness: float
+) -> Array:
     """D, (d a,) force per length: of the size that makes Newton's method most robust, equal in all directions.
 
     Half the mean stiffness that a pair of the contact feels where only its own nodes move, spread like the areas and
@@ -253,6 +257,7 @@ def _interface_stiffness(K_c: sp.csr_array, B_c: sp.csr_array, interface: Interf
     # supports hold both sides, and the interface alone gives way
     supple = np.flatnonzero((felt == 0.0) & (interface.compliance[pairs] > 0.0))
     felt[supple] = interface.areas[pairs[supple]] / interface.compliance[pairs[supple]]
+    felt[felt == 0.0] = stiffness  # both sides are rigid, and nothing gives way
     result = np.zeros(len(pairs))
     for contact in np.unique(interface.contact[pairs]):
         own = interface.contact[pairs] == contact

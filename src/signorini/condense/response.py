@@ -172,7 +172,15 @@ class ByPairs:
 
 
 def keep_pairs(
-    K: sp.csr_array, B: sp.csr_array, nodes: IntArray, points: Array, *, at: Array, rigid: Array, backend: str
+    K: sp.csr_array,
+    B: sp.csr_array,
+    nodes: IntArray,
+    points: Array,
+    *,
+    at: Array,
+    rigid: Array,
+    stiffness: float,
+    backend: str,
 ) -> ByPairs:
     """Factorise bodies that are not tied.
 
@@ -184,6 +192,7 @@ def keep_pairs(
     points : (nodes, d) where the nodes are
     at : (a, d) where the pairs are
     rigid : (z, k) rigid motions that supports do not resist
+    stiffness : of the size of the data, force per length, of the springs where nothing deforms
     backend : of the factorisation, "auto" or a name
 
     Raises
@@ -202,6 +211,7 @@ def keep_pairs(
     ...     np.zeros((2, 1)),
     ...     at=np.zeros((1, 1)),
     ...     rigid=np.zeros((2, 0)),
+    ...     stiffness=1.0,
     ...     backend="auto",
     ... )
     >>> kept.compliance().tolist(), kept.moved(kept.reduce(np.array([1.0, 0.0])).load).tolist()
@@ -210,7 +220,7 @@ def keep_pairs(
     m, n = B.shape
     pair = len(points) + np.tile(np.arange(len(at)), m // max(1, len(at)))
     factorisation = factorise(
-        bordered(_held(K, rigid), B),
+        bordered(_held(K, rigid, stiffness), B),
         np.arange(n, n + m),
         nodes=np.concatenate([nodes, pair]),
         points=np.concatenate([points, at]),
@@ -219,12 +229,12 @@ def keep_pairs(
     return ByPairs(factorisation=factorisation, rows=np.arange(m), B=B, rigid=rigid)
 
 
-def _held(K: sp.csr_array, rigid: Array) -> sp.csr_array:
+def _held(K: sp.csr_array, rigid: Array, stiffness: float) -> sp.csr_array:
     """K with a spring on one dof for each rigid motion, dofs that are far apart."""
     if not rigid.shape[1]:
         return K
     basis = scipy.linalg.qr(rigid, mode="economic")[0]
     dofs = scipy.linalg.qr(basis.T, mode="economic", pivoting=True)[2][: rigid.shape[1]]
     springs = np.zeros(K.shape[0])
-    springs[dofs] = K.diagonal().mean()
+    springs[dofs] = K.diagonal().mean() if K.nnz else stiffness
     return sp.csr_array(K + sp.diags_array(springs))

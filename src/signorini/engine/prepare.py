@@ -299,7 +299,7 @@ def _made(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, cl
     interface, T, nodes = examined.interface, examined.constraints.transform, examined.constraints.nodes
     with clock.phase("assembly"):
         reduced, relative = sp.csr_array(T.T @ K @ T), sp.csr_array(interface.B @ T)
-        whole = backend == ITERATIVE
+        whole = backend == ITERATIVE and reduced.nnz > 0  # where nothing deforms there is nothing to iterate on
         if backend == "auto":
             room = available_memory()
             asked = condensing_bytes(
@@ -361,7 +361,8 @@ def _condensed(
             examined.space.places,
             candidates=near,
             rigid=rigid,
-            backend=backend,
+            stiffness=examined.scale.force / examined.scale.length,
+            backend="auto" if backend == ITERATIVE else backend,
             clock=clock,
         )
     except NotPositiveDefinite as error:

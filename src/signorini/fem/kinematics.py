@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, among
 from signorini.fem.jacobian import determinants, gradients_in_space, jacobians
+from signorini.fem.links import rigid_nodes
 from signorini.fem.measure import measure
 from signorini.fem.space import Block, Space
 from signorini.model.model import Model
@@ -146,6 +147,19 @@ def groups(space: Space, model: Model) -> Iterator[Group]:
             for index in np.split(every, range(_AT_ONCE, len(every), _AT_ONCE)):
                 if len(index):
                     yield Group(block=block, index=index, body=body[index], formulation=str(formulation))
+
+
+def straining_groups(space: Space, model: Model) -> Iterator[Group]:
+    """All cells but those of rigid bodies, which nothing strains: rounding would make springs of them."""
+    rigid = np.zeros(sum(len(block.cells) for block in space.blocks), dtype=np.bool_)
+    for j in range(len(model.rigid_bodies)):
+        own = among([rigid_nodes(space, model, j)], len(space.mesh.points))
+        for block in space.blocks:
+            rigid[block.first : block.first + len(block.cells)] |= own[block.cells].all(axis=1)
+    for group in groups(space, model):
+        strains = ~rigid[group.numbers]
+        if strains.any():
+            yield replace(group, index=group.index[strains], body=group.body[strains])
 
 
 def kinematics(space: Space, model: Model, group: Group, *, best: bool = False) -> Kinematics:

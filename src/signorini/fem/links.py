@@ -123,23 +123,31 @@ def _equation(space: Space, model: Model, i: int, equation: Equation) -> tuple[I
     return column, np.broadcast_to(values, column.shape)
 
 
+def rigid_nodes(space: Space, model: Model, j: int) -> IntArray:
+    """Sorted nodes of the rigid body of number j.
+
+    Raises
+    ------
+    InputError
+        If there is nothing where it is.
+    """
+    on = model.rigid_bodies[j].on
+    if on not in model.mesh.bodies:
+        return nodes_at(space, on, ("rigid_body", j, "on"))
+    cells = np.flatnonzero(model.body_of_cells() == [body.name for body in model.bodies].index(on))
+    own = [
+        cells[(cells >= block.first) & (cells < block.first + len(block.cells))] - block.first for block in space.blocks
+    ]
+    return np.unique(
+        np.concatenate([block.cells[some] for block, some in zip(space.blocks, own, strict=True)], axis=None)
+    )
+
+
 def _rigid(space: Space, model: Model, j: int) -> tuple[IntArray, Array]:
     """``u_i - u - theta x (x_i - point) = 0`` for every node of a rigid body: dofs and coefficients."""
     body, d = model.rigid_bodies[j], space.dimension
     where: Where = ("rigid_body", j, "on")
-    if body.on in model.mesh.bodies:
-        cells = np.flatnonzero(model.body_of_cells() == [b.name for b in model.bodies].index(body.on))
-        nodes = np.unique(
-            np.concatenate(
-                [
-                    block.cells[cells[(cells >= block.first) & (cells < block.first + len(block.cells))] - block.first]
-                    for block in space.blocks
-                ],
-                axis=None,
-            )
-        )
-    else:
-        nodes = nodes_at(space, body.on, where)
+    nodes = rigid_nodes(space, model, j)
     if len(nodes) < 2 and not any(on == body.name for other in model.equations for on, _, _ in other.terms):
         raise InputError("is one node, and no equation names it; expected two nodes or more", where=where)
     weights = carried(model, space.mesh.points[nodes], np.array(body.point))[:, :, : len(directions(d))]

@@ -18,6 +18,8 @@ from signorini.model.model import Model
 
 # of the largest eigenvalue of the Gram matrix of the motions: below it a motion is not held
 _UNSEEN = 1e-12
+# of the largest coefficient of a motion: what eigenvectors leave to parts that are at rest
+_ROUNDED = 1e-10
 _ALONG = "move along"
 
 
@@ -281,4 +283,5 @@ def _readable(motions: Array) -> Array:
         others = np.arange(len(basis)) != row
         basis[others] -= np.outer(basis[others, column], basis[row])
         row += 1
-    return basis.T
+    # what does not move is exactly at rest, or rounding would be taken for a motion of it
+    return np.where(np.abs(basis) > _ROUNDED * np.abs(basis).max(axis=1, initial=0.0)[:, None], basis, 0.0).T

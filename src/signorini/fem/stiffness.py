@@ -9,7 +9,7 @@ import scipy.sparse as sp
 from signorini.fem.assembly import Cells
 from signorini.fem.assembly import stiffness as assemble
 from signorini.fem.elasticity import elasticities, law_tensor
-from signorini.fem.kinematics import groups, mode_gradients
+from signorini.fem.kinematics import mode_gradients, straining_groups
 from signorini.fem.measure import measure
 from signorini.fem.space import Space
 from signorini.model.model import Model
@@ -19,12 +19,13 @@ def stiffness(space: Space, model: Model) -> sp.csr_array:
     """``K_ij = int eps(phi_i) : C : eps(phi_j) dx``, (dofs, dofs).
 
     ``dx`` holds the thickness; of axisymmetric bodies ``2 pi r dr dz``, and their strain has the hoop part ``u_r / r``.
+    Cells of rigid bodies have none.
     With a mean dilatation the volume strain is projected on few functions in every cell (Simo, Taylor, Pister 1985).
     """
     law = law_tensor(elasticities(model), hoop=model.axisymmetric)
     bulk = np.array([body.material.bulk_modulus for body in model.bodies])
     blocks = []
-    for group in groups(space, model):
+    for group in straining_groups(space, model):
         block = group.block
         at = np.einsum("qk,mki->mqi", block.values, space.mesh.points[group.cells])
         blocks.append(

@@ -13,7 +13,7 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.fem.elasticity import elasticities, expansions
-from signorini.fem.kinematics import Group, Kinematics, groups, kinematics, mean_in_cells
+from signorini.fem.kinematics import Group, Kinematics, kinematics, mean_in_cells, straining_groups
 from signorini.fem.space import Space
 from signorini.model.conditions import Load
 from signorini.model.model import Model
@@ -74,7 +74,7 @@ def _held(space: Space, model: Model, load: Load) -> Iterator[tuple[Group, Kinem
     temperature = temperatures(space, model, {load.label: 1.0})
     assert temperature is not None
     D = elasticities(model)
-    for group in groups(space, model):
+    for group in straining_groups(space, model):
         own = D[group.body]
         points = kinematics(space, model, group)
         strain = thermal_strain(model, group, points, temperature)
