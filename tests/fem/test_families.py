@@ -225,6 +225,14 @@ def test_a_node_that_leaves_no_digits_to_the_others(far, axis):
         make_space(changed(SQUARES, points=points))
 
 
+def test_a_collapsed_edge_is_named():
+    points = np.array(SQUARES.points)
+    one, two = SQUARES.cells["quad8"][1, :2]
+    points[two] = points[one]
+    with pytest.raises(InputError, match=rf"cell 2 has an edge of length 0, from node {one + 1} to node {two + 1} at"):
+        make_space(changed(SQUARES, points=points))
+
+
 def test_a_quarter_point_is_allowed():
     make_space(_moved_middle((-0.25, 0.0)))
 

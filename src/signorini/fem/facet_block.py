@@ -111,7 +111,8 @@ class FacetBlock:
         """Outward unit normals of the facets at the nodes times their sizes, summed, (n, d)."""
         count = self.facets.shape[1]
         own = _outward(self.points, facet_shapes(self.dimension, count, facet_nodes(self.dimension, count))[1])
-        own *= (self.weights.sum(axis=1)[:, None] / np.linalg.norm(own, axis=-1))[..., None]
+        length = np.linalg.norm(own, axis=-1)  # 0 where a side of the facet is, at its ends
+        own *= (self.weights.sum(axis=1)[:, None] / np.where(length > 0.0, length, 1.0))[..., None]
         total = np.zeros((len(self.nodes), self.dimension))
         np.add.at(total, np.searchsorted(self.nodes, self.facets), own)
         return total

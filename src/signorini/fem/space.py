@@ -306,21 +306,33 @@ def _check_radii(mesh: Mesh) -> None:
 
 
 def _check_extent(space: Space) -> None:
-    """A node far away, where a slip of the pen puts it, leaves no digits to the others."""
-    points = space.mesh.points
+    """Nodes at one place leave no cell; one far away, by a slip of the pen, leaves no digits to the others."""
+    points, labels = space.mesh.points, space.mesh.labels
     used = points[space.used_nodes]
     least = float(extent(used / _DIGITS).max())
     for block in space.blocks:
         edges = np.abs(points[block.cells[:, 1]] - points[block.cells[:, 0]]).max(axis=1)
-        if (shortest := float(edges.min())) < least:
-            far = space.used_nodes[np.argmax(np.abs(used - np.median(used, axis=0)).max(axis=1))]
-            where = tuple(float(x) for x in points[far])
+        cell = int(np.argmin(edges))
+        if (shortest := float(edges[cell])) >= least:
+            continue
+        label, (one, two) = space.mesh.cell_labels[block.first + cell], block.cells[cell, :2]
+        away = np.abs(used - np.median(used, axis=0)).max(axis=1)
+        if shortest < float(np.median(away)) / _DIGITS:
             raise InputError(
-                f"node {space.mesh.labels[far]} at {where} is more than {_DIGITS:.0e} times as far away as cell "
-                f"{space.mesh.cell_labels[block.first + int(np.argmin(edges))]} is long ({shortest:.3g}); expected "
-                "nodes whose places differ in the digits that numbers have",
+                f"cell {label} has an edge of length {shortest:.3g}, from node {labels[one]} to node {labels[two]} at "
+                f"{_spelled(points[one])}; expected corners at places of their own",
                 where=("mesh",),
             )
+        far = space.used_nodes[np.argmax(away)]
+        raise InputError(
+            f"node {labels[far]} at {_spelled(points[far])} is more than {_DIGITS:.0e} times as far away as cell "
+            f"{label} is long ({shortest:.3g}); expected nodes whose places differ in the digits that numbers have",
+            where=("mesh",),
+        )
+
+
+def _spelled(point: Array) -> str:
+    return "(" + ", ".join(f"{part:.6g}" for part in point) + ")"
 
 
 def _check_shapes(space: Space) -> None:

@@ -80,3 +80,21 @@ def test_bad_faces_are_named():
         make_surface(points, [[0, 1]])
     with pytest.raises(InputError, match="expected at least one face"):
         make_surface(points)
+
+
+def test_normals_weigh_faces_by_their_areas():
+    """A roof of a square and a triangle of one area looks up at its ridge, an arch of both kinds outward."""
+    s = 2**-0.5
+    points = np.array([[0, 0, 0], [0, 1, 0], [-s, 1, -s], [-s, 0, -s], [2 * s, 0.5, -2 * s]])
+    side = make_surface(points, [[0, 1, 2, 3]], [[1, 0, 4]])
+    np.testing.assert_allclose(side.nodal_normals[:2], [[0, 0, 1]] * 2, atol=1e-15)
+
+    angle = np.radians(np.arange(0, 100, 10.0))
+    points = np.concatenate([np.column_stack([np.sin(angle), np.full(10, y), np.cos(angle)]) for y in (0.0, 1.0)])
+    i = np.arange(9)
+    squares = np.column_stack([i, i + 1, i + 11, i + 10])
+    halves = np.concatenate([squares[::2][:, [0, 1, 2]], squares[::2][:, [0, 2, 3]]])
+    side = make_surface(points, squares[1::2], halves)
+    meet = [2, 4, 6, 8]  # both halves of one square and another whole one
+    radial = side.points[meet] * [1, 0, 1]
+    np.testing.assert_allclose(side.nodal_normals[meet], radial, atol=1e-12)

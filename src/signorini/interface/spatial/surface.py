@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from signorini.arrays import Array, IntArray, frozen
 from signorini.errors import InputError
 from signorini.fem.faces import CORNERS
+from signorini.fem.facet_block import FacetBlock
 from signorini.interface.spatial.faces import node_places, pieces, shapes_at, slopes_at
 from signorini.interface.tilt import turns
 
@@ -96,10 +97,8 @@ class Surface:
         """(k, 3) Outward unit normals at ``nodes``: means of those of the faces there, weighted with their areas."""
         total = np.zeros((len(self.nodes), 3))
         for block in self.blocks:
-            own = block.outward(node_places(block.nodes_a_face))
-            length = np.linalg.norm(own, axis=2, keepdims=True)
-            area = np.linalg.norm(own.mean(axis=1), axis=1)[:, None, None]
-            np.add.at(total, np.searchsorted(self.nodes, block.faces), area * own / np.where(length > 0, length, 1.0))
+            facets = FacetBlock(facets=block.faces, points=block.points, cells=np.zeros(len(block.faces), np.int64))
+            total[np.searchsorted(self.nodes, facets.nodes)] += facets.nodal_spans
         length = np.linalg.norm(total, axis=1, keepdims=True)
         normals: Array = total / np.where(length > 0, length, 1.0)
         return normals
