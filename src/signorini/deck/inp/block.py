@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -91,6 +91,10 @@ class Block:
     def error(self, message: str) -> DeckError:
         """The message with keyword and place."""
         return DeckError(f"*{self.keyword}: {message}", path=self.path, line=self.line)
+
+    def at(self, row: Row) -> Block:
+        """The keyword as one that stands at one of its data lines: whatever is said of it names that line."""
+        return replace(self, path=row.path, line=row.line)
 
     def rows(self) -> Iterator[Row]:
         """The data lines that are not blank."""

@@ -12,6 +12,7 @@ import numpy as np
 
 from signorini.arrays import IntArray
 from signorini.deck.error import DeckError
+from signorini.deck.inp.acting import Known
 from signorini.deck.inp.amplitudes import make_amplitudes
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.changes import make_changes
@@ -22,7 +23,7 @@ from signorini.deck.inp.grid import Grid, make_grid
 from signorini.deck.inp.interactions import make_interactions
 from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS
 from signorini.deck.inp.links import link_places, make_equations, make_rigid_bodies
-from signorini.deck.inp.loading import Known, follow_steps
+from signorini.deck.inp.loading import follow_steps
 from signorini.deck.inp.materials import Section, Substance, make_materials, make_sections
 from signorini.deck.inp.pairs import Pair, make_contacts, make_ties
 from signorini.deck.inp.places import Places
@@ -82,9 +83,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
         For anything that is wrong, or that would change the answer and is not supported.
     """
     outside, steps = split_steps(placed)
-    ignored = refuse_unsupported(outside, MODEL_WORDS, "outside a step")
-    for step in steps:
-        ignored = refuse_unsupported(step.placed, STEP_WORDS, "inside a step") | ignored
+    ignored = _left_out(outside, steps)
     _refuse_incomplete(outside, steps, path)
     _refuse_large(steps, small_strain)
 
@@ -108,12 +107,13 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
         surfaces=surfaces,
         edges=edges,
         sections=tuple(sections),
-        amplitudes=make_amplitudes(outside),
+        amplitudes=make_amplitudes(placed),
         axisymmetric=kind == "axisymmetric",
         dimension=3 if kind == "3d" else 2,
         rigid=tuple(rigid),
     )
-    conditions = make_conditions(follow_steps(outside, steps, known), places, known)
+    courses = follow_steps(outside, steps, known)
+    conditions = make_conditions(courses, places, known)
     changes = [make_changes(step, contacts, interactions, surfaces) for step in steps]
     model_steps = [_step(k, steps, conditions, changes[k], deck_increments) for k in range(len(steps))]
     where = _where(sections, contacts, conditions, steps) | link_places(rigid, equations)
@@ -136,7 +136,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
     return Built(
         model=model,
         places=where,
-        notes=tuple(_notes(grid, steps, contacts, ignored, small_strain, deck_increments)),
+        notes=(*courses.notes, *_notes(grid, steps, contacts, ignored, small_strain, deck_increments)),
         prints=make_prints(steps, known, model.mesh, contacts),
         unused_materials=_unused(materials, sections),
     )
@@ -151,6 +151,14 @@ def located(error: InputError, places: Mapping[Where, Block], path: object) -> D
         if block is not None:
             return DeckError(f"*{block.keyword}: {error.message}", path=block.path, line=block.line)
     return DeckError(error.message, path=str(path), where=error.where)
+
+
+def _left_out(outside: Sequence[Placed], steps: Sequence[DeckStep]) -> dict[str, int]:
+    """Keywords without effect on the answer, each with its first line; others that are not read stop."""
+    ignored = refuse_unsupported(outside, MODEL_WORDS, "outside a step")
+    for step in steps:
+        ignored = refuse_unsupported(step.placed, STEP_WORDS, "inside a step") | ignored
+    return ignored
 
 
 def _refuse_incomplete(outside: Sequence[Placed], steps: Sequence[DeckStep], path: object) -> None:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -11,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from signorini.arrays import Array, IntArray, distinct
+from signorini.deck.inp.acting import Courses, Known
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.course import Course, Hold, Pattern, unique_label
 from signorini.deck.inp.links import STRIDE, DeckRigid, component
-from signorini.deck.inp.loading import Courses, Known
 from signorini.deck.inp.materials import Section
 from signorini.deck.inp.places import Places
 from signorini.deck.inp.steps import DeckStep
@@ -92,7 +91,7 @@ class Conditions:
 
 def make_conditions(courses: Courses, places: Places, known: Known) -> Conditions:
     """Turn courses into supports and loads."""
-    conditions, sections, dimension = Conditions(), known.sections, known.dimension
+    conditions, sections = Conditions(), known.sections
     number_of_nodes = len(known.nodes.numbering.labels)
     _supports(courses.displacement, places, conditions, known)
     _forces(courses.force, places, conditions, known)
@@ -100,19 +99,11 @@ def make_conditions(courses: Courses, places: Places, known: Known) -> Condition
         for value, keys in _by_value(pattern):
             for on in places.at_edges(keys, pattern.label) if value else ():
                 conditions.add_load(pattern, on=on, pressure=value, name=on)
-    for pattern in courses.body.patterns():
-        for section in np.unique(pattern.slots // STRIDE):
-            force = np.zeros(dimension)
-            own = pattern.slots // STRIDE == section
-            force[pattern.slots[own] % STRIDE] = pattern.values[own]
-            if force.any():
-                conditions.add_load(pattern, on=sections[section].name, body_force=tuple(force), name=pattern.label)
-    for pattern in courses.rotation.patterns():
-        for i, square in zip(pattern.slots.tolist(), pattern.values.tolist(), strict=True):
-            if square:
-                on, velocity = sections[i].name, math.sqrt(square)
-                given = courses.centres[pattern.label]
-                conditions.add_load(pattern, on=on, centrifugal=velocity, name=f"rotation {on}", **given)
+    for pattern in courses.volume.patterns():
+        for slot, value in zip(pattern.slots.tolist(), pattern.values.tolist(), strict=True):
+            load = courses.volume_loads[slot]
+            if value:
+                conditions.add_load(pattern, on=sections[load.section].name, name=load.label, **load.given(value))
     for pattern in courses.temperature.patterns():
         _heat(pattern, sections, number_of_nodes, conditions)
     return conditions

@@ -19,6 +19,7 @@ _SAME = 1e-9  # of a factor: a smaller jump is none
 Hold = Literal["", "value", "place"]
 """What a slot is held at in a step: nothing, a value, or the place where the step finds it."""
 _NOTHING: tuple[float, int, Hold] = (0.0, 0, "")  # magnitude, amplitude, hold of a slot without a value
+_UNSET: tuple[float, int, int, Hold] = (0.0, 0, -1, "")  # the same with the source
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -84,14 +85,21 @@ class Course:
     def put(
         self, slots: IntArray, value: float, label: str, block: Block, amplitude: Amplitude | None, *, adds: bool
     ) -> None:
-        """Give slots a value; what was set in this step is added to it, or replaced by it."""
+        """Give slots a value; what was set in this step is added to it, or replaced by it.
+
+        Raises
+        ------
+        DeckError
+            If both act, but with different amplitudes.
+        """
         source = self._source(label, block)
         index = self._amplitude(amplitude)
         now, before = self._now, self._before
         for slot in slots.tolist():
-            old = now.get(slot)
-            base = old[0] if adds and old is not None and slot not in before else 0.0
-            now[slot] = (base + value, index, source, "value")
+            base, other, earlier, _ = now.get(slot, _UNSET) if slot not in before else _UNSET
+            if base and value and other != index:
+                self._refuse_two_amplitudes(index, other, self._sources[earlier][1], block)
+            now[slot] = (base + value if adds else value, other if adds and not value else index, source, "value")
             before.discard(slot)
             self._first.setdefault(slot, source)
 
@@ -108,8 +116,27 @@ class Course:
         """Remove every value (``OP=NEW``)."""
         self._now = {}
 
+    def set_by(self, slot: int) -> Block | None:
+        """The keyword whose value a slot has, None where it has none."""
+        return self._sources[self._now[slot][2]][1] if slot in self._now else None
+
+    @property
+    def keywords(self) -> set[str]:
+        """Keywords that have set what there is."""
+        return {self._sources[source][1].keyword for source in {now[2] for now in self._now.values()}}
+
+    @property
+    def kept(self) -> set[int]:
+        """Slots whose values are those of an earlier step."""
+        return self._before & self._now.keys()
+
+    @property
+    def fresh(self) -> set[int]:
+        """Slots with values of this step."""
+        return self._now.keys() - self._before
+
     def end_step(self, step: DeckStep) -> None:
-        """Note what there is at the end of a step."""
+        """Note what there is at the end of a step; what follows an amplitude of the step's time stays as it ends."""
         self._ends.append({slot: (magnitude, index, hold) for slot, (magnitude, index, _, hold) in self._now.items()})
         self._before = set(self._now)
         ends = [
@@ -118,6 +145,20 @@ class Course:
         ]
         valued = [(slot, now) for slot, now in self._now.items() if now[3] == "value"]
         self._reached = {slot: magnitude * ends[index] for slot, (magnitude, index, _, _) in valued}
+        over = {index for index, amplitude in enumerate(self._amplitudes) if amplitude and not amplitude.total}
+        for slot, (magnitude, index, source, hold) in self._now.items():
+            if index in over:
+                self._now[slot] = (magnitude * ends[index], 0, source, hold)
+
+    def _refuse_two_amplitudes(self, index: int, other: int, earlier: Block, block: Block) -> None:
+        mine, its = (
+            f"'{found.name}'" if found else "no amplitude"
+            for found in map(self._amplitudes.__getitem__, (index, other))
+        )
+        raise block.error(
+            f"acts with {mine} where line {earlier.line} of the same step acts with {its}; expected one amplitude for "
+            "all that a step sets in one direction or on one face"
+        )
 
     def patterns(self) -> Iterator[Pattern]:
         """Slots that change alike and bear one label, in the order in which the deck names them."""

@@ -9,9 +9,9 @@ from typing import Literal
 import numpy as np
 
 from signorini.arrays import IntArray
+from signorini.deck.inp.acting import Known
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.flatten import Placed
-from signorini.deck.inp.loading import Known
 from signorini.deck.inp.pairs import Pair
 from signorini.deck.inp.sets import Sets
 from signorini.deck.inp.steps import DeckStep

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from signorini.deck.inp.block import Block
+from signorini.deck.inp.block import Block, to_number
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.keywords import HARMLESS, STEP_WORDS
 
@@ -23,7 +23,7 @@ class DeckStep:
     ----------
     block : where it begins
     name : as given, or ``"step 1"``
-    start, end : total time
+    start, end : total time, which ``TIME RESET`` takes back by the period and ``TOTAL TIME AT START`` sets
     increments : that the deck asks for at first: its period over its first increment
     held : loads without an amplitude act at once (``AMPLITUDE=STEP``)
     nlgeom : large displacements are asked for
@@ -98,6 +98,13 @@ def _step(block: Block, number: int, members: list[Placed], start: float, before
     first, period = first or 1.0, period or 1.0
     if not (first > 0.0 and period > 0.0):
         raise static.error(f"has the increment {first:g} and the period {period:g}; expected numbers > 0")
+    if "TOTAL TIME AT START" in static.parameters:
+        given = to_number(static.value("TOTAL TIME AT START", "a time"))
+        if given is None:
+            raise static.error(f"TOTAL TIME AT START={static.get('TOTAL TIME AT START')}: expected a time, a number")
+        start = given
+    if "TIME RESET" in static.parameters:
+        start -= period
     if not start < start + period < math.inf:
         raise static.error(f"has the period {period:g} after {start:g}; expected one that can be added to that")
     nlgeom = "NLGEOM" in block.parameters and block.get("NLGEOM") != "NO"

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What cards of loads and supports mean together: beside a deck that says it plainly, and beside CalculiX."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from calculix import ccx_displacements, needs_ccx
+from eight_cells import eight_cells
+
+import signorini as sg
+from signorini.deck import DeckError, load
+
+RAMPS = """*AMPLITUDE,NAME=A
+0.,.2,1.,.5,2.,.9
+*AMPLITUDE,NAME=TOTAL,TIME=TOTAL TIME
+0.,0.,1.,1.,2.,.3,6.,2.
+"""
+HEAD = eight_cells() + RAMPS
+PULL = "*CLOAD\nR,3,1."
+SPIN = "*DLOAD\nE,CENTRIF,10.,0,0,0,0,0,1"
+
+# steps of a deck, and steps that say the same without what is tried; a step may begin with its *STATIC
+CASES = {
+    "OP=NEW in two cards": (
+        ["*CLOAD\nR,3,1.", "*CLOAD,OP=NEW\nR,1,.5\n*CLOAD,OP=NEW\nR,2,.5"],
+        ["*CLOAD\nR,3,1.", "*CLOAD\nR,3,0.\nR,1,.5\nR,2,.5"],
+    ),
+    "OP=NEW behind a card without": (
+        ["*CLOAD\nR,3,1.", "*CLOAD\nR,1,.5\n*CLOAD,OP=NEW\nR,2,.5"],
+        ["*CLOAD\nR,3,1.", "*CLOAD\nR,1,.5\nR,2,.5"],
+    ),
+    "OP=NEW of supports behind a card without": (
+        ["*BOUNDARY\nR,3,3,.1", "*BOUNDARY\nR,1,1,.1\n*BOUNDARY,OP=NEW\n18,2,2,.1"],
+        ["*BOUNDARY\nR,3,3,.1", "*BOUNDARY\nR,1,1,.1\n18,2,2,.1"],
+    ),
+    "OP=NEW of both kinds of distributed loads": (
+        ["*DSLOAD\nTOP,P,2.\n*DLOAD\nE,GRAV,9.,0,1,0", "*DLOAD,OP=NEW\nE,GRAV,3.,0,1,0\n*DSLOAD,OP=NEW\nTOP,P,1."],
+        ["*DSLOAD\nTOP,P,2.\n*DLOAD\nE,GRAV,9.,0,1,0", "*DLOAD\nE,GRAV,3.,0,1,0\n*DSLOAD\nTOP,P,1."],
+    ),
+    "OP=NEW of *DLOAD takes *DSLOAD too": (
+        ["*DSLOAD\nTOP,P,2.", "*DLOAD,OP=NEW\nE,GRAV,3.,0,1,0"],
+        ["*DSLOAD\nTOP,P,2.", "*DSLOAD\nTOP,P,0.\n*DLOAD\nE,GRAV,3.,0,1,0"],
+    ),
+    "two directions of gravity": (
+        ["*DLOAD\nE,GRAV,4.,1,0,0\nE,GRAV,3.,0,0,-1"],
+        ["*DLOAD\nE,GRAV,5.,4,0,-3"],
+    ),
+    "one direction of gravity twice": (
+        ["*DLOAD\nE,GRAV,10.,0,0,-1\n*DLOAD\nE,GRAV,5.,0,0,-2"],
+        ["*DLOAD\nE,GRAV,15.,0,0,-1"],
+    ),
+    "gravity with another direction in a later step": (
+        ["*DLOAD\nE,GRAV,4.,1,0,0", "*DLOAD\nE,GRAV,3.,0,0,-1"],
+        ["*DLOAD\nE,GRAV,4.,1,0,0", "*DLOAD,OP=NEW\nE,GRAV,5.,4,0,-3"],
+    ),
+    "gravity with its direction in a later step": (
+        ["*DLOAD\nE,GRAV,4.,1,1,0", "*DLOAD\nE,GRAV,3.,2,2,0"],
+        ["*DLOAD\nE,GRAV,4.,1,1,0", "*DLOAD,OP=NEW\nE,GRAV,3.,1,1,0"],
+    ),
+    "rotation faster in a later step": (
+        [SPIN, "*DLOAD\nE,CENTRIF,20.,0,0,0,0,0,2"],
+        [SPIN, "*DLOAD,OP=NEW\nE,CENTRIF,20.,0,0,0,0,0,1"],
+    ),
+    "a face pressed twice": (
+        ["*DSLOAD\nTOP,P,2.\n*DLOAD\n5,P2,1.\n5,P2,1.", "*DLOAD\n5,P2,3."],
+        ["*DSLOAD\nTOP,P,2.\n*DLOAD\n5,P2,2.", "*DLOAD\n5,P2,3."],
+    ),
+    "forces per volume": (["*DLOAD\nE,BX,2.\nE,BY,1.\nE,BX,2."], ["*DLOAD\nE,BX,4.\nE,BY,1."]),
+    "a node of two sets moved": (["*BOUNDARY\nR,3,3,.1\n18,3,3,.2"], ["*BOUNDARY\nR,3,3,.1\n*BOUNDARY\n18,3,3,.2"]),
+    "an amplitude of step time ends with its step": (
+        ["*STATIC\n1.,1.\n*CLOAD,AMPLITUDE=A\nR,3,1.\n*DLOAD,AMPLITUDE=A\nE,GRAV,2.,0,1,0", "*STATIC\n2.,2."],
+        ["*CLOAD\nR,3,.5\n*DLOAD\nE,GRAV,1.,0,1,0", ""],
+    ),
+    "an amplitude of total time goes on": (
+        ["*STATIC\n1.,1.\n*BOUNDARY,AMPLITUDE=TOTAL\nR,3,3,.1", "*STATIC\n1.,1.\n*CLOAD\n18,1,1."],
+        ["*BOUNDARY\nR,3,3,.1", "*BOUNDARY\nR,3,3,.03\n*CLOAD\n18,1,1."],
+    ),
+    "two amplitudes in two directions": (
+        ["*DLOAD,AMPLITUDE=A\nE,GRAV,8.,1,0,0\n*DLOAD,AMPLITUDE=TOTAL\nE,GRAV,3.,0,0,-1"],
+        ["*DLOAD\nE,GRAV,5.,4,0,-3"],
+    ),
+    "an amplitude inside a step": (["*AMPLITUDE,NAME=B\n0.,1.,1.,2.\n*CLOAD,AMPLITUDE=B\nR,3,1."], ["*CLOAD\nR,3,2."]),
+    "TOTAL TIME AT START": (
+        ["*CLOAD,AMPLITUDE=TOTAL\nR,3,1.", "*STATIC,TOTAL TIME AT START=4.\n1.,2.\n*CLOAD,AMPLITUDE=TOTAL\nR,3,1."],
+        ["*CLOAD\nR,3,1.", "*CLOAD\nR,3,2."],
+    ),
+    "TIME RESET": (
+        ["*CLOAD,AMPLITUDE=TOTAL\nR,3,1.", "*STATIC,TIME RESET\n*CLOAD,AMPLITUDE=TOTAL\nR,3,2.", "*CLOAD\nR,1,1."],
+        ["*CLOAD\nR,3,1.", "*CLOAD\nR,3,2.", "*CLOAD\nR,3,.6\nR,1,1."],
+    ),
+    "loads at once": (
+        ["*STEP,AMPLITUDE=STEP\n*STATIC\n.5,1.\n*CLOAD\nR,3,1.", "*CLOAD\nR,3,3."],
+        ["*CLOAD\nR,3,1.", "*CLOAD\nR,3,3."],
+    ),
+}
+
+
+def deck(folder: Path, steps: list[str], head: str = HEAD) -> Path:
+    path = folder / "deck.inp"
+    words = []
+    for step in steps:
+        start = "" if step.startswith("*STEP") else "*STEP\n" if step.startswith("*STATIC") else "*STEP\n*STATIC\n"
+        words.append(f"{start}{step}\n*NODE PRINT,NSET=ALL\nU\n*END STEP\n".replace("\n\n", "\n"))
+    path.write_text(head + "".join(words))
+    return path
+
+
+def displacements(path: Path) -> list[np.ndarray]:
+    return [step.displacement for step in sg.solve(sg.read(path)).steps]
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_it_is_what_is_said_plainly(tmp_path: Path, case: str) -> None:
+    found, plain = (displacements(deck(tmp_path, steps)) for steps in CASES[case])
+    assert len(found) == len(plain)
+    np.testing.assert_allclose(found, plain, rtol=0.0, atol=1e-12 * np.abs(plain).max())
+
+
+@needs_ccx
+@pytest.mark.parametrize("case", CASES)
+def test_it_is_what_calculix_takes_it_for(tmp_path: Path, case: str) -> None:
+    path = deck(tmp_path, CASES[case][0])
+    printed = ccx_displacements(path)
+    np.testing.assert_allclose(displacements(path), printed, rtol=0.0, atol=1e-6 * np.abs(printed).max())
+
+
+def test_another_axis_after_op_new(tmp_path: Path) -> None:
+    """CalculiX 2.20, to which a set has one axis for all steps, is without rotation then."""
+    other = "*DLOAD,OP=NEW\nE,CENTRIF,5.,0,0,0,1,0,0"
+    found = displacements(deck(tmp_path, [SPIN, other]))[-1]
+    np.testing.assert_allclose(found, displacements(deck(tmp_path, [other]))[-1], rtol=0.0, atol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("steps", "named", "said"),
+    [
+        (
+            [f"{SPIN}\nE,CENTRIF,5.,0,0,0,1,0,0"],
+            "E,CENTRIF,5.",
+            r"'E' rotates already by line \d+; expected one CENTRIF",
+        ),
+        ([SPIN, "*DLOAD\nE,CENTRIF,5.,0,0,0,1,0,0"], "E,CENTRIF,5.", "OP=NEW before another axis"),
+        ([f"{PULL}\n*CLOAD,AMPLITUDE=A\n18,3,2."], "18,3,2.", r"\*CLOAD: acts with 'A' where line \d+ .* no amplitude"),
+        (["*DLOAD,AMPLITUDE=A\n5,P2,1.\n*DSLOAD,AMPLITUDE=TOTAL\nTOP,P,1."], "TOP,P", "acts with 'TOTAL' where"),
+        (["*BOUNDARY,AMPLITUDE=A\nR,1,1,.1\n*BOUNDARY\nR,1,1,.2"], "R,1,1,.2", "acts with no amplitude where"),
+        (["*STATIC,TOTAL TIME AT START=x"], "*STATIC", "TOTAL TIME AT START=X: expected a time, a number"),
+    ],
+)
+def test_what_contradicts_itself_is_refused(tmp_path: Path, steps: list[str], named: str, said: str) -> None:
+    path = deck(tmp_path, steps)
+    with pytest.raises(DeckError, match=said) as caught:
+        load(path)
+    assert path.read_text().splitlines()[(caught.value.line or 0) - 1].startswith(named)
+
+
+@pytest.mark.parametrize(
+    ("case", "said"),
+    [
+        ("OP=NEW behind a card without", "takes nothing away, as in CalculiX: the first *CLOAD of the step"),
+        ("OP=NEW of *DLOAD takes *DSLOAD too", "takes away what *DSLOAD has set too, as in CalculiX"),
+        ("gravity with another direction in a later step", "GRAV of step 2 acts beside that of an earlier step"),
+    ],
+)
+def test_where_programs_differ_is_said(tmp_path: Path, case: str, said: str) -> None:
+    odd, plain = CASES[case]
+    assert any(said in note for note in load(deck(tmp_path, odd)).notes)
+    assert not any("CalculiX" in note for note in load(deck(tmp_path, plain)).notes)
