@@ -185,8 +185,9 @@ def solve(
     Parameters
     ----------
     model : the problem
-    start : a solution, or the file of its :meth:`Solution.save_state`, from whose end this history goes on; load
-        factors, slips and interferences are those reached there. Mesh, contacts and names of loads must be the same
+    start : a solution, or the file of its :meth:`Solution.save_state`, from whose end this history goes on as if it
+        were one with that before: load factors, slips and all that steps have set stay. The model must say the same of
+        mesh, bodies, supports, loads and contacts
     backend : of the sparse factorisation, "auto" or a name
     raise_on_failure : otherwise a solution whose ``status`` says why is returned, with what was solved before
     wellposed : whether to ask if the solution is the only one: ``solution.wellposedness``

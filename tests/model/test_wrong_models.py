@@ -192,7 +192,6 @@ IN_THE_MODEL = [
         lambda: block(steps=[Step(scale={"tip": 1.0})]),
         "step[0].scale: unknown load or moving support 'tip'; did you mean 'top'? Known: top",
     ),
-    (lambda: block(steps=[Step(scale={})]), "step: no step's scale names 'top': it would never act."),
     (lambda: block(loads=["top"]), "load[0]: is 'top'; expected a Load"),
     (lambda: block(bodies=["block"]), "body[0]: is 'block'; expected a Body"),
     (lambda: Model("mesh.msh"), "mesh: is str; expected a Mesh"),
@@ -217,6 +216,7 @@ TWO_CELLS = replace(
 )
 
 IN_THE_MESH = [
+    (lambda: block(steps=[Step(scale={})]), "step: no step's scale names 'top': it would never act."),
     (
         lambda: pair(upper=FINER, contacts=[Contact("upper.bottom", "lower.top", coupling="nodes")]),
         "contact[0]: the nonmortar side has 4 nodes and the mortar side 3; expected matching meshes",

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
@@ -16,6 +16,7 @@ from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
 from signorini.condense.size import condensing_bytes
 from signorini.condense.ties import Ties
+from signorini.engine.idle import refuse_idle
 from signorini.engine.twice import refuse_same_contacts
 from signorini.engine.unheld import refuse_free_motions, refuse_unheld
 from signorini.errors import InputError, one_of
@@ -35,8 +36,9 @@ from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.memory import available_memory
 from signorini.model.conditions import Load, Temperature
 from signorini.model.model import Model
-from signorini.model.stage import stages
-from signorini.solution.scale import Scale, data_scale
+from signorini.model.stage import Stage, Standing, stages
+from signorini.solution.checkpoint import Checkpoint
+from signorini.solution.scale import Loading, Scale, data_scale, loading_of
 
 _ROUNDING = 1e-4  # of the largest gap: times the tolerance of the law's solver, 1e-10, a few roundings of it
 _UNCONDENSED = (
@@ -201,7 +203,7 @@ class Prepared(Examined):
         )
         forces = {name: factor.get(name, 1.0) * f for name, f in self.loads.items()}
         refuse_free_motions(self.space, constraints, interface, self.parts, self.motions)
-        scale = data_scale(self.space, model, forces, constraints, interface)
+        scale = data_scale(self.space, model, _loading(stages(model), forces, constraints), interface)
         return replace(
             self,
             model=model,
@@ -215,29 +217,38 @@ class Prepared(Examined):
         )
 
 
-def examine(model: Model) -> Examined:
+def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
     """Put a model on its mesh and check what can be checked without solving.
+
+    Parameters
+    ----------
+    start : from which its history goes on
 
     Raises
     ------
     InputError
-        If something in the model does not fit the mesh, two contacts are between the same sides, or a body can move
-        freely: it is named, with its motion.
+        If something in the model does not fit the mesh or the start, a load never acts, two contacts are between the
+        same sides, or a body can move freely: it is named, with its motion.
     """
     refuse_locking(model)
-    schedule = list(stages(model))
+    factors = {} if start is None else start.state.point.factors
+    before = Standing() if start is None else start.standing
+    refuse_idle(model, factors)
+    schedule = list(stages(model, factors=factors, before=before))
     refuse_same_contacts(model, schedule)
     carriers = len(model.obstacles) + len(model.rigid_bodies)
     space = make_space(model.mesh, axisymmetric=model.axisymmetric, obstacles=carriers, linked=linked_nodes(model))
-    first = schedule[0].released
-    sometimes = frozenset().union(*(stage.released for stage in schedule))
+    first, sometimes = schedule[0].released, schedule[-1].loosened
     constraints = make_constraints(space, model, without=first)
     always = make_constraints(space, model, without=sometimes) if sometimes != first else constraints
     loads = nodal_loads(space, model)
     interface = make_interface(space, model, always)
+    if start is not None:
+        start.check(model, interface)
     parts = make_parts(space, model)
     motions = rigid_motions(space, parts)
     refuse_unheld(model, space, constraints, interface, parts, motions, schedule)
+    loading = _loading(schedule, loads, constraints, None if start is None else start.loading)
     return Examined(
         model=model,
         space=space,
@@ -247,8 +258,18 @@ def examine(model: Model) -> Examined:
         parts=parts,
         motions=motions,
         floating=_floating(motions, constraints, interface),
-        scale=data_scale(space, model, loads, constraints, interface),
+        scale=data_scale(space, model, loading, interface),
     )
+
+
+def _loading(
+    schedule: Iterable[Stage], loads: Mapping[str, Array], constraints: Constraints, before: Loading | None = None
+) -> Loading:
+    """The most that is imposed in any step, or was before."""
+    most = before or Loading()
+    for stage in schedule:
+        most = loading_of(stage, loads, constraints, most)
+    return most
 
 
 def _floating(motions: sp.csr_array, constraints: Constraints, interface: Interface) -> Array:
@@ -262,8 +283,14 @@ def _under(examined: Examined, constraints: Constraints) -> Examined:
     return Examined(**(known | {"constraints": constraints, "floating": floating}))
 
 
-def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) -> Prepared:
+def prepare(
+    model: Model, *, start: Checkpoint | None = None, backend: str = "auto", clock: Clock | None = None
+) -> Prepared:
     """Examine, assemble and condense; pairs that seem too far apart to touch are left out.
+
+    Parameters
+    ----------
+    start : from which the history goes on; its pairs are taken along
 
     Raises
     ------
@@ -272,13 +299,14 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
     """
     clock = clock or Clock()
     with clock.phase("assembly"):
-        examined = examine(model)
+        examined = examine(model, start=start)
         K = stiffness(examined.space, model)
         for springs in examined.constraints.springs.values():
             K = sp.csr_array(K + springs.T @ springs)
-        near = _near(examined)
+        near = _near(examined) if start is None else _near(examined) | start.near
     made = _made(examined, K, near, backend, clock)
-    return replace(made, released=next(stages(model)).released)
+    before = None if start is None else start.standing
+    return replace(made, released=next(stages(model, before=before)).released)
 
 
 def _near(examined: Examined) -> BoolArray:

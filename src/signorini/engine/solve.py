@@ -8,7 +8,7 @@ from math import ceil
 
 import numpy as np
 
-from signorini.arrays import Array
+from signorini.arrays import Array, BoolArray
 from signorini.clock import Clock
 from signorini.engine.automatic import follow_automatically
 from signorini.engine.enter import relaxed, switched
@@ -21,19 +21,20 @@ from signorini.engine.report import step_result
 from signorini.engine.span import Span, spans
 from signorini.engine.staged import nominal_gap, staged
 from signorini.engine.stretch import Stretch
-from signorini.engine.upheld import at_the_end, handed_over
+from signorini.engine.upheld import at_the_end, handed_over, refuse_moved
 from signorini.engine.wellposed import assess
 from signorini.errors import InputError, SolveFailed
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.friction.law import OPEN
 from signorini.interface.interface import pairs_of
 from signorini.model.model import Model
-from signorini.model.stage import Stage, stages
+from signorini.model.stage import Stage, Standing, stages
 from signorini.model.step import Step
 from signorini.solution.certificate import TOLERANCE
-from signorini.solution.checkpoint import Checkpoint, digest
+from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.history import History
 from signorini.solution.results import StepResult
+from signorini.solution.scale import Loading, data_scale, loading_of
 from signorini.solution.state import LoadPoint, State, initial_state
 
 RELAXED = "friction is lower than what pairs carried: they slip at once, before the loads of the step"
@@ -56,7 +57,7 @@ def solve(
     clock: Clock | None = None,
 ) -> History:
     """Solve every step of a model and certify every increment; see :func:`signorini.api.solve`, which dresses it."""
-    prepared = prepare(model, backend=backend, clock=clock)
+    prepared = prepare(model, start=start, backend=backend, clock=clock)
     return solve_prepared(prepared, start=start, raise_on_failure=raise_on_failure, wellposed=wellposed)
 
 
@@ -65,14 +66,12 @@ def solve_prepared(
 ) -> History:
     """Solve the load history of a prepared model; see :func:`solve`.
 
-    Pairs that were left out as too far apart are looked at after every increment; where one has met the other side, or
-    nothing was found without them, everything is solved again with all pairs.
+    Parameters
+    ----------
+    start : for which the model was prepared
     """
     refuse_fields(prepared.model)
-    begin = _begin(prepared, start)
-    history = _follow(prepared, begin, wellposed)
-    if prepared.limited and not history.solved and history.status != INTERRUPTED:
-        history = _follow(prepared.widened(), begin, wellposed)
+    history = _follow(prepared, _first(prepared) if start is None else _fitting(prepared, start), wellposed)
     if raise_on_failure and history.status == INTERRUPTED:
         raise KeyboardInterrupt
     if raise_on_failure and not history.solved:
@@ -80,27 +79,30 @@ def solve_prepared(
     return history
 
 
-def _begin(prepared: Prepared, start: Checkpoint | None) -> Checkpoint:
-    """Where the history begins: nothing has moved, or a state that fits and is in equilibrium here too."""
+def _first(prepared: Prepared) -> Checkpoint:
+    """Where a history begins: nothing has moved, and nothing is changed of contacts; supports may come later."""
     model, interface = prepared.model, prepared.interface
     zero = dict.fromkeys(model.scaled_names, 0.0)
-    if start is None:
-        state = initial_state(zero, prepared.space.number_of_dofs, interface)
-        return Checkpoint(
-            state=state,
-            inactive=frozenset(),
-            released=prepared.released,
-            contacts=tuple(contact.label for contact in model.contacts),
-            contact=interface.contact,
-            node=interface.node,
-            mesh=digest(model.mesh),
-        )
-    start.check(model, interface)
-    point = start.state.point
+    state = initial_state(zero, prepared.space.number_of_dofs, interface)
+    standing = Standing(released=prepared.released)
+    return Checkpoint.of(model, interface, state, standing, Loading(), _near(prepared))
+
+
+def _fitting(prepared: Prepared, start: Checkpoint) -> Checkpoint:
+    """A state from which this model can go on: in equilibrium here too, under supports that prescribe what they did."""
+    model, point = prepared.model, start.state.point
+    zero = dict.fromkeys(model.scaled_names, 0.0)
     factors = zero | {name: factor for name, factor in point.factors.items() if name in zero}
     state = replace(start.state, point=replace(point, factors=factors))
-    absent = pairs_of(model, interface, start.inactive)
-    found = measured(replace(prepared, absent=absent, constraints=_constraints(prepared, start.released)), state)
+    constraints = _constraints(prepared, start.standing.released)
+    now = replace(
+        prepared,
+        absent=pairs_of(model, prepared.interface, start.standing.inactive),
+        constraints=constraints,
+        scale=data_scale(prepared.space, model, start.loading, prepared.interface),
+    )
+    refuse_moved(now, state)
+    found = measured(now, state)
     if not found.imbalance <= TOLERANCE:
         raise InputError(
             f"is not in equilibrium in this model (residual {found.equilibrium:.1e} of the loads); expected the same "
@@ -110,40 +112,60 @@ def _begin(prepared: Prepared, start: Checkpoint | None) -> Checkpoint:
     return replace(start, state=state)
 
 
+def _near(prepared: Prepared) -> BoolArray:
+    """(n,) Pairs that the law of contact is asked of, or that supports or ties decide."""
+    return prepared.bodies.active | prepared.bodies.settled
+
+
 def _follow(prepared: Prepared, begin: Checkpoint, wellposed: bool) -> History:
-    """Step after step, up to the end or to what stops it; then the last one goes as far as it was followed."""
-    state = begin.state
-    seen = prepared.bodies.active | prepared.bodies.held | prepared.interface.tied
-    if (state.status[~seen] != OPEN).any():
+    """Step after step, up to the end or to what stops it; then the last one goes as far as it was followed.
+
+    Pairs that were left out as too far apart are looked at after every increment; where one has met the other side, or
+    nothing was found without them, the step is solved again with all pairs, and so are those after it.
+    """
+    model, interface, state, standing = prepared.model, prepared.interface, begin.state, begin.standing
+    if (state.status[~(_near(prepared) | interface.tied)] != OPEN).any():
         prepared = prepared.widened()
-    released = begin.released
-    schedule = list(stages(prepared.model, factors=state.point.factors, inactive=begin.inactive, released=released))
-    steps: list[StepResult] = []
-    inactive = begin.inactive
-    now = replace(prepared, absent=pairs_of(prepared.model, prepared.interface, inactive))
-    supports = _constraints(prepared, released)
+    schedule = list(stages(model, factors=state.point.factors, before=standing))
     prepared.clock.expect(sum(_expected(stage) for stage in schedule))
+    steps: list[StepResult] = []
+    before = replace(prepared, absent=pairs_of(model, interface, standing.inactive))
+    before = replace(before, constraints=_constraints(prepared, standing.released))
+    end = begin
     try:
         for stage in schedule:
             prepared = prepared.upheld(stage.released)
-            absent, now = now.absent, staged(prepared, stage)
-            state = handed_over(now, supports, state)
-            leg, cycle_ends = _step(now, stage, switched(now, state, absent))
+            loading = loading_of(stage, prepared.loads, prepared.constraints, end.loading)
+            while True:
+                try:
+                    now = staged(prepared, stage, loading)
+                    leg, cycle_ends = _from(before, now, stage, end.state)
+                    break
+                except SolveFailed:
+                    if not prepared.limited:
+                        raise
+                    prepared = prepared.widened()
             steps.append(step_result(now, stage, leg, cycle_ends))
-            state, inactive, released, supports = leg.after, stage.inactive, stage.released, now.constraints
+            end = Checkpoint.of(model, interface, leg.after, stage.standing, loading, _near(prepared))
+            before = now
     except (SolveFailed, KeyboardInterrupt) as stop:
         status = INTERRUPTED
         words = f"interrupted in step {len(steps) + 1} of {len(schedule)}; {len(steps)} steps were finished"
         if isinstance(stop, SolveFailed):
             status, words = stop.status, str(stop)
-        end = replace(begin, state=state, inactive=inactive, released=released) if steps else None
+        last = end if steps else None
         part = reached(stop)
         if part is not None:
             steps.append(step_result(now, schedule[len(steps)], part, (), finished=False))
-        return replace(_history(prepared, status, words, steps, end), escape=_motion(stop))
-    end = replace(begin, state=state, inactive=inactive, released=released)
+        return replace(_history(prepared, status, words, steps, last), escape=_motion(stop))
     history = _history(prepared, "solved", "", steps, end)
-    return replace(history, wellposedness=assess(now, state)) if wellposed else history
+    return replace(history, wellposedness=assess(now, end.state)) if wellposed else history
+
+
+def _from(before: Prepared, now: Prepared, stage: Stage, state: State) -> tuple[Leg, list[float]]:
+    """A step from the end of the one before it, with the supports and contacts that it changes."""
+    handed = handed_over(now, before.constraints, state)
+    return _step(now, stage, switched(now, handed, before.absent))
 
 
 def _motion(stop: SolveFailed | KeyboardInterrupt) -> Array | None:

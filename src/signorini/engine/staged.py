@@ -14,14 +14,16 @@ from signorini.interface.interface import pairs_of
 from signorini.iterative.bodies import Bodies
 from signorini.model.contact import ratios
 from signorini.model.stage import Stage
+from signorini.solution.scale import Loading, data_scale
 
 
-def staged(prepared: Prepared, stage: Stage) -> Prepared:
+def staged(prepared: Prepared, stage: Stage, loading: Loading) -> Prepared:
     """The prepared model under the law of a step; nothing sparse is factorised again.
 
     Parameters
     ----------
     prepared : with every contact switched on and the friction that the contacts themselves have
+    loading : the most that was imposed up to the end of the step: what its certificates refer to
 
     Raises
     ------
@@ -39,20 +41,18 @@ def staged(prepared: Prepared, stage: Stage) -> Prepared:
         )
     absent = pairs_of(prepared.model, prepared.interface, stage.inactive)
     interface = replace(prepared.interface, friction=mu, anisotropy=anisotropy)
+    scale = data_scale(prepared.space, prepared.model, loading, interface)
     if not absent.any():
-        if not stage.friction:
-            return prepared
-        return replace(prepared, interface=interface, law_or_none=prepared.law_under(interface, prepared.scale))
+        law = prepared.law_under(interface, scale)
+        return replace(prepared, interface=interface, scale=scale, law_or_none=law)
     left = interface.among(~absent)
     try:
         refuse_free_motions(prepared.space, prepared.constraints, left, prepared.parts, prepared.motions)
         bodies = prepared.bodies.among(~absent)
     except InputError as error:
         raise left_out(error, stage) from error
-    if isinstance(bodies, Bodies):
-        return replace(prepared, interface=interface, bodies=bodies, absent=absent)
-    law = contact_law(interface, bodies, prepared.scale)
-    return replace(prepared, interface=interface, bodies=bodies, law_or_none=law, absent=absent)
+    law = None if isinstance(bodies, Bodies) else contact_law(interface, bodies, scale)
+    return replace(prepared, interface=interface, scale=scale, bodies=bodies, law_or_none=law, absent=absent)
 
 
 def nominal_gap(prepared: Prepared, stage: Stage) -> Array:

@@ -10,9 +10,12 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
+from signorini.errors import InputError
 from signorini.fem.supports import Constraints
 from signorini.model.stage import Stage
 from signorini.solution.state import LoadPoint, State
+
+_SAME = 1e-9  # of the largest displacement: what compilers of other machines may change in it
 
 
 def handed_over(prepared: Prepared, before: Constraints, state: State) -> State:
@@ -38,6 +41,36 @@ def handed_over(prepared: Prepared, before: Constraints, state: State) -> State:
     old = state.point.offset if len(state.point.offset) else np.zeros(len(imposed))
     offset = np.where(other, state.displacement - imposed, np.where(now.held, old, 0.0))
     return replace(state, point=replace(state.point, reaction=reaction, offset=_completed(prepared, offset)))
+
+
+def refuse_moved(prepared: Prepared, state: State) -> None:
+    """A state under other prescribed displacements than those that it has is no beginning.
+
+    Parameters
+    ----------
+    prepared : under the supports of the state
+
+    Raises
+    ------
+    InputError
+        The first place that is held elsewhere, and the support that holds it.
+    """
+    constraints, u = prepared.constraints, state.displacement
+    imposed = applied(prepared, state.point)[1]
+    off = np.where(constraints.held, np.abs(u - imposed), 0.0)
+    if off.max(initial=0.0) <= _SAME * max(np.abs(u).max(initial=0.0), np.abs(imposed).max(initial=0.0)):
+        return
+    dof = int(np.argmax(off))
+    model, (node, axis) = prepared.model, divmod(dof, prepared.model.dimension)
+    of_mesh = node < len(model.mesh.points)
+    at = f"node {model.mesh.labels[node]}" if of_mesh else "an obstacle or rigid body"
+    owner = constraints.owner[dof]
+    by = f"support '{model.supports[owner].label}'" if owner >= 0 else "the model"
+    raise InputError(
+        f"has moved {at} by {u[dof]:.6g} in {model.axes[axis]}, where {by} prescribes {imposed[dof]:.6g}; expected "
+        "supports and obstacles that prescribe the same. A step's scale changes it",
+        where=("start",),
+    )
 
 
 def support_forces(constraints: Constraints, state: State, loads: Array) -> Array:

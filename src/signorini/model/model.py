@@ -342,22 +342,14 @@ class Model:
         if not self.steps:
             raise InputError("there is none; expected at least one", where=("step",))
         names = self.scaled_names
-        used: set[str] = set()
         for i, step in enumerate(self.steps):
             for name in step.scale or ():
                 if name not in names:
                     raise InputError(one_of(name, names, "load or moving support"), where=("step", i, "scale"))
-            used |= set(names if step.scale is None else step.scale)
             self._check_contact_names(i, step)
             self._check_support_names(i, step)
             if step.path == "exact" and self.kind == "3d":
                 self._check_facets(i)
-        unused = [name for name in names if name not in used]
-        if unused:
-            raise InputError(
-                f"no step's scale names '{unused[0]}': it would never act. Expected a factor for it in a step",
-                where=("step",),
-            )
 
     def _check_facets(self, i: int) -> None:
         """In space a path is exact where no section of a friction cone is smooth."""

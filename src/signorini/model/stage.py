@@ -5,34 +5,51 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 
 from signorini.model.model import Model
 from signorini.model.step import Step
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stage:
-    """A step as the steps before it leave it.
+class Standing:
+    """What the steps of a history have set up to some point of it; what goes on from there keeps it.
+
+    Attributes
+    ----------
+    friction : contact to its coefficient or two of them, of contacts that some step has changed
+    interference : contact to its overlap, of contacts that some step has changed
+    inactive : contacts that are switched off
+    released : supports that do not hold
+    loosened : supports that did not hold in some step so far
+    """
+
+    friction: Mapping[str, float | tuple[float, float]] = field(default_factory=dict)
+    interference: Mapping[str, float] = field(default_factory=dict)
+    inactive: frozenset[str] = frozenset()
+    released: frozenset[str] = frozenset()
+    loosened: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stage(Standing):
+    """A step as the steps before it leave it, and what stands at its end.
 
     Attributes
     ----------
     number : 1, 2, ...
     step : as the user wrote it
     ends : load factors at the end of every segment, those of every cycle
-    friction : contact to its coefficient or two of them, of contacts that some step has changed
-    interference : contact to its overlap at the end of the step, of contacts that some step has changed
-    inactive : contacts that are switched off
-    released : supports that do not hold
     """
 
     number: int
     step: Step
     ends: tuple[Mapping[str, float], ...]
-    friction: Mapping[str, float | tuple[float, float]]
-    interference: Mapping[str, float]
-    inactive: frozenset[str]
-    released: frozenset[str]
+
+    @property
+    def standing(self) -> Standing:
+        """What stands at its end, for what goes on from there."""
+        return Standing(**{part.name: getattr(self, part.name) for part in fields(Standing)})
 
     @property
     def name(self) -> str:
@@ -46,23 +63,19 @@ class Stage:
 
 
 def stages(
-    model: Model,
-    *,
-    factors: Mapping[str, float] | None = None,
-    inactive: frozenset[str] = frozenset(),
-    released: frozenset[str] = frozenset(),
+    model: Model, *, factors: Mapping[str, float] | None = None, before: Standing | None = None
 ) -> Iterator[Stage]:
     """Every step of a model in order.
 
     Parameters
     ----------
     factors : load factors before the first step, all 0 where nothing else is said
-    inactive : contacts that are switched off before the first step
-    released : supports that do not hold before it
+    before : what stands before it; None where nothing has been set
     """
     now = dict.fromkeys(model.scaled_names, 0.0) | dict(factors or {})
-    friction: dict[str, float | tuple[float, float]] = {}
-    interference: dict[str, float] = {}
+    before = before or Standing()
+    friction, interference = dict(before.friction), dict(before.interference)
+    inactive, released, loosened = before.inactive, before.released, before.loosened
     for number, step in enumerate(model.steps, start=1):
         ends = step.ends(now)
         now = ends[-1]
@@ -70,6 +83,7 @@ def stages(
         interference |= step.interference
         inactive = (inactive | set(step.inactive)) - set(step.active)
         released = (released | set(step.release)) - {*step.hold, *step.restore}
+        loosened |= released
         yield Stage(
             number=number,
             step=step,
@@ -78,4 +92,5 @@ def stages(
             interference=dict(interference),
             inactive=inactive,
             released=released,
+            loosened=loosened,
         )

@@ -27,12 +27,14 @@ _HOMES = (
     "signorini.model.rigid",
     "signorini.model.mesh",
     "signorini.model.model",
+    "signorini.model.stage",
     "signorini.model.step",
     "signorini.model.varying",
     "signorini.solution.certificate",
     "signorini.solution.checkpoint",
     "signorini.solution.history",
     "signorini.solution.results",
+    "signorini.solution.scale",
     "signorini.solution.state",
 )
 _MARK = "$"

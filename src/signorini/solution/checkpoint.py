@@ -4,41 +4,94 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from signorini.arrays import IntArray
+from signorini.arrays import BoolArray, IntArray
 from signorini.errors import InputError
 from signorini.interface.interface import Interface
 from signorini.model.mesh import Mesh
 from signorini.model.model import Model
+from signorini.model.stage import Standing
+from signorini.solution.scale import Loading
 from signorini.solution.state import State
 
 _WHERE = ("start",)
 
+_POSED = {
+    "gap": "the initial gap {}",
+    "friction": "the friction {}",
+    "anisotropy": "the ratios of friction {}",
+    "facets": "{} facets",
+    "adhesion": "the adhesion {}",
+    "shear_limit": "the shear limit {}",
+    "normal_compliance": "the normal compliance {}",
+    "tangential_compliance": "the tangential compliance {}",
+    "tied": "a tie ({})",
+    "area": "the area {}",
+    "normals": "the normal {}",
+    "tangents": "the tangent {}",
+}
+"""What of an interface a state refers to, in words."""
+
+_ADVICE = {
+    "gap": "; a step's 'interference' changes it",
+    "friction": "; a step's 'friction' changes it",
+    "normals": "; a plane of symmetry that lets go belongs into one run with the steps before it",
+    "tangents": "; a plane of symmetry that lets go belongs into one run with the steps before it",
+}
+
+_SAME = 1e-9  # of a number: what compilers of other machines may change in it
+_NONE = 1e-12  # of the size of the mesh, or of 1: a gap, or part of a unit vector, that is none
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Checkpoint:
-    """A state, and what it must fit.
+    """A state, what the steps before it have set, and what it must fit.
 
     Attributes
     ----------
     state : of all bodies and pairs
-    inactive : contacts that are switched off in it
-    released : supports that do not hold in it
+    standing : friction, interferences, contacts and supports as steps have left them
+    loading : the most that was imposed so far
+    near : (n,) pairs that the law of contact was asked of
     contacts : names of all contacts, in order
     contact, node : (n,) contact and node of every pair
+    posed : of every pair what the contacts themselves say, by name of an array of
+        :class:`signorini.interface.interface.Interface`
     mesh : digest of points and cells
     """
 
     state: State
-    inactive: frozenset[str]
-    released: frozenset[str]
+    standing: Standing
+    loading: Loading
+    near: BoolArray
     contacts: tuple[str, ...]
     contact: IntArray
     node: IntArray
+    posed: Mapping[str, NDArray[Any]]
     mesh: str
+
+    @staticmethod
+    def of(
+        model: Model, interface: Interface, state: State, standing: Standing, loading: Loading, near: BoolArray
+    ) -> Checkpoint:
+        """Of a state on the interface of a model."""
+        return Checkpoint(
+            state=state,
+            standing=standing,
+            loading=loading,
+            near=near,
+            contacts=tuple(contact.label for contact in model.contacts),
+            contact=interface.contact,
+            node=interface.node,
+            posed={name: getattr(interface, name) for name in _POSED},
+            mesh=digest(model.mesh),
+        )
 
     def check(self, model: Model, interface: Interface) -> None:
         """Refuse to be the start of a model that it does not fit.
@@ -46,7 +99,8 @@ class Checkpoint:
         Raises
         ------
         InputError
-            What differs: the mesh, the number of moving obstacles, the contacts, or a load that the model lacks.
+            What differs: the mesh, the number of moving obstacles, the contacts, what one of them says, or a support or
+            load that the model lacks.
         """
         dofs = len(self.state.displacement)
         rigid = len(model.obstacles) + len(model.rigid_bodies)
@@ -60,7 +114,9 @@ class Checkpoint:
             raise InputError(f"has the contacts {found}; the model has {expected}, expected the same", where=_WHERE)
         if not np.array_equal(self.node, interface.node) or not np.array_equal(self.contact, interface.contact):
             raise InputError("pairs other nodes than the model; expected the same contact surfaces", where=_WHERE)
-        strange = self.released - {support.label for support in model.supports}
+        for words in self._contradictions(model, interface):
+            raise InputError(words, where=_WHERE)
+        strange = self.standing.released - {support.label for support in model.supports}
         if strange:
             raise InputError(f"has released '{min(strange)}'; expected a support of that name", where=_WHERE)
         for name, factor in self.state.point.factors.items():
@@ -70,6 +126,32 @@ class Checkpoint:
                     "moving support of that name",
                     where=_WHERE,
                 )
+
+    def _contradictions(self, model: Model, interface: Interface) -> Iterator[str]:
+        """What the contacts of the model say otherwise, in words."""
+        size = float(np.ptp(model.mesh.points, axis=0).max())
+        for name, words in _POSED.items():
+            old, new = self.posed[name], getattr(interface, name)
+            if old.dtype.kind == "f":
+                same = np.isclose(old, new, rtol=_SAME, atol=_NONE * (size if name == "gap" else 1.0))
+            else:
+                same = old == new
+            other = np.flatnonzero(~same.reshape(len(same), -1).all(axis=1))
+            if len(other):
+                i = int(other[0])
+                found, expected = (words.format(_spelled(part[i])) for part in (old, new))
+                label = self.contacts[self.contact[i]]
+                yield (
+                    f"has {found} at node {model.mesh.labels[self.node[i]]} of contact '{label}'; the model has "
+                    f"{expected}, expected the same{_ADVICE.get(name, '')}"
+                )
+
+
+def _spelled(value: Any) -> str:
+    """A number, or several."""
+    if np.ndim(value) == 0:
+        return f"{value:.6g}" if isinstance(value, float) else str(value)
+    return f"({', '.join(_spelled(part) for part in value)})"
 
 
 def digest(mesh: Mesh) -> str:

@@ -14,7 +14,7 @@ from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface
 from signorini.model.model import Model
-from signorini.model.stage import stages
+from signorini.model.stage import Stage
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,25 +35,49 @@ class Scale:
     squeezed: float = 0.0
 
 
-def data_scale(
-    space: Space, model: Model, loads: Mapping[str, Array], constraints: Constraints, interface: Interface
-) -> Scale:
-    """Sizes over the whole load history: ``length = force / (E thickness)`` of the body where that is softest.
+@dataclass(frozen=True, kw_only=True)
+class Loading:
+    """The most that a history has imposed so far.
 
-    Of axisymmetric bodies half the largest radius stands for the thickness: contact bears on a part of it. In space it
-    is the edge of a cube as large as all bodies.
+    Attributes
+    ----------
+    force : sum of all nodal forces at the worst load
+    imposed : largest displacement of supports and obstacles, and overlap, length
+    """
+
+    force: float = 0.0
+    imposed: float = 0.0
+
+    def and_then(self, other: Loading) -> Loading:
+        """The most of both."""
+        return Loading(force=max(self.force, other.force), imposed=max(self.imposed, other.imposed))
+
+
+def loading_of(
+    stage: Stage, loads: Mapping[str, Array], constraints: Constraints, before: Loading | None = None
+) -> Loading:
+    """The most that a history has imposed up to the end of a step.
 
     Parameters
     ----------
     loads : nodal forces at factor 1 by name, each (dofs,)
+    constraints : with what supports prescribe at factor 1
+    before : what it had imposed before the step
     """
-    history = list(stages(model))
-    ends = [end for stage in history for end in stage.ends]
-    largest = {name: max(abs(end[name]) for end in ends) for name in model.scaled_names}
-    force = sum(largest[name] * float(np.abs(f).sum()) for name, f in loads.items())
+    largest = {name: max(abs(end[name]) for end in stage.ends) for name in stage.ends[0]}
+    force = sum((largest[name] * float(np.abs(f).sum()) for name, f in loads.items()), 0.0)
     moved = [largest[name] * float(np.abs(u).max()) for name, u in constraints.prescribed.items()]
-    overlaps = [overlap for stage in history for overlap in stage.interference.values()]
-    imposed = max([*moved, *overlaps, float(np.max(-interface.gap, initial=0.0))])
+    own = Loading(force=force, imposed=max([*moved, *stage.interference.values()], default=0.0))
+    return own.and_then(before or Loading())
+
+
+def data_scale(space: Space, model: Model, loading: Loading, interface: Interface) -> Scale:
+    """Sizes of what was imposed: ``length = force / (E thickness)`` of the body where that is softest.
+
+    Of axisymmetric bodies half the largest radius stands for the thickness: contact bears on a part of it. In space it
+    is the edge of a cube as large as all bodies.
+    """
+    force, imposed = loading.force, max(loading.imposed, float(np.max(-interface.gap, initial=0.0)))
     bodies = zip(model.bodies, _across(space, model), strict=True)
     stiffness = min(body.material.smallest_modulus * width for body, width in bodies)
     squeezed = force / min(body.material.smallest_modulus for body in model.bodies) if model.dimension == 3 else 0.0
