@@ -12,6 +12,7 @@ from signorini.lcp.problem import LCP
 from signorini.lcp.residual import Matrix
 
 ROUNDING = 1e-12
+"""Residual below which nothing is to be gained."""
 
 
 def solve_on(
@@ -50,26 +51,27 @@ def polish(
     """The best of z and a few steps of the active-set Newton method started there, never below 0, with its residual.
 
     A step solves for the given basis first, then for ``z_i > w_i`` (both as shares, see ``natural_residual``); it is
-    exact as soon as that is the right one.
+    exact as soon as that is the right one. Of candidates within rounding the one is best whose rows are balanced each
+    by its own terms, too.
 
     Parameters
     ----------
     M : the matrix of the problem with its entries, as a dense or CSR array
     """
     best = np.maximum(z, 0.0)
-    least = problem.residual(best).worst
+    least, own = problem.yardstick.unforgiving(best)
     for attempt in range(attempts):
-        if least <= ROUNDING:
+        if own <= ROUNDING:
             break
         if active is None:
             share, w = problem.yardstick.shares(best)
             active = share > w
         z = np.maximum(_or_nan(solve_on(M, problem.q, active), problem.n), 0.0)
-        worst = problem.residual(z).worst
-        if worst >= least and attempt > 0:
+        worst, its_own = problem.yardstick.unforgiving(z)
+        if worst < max(least, ROUNDING) and (least > ROUNDING or its_own < own):
+            best, least, own = z, worst, its_own
+        elif attempt > 0:
             break
-        if worst < least:
-            best, least = z, worst
         active = None
     return best, least
 

@@ -164,7 +164,7 @@ class Reduction:
 
 def box_residual(problem: LCP, lower: Array, upper: Array, z: Array) -> Residual:
     """The natural residual of a problem with bounds, in the sizes of ``natural_residual``."""
-    unit, w = problem.yardstick.sizes(z)
+    unit, w, _ = problem.yardstick.sizes(z)
     below = np.where(np.isfinite(lower), unit * (z - np.where(np.isfinite(lower), lower, 0.0)), np.inf)
     above = np.where(np.isfinite(upper), unit * (np.where(np.isfinite(upper), upper, 0.0) - z), np.inf)
     fixed = lower == upper

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -16,11 +17,15 @@ from scipy.sparse.linalg import LinearOperator
 
 from signorini.arrays import Array
 from signorini.errors import InputError
+from signorini.lcp.parts import Parts
 
 Matrix: TypeAlias = Array | sp.csr_array | LinearOperator
 
-NOISE_FLOOR = 1e-5
+BLUR = 1e-5
+"""Of the largest size in its part: what a z other than 0 may be wrong by, so that 1e-14 of it is within tolerances."""
+
 LARGEST_GROWTH = 1e4
+"""Of the largest of the data in its part: the size beyond which the terms of a row excuse no error any more."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,10 +48,13 @@ def natural_residual(M: Matrix, q: Array, z: Array) -> Residual:
 
     With ``w = M z + q``, every w_i is divided by ``s_i = |q_i| + sum_j |M_ij z_j|``, the size of the terms that cancel
     in it, and every z_j by ``1 / max_i(|M_ij| / s_i)``, the value at which it alone would make up such a sum: the
-    result does not change when rows, columns or units do. Where all terms of a row are rounding noise (an open contact:
-    ``0 = 2 mu 0 - 0``), s_i would be noise too; it is never less than ``1e-5 rows_i max_k(s_k / rows_k)``. Where z is
-    enormous, rounding in M z would balance any q, also in a problem without solution; s_i is never more than
-    ``1e4 rows_i max_k(|q_k| / rows_k)``.
+    result does not change when rows, columns or units do. Two rules compare rows, those of one part of M only
+    (``lcp.parts``), in balanced units: parts have no units in common.
+
+    Where all terms of a row are what rounding left of 0 (an open contact: ``0 = 2 mu 0 - 0``), s_i would be noise too:
+    every z_j other than 0 counts with ``1e-5 columns_j max_k(s_k / rows_k)`` more. Where z is enormous, rounding in M z
+    would balance any q, also in a problem without solution: s_i is never more than ``1e4 rows_i max_k(d_k / rows_k)``
+    with the data ``d_k = |q_k|`` and what other parts bring into row k.
 
     Parameters
     ----------
@@ -98,6 +106,11 @@ class Yardstick:
     rows: Array
     columns: Array
 
+    @cached_property
+    def parts(self) -> Parts:
+        """The rows that can be compared."""
+        return Parts.of(self.magnitude, self.rows, self.columns)
+
     @staticmethod
     def of(M: Matrix, q: Array) -> Yardstick:
         """The yardstick of a problem."""
@@ -116,25 +129,43 @@ class Yardstick:
 
     def shares(self, z: Array) -> tuple[Array, Array]:
         """z and w over their sizes: what is compared with 0, and with each other."""
-        unit, w = self.sizes(z)
-        return unit * z, w
-
-    def sizes(self, z: Array) -> tuple[Array, Array]:
-        """(unit, w): what z is multiplied by in ``natural_residual``, and w divided by its sizes."""
+        unit, w, _ = self.sizes(z)
         with np.errstate(over="ignore", invalid="ignore"):
-            product, q = self.M @ z, np.abs(self.q)
-            terms = np.abs(product).max() if self.magnitude is None else self.magnitude @ np.abs(z)
-            data = (q / self.rows).max(initial=0.0)
-            size = (q + terms) / self.rows
-            if data > 0:
-                np.minimum(size, LARGEST_GROWTH * data, out=size)
-            size = _or_one(self.rows * np.maximum(size, NOISE_FLOOR * size.max(initial=0.0)))
+            return unit * z, w
+
+    def unforgiving(self, z: Array) -> tuple[float, float]:
+        """The worst of the residual of a z >= 0, and what it would be if no row were forgiven another's rounding."""
+        unit, w, blurred = self.sizes(z)
+        with np.errstate(over="ignore", invalid="ignore"):
+            violation = np.maximum(np.minimum(unit * z, w), -w)
+            return _largest(violation), _largest(blurred * violation)
+
+    def sizes(self, z: Array) -> tuple[Array, Array, Array]:
+        """(unit, w, blurred): what z is multiplied by in ``natural_residual``, w divided by its sizes, and those over
+        what they are without blur.
+        """
+        with np.errstate(over="ignore", invalid="ignore"):
+            product = self.M @ z
+            sharp, blur = self._sizes_of_rows(np.abs(product), np.abs(z))
+            size = _or_one(sharp + blur)
             w = (product + self.q) / size
             unit = np.full(len(z), 1.0 / (np.abs(z).max(initial=0.0) or 1.0))
             if self.magnitude is not None:
                 column = _largest_in_columns(self.magnitude, 1.0 / size)
                 unit = np.where(column > 0, column, unit)
-        return unit, w
+            return unit, w, size / _or_one(sharp)
+
+    def _sizes_of_rows(self, product: Array, z: Array) -> tuple[Array, Array]:
+        """s of ``natural_residual`` from ``|M z|`` and ``|z|``: the terms of the rows themselves, and the blur."""
+        q = np.abs(self.q)
+        if self.magnitude is None:
+            return q + product.max(), np.zeros(len(q))
+        parts = self.parts
+        data = parts.largest((q if parts.across is None else q + parts.across @ z) / self.rows)
+        size = (q + self.magnitude @ z) / self.rows
+        size = np.where(data > 0, np.minimum(size, LARGEST_GROWTH * data), size)
+        blur = np.where(z > 0, BLUR * self.columns * parts.largest(size), 0.0)
+        return self.rows * size, self.magnitude @ blur
 
 
 def balance(magnitude: Any, n: int, *, sweeps: int = 12) -> tuple[Array, Array]:
