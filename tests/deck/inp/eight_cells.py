@@ -4,16 +4,17 @@
 import numpy as np
 
 
-def eight_cells(*, kind: str = "C3D8", lower: str = "") -> str:
+def eight_cells(*, kind: str = "C3D8", lower: str = "", skew: float = 0.06) -> str:
     """Nodes 1 to 27 (ALL), FIX at x = 0, R at x = 2, cells E with the surfaces TOP and BOT, FIX held.
 
     Parameters
     ----------
     kind : element type of the cells
     lower : another one of the lower four
+    skew : how far nodes are from those of bricks, length
     """
     ways = np.stack(np.meshgrid(*[np.arange(3)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)[:, ::-1]
-    points = ways * [1.0, 0.75, 0.5] + 0.06 * np.random.default_rng(5).uniform(-1.0, 1.0, (27, 3))
+    points = ways * [1.0, 0.75, 0.5] + skew * np.random.default_rng(5).uniform(-1.0, 1.0, (27, 3))
     nodes = [f"{k},{x:.4f},{y:.4f},{z:.4f}" for k, (x, y, z) in enumerate(points, start=1)]
     corners = np.array([0, 1, 4, 3, 9, 10, 13, 12])
     cells = [1 + corners + i + 3 * j + 9 * k for k, j, i in np.ndindex(2, 2, 2)]

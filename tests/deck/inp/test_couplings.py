@@ -76,6 +76,20 @@ def test_one_direction_in_space(tmp_path: Path, axis: int, held: str, moments: t
     assert step.strain_energy == pytest.approx((u[axis] + np.dot(moments, theta)) / 2.0)
 
 
+def test_what_nothing_follows_needs_no_support(tmp_path: Path) -> None:
+    """Of the reference node of one direction three displacements and rotations are held as if by the deck."""
+    coupling = "*COUPLING, REF NODE=99, SURFACE=STOP\n*KINEMATIC\n1,1\n"
+    load_words = "*BOUNDARY\n99,5\n*CLOAD\n99,1,1.\n99,6,-0.3\n"
+    found, held = (
+        sg.solve(sg.read(deck(tmp_path, coupling, f"{more}{load_words}", CUBE))).last
+        for more in ("", "*BOUNDARY\n99,2,4\n")
+    )
+    np.testing.assert_allclose(found.displacement, held.displacement, rtol=0.0, atol=1e-15)
+    assert not np.any(found.reactions["rigid STOP idle"])
+    with pytest.raises(DeckError, match=r"deck.inp:\d+: \*CLOAD: acts on 'y' of the reference node of line \d+"):
+        load(deck(tmp_path, coupling, "*CLOAD\n99,2,1.\n", CUBE))
+
+
 @pytest.mark.parametrize(
     ("coupling", "words"),
     [

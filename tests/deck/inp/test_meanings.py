@@ -106,6 +106,18 @@ def deck(folder: Path, steps: list[str], head: str = HEAD) -> Path:
     return path
 
 
+# heads of decks for one load
+BODIES = {
+    "bricks with and without incompatible modes": eight_cells(lower="C3D8I", skew=0.0),
+    "engineering constants in space, turned": eight_cells()
+    .replace("*ELASTIC\n1000.,.27", "*ELASTIC,TYPE=ENGINEERING CONSTANTS\n1000,700,400,.2,.25,.3,300,250,\n200,20.")
+    .replace("MATERIAL=M\n", "MATERIAL=M,ORIENTATION=O\n*ORIENTATION,NAME=O\n2.,1.,0.,0.,1.,0.\n3,20.\n"),
+    "one direction of a coupling": eight_cells()
+    + "*NODE\n101,3.,.7,.4\n*SURFACE,NAME=RS,TYPE=NODE\nR\n*COUPLING,REF NODE=101,SURFACE=RS,CONSTRAINT NAME=C\n"
+    "*KINEMATIC\n1,1\n*BOUNDARY\n101,4,6\n101,1,1,.02\n",
+}
+
+
 def displacements(path: Path) -> list[np.ndarray]:
     return [step.displacement for step in sg.solve(sg.read(path)).steps]
 
@@ -123,6 +135,60 @@ def test_it_is_what_calculix_takes_it_for(tmp_path: Path, case: str) -> None:
     path = deck(tmp_path, CASES[case][0])
     printed = ccx_displacements(path)
     np.testing.assert_allclose(displacements(path), printed, rtol=0.0, atol=1e-6 * np.abs(printed).max())
+
+
+@needs_ccx
+@pytest.mark.parametrize("body", BODIES)
+def test_bodies_are_those_of_calculix(tmp_path: Path, body: str) -> None:
+    path = deck(tmp_path, ["*CLOAD\n18,3,1.\n9,2,2."], BODIES[body])
+    printed = ccx_displacements(path)
+    found = np.array(displacements(path))[:, :27]
+    np.testing.assert_allclose(found, printed, rtol=0.0, atol=1e-6 * np.abs(printed).max())
+
+
+def test_incompatible_modes_are_those_of_their_own_elements(tmp_path: Path) -> None:
+    """A section of both kinds is what two sections are."""
+    head = eight_cells(lower="C3D8I")
+    apart = head.replace("*ELSET,ELSET=LOW\n", "*ELSET,ELSET=HIGH\n5,6,7,8\n*ELSET,ELSET=LOW\n").replace(
+        "*SOLID SECTION,ELSET=E,MATERIAL=M\n",
+        "*SOLID SECTION,ELSET=LOW,MATERIAL=M\n*SOLID SECTION,ELSET=HIGH,MATERIAL=M\n",
+    )
+    model = sg.read(deck(tmp_path, [PULL], head))
+    assert {body.name: body.formulation for body in model.bodies} == {"E": "standard", "E C3D8I": "incompatible"}
+    one, two = (displacements(deck(tmp_path, [PULL], words)) for words in (head, apart))
+    np.testing.assert_allclose(one, two, rtol=0.0, atol=1e-13)
+
+
+def test_a_surface_of_nodes_holds_whole_faces(tmp_path: Path) -> None:
+    """A node that belongs to none of them would go through the other side unseen."""
+    lines = "*SURFACE,NAME=S,TYPE=NODE\n19\n20\n22\n23\n27\n*SURFACE INTERACTION,NAME=I\n*SURFACE BEHAVIOR\n"
+    pair = "*CONTACT PAIR,INTERACTION=I\nS,BOT\n"
+    path = deck(tmp_path, [PULL], HEAD + lines + pair)
+    with pytest.raises(
+        DeckError, match=r"deck.inp:\d+: surface 'S' has nodes of no face that it holds as a whole: 27;"
+    ):
+        load(path)
+    with pytest.raises(DeckError, match=r"\*DSLOAD: surface 'S' is one of nodes"):
+        load(deck(tmp_path, ["*DSLOAD\nS,P,1."], HEAD + lines))
+
+
+@pytest.mark.parametrize(
+    ("lines", "angle"),
+    [
+        ("1.,1.,0.,0.,1.,0.\n3,0.", 45.0),
+        ("1.,1.,0.,0.,1.,0.\n3,-20.", 25.0),
+        ("1.,1.,0.,0.,1.,0.\n1,0.", 45.0),
+        ("4.,2.,1.,3.,3.,1.,3.,1.,1.", 45.0),
+        ("1.,1.,0.,0.,1.,0.\n,0.", 45.0),
+    ],
+)
+def test_an_orientation_is_turned(tmp_path: Path, lines: str, angle: float) -> None:
+    """By the second line that CAE writes; points may be given from a third one."""
+    head = BODIES["engineering constants in space, turned"].replace("2.,1.,0.,0.,1.,0.\n3,20.", lines)
+    assert sg.read(deck(tmp_path, [PULL], head)).bodies[0].material.angle == pytest.approx(angle)
+    out = head.replace(lines, "1.,1.,0.,0.,1.,0.\n2,5.")
+    with pytest.raises(DeckError, match=r"\*ORIENTATION: turns by 5 degrees about axis 2; expected axis 3"):
+        load(deck(tmp_path, [PULL], out))
 
 
 def test_another_axis_after_op_new(tmp_path: Path) -> None:

@@ -96,7 +96,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
     sections = make_sections(outside, elements, materials, grid)
     interactions = make_interactions(outside)
     contacts = make_contacts(outside, interactions, surfaces, nodes, edges)
-    contacts += make_ties(outside, surfaces, edges, contacts)
+    contacts += make_ties(outside, surfaces, nodes, edges, contacts)
     places = Places(edges, surfaces, nodes)
     rigid = make_rigid_bodies(outside, nodes, elements, grid, places)
     rigid, equations = make_couplings(outside, rigid, nodes, surfaces, edges, grid, places)
@@ -122,7 +122,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
             _mesh(grid, sections, places),
             kind=kind,
             thickness=_thickness(sections[0], kind),
-            bodies=[_body(section, grid, _thickness(sections[0], kind), kind) for section in sections],
+            bodies=[_body(section, _thickness(sections[0], kind), kind) for section in sections],
             supports=conditions.supports,
             loads=conditions.loads,
             contacts=[pair.contact for pair in contacts],
@@ -217,7 +217,7 @@ def _thickness(section: Section, kind: Kind) -> float:
     return 1.0 if kind in ("axisymmetric", "3d") else section.thickness  # CalculiX: the angle that it cuts out
 
 
-def _body(section: Section, grid: Grid, usual: float, kind: Kind) -> Body:
+def _body(section: Section, usual: float, kind: Kind) -> Body:
     """Of a section; where its thickness is not the usual one, with its own."""
     substance, thickness = section.substance, _thickness(section, kind)
     elastic, alpha = substance.elastic, substance.expansion or 0.0
@@ -227,13 +227,11 @@ def _body(section: Section, grid: Grid, usual: float, kind: Kind) -> Body:
         given |= {"angle": section.angle, "expansion1": alpha, "expansion2": alpha, "expansion3": alpha}
     else:
         given |= {"expansion": alpha}
-    own = [group for group in grid.groups if np.isin(group.index, section.elements).any()]
-    incompatible = any(group.type.incompatible for group in own)
     try:
         return Body(
             section.name,
             replace(elastic, **given),
-            formulation="incompatible" if incompatible else "standard",
+            formulation="incompatible" if section.incompatible else "standard",
             thickness=None if thickness == usual else thickness,
         )
     except InputError as error:

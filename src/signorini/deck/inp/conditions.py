@@ -94,6 +94,7 @@ def make_conditions(courses: Courses, places: Places, known: Known) -> Condition
     conditions, sections = Conditions(), known.sections
     number_of_nodes = len(known.nodes.numbering.labels)
     _supports(courses.displacement, places, conditions, known)
+    _hold_idle(conditions, known)
     _forces(courses.force, places, conditions, known)
     for pattern in courses.pressure.patterns():
         for value, keys in _by_value(pattern):
@@ -164,11 +165,28 @@ def _supports(course: Course, places: Places, conditions: Conditions, known: Kno
             conditions.add_support(patterns[0], on=places.at_nodes(own, label), u=u, name=label)
 
 
+def _hold_idle(conditions: Conditions, known: Known) -> None:
+    """What nothing follows of the motion of a reference node stays at rest, unless the deck moves or holds it."""
+    for item in known.rigid:
+        held = [support.u for support in conditions.supports if support.on == item.body.name]
+        idle = [i for i in item.idle if all(u[i] is None for u in held)]
+        if idle:
+            name = conditions.label(f"{item.body.name} idle")
+            u = tuple(0.0 if i in idle else None for i in range(len(directions(known.dimension))))
+            conditions.supports.append(Support(item.body.name, u=u, name=name))
+            conditions.blocks[name] = item.block
+
+
 def _forces(course: Course, places: Places, conditions: Conditions, known: Known) -> None:
     dimension = known.dimension
     for whole in course.patterns():
         pattern, rigid = _apart(whole, known)
         for item, index, value in rigid:
+            if value and index in item.idle:
+                raise pattern.block.error(
+                    f"acts on '{directions(known.dimension)[index]}' of the reference node of line {item.block.line}, "
+                    "which nothing follows; expected a load on what is coupled"
+                )
             if value:
                 size, name = len(directions(dimension)), item.body.name
                 force = tuple(value if i == index else 0.0 for i in range(size))

@@ -17,6 +17,7 @@ from signorini.deck.inp.sets import Sets
 from signorini.deck.inp.surfaces import Edges, Surfaces
 from signorini.model.links import AXES, Equation, RigidBody, Term, directions
 
+_ROUNDING = 1e-12  # of the longest arm: shorter ones are none
 COUPLINGS = ("KINEMATIC", "DISTRIBUTING")
 """Keywords that say how the ``*COUPLING`` before them couples."""
 
@@ -69,16 +70,16 @@ def make_couplings(
         on = places.at_nodes(distinct(np.append(members, own)) if whole else own, f"coupling {surface}")
         name = places.unused(f"rigid {surface}", [other.body.name for other in bodies])
         point = grid.points[reference, :dimension]
-        bodies.append(
-            DeckRigid(
-                body=RigidBody(name, on, tuple(float(x) for x in point)), reference=reference, turning=-1, block=block
-            )
-        )
+        body = RigidBody(name, on, tuple(float(x) for x in point))
+        followed = set(directions(dimension))
         if not whole:
             at = kinematic.row("directions")
             labels = nodes.numbering.labels[members].tolist()
-            for terms in _followed(name, labels, grid.points[members, :dimension] - point, coupled):
-                equations.append(DeckEquation(equation=Equation(terms), row=at, block=block))
+            own_terms = list(_followed(name, labels, grid.points[members, :dimension] - point, coupled))
+            followed = {direction for terms in own_terms for place, direction, _ in terms if place == name}
+            equations += [DeckEquation(equation=Equation(terms), row=at, block=block) for terms in own_terms]
+        idle = tuple(i for i, direction in enumerate(directions(dimension)) if direction not in followed)
+        bodies.append(DeckRigid(body=body, reference=reference, turning=-1, block=block, idle=idle))
     return bodies, equations
 
 
@@ -121,6 +122,7 @@ def _followed(name: str, labels: Sequence[int], arms: Array, coupled: Sequence[i
     turns = directions(dimension)[dimension:]
     for axis in coupled:
         shares = _turned(arms, axis)
+        shares[np.abs(shares) <= _ROUNDING * np.abs(arms).max()] = 0.0
         for label, share in zip(labels, shares.tolist(), strict=True):
             turning = [(name, turn, -value) for turn, value in zip(turns, share, strict=True) if value]
             yield [(label, AXES[axis], 1.0), (name, AXES[axis], -1.0), *turning]

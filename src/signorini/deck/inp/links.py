@@ -25,19 +25,21 @@ _MOST = 100_000  # terms of an equation times its nodes
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class DeckRigid:
-    """A ``*RIGID BODY``.
+    """A ``*RIGID BODY``, or the reference node of a ``*COUPLING``.
 
     Attributes
     ----------
     body : its counterpart in the model
     reference, turning : its REF NODE and its ROT NODE, -1 where it has none
     block : the keyword
+    idle : displacements and rotations that nothing follows, where single directions are coupled
     """
 
     body: RigidBody
     reference: int
     turning: int
     block: Block
+    idle: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from signorini.arrays import IntArray, distinct
 from signorini.deck.inp.block import Block
+from signorini.deck.inp.course import unique_label
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.grid import Grid, nodes_of
 from signorini.deck.inp.named import gathered
@@ -50,6 +53,7 @@ class Section:
     substance : what they are made of
     angle : of the material's axes, degrees
     thickness : out of plane, length
+    incompatible : its elements have incompatible modes
     """
 
     block: Block
@@ -59,6 +63,7 @@ class Section:
     substance: Substance
     angle: float
     thickness: float
+    incompatible: bool
 
 
 def make_materials(placed: list[Placed]) -> dict[str, Substance]:
@@ -97,15 +102,15 @@ def _with(substance: Substance, block: Block) -> Substance:
 
 
 def _orthotropic(block: Block) -> Orthotropic:
-    """Nine constants in two lines: E1, E2, E3, nu12, nu13, nu23, G12, G13, G23; the last two do not act here."""
+    """Nine constants in two lines: E1, E2, E3, nu12, nu13, nu23, G12, G13, G23."""
     rows = list(block.rows())
     words = [(row, i) for row in rows for i in range(len(row.fields))]
     if len(words) not in (9, 10):
         raise block.error(f"has {len(words)} constants; expected 9: E1, E2, E3, nu12, nu13, nu23, G12, G13, G23")
-    values = [row.number(i, "a constant") for row, i in words]
-    keys = ("E1", "E2", "E3", "nu12", "nu13", "nu23", "G12")
+    values = [row.number(i, "a constant") for row, i in words[:9]]  # a tenth is the temperature that they belong to
+    keys = ("E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23")
     try:
-        return Orthotropic(**dict(zip(keys, values, strict=False)))
+        return Orthotropic(**dict(zip(keys, values, strict=True)))
     except InputError as error:
         raise rows[0].error(f"*ELASTIC: {error}") from error
 
@@ -120,8 +125,9 @@ def _constant(block: Block, what: str) -> float:
 
 
 def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Substance], grid: Grid) -> list[Section]:
-    """Read all ``*SOLID SECTION`` keywords; every element has exactly one."""
+    """Read all ``*SOLID SECTION`` keywords; every element has exactly one, and bodies are of one formulation."""
     sections: list[Section] = []
+    taken: set[str] = set()
     angles = make_orientations(placed)
     owner = np.full(len(grid.elements.labels), -1)
     for item in placed:
@@ -143,23 +149,30 @@ def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Sub
             first = members[owner[members] >= 0][0]
             number = elements.numbering.labels[first]
             raise block.error(f"element {number} has the section of '{sections[owner[first]].name}' already")
-        owner[members] = len(sections)
-        angle = _angle(block, angles)
-        sections.append(
-            Section(
-                block=block,
-                name=name,
-                elements=members,
-                nodes=nodes_of(grid, members),
-                substance=substance,
-                angle=angle,
-                thickness=_thickness(block),
+        given: dict[str, Any] = {"substance": substance, "angle": _angle(block, angles), "thickness": _thickness(block)}
+        for kind, own in _by_formulation(members, grid):
+            owner[own] = len(sections)
+            label = unique_label(f"{name} {kind}" if kind and len(own) < len(members) else name, taken)
+            taken.add(label)
+            sections.append(
+                Section(
+                    block=block, name=label, elements=own, nodes=nodes_of(grid, own), incompatible=bool(kind), **given
+                )
             )
-        )
     if (owner < 0).any():
         number = elements.numbering.labels[np.nonzero(owner < 0)[0][0]]
         raise sections[-1].block.error(f"element {number} has no section") if sections else InputError("no section")
     return sections
+
+
+def _by_formulation(members: IntArray, grid: Grid) -> Iterator[tuple[str, IntArray]]:
+    """Elements without and with incompatible modes, which are bodies of their own: "" or their type, and members."""
+    groups = [group for group in grid.groups if group.type.incompatible]
+    modes = np.isin(members, np.concatenate([np.empty(0, np.int64), *(group.index for group in groups)]))
+    if not modes.all():
+        yield "", members[~modes]
+    if modes.any():
+        yield groups[0].block.value("TYPE").upper(), members[modes]
 
 
 def make_orientations(placed: list[Placed]) -> dict[str, float]:
@@ -178,14 +191,24 @@ def make_orientations(placed: list[Placed]) -> dict[str, float]:
         block.refuse_unknown(("NAME", "SYSTEM", "DEFINITION"))
         block.choice("SYSTEM", ("RECTANGULAR",), "RECTANGULAR")
         block.choice("DEFINITION", ("COORDINATES",), "COORDINATES")
-        rows = list(block.rows())
-        if len(rows) != 1:
-            raise block.error(f"has {len(rows)} data lines; expected one, two points on and beside the first axis")
-        a, b = (np.array([rows[0].number(3 * k + i, "a coordinate", 0.0) for i in range(3)]) for k in (0, 1))
-        if a[2] or b[2] or not a[0] * b[1] - a[1] * b[0] > 0.0:
-            raise rows[0].error("*ORIENTATION: its axes do not lie in the plane with the third towards the reader")
-        angles[block.value("NAME").upper()] = float(np.degrees(np.arctan2(a[1], a[0])))
+        angles[block.value("NAME").upper()] = _axes(block)
     return angles
+
+
+def _axes(block: Block) -> float:
+    """Angle of the first axis, degrees, from points on it and beside it, and a turn about a local axis behind them."""
+    rows = list(block.rows())
+    if len(rows) not in (1, 2):
+        raise block.error(f"has {len(rows)} data lines; expected points on and beside the first axis, then a rotation")
+    a, b, c = (np.array([rows[0].number(3 * k + i, "a coordinate", 0.0) for i in range(3)]) for k in range(3))
+    a, b = a - c, b - c
+    if a[2] or b[2] or not a[0] * b[1] - a[1] * b[0] > 0.0:
+        raise block.at(rows[0]).error("its axes do not lie in the plane with the third towards the reader")
+    axis = rows[1].whole(0, "the local axis of the rotation", 1) if len(rows) == 2 else 3
+    turn = rows[1].number(1, "the additional rotation, degrees", 0.0) if len(rows) == 2 else 0.0
+    if axis != 3 and turn:
+        raise block.at(rows[1]).error(f"turns by {turn:g} degrees about axis {axis}; expected axis 3, across the plane")
+    return float(np.degrees(np.arctan2(a[1], a[0]))) + turn
 
 
 def _angle(block: Block, angles: dict[str, float]) -> float:

@@ -18,6 +18,7 @@ from signorini.deck.inp.surfaces import Edges, Surfaces
 from signorini.errors import one_of
 from signorini.model.contact import Contact
 
+_NAMED = 5  # nodes that a message names
 _TYPES = ("", "NODE TO SURFACE", "SURFACE TO SURFACE", "MORTAR", "LINMORTAR", "PGLINMORTAR", "MASSLESS")
 _IGNORED = (
     "SMALL SLIDING",
@@ -64,7 +65,7 @@ def make_contacts(
         if not block.has_data:
             raise block.error("has no data line; expected the slave and the master surface")
         for row in block.rows():
-            slave, master = (_side(item, row, i, surfaces, edges) for i in (0, 1))
+            slave, master = (_side(item, row, i, surfaces, edges, nodes) for i in (0, 1))
             faces = edges.ends[surfaces.keys[slave.upper()]]
             given = _adjusted(block, nodes, item, distinct(faces[faces >= 0]))
             if (slave, master) in clearances:
@@ -83,7 +84,9 @@ def make_contacts(
     return found
 
 
-def make_ties(placed: list[Placed], surfaces: Surfaces, edges: Edges, contacts: Sequence[Pair]) -> list[Pair]:
+def make_ties(
+    placed: list[Placed], surfaces: Surfaces, nodes: Sets, edges: Edges, contacts: Sequence[Pair]
+) -> list[Pair]:
     """Read all ``*TIE`` keywords: surfaces that neither slip nor open; initial gaps count as filled.
 
     Raises
@@ -104,7 +107,7 @@ def make_ties(placed: list[Placed], surfaces: Surfaces, edges: Edges, contacts: 
                 raise block.error("POSITION TOLERANCE: expected a distance > 0")
             given["search"] = reach
         for row in block.rows():
-            slave, master = (_side(item, row, i, surfaces, edges) for i in (0, 1))
+            slave, master = (_side(item, row, i, surfaces, edges, nodes) for i in (0, 1))
             name = _label(slave, master, [*contacts, *found])
             found.append(Pair(contact=Contact(slave, master, friction="tied", name=name, **given), block=block))
     return found
@@ -115,9 +118,17 @@ def _label(slave: str, master: str, others: Sequence[Pair]) -> str:
     return slave if not any(other.contact.nonmortar == slave for other in others) else f"{slave} on {master}"
 
 
-def _side(item: Placed, row: Row, i: int, surfaces: Surfaces, edges: Edges) -> str:
+def _side(item: Placed, row: Row, i: int, surfaces: Surfaces, edges: Edges, nodes: Sets) -> str:
     name = surfaces.find(row.text(i, "a surface"), item.scope, row)
     keys = surfaces.keys[name.upper()]
+    bare = np.setdiff1d(surfaces.nodes.get(name.upper(), ()), edges.ends[keys]).astype(np.int64)
+    if len(bare):
+        labels = ", ".join(str(label) for label in nodes.numbering.labels[bare[:_NAMED]])
+        more = f" and {len(bare) - _NAMED} more" if len(bare) > _NAMED else ""
+        raise row.error(
+            f"surface '{name}' has nodes of no face that it holds as a whole: {labels}{more}; contact is between faces "
+            "here, expected all nodes of them, or TYPE=ELEMENT"
+        )
     if not len(keys):
         raise row.error(f"surface '{name}' has no edge of an element")
     if len(edges.facets(keys)) > 1:
