@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Small random Coulomb problems, and the referee that tries every state."""
 
+import dataclasses
 import itertools
 
 import numpy as np
 from hypothesis import given, settings
 
+from signorini.condense.basis import make_basis
+from signorini.condense.image import Image
 from signorini.friction import CoulombProblem, certify
 from signorini.friction.cone import cone_system
 from signorini.friction.law import states
@@ -44,6 +47,19 @@ def block_on_floor(pairs, load, friction=0.3):
     W = (Q * np.append(np.ones(3), np.linspace(0.1, 0.9, 2 * pairs - 3))) @ Q.T
     b = R @ np.linalg.solve(R.T @ R, np.array(load, dtype=float))
     return CoulombProblem.of(W=(W + W.T) / 2, b=b, friction=np.full(pairs, friction), motions=R, scale=1.0)
+
+
+def with_stiffness(problem, factor):
+    """The same problem scaled by another interface stiffness D; far off, few digits are left of it."""
+    image, root = problem.image, np.sqrt(factor)
+    motions = root * image.motions
+    basis = make_basis(motions)
+    A = factor * image.A
+    leaning = basis.project(A)
+    few = Image.of_compliance(A, motions, basis.R)
+    resultant = basis.coefficients(image.motions.T @ problem.b)
+    b = few.load(root * problem.free_motion(problem.b) - leaning @ resultant, resultant)
+    return dataclasses.replace(problem, image=few, b=b, scale=root * problem.scale)
 
 
 def all_solutions(problem):

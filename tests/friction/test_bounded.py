@@ -106,10 +106,10 @@ def test_a_limit_is_what_the_loads_pull_away_at():
         problem = replace(block_on_floor(4, (-10.0, push, 0.0)), limit=np.full(4, 0.1))
         assert solve_coulomb(replace(problem, limit=None)).solved
         assert solve_coulomb(problem).solved == held
-        rho = pulled_away(problem)
-        assert (rho is None) == held
-        if rho is not None:
-            np.testing.assert_allclose(rho[4:], 1.0, atol=1e-9)
+        pull = pulled_away(problem)
+        assert (pull is None) == held
+        if pull is not None:
+            np.testing.assert_allclose(pull.motion[4:], 1.0, atol=1e-9)
 
 
 def test_the_hard_set_with_limits_and_adhesion_is_answered():

@@ -3,11 +3,12 @@
 
 import numpy as np
 import pytest
-from coulomb_samples import HELD, all_solutions, answer, for_all, random_problem
+from coulomb_samples import HELD, all_solutions, answer, for_all, random_problem, with_stiffness
 from hypothesis import strategies as st
 
 from signorini.friction import CoulombProblem, index, mu_low, solve_coulomb
 from signorini.friction.path import follow
+from signorini.friction.rigid import pulled_away
 from signorini.friction.tree import search
 
 seeds = st.integers(0, 10**6)
@@ -47,6 +48,16 @@ def test_tree_agrees(seed, pairs, motions):
         assert not solutions
     elif tree.end == "solution":
         assert solve_coulomb(problem, tree.state).solved
+
+
+@for_all(seed=seeds, pairs=st.integers(2, 4), motions=st.integers(1, 2), digits=st.sampled_from([8, 14, 20, 26]))
+def test_rounding_proves_nothing(seed, pairs, motions, digits):
+    """An interface stiffness far too small leaves few digits of the problem: its answer is lost, and not refuted."""
+    problem = random_problem(seed, pairs, motions)
+    poor = with_stiffness(problem, 10.0**-digits)
+    if solve_coulomb(problem).solved:
+        assert search(poor, budget=200).end != "impossible"
+        assert pulled_away(poor) is None
 
 
 @for_all(seed=seeds, pairs=st.integers(1, 12), friction=st.sampled_from([0.2, 1.0, 4.0]))

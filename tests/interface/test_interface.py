@@ -14,7 +14,7 @@ from signorini.fem.generators import annulus, half_disk, rectangle
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit
 from signorini.model.body import Body
-from signorini.model.conditions import Support
+from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
 from signorini.model.material import Elastic
 from signorini.model.mesh import join
@@ -220,3 +220,18 @@ def test_of_two_sides_without_roles_the_coarser_one_is_nonmortar():
         )
         (sides,) = prepare(model).interface.sides
         assert (sides.nonmortar, sides.coupling) == ("low.top", "mortar")
+
+
+def test_rounding_of_coordinates_is_no_gap():
+    """Both sides are held: an overlap by the last digit of 0.3 was taken for a proof that nothing is in equilibrium."""
+    below, above = 0.1 + 0.2, 0.3
+    assert below > above
+    mesh = join({"a": rectangle(x=[0, 1], y=[0, below]), "b": rectangle(x=[0, 1], y=[above, 0.6, 0.9])})
+    model = Model(
+        mesh,
+        bodies=[Body(name, Elastic(E=1000.0, nu=0.3)) for name in "ab"],
+        supports=[Support(side, u=(0, 0)) for side in ("a.bottom", "a.top", "b.bottom")],
+        loads=[Load("b.top", force=(0.0, -1e-9))],
+        contacts=[Contact("b.bottom", "a.top", friction=0.3)],
+    )
+    assert solve(model).last.certificate.worst < 1e-14

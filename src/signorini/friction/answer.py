@@ -21,11 +21,11 @@ SEVERAL = "; its index is -1: at least two more solutions exist, and the load hi
 VERGE = "; pairs that hold friction without pressure slip on the verge of opening: {pairs}"
 PULLED_AWAY = (
     "no equilibrium: the loads pull a body away along a rigid motion that contact cannot resist, whatever its state;"
-    " hold the body, or change the loads"
+    " hold the body, or change the loads (nothing takes {margin:.2g} of the load on the body)"
 )
 TREE = (
     "no equilibrium: the forces can balance the resultants, but no state of the pairs (open, stick, slip) is in"
-    " equilibrium; every one is refused by a linear program"
+    " equilibrium; every one is refused by a linear program (at the least {margin:.2g} of the load is not balanced)"
 )
 ESCAPES = (
     "no certified equilibrium, and no proof that there is none: with ever weaker springs the bodies run away along the"
@@ -73,7 +73,7 @@ def _how(problem: CoulombProblem, found: Candidate, state: IntArray, trace: tupl
 
 def impossible(problem: CoulombProblem, found: Candidate, trace: tuple[Attempt, ...]) -> CoulombResult:
     """A proof that there is no equilibrium as a result."""
-    message = PULLED_AWAY if found.proof == "rigid motion" else TREE
+    message = (PULLED_AWAY if found.proof == "rigid motion" else TREE).format(margin=found.margin)
     return _unsolved(problem, "no_equilibrium", trace, found.escape, message)
 
 

@@ -27,6 +27,8 @@ class Candidate:
     attempt : how it went
     touched : (n,) pairs that were closed in some of the last states tried, or None
     proof : what proves that there is no equilibrium, or None
+    margin : of the proof: of the load on rigid motions the share that nothing takes; of a tree what equilibrium lacks
+        in the state that comes nearest to it, of the size of the data
     escape : (2n,) motion along which the bodies run away, or None
     """
 
@@ -37,6 +39,7 @@ class Candidate:
     attempt: Attempt
     touched: BoolArray | None = None
     proof: Literal["rigid motion", "tree"] | None = None
+    margin: float = 0.0
     escape: Array | None = None
 
     @classmethod

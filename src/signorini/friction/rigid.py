@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from scipy.optimize import linprog, nnls
 
@@ -14,29 +16,46 @@ GAIN = 1e-9
 """Size of the unresisted load, relative to scale, above which it counts."""
 
 
-def pulled_away(problem: CoulombProblem, bound: Bound | None = None) -> Array | None:
+STRONGEST = 1e6
+"""Sum of the normal forces, of the size of the data, that a proof has to withstand: a motion that friction resists but
+for a rounding of 1e-16 would be resisted by forces without bound, and equilibria under larger ones are none that the
+solver would find."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pull:
+    """A proof that there is no equilibrium.
+
+    Attributes
+    ----------
+    motion : (d n,) rigid motion of the pairs along which the load works more than forces resist; largest entry 1
+    share : of the load on rigid motions what no force of the pairs takes, in (0, 1]
+    """
+
+    motion: Array
+    share: float
+
+
+def pulled_away(problem: CoulombProblem, bound: Bound | None = None) -> Pull | None:
     """A rigid motion rho along which the load works more than forces can resist, or None where there is none.
 
     Equilibrium needs forces of the pairs with ``R'(r + b) = 0``, and forces that friction allows, p >= 0 and ``|r_t| <=
     F(p)``, do at least ``-sum max_p (F(p) |rho_t| - p rho_n)`` of work along rho. Where ``b.rho`` is larger, no state
     of the pairs whatever is in equilibrium. In Coulomb's law that maximum is 0 for ``rho_n >= mu |rho_t|``, and
-    infinite for other rho.
+    infinite for other rho. What rounding leaves of ``mu |rho_t| - rho_n`` counts with forces up to `STRONGEST`.
 
     Parameters
     ----------
     bound : another bound of the friction than the problem's
-
-    Returns
-    -------
-    rho : (2n,) largest entry 1
 
     Examples
     --------
     >>> problem = CoulombProblem.of(
     ...     W=np.eye(2), b=np.array([1.0, 0.0]), friction=[0.3], motions=np.eye(2), scale=1.0
     ... )
-    >>> pulled_away(problem).tolist()
-    [1.0, 0.0]
+    >>> pull = pulled_away(problem)
+    >>> pull.motion.tolist(), pull.share
+    ([1.0, 0.0], 1.0)
     """
     R = problem.image.R
     if not R.shape[1]:
@@ -46,10 +65,14 @@ def pulled_away(problem: CoulombProblem, bound: Bound | None = None) -> Array | 
         a = _least(problem, load)
     else:
         a = _by_program(problem, load, bound or problem.bound)
-    if a is None:
-        return None
-    rho = R @ a
-    return np.asarray(rho / np.abs(rho).max(), dtype=np.float64)
+    return None if a is None else pull_along(R, a, load)
+
+
+def pull_along(R: Array, a: Array, load: Array) -> Pull:
+    """The proof that coefficients a, (k,), of the motions R are, of a load (k,) on them."""
+    rho, along = R @ a, float(load @ a)
+    share = along / float(np.linalg.norm(load) * np.linalg.norm(a))
+    return Pull(motion=np.asarray(rho / np.abs(rho).max(), dtype=np.float64), share=share)
 
 
 def _least(problem: CoulombProblem, load: Array) -> Array | None:
@@ -66,10 +89,16 @@ def _least(problem: CoulombProblem, load: Array) -> Array | None:
     except RuntimeError:  # its iteration limit: nothing proved
         return None
     a: Array = load + C.T @ multipliers
-    size = float(np.linalg.norm(a))
-    if size <= GAIN * np.sqrt(n) or (C @ a).min() < -GAIN * size or load @ a <= 0.5 * size**2:
+    size, most = float(np.linalg.norm(a)), size_of(load)
+    if size <= GAIN * np.sqrt(n) * most:
         return None
-    return a
+    resisted = -STRONGEST * most * float((C @ a).min(initial=0.0))
+    return a if load @ a > resisted + 0.5 * size**2 else None
+
+
+def size_of(load: Array) -> float:
+    """Of a load (k,) on rigid motions, relative to the data, at least theirs."""
+    return max(1.0, float(np.linalg.norm(load)))
 
 
 def _by_program(problem: CoulombProblem, load: Array, bound: Bound) -> Array | None:
@@ -95,21 +124,20 @@ def _by_program(problem: CoulombProblem, load: Array, bound: Bound) -> Array | N
         b_eq=-load,
         bounds=[(0.0, None)] * n + [(None, None)] * n + [(0.0, None)] * (2 * k),
         method="highs",
+        options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
     )
-    if answer.status != 0 or answer.fun <= GAIN * np.sqrt(n):
+    if answer.status != 0 or answer.fun <= GAIN * np.sqrt(n) * size_of(load):
         return None
     a = -np.asarray(answer.eqlin.marginals)
-    resisted = _resisted(bound, R[:n] @ a, R[n:] @ a, unit)
+    resisted = _resisted(bound, R[:n] @ a, R[n:] @ a, unit, STRONGEST * size_of(load))
     return a if load @ a > resisted + 0.5 * answer.fun else None
 
 
-def _resisted(bound: Bound, normal: Array, tangential: Array, unit: float) -> float:
-    """``sum max_p (F(p) |rho_t| - p rho_n)``, of forces over unit; infinite where that is."""
+def _resisted(bound: Bound, normal: Array, tangential: Array, unit: float, strongest: float) -> float:
+    """``sum max_p (F(p) |rho_t| - p rho_n)``, of forces over unit that sum up to the strongest."""
     n, across = len(normal), np.abs(tangential)
     lasts = np.isfinite(bound.kinks).sum(axis=0) - 1
-    small = GAIN * max(np.abs(normal).max(initial=0.0), across.max(initial=0.0))
-    if (bound.slopes[lasts, np.arange(n)] * across > normal + small).any():
-        return float(np.inf)
+    endless = float(np.maximum(bound.slopes[lasts, np.arange(n)] * across - normal, 0.0).max(initial=0.0))
     corners = np.where(np.isfinite(bound.kinks[:-1]), bound.kinks[:-1], 0.0)
     work = np.array([bound.at(p) * across - p * normal for p in corners])
-    return float(work.max(axis=0).sum()) / unit
+    return float(work.max(axis=0).sum()) / unit + strongest * endless

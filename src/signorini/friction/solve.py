@@ -129,11 +129,11 @@ def _candidates(problem: CoulombProblem, start: IntArray | None, settings: Coulo
 
 
 def _proof_by_rigid_motion(problem: CoulombProblem) -> Candidate:
-    rho = pulled_away(problem)
-    if rho is None:
+    pull = pulled_away(problem)
+    if pull is None:
         return Candidate.without(problem, Attempt(method="rigid motions", iterations=1, end="nothing proved"))
     attempt = Attempt(method="rigid motions", iterations=1, end="pulled away")
-    return replace(Candidate.without(problem, attempt), proof="rigid motion", escape=rho)
+    return replace(Candidate.without(problem, attempt), proof="rigid motion", margin=pull.share, escape=pull.motion)
 
 
 def _among_touched(problem: CoulombProblem, touched: BoolArray, settings: CoulombSettings) -> Candidate:
@@ -185,6 +185,6 @@ def _in_tree(problem: CoulombProblem, settings: CoulombSettings) -> Candidate:
     attempt = Attempt(method="tree", iterations=tree.programs, end=tree.end)
     if tree.state is None:
         proved = tree.end == "impossible" and problem.floating  # held bodies have a solution: refusals are rounding
-        return replace(Candidate.without(problem, attempt), proof="tree" if proved else None)
+        return replace(Candidate.without(problem, attempt), proof="tree" if proved else None, margin=tree.margin)
     exact = newton(problem, tree.state, limit=settings.newton_steps, tolerance=settings.tolerance)
     return replace(exact, attempt=attempt)

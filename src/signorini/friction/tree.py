@@ -28,6 +28,15 @@ CLOSED = -2
 MARGIN = 1e-7
 """Equilibrium lacking, relative to scale, above which a branch is refused; a certified solution is at 1e-10."""
 
+_ROUNDED = 1e-13
+"""Of the products that it is summed from: what is rounding, of a column of the program that multipliers should not see
+and of what they prove."""
+
+_FARTHEST = 1e9
+"""Of the data: how far one unknown may move the pairs. What multipliers see of an unbounded one counts with it."""
+
+_NEARLY = 1e-7  # the same, before multipliers are polished: ten times what the program is solved to
+
 
 @dataclass(frozen=True, kw_only=True)
 class TreeEnd:
@@ -38,11 +47,14 @@ class TreeEnd:
     end : ``"solution"``, ``"impossible"`` (every leaf refused) or ``"budget spent"``
     state : (n,) states of the solution, None otherwise
     programs : linear programs solved
+    margin : of "impossible": what equilibrium lacks at least in the leaf that comes nearest to it, of the size of the
+        data, as the multipliers prove
     """
 
     end: Literal["solution", "impossible", "budget spent"]
     state: IntArray | None
     programs: int
+    margin: float = 0.0
 
 
 def search(problem: CoulombProblem, *, budget: int = 2000) -> TreeEnd:
@@ -65,12 +77,14 @@ def search(problem: CoulombProblem, *, budget: int = 2000) -> TreeEnd:
     n = problem.pairs
     program = _program(problem)
     waiting = [np.full(n, UNDECIDED)]
+    margin = np.inf
     for programs in range(1, budget + 1):
         node = waiting.pop()
         answer = _relaxed(program, node)
         if answer is None:
             return TreeEnd(end="budget spent", state=None, programs=programs)
-        lacking, h, r = answer
+        lacking, proved, h, r = answer
+        margin = min(margin, proved) if lacking > MARGIN else margin
         if lacking <= MARGIN:
             pair, complete = _worst(problem, node, h, r)
             if pair is None:
@@ -80,7 +94,7 @@ def search(problem: CoulombProblem, *, budget: int = 2000) -> TreeEnd:
                 child[pair] = branch
                 waiting.append(child)
         if not waiting:
-            return TreeEnd(end="impossible", state=None, programs=programs)
+            return TreeEnd(end="impossible", state=None, programs=programs, margin=margin)
     return TreeEnd(end="budget spent", state=None, programs=budget)
 
 
@@ -105,6 +119,11 @@ class _Program:
     forces: Array
     lasts: IntArray
 
+    @property
+    def load(self) -> float:
+        """The largest load over scale, at least 1."""
+        return max(1.0, float(np.abs(self.rhs).max(initial=0.0)))
+
 
 def _program(problem: CoulombProblem) -> _Program:
     n, bound, unit = problem.pairs, problem.bound, problem.scale or 1.0
@@ -127,8 +146,11 @@ def _program(problem: CoulombProblem) -> _Program:
     return _Program(problem=problem, matrix=matrix, rhs=rhs, forces=forces, lasts=lasts)
 
 
-def _relaxed(program: _Program, node: IntArray) -> tuple[float, Array, Array] | None:
-    """Least misfit (sum of its entries over scale) of a node, with motions h and forces r there, (2n,), over scale."""
+def _relaxed(program: _Program, node: IntArray) -> tuple[float, float, Array, Array] | None:
+    """Least misfit (sum of its entries over scale) of a node, what its multipliers prove of it, and h, r (2n,) there.
+
+    None where they prove too little.
+    """
     n, matrix = program.problem.pairs, program.matrix
     low, high = _bounds(program, node)
     rows, size = matrix.shape
@@ -144,15 +166,31 @@ def _relaxed(program: _Program, node: IntArray) -> tuple[float, Array, Array] | 
     x, lacking = answer.x, answer.fun
     if answer.status != 0 or x is None or lacking is None:
         return None
-    z = np.asarray(answer.eqlin.marginals)
-    reduced = matrix.T @ z
-    most = np.where(reduced > 0, high, low)
-    endless = ~np.isfinite(most)
-    wrong = np.abs(reduced[endless]).max(initial=0.0)
-    proved = float(z @ program.rhs) - float(reduced[~endless] @ most[~endless])
-    if lacking > MARGIN and (proved <= 0.5 * MARGIN or wrong > 1e-9):
+    proved = _proved(program, np.asarray(answer.eqlin.marginals), low, high)
+    if lacking > MARGIN and proved <= 0.5 * MARGIN * program.load:
         return None
-    return float(lacking), x[: 2 * n], program.forces @ x[:size]
+    return float(lacking), proved, x[: 2 * n], program.forces @ x[:size]
+
+
+def _proved(program: _Program, z: Array, low: Array, high: Array) -> float:
+    """The misfit that multipliers z prove whatever is between the bounds; nothing where it is not positive.
+
+    Polished first, so that columns that they should not see, but for the accuracy of the program, vanish to rounding.
+    """
+    matrix = program.matrix
+    size = np.linalg.norm(matrix, axis=0)
+    seen = matrix.T @ z
+    unseen = ~np.isfinite(np.where(seen > 0, high, low)) & (np.abs(seen) <= _NEARLY * size)
+    z = z - np.linalg.lstsq(matrix[:, unseen].T, seen[unseen], rcond=_NEARLY)[0]
+    reduced = matrix.T @ z
+    reduced[np.abs(reduced) <= _ROUNDED * (np.abs(matrix).T @ np.abs(z))] = 0.0
+    most = np.where(reduced > 0, high, low)
+    endless = np.isinf(most) & (reduced != 0.0)
+    most = np.where(endless | (reduced == 0.0), 0.0, most)
+    far = _FARTHEST * program.load * float((np.abs(reduced) / size)[endless].max(initial=0.0))
+    cancelled = float(np.abs(z) @ np.abs(program.rhs) + np.abs(reduced) @ np.abs(most))
+    proved = float(z @ program.rhs) - float(reduced @ most) - far - _ROUNDED * cancelled
+    return proved / max(1.0, float(np.abs(z).max(initial=0.0)))
 
 
 def _bounds(program: _Program, node: IntArray) -> tuple[Array, Array]:

@@ -13,16 +13,22 @@ from signorini.model.contact import Contact
 
 _KINK = np.pi / 6.0  # a turn between two facets beyond this is a corner, not a curve
 _STRAIGHT = 1e-9  # a turn, or a bulge of a length of one, below this is rounding
+_DIGITS = 16.0 * float(np.finfo(np.float64).eps)  # of a coordinate: what two of them that are the same may differ by
 _ROOM = 1.25  # times the bound: curvatures are estimates
 
 
-def initial_gaps(geometry: Array, contact: Contact, one: Array) -> Array:
+def initial_gaps(geometry: Array, contact: Contact, one: Array, *, farthest: float) -> Array:
     """What a contact makes of the gaps that the geometry has, (n,) length, negative: overlap.
+
+    Gaps that are rounding of coordinates are none: beside small loads they would be, and where supports hold both sides
+    an overlap of a last digit would prove that nothing is in equilibrium.
 
     Parameters
     ----------
+    farthest : largest coordinate of the mesh
     one : (n,) what pairs see of a gap of length 1 along the normals of the nonmortar side, see :func:`normal_gap`
     """
+    geometry = np.where(np.abs(geometry) > _DIGITS * farthest, geometry, 0.0)
     if contact.gap == "zero" or contact.tied:
         gap = np.zeros(len(geometry))
     elif contact.gap == "geometry":

@@ -129,7 +129,7 @@ def _on_obstacle(
     return Pairs(
         own=side.nodes,
         coupling=coupling,
-        gap=initial_gaps(gap, contact, one),
+        gap=initial_gaps(gap, contact, one, farthest=float(np.abs(points).max())),
         sliding=coupling.forces,
         mirrored=np.zeros(coupling.normals.shape, bool),
         sides=Sides(nonmortar=contact.nonmortar, mortar=str(obstacle), coupling="obstacle"),
@@ -191,7 +191,7 @@ def _on_side(
     return Pairs(
         own=side.nodes,
         coupling=coupling,
-        gap=initial_gaps(gap, contact, one),
+        gap=initial_gaps(gap, contact, one, farthest=float(np.abs(points).max())),
         sliding=_mirrored(coupling, partner.max(axis=1)) if plane else coupling.forces,
         mirrored=(partner >= 0) & (not plane),
         sides=Sides(

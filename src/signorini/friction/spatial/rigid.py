@@ -7,39 +7,37 @@ import numpy as np
 from scipy.optimize import nnls
 
 from signorini.arrays import Array
-from signorini.friction.rigid import GAIN
+from signorini.friction.rigid import GAIN, STRONGEST, Pull, pull_along, size_of
 from signorini.friction.spatial.problem import SpatialProblem
 from signorini.friction.spatial.section import outermost
 
 _ROUNDS = 60
 
 
-def pulled_away(problem: SpatialProblem) -> Array | None:
+def pulled_away(problem: SpatialProblem) -> Pull | None:
     """A rigid motion rho with ``rho_n >= |(mu_1 rho_1, mu_2 rho_2)|`` at every pair and ``b.rho > 0``, or None.
 
     Equilibrium needs forces in the friction cones with ``R'(r + b) = 0``; but r.rho >= 0 for such a rho, so that
     ``rho.(r + b) > 0``: no state of the pairs whatever is in equilibrium. The motion sought is what of the load the
     forces in the cones cannot take, ``a = R'(r + b)`` of least length: a nonnegative least squares problem in the edges
-    of the cones, of which each round adds those that resist the present motion most.
+    of the cones, of which each round adds those that resist the present motion most. What they resist in the end counts
+    with forces up to `STRONGEST`.
 
     None where nothing is proved, which includes pairs in Tresca's law: their friction knows no cone.
-
-    Returns
-    -------
-    rho : (3n,) largest entry 1
 
     Examples
     --------
     >>> problem = SpatialProblem.of(
     ...     W=np.eye(3), b=np.array([1.0, 0.0, 0.0]), friction=[0.3], motions=np.eye(3), scale=1.0
     ... )
-    >>> pulled_away(problem).tolist()
+    >>> pulled_away(problem).motion.tolist()
     [1.0, 0.0, 0.0]
     """
     R, n = problem.image.R, problem.pairs
     if not R.shape[1] or problem.bounded.any():
         return None
     load = R.T @ problem.b / (problem.scale or 1.0)
+    most = size_of(load)
     edges = R[:n] / np.sqrt(1.0 + (problem.mu**2).sum(axis=1))[:, None]
     for _ in range(_ROUNDS):
         try:
@@ -48,15 +46,13 @@ def pulled_away(problem: SpatialProblem) -> Array | None:
             return None
         a = load + edges.T @ multipliers
         size = float(np.linalg.norm(a))
-        if size <= GAIN * np.sqrt(n):
+        if size <= GAIN * np.sqrt(n) * most:
             return None
         strongest = np.einsum("ni,ink->nk", _strongest(problem, R @ a), R.reshape(3, n, -1))
-        resisted = strongest @ a < -GAIN * size
+        work = strongest @ a
+        resisted = STRONGEST * most * work < -0.25 * size**2
         if not resisted.any():
-            if load @ a <= 0.5 * size**2:
-                return None
-            rho = R @ a
-            return np.asarray(rho / np.abs(rho).max(), dtype=np.float64)
+            return pull_along(R, a, load) if load @ a > 0.75 * size**2 else None
         edges = np.concatenate([edges[multipliers > 0], strongest[resisted]])
     return None
 

@@ -89,11 +89,12 @@ def solve_spatial(
     trace: list[Attempt] = []
     best = _tried(None, _newton_runs(problem, start, settings), settings.tolerance, trace)
     if best.residual > settings.tolerance and problem.floating:
-        escape = pulled_away(problem)
-        end = "nothing proved" if escape is None else "pulled away"
+        pull = pulled_away(problem)
+        end = "nothing proved" if pull is None else "pulled away"
         trace.append(Attempt(method="rigid motions", iterations=1, end=end))
-        if escape is not None:
-            return _unsolved(problem, "no_equilibrium", tuple(trace), best.residual, PULLED_AWAY, escape)
+        if pull is not None:
+            words = PULLED_AWAY.format(margin=pull.share)
+            return _unsolved(problem, "no_equilibrium", tuple(trace), best.residual, words, pull.motion)
     if best.residual > settings.tolerance:
         best = _tried(best, _rounds(problem, settings), settings.tolerance, trace)
     if best.residual <= settings.tolerance:
