@@ -20,6 +20,7 @@ class InputError(SignoriniError, ValueError):
     ----------
     message : what was found and what is expected
     where : path of the value in the model, as a deck spells it: ``("contact", 0, "friction")``
+    cell : index of the cell that is wrong, where it is one: a deck may know its line
 
     Examples
     --------
@@ -27,14 +28,15 @@ class InputError(SignoriniError, ValueError):
     contact[0].friction: is -0.1; expected a number >= 0
     """
 
-    def __init__(self, message: str, *, where: Where = ()) -> None:
+    def __init__(self, message: str, *, where: Where = (), cell: int | None = None) -> None:
         self.message = message
         self.where = where
+        self.cell = cell
         super().__init__(f"{spell(where)}: {message}" if where else message)
 
     def inside(self, *outer: str | int) -> InputError:
         """The same error, said from one level further out (a part of a model does not know its own index)."""
-        return InputError(self.message, where=outer + self.where)
+        return InputError(self.message, where=outer + self.where, cell=self.cell)
 
 
 class SolveFailed(SignoriniError):

@@ -126,7 +126,7 @@ IN_THE_MODEL = [
     ),
     (
         lambda: block(bodies=[Body("block", SOFT), Body("block", SOFT)]),
-        "body: cell 1 belongs to several bodies: block",
+        "body: cell 1 (quad) belongs to several bodies: block",
     ),
     (lambda: pair(bodies=[Body("lower", SOFT)]), "belongs to no body (it is in upper); give it a body and a material"),
     (

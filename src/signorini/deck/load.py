@@ -12,7 +12,7 @@ from typing import Any
 from signorini.deck.error import DeckError
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.build import Built, located
-from signorini.deck.inp.load import load_inp
+from signorini.deck.inp.load import element_place, load_inp
 from signorini.deck.meshes import deck_mesh
 from signorini.deck.parts import (
     deck_bodies,
@@ -86,13 +86,15 @@ class KeywordDeck(Deck):
     Attributes
     ----------
     places : keyword of every part of the model, by its path
+    reach : files that it may include
     """
 
     places: Mapping[Where, Block]
+    reach: Reach
 
     def locate(self, error: InputError) -> DeckError:
         """The same error with file and line of the keyword that caused it."""
-        return located(error, self.places, self.path)
+        return located(error, self.places, self.path, lambda cell: element_place(self.path, self.reach, cell))
 
 
 def read(
@@ -122,7 +124,8 @@ def load(
     path = Path(path)
     reach = Reach.of(path, allow)
     if path.suffix.lower() == ".inp":
-        return _keywords(load_inp(path, reach, small_strain=small_strain, deck_increments=deck_increments), path)
+        built = load_inp(path, reach, small_strain=small_strain, deck_increments=deck_increments)
+        return _keywords(built, path, reach)
     data, lines = parse(path)
     try:
         return _deck(data, path, lines, reach)
@@ -132,7 +135,7 @@ def load(
         raise _located(error, path, lines) from error
 
 
-def _keywords(built: Built, path: Path) -> KeywordDeck:
+def _keywords(built: Built, path: Path, reach: Reach) -> KeywordDeck:
     return KeywordDeck(
         model=built.model,
         path=path,
@@ -141,6 +144,7 @@ def _keywords(built: Built, path: Path) -> KeywordDeck:
         notes=built.notes,
         prints=built.prints,
         places=built.places,
+        reach=reach,
     )
 
 

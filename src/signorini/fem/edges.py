@@ -81,28 +81,22 @@ def check_conforming(mesh: Mesh, edges: Edges) -> None:
     if len(wrong):
         one, two = edges.cell[wrong[0]], edges.cell[wrong[0] + 1]
         a, b = mesh.labels[edges.ends[wrong[0]]]
-        first, second = mesh.cell_labels[[one, two]]
         raise InputError(
-            f"cells {first} ({_family(mesh, one)}) and {second} ({_family(mesh, two)}) meet "
-            f"along the edge between nodes {a} and {b} without sharing a middle node; expected cells of one order "
-            "along an edge",
+            f"{mesh.cell_name(one)} and {mesh.cell_name(two)} meet along the edge between nodes {a} and {b} without "
+            "sharing a middle node; expected one order along an edge",
             where=("mesh", "cells"),
+            cell=int(one),
         )
     corners = np.concatenate([nodes[:, : CORNERS[family]].ravel() for family, nodes in mesh.cells.items()])
     hanging = np.nonzero(np.isin(edges.middle, corners))[0]
     if len(hanging):
-        edge = hanging[0]
-        number = mesh.cell_labels[edges.cell[edge]]
+        cell, node = int(edges.cell[hanging[0]]), mesh.labels[edges.middle[hanging[0]]]
         raise InputError(
-            f"node {mesh.labels[edges.middle[edge]]}, the middle of an edge of cell {number} "
-            f"({_family(mesh, edges.cell[edge])}), is the corner of a cell; expected cells that share whole edges",
+            f"node {node}, the middle of an edge of {mesh.cell_name(cell)}, is the corner of another; expected whole "
+            "edges to be shared",
             where=("mesh", "cells"),
+            cell=cell,
         )
-
-
-def _family(mesh: Mesh, cell: int) -> str:
-    counts = np.cumsum([len(nodes) for nodes in mesh.cells.values()])
-    return list(mesh.cells)[int(np.searchsorted(counts, cell, side="right"))]
 
 
 def _doubled_area(corners: Array) -> Array:

@@ -315,18 +315,19 @@ def _check_extent(space: Space) -> None:
         cell = int(np.argmin(edges))
         if (shortest := float(edges[cell])) >= least:
             continue
-        label, (one, two) = space.mesh.cell_labels[block.first + cell], block.cells[cell, :2]
+        name, (one, two) = space.mesh.cell_name(block.first + cell), block.cells[cell, :2]
         away = np.abs(used - np.median(used, axis=0)).max(axis=1)
         if shortest < float(np.median(away)) / _DIGITS:
             raise InputError(
-                f"cell {label} has an edge of length {shortest:.3g}, from node {labels[one]} to node {labels[two]} at "
+                f"{name} has an edge of length {shortest:.3g}, from node {labels[one]} to node {labels[two]} at "
                 f"{_spelled(points[one])}; expected corners at places of their own",
                 where=("mesh",),
+                cell=block.first + cell,
             )
         far = space.used_nodes[np.argmax(away)]
         raise InputError(
-            f"node {labels[far]} at {_spelled(points[far])} is more than {_DIGITS:.0e} times as far away as cell "
-            f"{label} is long ({shortest:.3g}); expected nodes whose places differ in the digits that numbers have",
+            f"node {labels[far]} at {_spelled(points[far])} is more than {_DIGITS:.0e} times as far away as "
+            f"{name} is long ({shortest:.3g}); expected nodes whose places differ in the digits that numbers have",
             where=("mesh",),
         )
 
@@ -349,7 +350,8 @@ def _check_shapes(space: Space) -> None:
             linear = CORNERS[block.family] == block.cells.shape[1]
             expected = "a convex cell" if linear else "the middle nodes near the middles of edges that bend little"
             raise InputError(
-                f"cell {space.mesh.cell_labels[block.first + cell]} ({block.family}) near {centre} has no "
-                f"area or is turned inside out (its Jacobian changes sign); expected {expected}",
+                f"{space.mesh.cell_name(block.first + cell)} near {centre} has no area or is turned inside out (its "
+                f"Jacobian changes sign); expected {expected}",
                 where=("mesh",),
+                cell=block.first + cell,
             )

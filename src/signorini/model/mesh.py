@@ -94,6 +94,7 @@ class Mesh:
     nodes : name to node indices, for supports and forces on points
     node_numbers : (n,) what results call the nodes, each once; 1, 2, ... if not given
     cell_numbers : (m,) what they call the cells
+    cell_word : what messages call a cell: decks of keywords have elements
 
     Raises
     ------
@@ -123,6 +124,7 @@ class Mesh:
     nodes: Mapping[str, IntArray] = field(default_factory=dict)
     node_numbers: IntArray | None = None
     cell_numbers: IntArray | None = None
+    cell_word: str = "cell"
 
     def __post_init__(self) -> None:
         points = frozen(self.points)
@@ -191,6 +193,12 @@ class Mesh:
     def cell_labels(self) -> IntArray:
         """What results call the cells, (m,)."""
         return np.arange(1, self.number_of_cells + 1) if self.cell_numbers is None else self.cell_numbers
+
+    def cell_name(self, cell: int) -> str:
+        """What messages call a cell: ``"cell 12 (quad)"``."""
+        counts = np.cumsum([len(nodes) for nodes in self.cells.values()])
+        family = list(self.cells)[int(np.searchsorted(counts, cell, side="right"))]
+        return f"{self.cell_word} {self.cell_labels[cell]} ({family})"
 
     def facets(self, name: str) -> tuple[IntArray, ...]:
         """The facets of a boundary, an array (m, k) for each number k of nodes that they have."""

@@ -178,12 +178,13 @@ class Model:
         names = [name for name, cells in known.items() if cell in cells]
         if count[cell]:
             raise InputError(
-                f"cell {self.mesh.cell_labels[cell]} belongs to several bodies: {', '.join(names)}", where=("body",)
+                f"{self.mesh.cell_name(cell)} belongs to several bodies: {', '.join(names)}", where=("body",), cell=cell
             )
         of = f"it is in {' and '.join(names)}" if names else "it is in no named part of the mesh"
         raise InputError(
-            f"cell {self.mesh.cell_labels[cell]} belongs to no body ({of}); give it a body and a material",
+            f"{self.mesh.cell_name(cell)} belongs to no body ({of}); give it a body and a material",
             where=("body",),
+            cell=cell,
         )
 
     def _check_load(self, i: int, load: Load) -> None:

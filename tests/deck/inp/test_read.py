@@ -81,8 +81,16 @@ def edited(folder: Path, old: str, new: str) -> Path:
 # what is changed, to what, how the line that is named begins, what is said
 WRONG = {
     "plasticity": ("210000., .3\n", "210000., .3\n*PLASTIC\n300.\n", "*PLASTIC", r"\*PLASTIC: is not supported"),
-    "element": ("10, 1, 2, 5, 4", "10, 1, 2, 5, 99", "*ELEMENT", "there is no node 99"),
-    "twice": ("20, 2, 3, 6, 5", "10, 2, 3, 6, 5", "*ELEMENT", "element 10 is there twice"),
+    "element": ("40, 12, 13, 16, 15", "40, 12,\n13,\n99, 15", "40, 12", r"\*ELEMENT: there is no node 99"),
+    "twice": ("20, 2, 3, 6, 5", "10, 2, 3, 6, 5", "10, 2", "element 10 is there twice"),
+    "counted from 0": ("20, 2, 3, 6, 5", "0, 2, 3, 6, 5", "0, 2", "element has the number 0; expected one >= 1"),
+    "not plane": ("6, 2., 1.", "6, 2., 1., 3.", "20, 2", "element 20 has node 6 at z = 3, others are at z = 0"),
+    "moved": ("11, 0., 1., 0.", "11, 0., 1., 0.\n3, 2., 2.", "3, 2., 2.", "node 3 is there twice"),
+    "no number": ("5, 1., 1.", "5.5, 1., 1.", "5.5", "a node has the number 5.5"),
+    "node of a set": ("14, 15, 16\n*SURF", "14, 15,\n16, 99\n*SURF", "16, 99", r"\*NSET: there is no node 99"),
+    "no section": ("*SOLID SECTION, ELSET=Upper, MATERIAL=Steel\n1.\n", "", "30, 11", "element 30 has no section"),
+    "times": ("*STEP\n", "*AMPLITUDE, NAME=A\n0., 0., 2., 1.,\n1., 1.\n*STEP\n", "1., 1.", "has the time 1 after 2"),
+    "support": ("Top, 1, 1\n*STEP", "Top, 1, 1\n99, 1\n*STEP", "99, 1", "there is no node 99"),
     "type": ("TYPE=CPE4", "TYPE=C3D14", "*ELEMENT", "TYPE=C3D14 is not supported"),
     "beam": ("TYPE=CPE4", "TYPE=B31", "*ELEMENT", "TYPE=B31 is not supported; expected CPE"),
     "set": ("Base, 1, 2", "Basis, 1, 2", "Basis", "unknown node set 'Basis'; did you mean 'Base'"),
@@ -113,6 +121,14 @@ def test_what_changes_the_answer_stops_with_its_line(tmp_path: Path, case: str) 
         load(deck)
     assert caught.value.line is not None
     assert deck.read_text().splitlines()[caught.value.line - 1].startswith(begins)
+
+
+def test_what_is_found_later_has_its_line_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Shapes of elements are looked at when the deck is read: its line is found in it again."""
+    deck = edited(tmp_path, "20, 2, 3, 6, 5", "20, 2, 3, 5, 6")
+    assert main(["check", str(deck)]) == 2
+    line = deck.read_text().splitlines().index("20, 2, 3, 5, 6") + 1
+    assert f"deck.inp:{line}: *ELEMENT: element 20 (quad) near (1.5, 0.5) has no area" in capsys.readouterr().err
 
 
 def test_small_strain_is_asked_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -67,7 +67,9 @@ def make_amplitudes(placed: list[Placed]) -> Mapping[str, Amplitude]:
             raise block.error(f"has {len(flat)} numbers; expected pairs of a time and a factor")
         times, values = frozen(flat[::2]), frozen(flat[1::2])
         if (np.diff(times) < 0).any():
-            raise block.error("its times do not ascend")
+            late = int(np.argmax(np.diff(times) < 0)) + 1
+            words = f"has the time {times[late]:g} after {times[late - 1]:g}; expected times that ascend"
+            raise block.at(block.row_with(2 * late)).error(words)
         name = block.value("NAME")
         amplitudes[name.upper()] = Amplitude(name=name, times=times, values=values, total=total)
     return amplitudes

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -105,6 +106,18 @@ class Block:
                     while fields and not fields[-1]:
                         fields.pop()
                     yield Row(fields=tuple(fields), path=path, line=first + offset)
+
+    def row_with(self, field: int) -> Row:
+        """The data line that holds a field, counted from 0 through all lines."""
+        for row in self.rows():
+            if field < len(row.fields):
+                return row
+            field -= len(row.fields)
+        raise IndexError("the data lines have fewer fields")
+
+    def row_of(self, number: int) -> Row:
+        """A data line by its number, from 0, blank ones not counted."""
+        return next(itertools.islice(self.rows(), number, None))
 
     @cached_property
     def has_data(self) -> bool:

@@ -4,13 +4,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from signorini.arrays import IntArray
 from signorini.deck.error import DeckError
 from signorini.deck.inp.acting import Known
 from signorini.deck.inp.amplitudes import make_amplitudes
@@ -132,7 +131,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
             title=_title(outside),
         )
     except InputError as error:
-        raise located(error, where, path) from error
+        raise located(error, where, path, lambda cell: grid.at(int(grid.elements_of_cells[cell]))) from error
     return Built(
         model=model,
         places=where,
@@ -142,14 +141,18 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
     )
 
 
-def located(error: InputError, places: Mapping[Where, Block], path: object) -> DeckError:
-    """The error with the line of the keyword that its place in the model comes from."""
+def located(
+    error: InputError, places: Mapping[Where, Block], path: object, cell_at: Callable[[int], Block]
+) -> DeckError:
+    """The error with the line of the keyword that its place in the model comes from; of a cell, that of its element."""
     if isinstance(error, DeckError):
         return error
+    if error.cell is not None:
+        return cell_at(error.cell).error(error.message)
     for end in range(len(error.where), 0, -1):
         block = places.get(error.where[:end])
         if block is not None:
-            return DeckError(f"*{block.keyword}: {error.message}", path=block.path, line=block.line)
+            return block.error(error.message)
     return DeckError(error.message, path=str(path), where=error.where)
 
 
@@ -192,14 +195,13 @@ def _kind(grid: Grid) -> Kind:
 
 def _mesh(grid: Grid, sections: Sequence[Section], places: Places) -> Mesh:
     """Cells family by family; their numbers and the bodies follow."""
-    cells: dict[str, IntArray] = {}
-    order = []
-    for family in NODES_PER_CELL:
-        groups = [group for group in grid.groups if group.type.family == family]
-        if groups:
-            cells[family] = np.vstack([group.nodes for group in groups])
-            order += [group.index for group in groups]
-    element = np.concatenate(order)
+    families = {group.type.family for group in grid.groups}
+    cells = {
+        family: np.vstack([group.nodes for group in grid.groups if group.type.family == family])
+        for family in NODES_PER_CELL
+        if family in families
+    }
+    element = grid.elements_of_cells
     cell_of = np.empty(len(element), np.int64)
     cell_of[element] = np.arange(len(element))
     return Mesh(
@@ -210,6 +212,7 @@ def _mesh(grid: Grid, sections: Sequence[Section], places: Places) -> Mesh:
         nodes=places.nodes,
         node_numbers=grid.nodes.labels,
         cell_numbers=grid.elements.labels[element],
+        cell_word="element",
     )
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from signorini.deck.inp.elements import ElementType, element_type
 from signorini.deck.inp.flatten import Placed, Scope
 from signorini.deck.inp.numbering import Numbering
 from signorini.deck.inp.numbers import number_table, record_table
+from signorini.model.mesh import NODES_PER_CELL
 
 _FLAT = 1e-9  # of the size: how far a plane mesh may leave its plane
 
@@ -33,6 +35,17 @@ class Grid:
     elements: Numbering
     groups: tuple[Group, ...]
 
+    @cached_property
+    def elements_of_cells(self) -> IntArray:
+        """(m,) the element that every cell of the model is: cells are ordered by their families."""
+        ordered = [group.index for family in NODES_PER_CELL for group in self.groups if group.type.family == family]
+        return np.concatenate([np.empty(0, np.int64), *ordered])
+
+    def at(self, element: int) -> Block:
+        """The ``*ELEMENT`` keyword of an element, at its line."""
+        group = next(group for group in self.groups if element in group.index)
+        return group.at(int(np.nonzero(group.index == element)[0][0]))
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Group:
@@ -43,6 +56,10 @@ class Group:
     type: ElementType
     index: IntArray
     nodes: IntArray
+
+    def at(self, element: int) -> Block:
+        """The keyword, at the line of one of its elements, counted from 0."""
+        return _at_record(self.block, element, self.type)
 
 
 def make_grid(placed: list[Placed]) -> Grid:
@@ -60,17 +77,34 @@ def make_grid(placed: list[Placed]) -> Grid:
         for block in blocks:
             block.refuse_unknown(("TYPE", "ELSET", "INPUT"))
             kind = element_type(block)
-            table = record_table(block, kind.nodes + 1, f"a number and {kind.nodes} nodes")
-            tables.append((block, kind, table))
-        numbers = np.concatenate([table[:, 0] for *_, table in tables])
-        _refuse_twice(numbers, tables[-1][0], "element")
-        elements.add(scope.name, numbers)
+            tables.append((block, kind, record_table(block, kind.nodes + 1, f"a number and {kind.nodes} nodes")))
+        _refuse_twice(tables)
+        elements.add(scope.name, np.concatenate([table[:, 0] for *_, table in tables]))
         for block, kind, table in tables:
-            index = elements.index(scope, table[:, 0], block)
-            members = nodes.index(scope, table[:, 1:].ravel(), block).reshape(-1, kind.nodes)
-            groups.append(Group(block=block, scope=scope, type=kind, index=index, nodes=members))
-    _refuse_space(points, groups)
+            groups.append(
+                Group(
+                    block=block,
+                    scope=scope,
+                    type=kind,
+                    index=elements.index(scope, table[:, 0], block),
+                    nodes=_members(block, kind, table, nodes, scope),
+                )
+            )
+    _refuse_space(points, groups, nodes, elements)
     return Grid(points=points, nodes=nodes, elements=elements, groups=tuple(groups))
+
+
+def _members(block: Block, kind: ElementType, table: IntArray, nodes: Numbering, scope: Scope) -> IntArray:
+    """(m, k) nodes of elements."""
+    numbers = table[:, 1:].ravel()
+    return nodes.index(scope, numbers, lambda place: _at_record(block, place // kind.nodes, kind)).reshape(
+        -1, kind.nodes
+    )
+
+
+def _at_record(block: Block, record: int, kind: ElementType) -> Block:
+    """An ``*ELEMENT`` keyword at the line where one of its elements begins."""
+    return block.at(block.row_with(record * (kind.nodes + 1)))
 
 
 def nodes_of(grid: Grid, elements: IntArray) -> IntArray:
@@ -89,13 +123,15 @@ def _nodes(placed: list[Placed]) -> tuple[Numbering, Array]:
         table = np.vstack(tables)
         wrong = (table[:, 0] != np.rint(table[:, 0])) | (table[:, 0] < 1) | (table[:, 0] >= MOST)
         if wrong.any():
-            raise blocks[0].error(
+            raise _at_node(blocks, tables, int(np.argmax(wrong))).error(
                 f"a node has the number {table[wrong, 0][0]:g}; expected a whole number >= 1 of at most ten digits"
             )
         _, where, again = np.unique(table[:, 0].astype(np.int64), return_index=True, return_inverse=True)
         moved = np.nonzero((table[:, 1:] != table[where[again], 1:]).any(axis=1))[0]
         if len(moved):
-            raise blocks[-1].error(f"node {table[moved[0], 0]:.0f} is there twice, at different places")
+            raise _at_node(blocks, tables, int(moved[0])).error(
+                f"node {table[moved[0], 0]:.0f} is there twice, at different places"
+            )
         first = np.sort(where)
         nodes.add(scope.name, table[first, 0].astype(np.int64))
         points.append(table[first, 1:] @ scope.turn.T + scope.shift)
@@ -109,23 +145,43 @@ def _by_scope(placed: list[Placed]) -> list[tuple[Scope, list[Block]]]:
     return list(scopes.values())
 
 
-def _refuse_twice(numbers: IntArray, block: Block, what: str) -> None:
-    known = np.sort(numbers)
-    twice = known[1:][known[1:] == known[:-1]]
-    if len(twice):
-        raise block.error(f"{what} {twice[0]} is there twice")
-    if len(known) and known[0] < 1:
-        raise block.error(f"{what} has the number {known[0]}; expected a whole number >= 1")
+def _at_node(blocks: list[Block], tables: list[Array], record: int) -> Block:
+    """The ``*NODE`` keyword of a node, at its line; nodes are counted through all of them."""
+    for block, table in zip(blocks, tables, strict=True):
+        if record < len(table):
+            return block.at(block.row_of(record))
+        record -= len(table)
+    raise IndexError("there are fewer nodes")
 
 
-def _refuse_space(points: Array, groups: list[Group]) -> None:
+def _refuse_twice(tables: list[tuple[Block, ElementType, IntArray]]) -> None:
+    """Every element has a number of its own, 1 or more."""
+    numbers = np.concatenate([table[:, 0] for *_, table in tables])
+    first = np.unique(numbers, return_index=True)[1]
+    wrong = np.ones(len(numbers), bool)
+    wrong[first] = numbers[first] < 1
+    if not wrong.any():
+        return
+    place = int(np.argmax(wrong))
+    number, record = numbers[place], place
+    for block, kind, table in tables:
+        if record < len(table):
+            words = f"{number} is there twice" if number > 0 else f"has the number {number}; expected one >= 1"
+            raise _at_record(block, record, kind).error(f"element {words}")
+        record -= len(table)
+
+
+def _refuse_space(points: Array, groups: list[Group], nodes: Numbering, elements: Numbering) -> None:
     """Plane elements lie in a plane of constant z."""
     for group in groups:
-        if group.type.kind == "3d":
+        if group.type.kind == "3d" or not len(group.index):
             continue
-        used = points[group.nodes.ravel()]
-        size = float(np.ptp(used[:, :2], axis=0).max()) if len(used) else 0.0
-        if len(used) and np.abs(used[:, 2] - used[0, 2]).max() > _FLAT * max(size, 1e-300):
-            raise group.block.error(
-                f"its nodes have z from {used[:, 2].min():g} to {used[:, 2].max():g}; expected a plane mesh in x, y"
+        used = points[group.nodes]
+        plane = float(np.median(used[..., 2]))
+        far = np.abs(used[..., 2] - plane) > _FLAT * max(float(np.ptp(used[..., :2], axis=(0, 1)).max()), 1e-300)
+        if far.any():
+            place, corner = (int(i) for i in np.argwhere(far)[0])
+            raise group.at(place).error(
+                f"element {elements.labels[group.index[place]]} has node {nodes.labels[group.nodes[place, corner]]} at "
+                f"z = {used[place, corner, 2]:g}, others are at z = {plane:g}; expected a plane mesh in x, y"
             )

@@ -116,12 +116,11 @@ def _orthotropic(block: Block) -> Orthotropic:
 
 
 def _constant(block: Block, what: str) -> float:
-    values = {row.number(0, what) for row in block.rows()}
-    if not values:
-        raise block.error(f"has no data line; expected {what}")
-    if len(values) > 1:
-        raise block.error(f"{what} depends on temperature, which is not supported; expected one data line")
-    return values.pop()
+    value = block.row(what).number(0, what)
+    for row in block.rows():
+        if row.number(0, what) != value:
+            raise block.at(row).error(f"{what} depends on temperature, which is not supported; expected one data line")
+    return value
 
 
 def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Substance], grid: Grid) -> list[Section]:
@@ -160,8 +159,8 @@ def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Sub
                 )
             )
     if (owner < 0).any():
-        number = elements.numbering.labels[np.nonzero(owner < 0)[0][0]]
-        raise sections[-1].block.error(f"element {number} has no section") if sections else InputError("no section")
+        bare = int(np.argmax(owner < 0))
+        raise grid.at(bare).error(f"element {elements.numbering.labels[bare]} has no section; expected *SOLID SECTION")
     return sections
 
 

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from signorini.arrays import IntArray
@@ -50,18 +52,19 @@ class Numbering:
         )
 
     def find(self, scope: str, numbers: IntArray) -> tuple[IntArray, IntArray]:
-        """Indices of numbers, and the numbers that are not there."""
+        """Indices of numbers that are there, and places in ``numbers`` of those that are not."""
         known, index = self._sorted.get(scope, (np.empty(0, np.int64), np.empty(0, np.int64)))
         if not len(known):
-            return np.empty(0, np.int64), numbers
+            return np.empty(0, np.int64), np.arange(len(numbers))
         at = np.minimum(np.searchsorted(known, numbers), len(known) - 1)
         found = known[at] == numbers
-        return index[at[found]], numbers[~found]
+        return index[at[found]], np.nonzero(~found)[0]
 
-    def index(self, scope: Scope, numbers: IntArray, at: Block | Row) -> IntArray:
-        """Indices of numbers, all of which must be there."""
+    def index(self, scope: Scope, numbers: IntArray, at: Block | Row | Callable[[int], Block]) -> IntArray:
+        """Indices of numbers, all of which must be there; otherwise ``at`` is blamed, or gives by place what is."""
         found, missing = self.find(scope.name, numbers)
         if len(missing):
             inside = f" in instance '{scope.name}'" if scope.name else ""
-            raise at.error(f"there is no {self.what} {missing[0]}{inside}")
+            blamed = at if isinstance(at, Block | Row) else at(int(missing[0]))
+            raise blamed.error(f"there is no {self.what} {numbers[missing[0]]}{inside}")
         return found

@@ -120,7 +120,7 @@ def _define(item: Placed, key: str, sets: Sets, elements: Sets, grid: Grid) -> N
         return
     numbers = whole_numbers(block)
     if numbers is not None:
-        sets.add(name, sets.numbering.index(inside, numbers, block))
+        sets.add(name, sets.numbering.index(inside, numbers, lambda field: block.at(block.row_with(field))))
         return
     sets.add(name, np.empty(0, np.int64))
     for row in block.rows():
