@@ -67,8 +67,7 @@ def read_dsload(item: Placed, known: Known, courses: Courses) -> None:
             raise row.error(f"*DSLOAD: '{kind}' is not supported; expected P")
         name = known.surfaces.find(row.text(0, "a surface"), item.scope, row)
         keys = known.surfaces.keys[name.upper()]
-        if name.upper() in known.surfaces.nodes:
-            raise row.error(f"*DSLOAD: surface '{name}' is one of nodes; expected one of faces")
+        known.surfaces.refuse_bare(name, known.edges, known.nodes, row)
         courses.pressure.put(keys, row.number(2, "the pressure"), name, block.at(row), amplitude, adds=True)
 
 

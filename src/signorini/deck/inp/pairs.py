@@ -18,7 +18,6 @@ from signorini.deck.inp.surfaces import Edges, Surfaces
 from signorini.errors import one_of
 from signorini.model.contact import Contact
 
-_NAMED = 5  # nodes that a message names
 _TYPES = ("", "NODE TO SURFACE", "SURFACE TO SURFACE", "MORTAR", "LINMORTAR", "PGLINMORTAR", "MASSLESS")
 _IGNORED = (
     "SMALL SLIDING",
@@ -121,14 +120,7 @@ def _label(slave: str, master: str, others: Sequence[Pair]) -> str:
 def _side(item: Placed, row: Row, i: int, surfaces: Surfaces, edges: Edges, nodes: Sets) -> str:
     name = surfaces.find(row.text(i, "a surface"), item.scope, row)
     keys = surfaces.keys[name.upper()]
-    bare = np.setdiff1d(surfaces.nodes.get(name.upper(), ()), edges.ends[keys]).astype(np.int64)
-    if len(bare):
-        labels = ", ".join(str(label) for label in nodes.numbering.labels[bare[:_NAMED]])
-        more = f" and {len(bare) - _NAMED} more" if len(bare) > _NAMED else ""
-        raise row.error(
-            f"surface '{name}' has nodes of no face that it holds as a whole: {labels}{more}; contact is between faces "
-            "here, expected all nodes of them, or TYPE=ELEMENT"
-        )
+    surfaces.refuse_bare(name, edges, nodes, row)
     if not len(keys):
         raise row.error(f"surface '{name}' has no edge of an element")
     if len(edges.facets(keys)) > 1:

@@ -19,6 +19,7 @@ FACES = 6
 """Room for the faces of an element: face k of element e has the key ``FACES * e + k - 1``."""
 
 _WIDEST = 8  # nodes of a face
+_NAMED = 5  # nodes that a message names
 
 
 class Edges:
@@ -106,6 +107,17 @@ class Surfaces:
             if name in self.keys:
                 return self._spelled[name]
         raise at.error(one_of(word, self._spelled.values(), "surface"))
+
+    def refuse_bare(self, name: str, edges: Edges, nodes: Sets, at: Row) -> None:
+        """A surface of nodes stands for the faces that it holds as a whole: nodes of none would be left out."""
+        bare = np.setdiff1d(self.nodes.get(name.upper(), ()), edges.ends[self.keys[name.upper()]]).astype(np.int64)
+        if len(bare):
+            labels = ", ".join(str(label) for label in nodes.numbering.labels[bare[:_NAMED]])
+            more = f" and {len(bare) - _NAMED} more" if len(bare) > _NAMED else ""
+            raise at.error(
+                f"surface '{name}' has nodes of no face that it holds as a whole: {labels}{more}; expected all nodes "
+                "of faces, or TYPE=ELEMENT"
+            )
 
     def facets(self, edges: Edges) -> Mapping[str, tuple[IntArray, ...]]:
         """Nodes of the faces of every surface that has any, all of linear or all of quadratic elements."""
