@@ -224,7 +224,9 @@ def test_cells_that_do_not_fit(make, message):
 def test_a_node_that_leaves_no_digits_to_the_others(far, axis):
     points = np.array(SQUARES.points)
     points[3, axis] = far
-    with pytest.raises(InputError, match=r"node 4 at \(.*\) is more than 1e\+12 times as far away as cell \d+ is long"):
+    with pytest.raises(
+        InputError, match=r"node 4 at \(.*\) is more than 1e\+12 times as far away as cell \d+ \(\w+\) is long"
+    ):
         make_space(changed(SQUARES, points=points))
 
 
