@@ -17,6 +17,7 @@ ALL = frozenset({"any"})
 # A method solves the problems that carry all the traits of one of its sets; beside it, whatever it cannot do.
 CLASSES = {
     "lemke": [{"P"}, {"monotone"}, {"contact"}],
+    "lemke-howson": [{"game"}],
     "least-index": [{"P"}],
     "block-pivoting": [{"P"}],
     "newton": [{"P"}, {"monotone"}, {"contact"}],
@@ -79,7 +80,9 @@ def test_never_claims_what_does_not_exist(name, problem):
         assert solution.status in (lcp.Status.RAY_TERMINATION, lcp.Status.NO_SOLUTION)
 
 
-@pytest.mark.parametrize("name", [name for name in lcp.METHODS if name not in ("enumeration", "multigrid")])
+@pytest.mark.parametrize(
+    "name", [name for name in lcp.METHODS if name not in ("enumeration", "multigrid", "lemke-howson")]
+)
 def test_dense_sparse_and_operator_give_one_answer(name):
     rng = np.random.default_rng(7)
     B = rng.standard_normal((30, 30))

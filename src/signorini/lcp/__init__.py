@@ -15,6 +15,7 @@ from signorini.lcp.classes import (
 )
 from signorini.lcp.enumeration import Enumeration, Face, all_solutions
 from signorini.lcp.feasibility import Feasibility
+from signorini.lcp.game import LemkeHowson
 from signorini.lcp.interior import InteriorPoint
 from signorini.lcp.lemke import Lemke
 from signorini.lcp.method import Method
@@ -42,6 +43,7 @@ __all__ = [
     "LCPSolution",
     "LeastIndex",
     "Lemke",
+    "LemkeHowson",
     "Method",
     "MixedLCP",
     "ProjectedMultigrid",

@@ -11,6 +11,7 @@ from signorini.lcp.block import BlockPivoting
 from signorini.lcp.classes import is_symmetric
 from signorini.lcp.enumeration import Enumeration
 from signorini.lcp.feasibility import Feasibility
+from signorini.lcp.game import LemkeHowson, first_player
 from signorini.lcp.interior import InteriorPoint
 from signorini.lcp.lemke import Lemke
 from signorini.lcp.method import Method
@@ -33,11 +34,12 @@ LARGE = 5000
 def methods_for(problem: LCP) -> list[Method]:
     """The chain of ``method="auto"``.
 
-    Dense: Lemke first, which ends by itself, to n = 1500, and to n = 5000 where M looks like frictional contact, whose
-    bases are often singular; otherwise block pivoting first (a few factorisations where it works); then Newton and
-    interior point. Large, sparse and symmetric: multigrid and MPRGP first. An operator: MPRGP, the only one that needs
-    products alone. A Lemke path with another covering vector closes the chain; behind it enumeration to n = 12, or one
-    linear programme that may prove that there is no solution.
+    Bimatrix games: Lemke and Howson's path, which always ends in a solution. Dense: Lemke first, which ends by itself,
+    to n = 1500, and to n = 5000 where M looks like frictional contact, whose bases are often singular; otherwise block
+    pivoting first (a few factorisations where it works); then Newton and interior point. Large, sparse and symmetric:
+    multigrid and MPRGP first. An operator: MPRGP, the only one that needs products alone. A Lemke path with another
+    covering vector closes the chain; behind it enumeration to n = 12, or one linear programme that may prove that there
+    is no solution.
 
     Examples
     --------
@@ -54,6 +56,8 @@ def methods_for(problem: LCP) -> list[Method]:
     others: list[Method] = [InteriorPoint(), Lemke(covering=other)]
     if isinstance(problem.M, np.ndarray) or problem.n <= SMALL:
         last: list[Method] = [Enumeration() if problem.n <= 12 else Feasibility()]
+        if (M := problem.dense()) is not None and first_player(M, problem.q) is not None:
+            return [LemkeHowson(), *direct, *others, *last]
         if problem.n <= MEDIUM or (problem.n <= LARGE and looks_like_friction(problem.M)):
             return [Lemke(max_pivots=10 * problem.n + 1000), *direct, *others, *last]
         return [*direct, Lemke(), *others]

@@ -86,8 +86,11 @@ class Lemke:
         note = "" if turned is not None else "The basis of z0 is singular: started from z = 0."
         if turned is None:
             basis[:] = False
-        path = _Path(self, Tableau(*(turned or (scaled.M, scaled.q)), _normed(d)), tolerance, basis)
-        return path.follow(problem, M, scaled, note)
+        tableau = Tableau(*(turned or (scaled.M, scaled.q)), _normed(d))
+        path = Path(self, tableau, tolerance, problem, M, scaled, basis)
+        if (tableau.rhs >= 0).all():
+            return path.ended(Status.SOLVED, note)
+        return path.follow(path.first_pivot(), note)
 
     def _covering(self, problem: LCP) -> Array:
         d = read_vector(self.covering, "covering", problem.n) if self.covering is not None else np.ones(problem.n)
@@ -99,29 +102,42 @@ class Lemke:
         return d
 
 
-class _Path:
-    """One run: the tableau and what is needed to judge where it stands."""
+class Path:
+    """One run: the tableau and what is needed to judge where it stands.
 
-    def __init__(self, options: Lemke, tableau: Tableau, tolerance: float, basis: BoolArray) -> None:
+    Attributes
+    ----------
+    tableau : of the equilibrated problem, z_i and w_i exchanged where ``basis``
+    largest_theta : what theta is compared with
+    pivots : so far
+    """
+
+    def __init__(
+        self,
+        options: Lemke,
+        tableau: Tableau,
+        tolerance: float,
+        problem: LCP,
+        M: Array,
+        scaled: Equilibrated,
+        basis: BoolArray,
+    ) -> None:
         self.options, self.tableau, self.tolerance, self.basis = options, tableau, tolerance, basis
+        self.problem, self.M, self.scaled = problem, M, scaled
         self.pivots = 0
         self.largest_theta = 0.0
         self.confirmed: Array | None = None
 
-    def follow(self, problem: LCP, M: Array, scaled: Equilibrated, note: str) -> Attempt:
-        """From the first ratio test to a solution, a ray or the limit."""
-        self.problem, self.M, self.scaled = problem, M, scaled
+    def follow(self, entering: int, note: str) -> Attempt:
+        """From a basis with theta in it, and the variable that enters, to a solution, a ray or the limit."""
         tableau, n = self.tableau, self.tableau.n
-        if (tableau.rhs >= 0).all():
-            return self._ended(Status.SOLVED, note)
-        entering = self._first_pivot()
         limit = self.options.max_pivots or 100 * n + 1000
         theta_stays, checked = False, 0
         while self.pivots < limit:
             if self.pivots - checked >= self.options.check_every:
                 checked = self.pivots
                 if not self._sound():
-                    return self._ended(Status.BREAKDOWN, note)
+                    return self.ended(Status.BREAKDOWN, note)
             reason, entering, row, pivots = tableau.walk(
                 entering,
                 limit - self.pivots,
@@ -134,11 +150,11 @@ class _Path:
             if reason == RAY:
                 return self._at_ray(entering, note)
             if reason == SOLVED or (reason == DOUBT and self._would_solve(entering, row)):
-                return self._ended(Status.SOLVED, note)
+                return self.ended(Status.SOLVED, note)
             theta_stays = reason == DOUBT
-        return self._ended(Status.MAX_ITERATIONS, note)
+        return self.ended(Status.MAX_ITERATIONS, note)
 
-    def _first_pivot(self) -> int:
+    def first_pivot(self) -> int:
         """Bring theta in, where q / d is least, the last row in ties (the lexicographic rule); what enters next."""
         tableau, n = self.tableau, self.tableau.n
         first = np.flatnonzero(tableau.d > 0)
@@ -186,7 +202,7 @@ class _Path:
         """Test the end of the path for a solution hidden by a tie, then report the ray."""
         tableau = self.tableau
         if not np.isfinite(tableau.rhs).all():
-            return self._ended(Status.NONFINITE, note)
+            return self.ended(Status.NONFINITE, note)
         theta = tableau.values()[2]
         candidate = self._z_of(tableau.basic, np.maximum(tableau.rhs, 0.0))
         share = theta / self.largest_theta
@@ -216,7 +232,7 @@ class _Path:
         d, swapped = self.tableau.d, self.basis
         return (np.where(swapped, 0.0, d) - self.scaled.M[:, swapped] @ d[swapped]) / self.scaled.rows
 
-    def _ended(self, ending: Status, note: str) -> Attempt:
+    def ended(self, ending: Status, note: str) -> Attempt:
         """The candidate of the present basis, solved for anew on the problem as posed."""
         rhs = self.tableau.rhs
         if not np.isfinite(rhs).all():

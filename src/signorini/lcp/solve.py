@@ -14,6 +14,7 @@ from signorini.errors import InputError, one_of
 from signorini.lcp.auto import methods_for
 from signorini.lcp.block import BlockPivoting
 from signorini.lcp.enumeration import Enumeration
+from signorini.lcp.game import LemkeHowson
 from signorini.lcp.interior import InteriorPoint
 from signorini.lcp.lemke import Lemke
 from signorini.lcp.method import Method
@@ -30,6 +31,7 @@ METHODS: dict[str, Method] = {
     method.name: method
     for method in (
         Lemke(),
+        LemkeHowson(),
         LeastIndex(),
         BlockPivoting(),
         SemismoothNewton(),

@@ -5,6 +5,7 @@ from signorini.lcp.problems.bank import bank
 from signorini.lcp.problems.contact import frictional_contact, gap_slip_contact
 from signorini.lcp.problems.generators import (
     badly_scaled,
+    bimatrix_game,
     degenerate,
     infeasible,
     random_p,
@@ -18,6 +19,7 @@ __all__ = [
     "PosedLCP",
     "badly_scaled",
     "bank",
+    "bimatrix_game",
     "degenerate",
     "frictional_contact",
     "gap_slip_contact",

@@ -18,7 +18,7 @@ _MURTY = "Murty (1988), Linear Complementarity, chapter 6"
 _PROBLEMS: dict[str, tuple[str, list[float] | None, bool, tuple[str, ...]]] = {
     "CPS_1": (f"{_CPS}, remark 4.1.14", [0.5, 0.5], False, ("monotone", "symmetric", "copositive plus")),
     "CPS_2": (f"{_CPS}, example 4.4.7", [0.0, 1.0, 3.0], True, ()),
-    "CPS_3": (f"{_CPS}, example 4.4.23, a bimatrix game", [0.1, 0.0, 0.1, 0.0], False, ()),
+    "CPS_3": (f"{_CPS}, example 4.4.23, a bimatrix game", [0.1, 0.0, 0.1, 0.0], False, ("game",)),
     "CPS_4": (_CPS, [2.0, 2.0, 2.0, 92.0], True, ("monotone", "copositive plus")),
     "CPS_4bis": (_CPS, [3.0, 3.0, 0.0, 83.0], True, ("monotone", "copositive plus")),
     "CPS_5": (f"{_CPS}, example 4.4.16", [0.0, 1.0], False, ("monotone", "symmetric", "Z", "copositive plus")),

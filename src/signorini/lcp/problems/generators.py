@@ -84,3 +84,11 @@ def infeasible(n: int, rng: np.random.Generator) -> PosedLCP:
     return PosedLCP(
         name=f"infeasible, n = {n}", source="generated with a Farkas vector", M=M, q=q, solvable=False, traits=traits
     )
+
+
+def bimatrix_game(n: int, rng: np.random.Generator) -> PosedLCP:
+    """A game of two players, the first with n // 2 strategies; costs are whole numbers from 1 to 9: full of ties."""
+    first = np.arange(n) < n // 2
+    across = first[:, None] != first
+    M, q = np.where(across, rng.integers(1, 10, (n, n)).astype(float), 0.0), -np.ones(n)
+    return PosedLCP(name=f"bimatrix game, n = {n}", source="random costs", M=M, q=q, traits=frozenset({"game"}))

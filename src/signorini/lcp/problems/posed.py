@@ -22,7 +22,8 @@ class PosedLCP:
     unique : whether the answer is the only one
     solvable : whether a solution exists
     covering : (n,) the vector that Lemke's method needs here, or None
-    traits : words out of "P", "positive definite", "monotone", "symmetric", "Z", "contact", "copositive plus"
+    traits : words out of "P", "positive definite", "monotone", "symmetric", "Z", "contact", "game",
+        "copositive plus"
     """
 
     name: str
