@@ -115,6 +115,17 @@ def test_obstacle_by_multigrid_and_by_conjugate_gradients():
     np.testing.assert_allclose(first.z, second.z, atol=1e-9)
 
 
+def test_multigrid_where_contacts_part_what_is_free():
+    """A string held down in 30 places: coarse corrections that carried from span to span had nothing to gain."""
+    n = 6000
+    M = sp.diags_array([-1.0, 2.0, -1.0], offsets=[-1, 0, 1], shape=(n, n)).tocsr()
+    solution = lcp.solve(M, np.where(np.arange(n) % 200 < 100, 1.05, -1.0))
+    assert solution.solved
+    assert solution.chain[0].startswith("multigrid: SOLVED")
+    assert solution.iterations <= 8
+    assert np.count_nonzero(np.diff(np.sign(solution.z))) == 59
+
+
 @pytest.mark.parametrize("seed", range(40))
 def test_frictional_contact_is_solved_by_lemke_in_both_forms(seed):
     rng = np.random.default_rng(seed)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array
+from signorini.arrays import Array, BoolArray
 from signorini.lcp.kernels import aggregate, compiled, sweeps
 from signorini.lcp.linear import Inverse, factorised
 
@@ -57,6 +57,30 @@ def hierarchy(A: Any, *, coarsest: int = 300, strength: float = 0.08) -> list[Le
         A = (P.T @ A @ P).tocsr()
         A.sort_indices()
     return [*levels, Level(A=A, P=None, inverse=factorised(A.tocsc()))]
+
+
+def truncated(levels: list[Level], free: BoolArray) -> list[Level]:
+    """The hierarchy of ``A x = r`` for the free unknowns alone, the others held at 0, with the prolongations given.
+
+    What is prolonged to unknowns that are held is cut off on the finest level, and the coarser matrices are made anew:
+    without that, coarse corrections carry from one side of a narrow contact to the other.
+
+    References
+    ----------
+    Kornhuber (1994), Monotone multigrid methods for elliptic variational inequalities I, Numer. Math. 69:167-184.
+    """
+    kept = sp.diags_array(free.astype(float))
+    A = (kept @ levels[0].A @ kept + sp.diags_array((~free).astype(float))).tocsr()
+    cut: list[Level] = []
+    for level in levels:
+        A.sort_indices()
+        if level.P is None:
+            break
+        P = level.P if cut else (kept @ level.P).tocsr()
+        cut.append(Level(A=A, P=P, inverse=None))
+        A = (P.T @ A @ P).tocsr()
+        A = (A + sp.diags_array((A.diagonal() <= 0).astype(float))).tocsr()  # where nothing is left
+    return [*cut, Level(A=A, P=None, inverse=factorised(A.tocsc()))]
 
 
 def v_cycle(levels: list[Level], r: Array) -> Array:

@@ -4,17 +4,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
-from signorini.lcp.hierarchy import Level, hierarchy, v_cycle
+from signorini.lcp.hierarchy import Level, hierarchy, truncated, v_cycle
 from signorini.lcp.mprgp import symmetric_in_products
 from signorini.lcp.problem import LCP
 from signorini.lcp.solution import Attempt
 from signorini.lcp.status import Status
+
+LITTLE = 0.5
+"""Of a residual: conjugate gradients that leave more of it have a preconditioner that is none."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,7 +25,8 @@ class ProjectedMultigrid:
     """Truncated nonsmooth Newton with multigrid inside, started from the same problem on coarser levels.
 
     A round is: projected Gauss-Seidel forth and back; conjugate gradients on the free variables, preconditioned by a
-    V-cycle of smoothed aggregation; projection; the step that minimises the energy on the way.
+    V-cycle of smoothed aggregation; projection; the step that minimises the energy on the way. Where the conjugate
+    gradients get nowhere, many narrow contacts part the free variables: then the hierarchy is truncated to those.
 
     Parameters
     ----------
@@ -99,19 +103,27 @@ class ProjectedMultigrid:
         return z + min(1.0, max(0.0, -float(gradient @ move) / curvature)) * move
 
     def _correction(self, levels: list[Level], r: Array, free: BoolArray) -> Array:
-        """Conjugate gradients for ``A c = r`` on the free variables."""
-        c, p, energy = np.zeros(len(r)), np.zeros(len(r)), 0.0
-        first = float(np.linalg.norm(r))
-        for _ in range(self.inner):
-            if not np.linalg.norm(r) > 1e-2 * first:
-                break
-            y = v_cycle(levels, r) * free
-            before, energy = energy, float(r @ y)
-            p = y + (energy / before if before > 0 else 0.0) * p
-            Ap = (levels[0].A @ p) * free
-            curvature = float(p @ Ap)
-            if not curvature > 0:
-                break
-            c = c + energy / curvature * p
-            r = r - energy / curvature * Ap
+        """``A c = r`` on the free variables."""
+        c, left = _conjugate_gradients(levels[0].A, levels, r, free, self.inner)
+        if left > LITTLE:
+            c, _ = _conjugate_gradients(levels[0].A, truncated(levels, free), r, free, self.inner)
         return c
+
+
+def _conjugate_gradients(A: Any, levels: list[Level], r: Array, free: BoolArray, steps: int) -> tuple[Array, float]:
+    """c with ``A c = r`` on the free variables and 0 elsewhere to two digits, and what is left of r."""
+    c, p, energy = np.zeros(len(r)), np.zeros(len(r)), 0.0
+    first = float(np.linalg.norm(r))
+    for _ in range(steps):
+        if not np.linalg.norm(r) > 1e-2 * first:
+            break
+        y = v_cycle(levels, r) * free
+        before, energy = energy, float(r @ y)
+        p = y + (energy / before if before > 0 else 0.0) * p
+        Ap = (A @ p) * free
+        curvature = float(p @ Ap)
+        if not curvature > 0:
+            break
+        c = c + energy / curvature * p
+        r = r - energy / curvature * Ap
+    return c, float(np.linalg.norm(r)) / first if first > 0 else 0.0
