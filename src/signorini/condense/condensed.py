@@ -120,6 +120,15 @@ class Condensed:
 
         return self.response.displacement(reduced, r, travel)
 
+    def on_springs(self, f: Array) -> Array:
+        """Free displacements (z,) under loads (z,) where springs of stiffness D hold every pair, closed or not.
+
+        Then r = -h, and ``G h - W r = b`` says h = b: what bodies do that are held, without asking how contact does it.
+        """
+        reduced, offset = self.reduce(f), np.zeros(len(self.root))
+        b = self.right_hand_side(reduced.load, offset)
+        return self.displacement(reduced, b / self.root, -self.root * b, offset)
+
     def among(self, kept: BoolArray) -> Condensed:
         """The same bodies with fewer pairs; no sparse matrix is factorised again.
 

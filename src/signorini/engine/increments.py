@@ -201,6 +201,7 @@ def measured(prepared: Prepared, state: State, before: Array | None = None) -> C
     ----------
     before : (n,) tangential displacement at which its slip increment began; its own where not given
     """
+    bodies = prepared.bodies
     return certify(
         prepared.K,
         applied(prepared, state.point)[0],
@@ -211,6 +212,7 @@ def measured(prepared: Prepared, state: State, before: Array | None = None) -> C
         state.tangential if before is None else before,
         prepared.scale,
         prepared.absent,
+        None if isinstance(bodies, Bodies) else bodies.on_springs,
     )
 
 

@@ -40,7 +40,9 @@ from signorini.model.stage import Stage, Standing, stages
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.scale import Loading, Scale, data_scale, loading_of
 
-_ROUNDING = 1e-4  # of the largest gap: times the tolerance of the law's solver, 1e-10, a few roundings of it
+_ROUNDING = (
+    1e-4  # of the largest gap or displacement: times the tolerance of the law's solver, 1e-10, a few roundings of it
+)
 _UNCONDENSED = (
     "an exact path needs the condensed interface, and this model is solved by iteration, because its factor does not "
     "fit or because it was asked for; expected path = 'increments'"
@@ -84,6 +86,7 @@ class Prepared(Examined):
     clock : seconds spent so far
     backend : of the factorisation, or "iterative", as asked for
     absent : (n,) pairs whose contact is switched off
+    softness : the farthest that any load moves the bodies, of its size, where springs hold the pairs: length per force
     """
 
     K: sp.csr_array
@@ -92,6 +95,7 @@ class Prepared(Examined):
     clock: Clock
     backend: str
     absent: BoolArray
+    softness: float = 0.0
     released: frozenset[str] = frozenset()
     multiplied: Mapping[str, float] = field(default_factory=dict)
 
@@ -204,6 +208,7 @@ class Prepared(Examined):
         forces = {name: factor.get(name, 1.0) * f for name, f in self.loads.items()}
         refuse_free_motions(self.space, constraints, interface, self.parts, self.motions)
         scale = data_scale(self.space, model, _loading(stages(model), forces, constraints), interface)
+        scale = scale.bent(self.softness)
         return replace(
             self,
             model=model,
@@ -336,10 +341,13 @@ def _made(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, cl
             whole = asked > room
         law: CoulombProblem | SpatialProblem | None = None
         bodies: Condensed | Bodies
+        softness = 0.0
         if whole:
             bodies = _whole(examined, reduced, relative, near)
     if not whole:
         bodies = _condensed(examined, reduced, relative, near, backend, clock)
+        softness = _softness(examined, bodies)
+        examined = replace(examined, scale=examined.scale.bent(softness))
         law = contact_law(interface, bodies, examined.scale)
         examined = replace(examined, constraints=_with_ties(examined, bodies.ties))
     return Prepared(
@@ -350,7 +358,18 @@ def _made(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, cl
         clock=clock,
         backend=backend,
         absent=np.zeros(len(interface), bool),
+        softness=softness,
     )
+
+
+def _softness(examined: Examined, condensed: Condensed) -> float:
+    """The farthest that any load moves the bodies, of the sum of its forces: what bends moves far beyond F / (E t)."""
+    T, found = examined.constraints.transform, [0.0]
+    for forces in examined.loads.values():
+        if size := float(np.abs(forces).sum()):
+            moved = T @ condensed.on_springs(T.T @ forces)
+            found.append(float(np.abs(moved).max(initial=0.0)) / size)
+    return max(found)
 
 
 def _whole(examined: Examined, K: sp.csr_array, B: sp.csr_array, near: BoolArray) -> Bodies:
@@ -389,7 +408,7 @@ def _condensed(
             examined.space.places,
             candidates=near,
             rigid=rigid,
-            stiffness=examined.scale.force / examined.scale.length,
+            stiffness=examined.scale.force / examined.scale.compressed,
             backend="auto" if backend == ITERATIVE else backend,
             clock=clock,
         )
@@ -436,9 +455,12 @@ def _cones(interface: Interface, condensed: Condensed) -> dict[str, Any]:
 
 
 def _size(interface: Interface, condensed: Condensed, scale: Scale) -> float:
-    """Of the right-hand side of the law; gaps far larger than the displacements leave their rounding in it."""
+    """Of the right-hand side of the law: what compresses, for forces to have their digits.
+
+    Gaps far larger than that, and displacements of what bends, leave their rounding in it.
+    """
     gap = float(np.abs(interface.gap[condensed.active]).max(initial=0.0))
-    return max(scale.length, _ROUNDING * gap) * float(condensed.root.max(initial=1.0))
+    return max(scale.compressed, _ROUNDING * max(gap, scale.length)) * float(condensed.root.max(initial=1.0))
 
 
 def _times(load: Load, factors: Mapping[str, float]) -> Temperature | None:

@@ -99,7 +99,7 @@ def _fitting(prepared: Prepared, start: Checkpoint) -> Checkpoint:
         prepared,
         absent=pairs_of(model, prepared.interface, start.standing.inactive),
         constraints=constraints,
-        scale=data_scale(prepared.space, model, start.loading, prepared.interface),
+        scale=data_scale(prepared.space, model, start.loading, prepared.interface).bent(prepared.softness),
     )
     refuse_moved(now, state)
     found = measured(now, state)

@@ -41,7 +41,7 @@ def staged(prepared: Prepared, stage: Stage, loading: Loading) -> Prepared:
         )
     absent = pairs_of(prepared.model, prepared.interface, stage.inactive)
     interface = replace(prepared.interface, friction=mu, anisotropy=anisotropy)
-    scale = data_scale(prepared.space, prepared.model, loading, interface)
+    scale = data_scale(prepared.space, prepared.model, loading, interface).bent(prepared.softness)
     if not absent.any():
         law = prepared.law_under(interface, scale)
         return replace(prepared, interface=interface, scale=scale, law_or_none=law)

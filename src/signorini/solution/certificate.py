@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,7 +22,7 @@ TOLERANCE = 1e-8
 NUMBERS = ("equilibrium", "penetration", "tension", "cone", "complementarity")
 """What a certificate measures."""
 
-_MOST_ROUNDING = 1e-6  # of the data: where digits beyond are lost, nothing is certified
+_MOST_ROUNDING = 1e-6  # of the data: where digits beyond are lost, of forces or of displacements, nothing is certified
 _FARTHEST = 1e9  # lengths of the data: a body that has left is no solution
 
 
@@ -81,6 +82,7 @@ def certify(
     before: Array,
     scale: Scale,
     absent: BoolArray | None = None,
+    yielding: Callable[[Array], Array] | None = None,
 ) -> Certificate:
     """Measure a state.
 
@@ -93,6 +95,8 @@ def certify(
     before : ((d - 1) n,) tangential displacement at which the slip increment began
     scale : sizes of forces and lengths
     absent : (n,) pairs whose contact is switched off: the law of contact is not asked of them
+    yielding : displacements under forces on the free displacements: what slender bodies lack of equilibrium is many
+        roundings of the load, and may be so where it moves them by no more than the last digits of their displacements
 
     Returns
     -------
@@ -117,13 +121,18 @@ def certify(
         gap, normal, room, friction = (np.where(absent, 0.0, part) for part in (gap, normal, room, friction))
         tension = np.where(absent, 0.0, tension)
     equilibrium = _largest(np.abs(np.concatenate([residual, balance]))) / scale.force
+    rounding = 0.0
+    if equilibrium > TOLERANCE:
+        rounding = _rounding(K, u, motions, scale.force)
+        if yielding is None or not np.abs(yielding(residual)).max(initial=0.0) <= _MOST_ROUNDING * scale.length:
+            rounding = min(rounding, _MOST_ROUNDING)
     return Certificate(
         equilibrium=equilibrium,
         penetration=_largest(-gap),
         tension=_largest(-tension),
         cone=_largest(-room),
         complementarity=_largest(np.concatenate([np.minimum(gap, normal), friction])),
-        rounding=_rounding(K, u, motions, scale.force) if equilibrium > TOLERANCE else 0.0,
+        rounding=rounding,
         facets=int(interface.facets.max(initial=0)),
     )
 
@@ -140,7 +149,7 @@ def _rounding(K: sp.csr_array, u: Array, motions: sp.csr_array, force: float) ->
     """
     forces = 2.0 * np.finfo(np.float64).eps * (abs(K) @ np.abs(u))
     resultants = np.sqrt(motions.multiply(motions).T @ forces**2)
-    return min(_largest(np.concatenate([forces, resultants])) / force, _MOST_ROUNDING)
+    return _largest(np.concatenate([forces, resultants])) / force
 
 
 def _friction(interface: Interface, bound: Array, tangential: Array, sliding: Array, room: Array) -> Array:

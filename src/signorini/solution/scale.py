@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -25,14 +25,27 @@ class Scale:
     ----------
     force : the largest load of the history, or what the largest imposed displacement or overlap causes
     length : the displacement that goes with it
+    compressed : the displacement that goes with it where bodies are compressed and do not bend
     imposed : the largest displacement that is imposed, and overlap
     squeezed : in space, the largest load over the smallest modulus, area
+    loaded : the largest load of the history
     """
 
     force: float
     length: float
+    compressed: float
     imposed: float = 0.0
     squeezed: float = 0.0
+    loaded: float = 0.0
+
+    def bent(self, softness: float) -> Scale:
+        """The same for bodies that loads move farther than they compress them: slender ones.
+
+        Parameters
+        ----------
+        softness : displacement per load, length per force
+        """
+        return replace(self, length=max(self.length, self.loaded * softness))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,17 +85,18 @@ def loading_of(
 
 
 def data_scale(space: Space, model: Model, loading: Loading, interface: Interface) -> Scale:
-    """Sizes of what was imposed: ``length = force / (E thickness)`` of the body where that is softest.
+    """Sizes of what was imposed: ``length = force / (E thickness)`` where that is largest, see `Scale.bent`.
 
     Of axisymmetric bodies half the largest radius stands for the thickness: contact bears on a part of it. In space it
     is the edge of a cube as large as all bodies.
     """
-    force, imposed = loading.force, max(loading.imposed, float(np.max(-interface.gap, initial=0.0)))
+    loaded, imposed = loading.force, max(loading.imposed, float(np.max(-interface.gap, initial=0.0)))
     bodies = zip(model.bodies, _across(space, model), strict=True)
     stiffness = min(body.material.smallest_modulus * width for body, width in bodies)
-    squeezed = force / min(body.material.smallest_modulus for body in model.bodies) if model.dimension == 3 else 0.0
-    force = max(force, stiffness * imposed) or stiffness
-    return Scale(force=force, length=force / stiffness, imposed=imposed, squeezed=squeezed)
+    squeezed = loaded / min(body.material.smallest_modulus for body in model.bodies) if model.dimension == 3 else 0.0
+    force = max(loaded, stiffness * imposed) or stiffness
+    length = force / stiffness
+    return Scale(force=force, length=length, compressed=length, imposed=imposed, squeezed=squeezed, loaded=loaded)
 
 
 def _across(space: Space, model: Model) -> list[float]:

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Thin and slender bodies: their displacements are millions of times those of compression, and digits are few."""
+
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.engine.prepare import prepare
+
+STEEL = sg.Elastic(E=200e3, nu=0.3)
+
+
+def test_a_cantilever_two_hundred_times_as_long_as_high():
+    length, force = 200.0, 0.01
+    mesh = sg.rectangle(x=np.linspace(0.0, length, 21).tolist(), y=[0.0, 0.5, 1.0], cells="quad8")
+    model = sg.Model(
+        mesh,
+        kind="plane stress",
+        bodies=[sg.Body("block", STEEL)],
+        supports=[sg.Support("left", u=(0, 0))],
+        loads=[sg.Load("right", force=(0.0, -force))],
+    )
+    end = sg.solve(model).last
+    assert end.certificate.passed
+    assert end.displacement[:, 1].min() == pytest.approx(-4.0 * force * length**3 / STEEL.E, rel=5e-3)
+
+
+@pytest.mark.parametrize("length", [70.0, 100.0, 200.0])
+@pytest.mark.parametrize(("cells", "formulation"), [("quad8", "standard"), ("quad", "incompatible")])
+def test_two_leaf_springs_share_a_load_at_the_tip(length, cells, formulation):
+    """Each bends by half the load: friction between them is far below that of a common section."""
+    along, force = np.linspace(0.0, length, 21).tolist(), 100.0 / length**2
+    leaves = {"a": [0.0, 0.5, 1.0], "b": [1.0, 1.5, 2.0]}
+    model = sg.Model(
+        sg.join({name: sg.rectangle(x=along, y=up, cells=cells) for name, up in leaves.items()}),
+        kind="plane stress",
+        bodies=[sg.Body(name, STEEL, formulation=formulation) for name in leaves],
+        supports=[sg.Support(f"{name}.left", u=(0, 0)) for name in leaves],
+        loads=[sg.Load("b.right", force=(0.0, -force))],
+        contacts=[sg.Contact("b.bottom", "a.top", friction=0.2)],
+    )
+    end = sg.solve(model).last
+    assert end.certificate.passed
+    assert end.displacement[:, 1].min() == pytest.approx(-2.0 * force * length**3 / STEEL.E, rel=1e-2)
+
+
+def test_certificates_of_compact_bodies_refer_to_what_they_are_compressed_by():
+    """A certificate that knows bending must not excuse what does not bend: the length of a cube is its compression."""
+    model = sg.Model(
+        sg.rectangle(width=1.0, height=1.0, nx=4, ny=4),
+        bodies=[sg.Body("block", STEEL)],
+        supports=[sg.Support("left", u=(0, None))],
+        loads=[sg.Load("top", pressure=1.0)],
+        contacts=[sg.Contact("bottom", sg.Plane(point=(0, 0), normal=(0, 1)))],
+    )
+    assert prepare(model).scale.length < 5.0 / STEEL.E
+
+
+def shim(height: float, cells: str) -> sg.Model:
+    """A thin plate between two cubes, all on planes of symmetry, under a uniform pressure."""
+    along, up = [0.0, 0.25, 0.5, 0.75, 1.0], {"a": [-1.0, 0.0], "s": [0.0, height], "b": [height, 1.0 + height]}
+    sides = {"left": (0, None, None), "front": (None, 0, None)}
+    return sg.Model(
+        sg.join({name: sg.box(x=along, y=along, z=z, cells=cells) for name, z in up.items()}),
+        kind="3d",
+        bodies=[sg.Body(name, STEEL) for name in up],
+        supports=[
+            sg.Support("a.bottom", u=(None, None, 0)),
+            *(sg.Support(f"{name}.{side}", u=u) for name in up for side, u in sides.items()),
+        ],
+        loads=[sg.Load("b.top", pressure=100.0)],
+        contacts=[
+            sg.Contact("s.bottom", "a.top", friction=0.2, name="lower"),
+            sg.Contact("s.top", "b.bottom", friction=0.2, name="upper"),
+        ],
+        steps=[sg.Step(increments=1)],
+    )
+
+
+@pytest.mark.parametrize("cells", ["hexahedron20", "tetra10"])
+@pytest.mark.parametrize("height", [0.01])
+def test_a_shim_passes_a_uniform_pressure_on(height, cells):
+    for contact in sg.solve(shim(height, cells)).last.contacts:
+        np.testing.assert_allclose(contact.pressure, 100.0, rtol=1e-8)
