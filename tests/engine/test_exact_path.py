@@ -127,17 +127,6 @@ def test_increments_before_an_interruption_are_kept(monkeypatch):
     np.testing.assert_allclose(solution.last.load_factor, 1.3)
 
 
-def test_a_gap_that_closes_under_force_is_a_jump_to_a_candidate():
-    """A block that floats above the foundation falls: no gradual path, and the notes say so."""
-    falling = replace(dragged_block(), steps=[sg.Step(name="press")])
-    falling = replace(falling, contacts=[replace(falling.contacts[0], gap=0.01)])
-    step = sg.solve(falling).last
-    assert step.path == "increments"
-    assert any("a jump" in note and "candidate" in note for note in step.notes)
-    with pytest.raises(sg.SolveFailed, match="a jump"):
-        sg.solve(replace(falling, steps=[sg.Step(name="press", path="exact")]))
-
-
 def rough_block(jump):
     """Clamped on the left, pressed on a very rough floor, lifted on the right: a node cannot let go gradually."""
     return sg.Model(

@@ -16,7 +16,7 @@ from signorini.solution.results import PairEvent
 from signorini.solution.state import State
 from signorini.trace import Attempt
 
-What = Literal["start", "event", "increment", "asked", "segment", "jump", "landing", "change"]
+What = Literal["start", "event", "increment", "asked", "segment", "jump", "landing", "change", "approach"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -57,7 +57,8 @@ class Leg:
     path : "single" (one increment), "increments" or "exact"
     before, after : states at the ends
     certificates : of every state that was certified on the way
-    trace : for every increment the methods tried; on an exact path one entry for all of it
+    trace : for every increment the methods tried; on an exact path one entry for all of it; empty where nothing had to
+        be solved
     snapshots : on the way, in order, the end last
     events : of an exact path
     notes : what a reader should know of the way
@@ -90,11 +91,11 @@ def lightened(leg: Leg, *, every: bool, end: bool, heated: bool) -> Leg:
 
 
 def joined(legs: Sequence[Leg]) -> Leg:
-    """Several legs, one after the other, as one."""
-    paths = {leg.path for leg in legs}
-    exact = "exact" in paths and paths <= {"exact", "single"}
+    """Several legs, one after the other, as one; the way is that of those on which loads change or the law does."""
+    paths = [leg.path for leg in legs if leg.trace] or [leg.path for leg in legs]
+    exact = "exact" in paths and {*paths} <= {"exact", "single"}
     return Leg(
-        path="exact" if exact else "increments" if len(legs) > 1 else legs[0].path,
+        path="exact" if exact else "increments" if len(paths) > 1 else paths[0],
         before=legs[0].before,
         after=legs[-1].after,
         certificates=tuple(chain.from_iterable(leg.certificates for leg in legs)),

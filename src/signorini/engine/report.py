@@ -100,8 +100,11 @@ def _notes(prepared: Prepared, leg: Leg) -> tuple[str, ...]:
     rubbing = prepared.interface.rubs & ~prepared.interface.sticks
     if leg.path != "single" or not rubbing.any():
         return leg.notes
-    closed = rubbing & (leg.after.status != OPEN) & (leg.before.gap > 1e-9 * prepared.scale.length)
-    return (ONE_INCREMENT, GROWN) if closed.any() else (ONE_INCREMENT,)
+    # what has happened before the loads of the step is no growth
+    begun = [shot.state for shot in leg.snapshots if shot.what in ("change", "approach")]
+    gap = (begun[-1] if begun else leg.before).gap
+    closed = rubbing & (leg.after.status != OPEN) & (gap > 1e-9 * prepared.scale.length)
+    return (*leg.notes, ONE_INCREMENT, *((GROWN,) if closed.any() else ()))
 
 
 def _facet_notes(prepared: Prepared) -> tuple[str, ...]:

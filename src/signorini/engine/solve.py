@@ -10,6 +10,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.clock import Clock
+from signorini.engine.approach import approached
 from signorini.engine.automatic import follow_automatically
 from signorini.engine.enter import relaxed, switched
 from signorini.engine.exact import follow_exactly
@@ -218,10 +219,13 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
     heated = any(load.temperature is not None for load in prepared.model.loads)
     for span, point in spans(stage, state.point, end):
         stretch = Stretch(prepared=prepared, where=stage.name, span=span, before=state, end=point, whole=at_events)
+        begun: list[Leg] = []
         try:
-            leg = _leg(stage, stretch)
+            first = approached(stretch)
+            begun = [] if first is None else [first]
+            leg = joined([*begun, _leg(stage, stretch if first is None else replace(stretch, before=first.after))])
         except (SolveFailed, KeyboardInterrupt) as stop:
-            raise keep(stop, legs) from None
+            raise keep(stop, [*legs, *(begun if reached(stop) is not None else [])]) from None
         leg = lightened(leg, every=at_events, end=span.asked, heated=heated)
         legs = [joined([*legs, leg])]
         state = leg.after

@@ -87,6 +87,16 @@ def _body_forces(space: Space, model: Model, load: Load) -> Array:
     return forces.ravel()
 
 
+def nodal_volumes(space: Space, model: Model) -> Array:
+    """``int N_k dx`` of every node, (nodes,), of quadratic cells also negative; 0 at nodes of no cell."""
+    volumes = np.zeros(len(space.mesh.points))
+    for block, weights in zip(space.blocks, space.volumes, strict=True):
+        at = np.einsum("qk,mki->mqi", block.values, space.mesh.points[block.cells])
+        weights = weights * measure(model, at, block.first + np.arange(len(block.cells)))
+        np.add.at(volumes, block.cells, weights @ block.values)
+    return volumes
+
+
 def _density(load: Load, mass: float, at: Array, axisymmetric: bool) -> Array:
     """Force per volume at points (m, q, d)."""
     if load.centrifugal is not None:

@@ -214,6 +214,45 @@ def describe_motions(parts: tuple[Part, ...], motions: Array) -> list[str]:
     return [_sentence(parts, group) for group in alike.values()]
 
 
+def describe_approach(parts: tuple[Part, ...], motion: Array, loose: Array) -> list[str]:
+    """How far parts have moved before they touched, a sentence for each that did.
+
+    Parameters
+    ----------
+    motion : coefficients of :func:`rigid_motions`
+    loose : what of it nothing but resistance to motion decided
+
+    Examples
+    --------
+
+    >>> block = Part(bodies=("block",), nodes=np.arange(4), centre=np.array([1.0, 0.5]), size=2.0)
+    >>> describe_approach((block,), np.array([0.0, -0.25, 0.002]), np.zeros(3))
+    ["body 'block' approaches by 0.25 along -y and turns by 0.001 before contact can hold it"]
+    """
+    free = {id(part): own for part, own in _moving(parts, loose)} if loose.any() else {}
+    sentences = []
+    for part, own in _moving(parts, motion):
+        ways, turn = [], np.linalg.norm(own[len(part.axes) :])
+        along = np.zeros(len(part.centre))
+        along[list(part.axes)] = own[: len(part.axes)]
+        if along.any():
+            ways.append(f"approaches by {np.linalg.norm(along):.4g} along {_direction(along)}")
+        if turn:
+            ways.append(f"turns by {turn / part.size:.4g}")
+        said = f"{part.label} {' and '.join(ways)} before contact can hold it"
+        if id(part) in free and free[id(part)][len(part.axes) :].any():
+            said += "; the loads do not say how it turns on the way, taken is what a body of one density would do"
+        sentences.append(said)
+    return sentences
+
+
+def _direction(vector: Array) -> str:
+    """Of a vector, as in "-y", or its components."""
+    unit = vector / np.linalg.norm(vector)
+    k = int(np.argmax(np.abs(unit)))
+    return f"{'-' if unit[k] < 0 else ''}{'xyz'[k]}" if np.count_nonzero(unit) == 1 else _spell(unit)
+
+
 def _sentence(parts: tuple[Part, ...], motions: list[Array]) -> str:
     """Motions of the same parts in words."""
     moving = [_moving(parts, motion) for motion in motions]

@@ -62,7 +62,7 @@ def pulled_away(problem: CoulombProblem, bound: Bound | None = None) -> Pull | N
         return None
     load = R.T @ problem.b / (problem.scale or 1.0)
     if bound is None and problem.bound.branches == 1:
-        a = _least(problem, load)
+        a = unresisted(R, problem.mu, load)
     else:
         a = _by_program(problem, load, bound or problem.bound)
     return None if a is None else pull_along(R, a, load)
@@ -75,13 +75,26 @@ def pull_along(R: Array, a: Array, load: Array) -> Pull:
     return Pull(motion=np.asarray(rho / np.abs(rho).max(), dtype=np.float64), share=share)
 
 
-def _least(problem: CoulombProblem, load: Array) -> Array | None:
-    """The motion of the unresisted cone that the load favours, in Coulomb's law.
+def unresisted(R: Array, mu: Array, load: Array) -> Array | None:
+    """The motion of the unresisted cone that a load favours, in Coulomb's law; None where friction can bear the load.
 
-    ``a`` is the projection of ``R'b`` on the cone ``C a >= 0`` of unresisted motions; it vanishes exactly where there
-    is none (Moreau). By duality a nonnegative least squares problem, ``a = R'b + C'x, x >= 0``.
+    ``a`` is the projection of the load on the cone ``C a >= 0`` of unresisted motions; it vanishes exactly where there
+    is none (Moreau). By duality a nonnegative least squares problem, ``a = load + C'x, x >= 0``.
+
+    Parameters
+    ----------
+    R : (2n, k) motions of the pairs
+    mu : (n,) finite
+    load : (k,) its work along each motion, relative to the data
+
+    Examples
+    --------
+    >>> unresisted(np.eye(2), np.array([0.5]), np.array([-1.0, 0.4])) is None
+    True
     """
-    R, n, mu = problem.image.R, problem.pairs, problem.mu
+    n = len(mu)
+    if not n:
+        return load
     normal, bound = R[:n], mu[:, None] * R[n:]
     C = np.concatenate([normal - bound, normal + bound]) / np.sqrt(1.0 + np.tile(mu, 2) ** 2)[:, None]
     try:

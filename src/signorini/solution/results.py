@@ -174,7 +174,8 @@ class Instant:
     ----------
     load_factor : step k goes from k - 1 to k
     what : "start", "event", "increment", "asked", "segment" (of the step ends), "jump" and "landing" (its two ends),
-        "change" (of the law of contact, before the loads of the step)
+        "change" (of the law of contact, before the loads of the step), "approach" (of bodies that float, up to where
+        they touch)
     contacts : in the order of the model; gaps are NaN where the bodies were not looked at and a pair is far from
         touching, dissipation counts from the beginning of the step
     work : since the beginning of the step, NaN where the bodies were not looked at

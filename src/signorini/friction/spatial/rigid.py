@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.optimize import nnls
 
-from signorini.arrays import Array
+from signorini.arrays import Array, IntArray
 from signorini.friction.rigid import GAIN, STRONGEST, Pull, pull_along, size_of
 from signorini.friction.spatial.problem import SpatialProblem
 from signorini.friction.spatial.section import outermost
@@ -33,33 +33,48 @@ def pulled_away(problem: SpatialProblem) -> Pull | None:
     >>> pulled_away(problem).motion.tolist()
     [1.0, 0.0, 0.0]
     """
-    R, n = problem.image.R, problem.pairs
+    R = problem.image.R
     if not R.shape[1] or problem.bounded.any():
         return None
     load = R.T @ problem.b / (problem.scale or 1.0)
-    most = size_of(load)
-    edges = R[:n] / np.sqrt(1.0 + (problem.mu**2).sum(axis=1))[:, None]
+    a = unresisted(R, problem.mu, problem.sides, load)
+    return None if a is None else pull_along(R, a, load)
+
+
+def unresisted(R: Array, mu: Array, sides: IntArray, load: Array) -> Array | None:
+    """The motion that a load favours of those that friction does not resist; None where friction can bear the load.
+
+    Parameters
+    ----------
+    R : (3n, k) motions of the pairs
+    mu, sides : (n, 2) finite half-axes, and (n,) corners of the sections
+    load : (k,) its work along each motion, relative to the data
+    """
+    n, most = len(mu), size_of(load)
+    if not n:
+        return load
+    edges = R[:n] / np.sqrt(1.0 + (mu**2).sum(axis=1))[:, None]
     for _ in range(_ROUNDS):
         try:
             multipliers, _ = nnls(edges.T, -load)
         except RuntimeError:  # its iteration limit: nothing proved
             return None
-        a = load + edges.T @ multipliers
+        a: Array = load + edges.T @ multipliers
         size = float(np.linalg.norm(a))
         if size <= GAIN * np.sqrt(n) * most:
             return None
-        strongest = np.einsum("ni,ink->nk", _strongest(problem, R @ a), R.reshape(3, n, -1))
+        strongest = np.einsum("ni,ink->nk", _strongest(mu, sides, R @ a), R.reshape(3, n, -1))
         work = strongest @ a
         resisted = STRONGEST * most * work < -0.25 * size**2
         if not resisted.any():
-            return pull_along(R, a, load) if load @ a > 0.75 * size**2 else None
+            return a if load @ a > 0.75 * size**2 else None
         edges = np.concatenate([edges[multipliers > 0], strongest[resisted]])
     return None
 
 
-def _strongest(problem: SpatialProblem, rho: Array) -> Array:
+def _strongest(mu: Array, sides: IntArray, rho: Array) -> Array:
     """(n, 3) Edge of each pair's cone that works most against the motion, scaled to length 1."""
-    n, mu = problem.pairs, problem.mu
+    n = len(mu)
     slip = rho[n:].reshape(2, n).T
-    edge = np.column_stack([np.ones(n), outermost(-slip, mu, problem.sides)])
-    return edge / np.linalg.norm(edge, axis=1)[:, None]
+    edge = np.column_stack([np.ones(n), outermost(-slip, mu, sides)])
+    return np.asarray(edge / np.linalg.norm(edge, axis=1)[:, None])

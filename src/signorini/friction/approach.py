@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rigid bodies that a load carries through the air until they touch: where contact can bear the load from.
+
+However small the load f is, nothing but contact resists it, and equilibrium is where the bodies come to rest. Their way
+there is that of rigid bodies in a viscous fluid, of which only where it leads matters::
+
+    v = f + P' r,    (gap rate, slip rate) = P v,    r in Coulomb's law of the pairs that touch
+
+Piece by piece v is constant: up to where a gap closes. It vanishes where forces that friction allows balance f. None of
+this takes energy, for all forces are infinitely small.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.bound import STICKY
+from signorini.condense.image import Image
+from signorini.friction.law import OPEN, STICK
+from signorini.friction.problem import CoulombProblem
+from signorini.friction.result import CoulombResult
+from signorini.friction.rigid import unresisted
+from signorini.friction.solve import solve_coulomb
+from signorini.friction.spatial import SpatialProblem, SpatialResult, solve_spatial
+from signorini.friction.spatial.rigid import unresisted as unresisted_in_space
+
+_PIECES = 200  # most of an approach
+_SOFT = 1e-6  # of the motion of a pair under a force on it: its own compliance, which shares forces among many pairs
+_STILL = 1e-6  # of the load: a velocity
+_FALLS = 1e-9  # of the velocity: a gap that closes
+_TOGETHER = 1e-12  # of the way: gaps that close together
+
+
+@dataclass(frozen=True, kw_only=True)
+class Approach:
+    """How far bodies moved, in terms of the motions given.
+
+    Attributes
+    ----------
+    motion : (k,)
+    loose : (k,) part of it on which several motions were free, so that the fluid decided between them
+    gap : (n,) at its end, exactly 0 where pairs came to touch
+    escape : (k,) where it has no end, a motion that the load goes on with and that contact does not resist, whatever
+        touches: the proof that there is no equilibrium; otherwise None
+    """
+
+    motion: Array
+    loose: Array
+    gap: Array
+    escape: Array | None = None
+
+
+def approach(P: Array, gap: Array, friction: Array, load: Array, *, width: float) -> Approach | None:
+    """The way of rigid bodies from where they are to where contact can bear a load; None where none was found.
+
+    Parameters
+    ----------
+    P : (d n, k) motions of the pairs, normals first: of k motions that the fluid resists alike, each on its own
+    gap : (n,) not negative
+    friction : (n, d - 1) along the tangents; infinite where touching pairs stick
+    load : (k,) work of the load along each motion
+    width : largest gap of pairs that touch
+
+    Examples
+    --------
+    A point falls along -y, 2 above a floor whose friction holds it there:
+
+    >>> found = approach(np.array([[0.0, 1.0], [1.0, 0.0]]), np.array([2.0]), np.array([[0.5]]),
+    ...                  np.array([0.0, -3.0]), width=1e-12)
+    >>> found.motion.tolist(), found.gap.tolist()
+    ([0.0, -2.0], [0.0])
+    """
+    n, k = len(gap), len(load)
+    motion, loose, now = np.zeros(k), np.zeros(k), gap.copy()
+    load = load / (np.linalg.norm(load) or 1.0)
+    for _ in range(_PIECES):
+        touching = now <= width
+        found = _velocity(P, touching, friction, load)
+        if found is None:
+            return None
+        v, fixed = found
+        if not v.any():
+            return Approach(motion=motion, loose=loose, gap=now)
+        closing = -(P[:n] @ v)
+        falls = ~touching & (closing > _FALLS * np.linalg.norm(v) * np.linalg.norm(P[:n], axis=1))
+        if not falls.any():
+            escape = _escape(P, friction, load, v)
+            return None if escape is None else Approach(motion=motion, loose=loose, gap=now, escape=escape)
+        time = float((now[falls] / closing[falls]).min())
+        motion += time * v
+        loose += 0.0 if fixed else time * v
+        now = now - time * closing
+        now[now <= width + _TOGETHER * time * float(np.abs(closing).max())] = 0.0
+    return None
+
+
+def _escape(P: Array, friction: Array, load: Array, v: Array) -> Array | None:
+    """(k,) A motion along which the load works and which no pair resists: v, or another; None where none is known."""
+    n, mu = len(friction), np.minimum(friction, STICKY)
+    along = (mu.T.ravel() * (P[n:] @ v)).reshape(-1, n)
+    if (P[:n] @ v >= np.linalg.norm(along, axis=0) - _FALLS * np.linalg.norm(v)).all():
+        return v
+    return _unresisted(P, mu, load)
+
+
+def _unresisted(P: Array, mu: Array, load: Array) -> Array | None:
+    if mu.shape[1] == 1:
+        return unresisted(P, mu[:, 0], load)
+    return unresisted_in_space(P, mu, np.zeros(len(mu), dtype=np.int64), load)
+
+
+def _velocity(P: Array, touching: BoolArray, friction: Array, load: Array) -> tuple[Array, bool] | None:
+    """(k,) Velocity under a load of size 1, 0 where the touching pairs can bear it, and whether they leave no other.
+
+    None where none was found.
+    """
+    d, k = friction.shape[1] + 1, len(load)
+    rows, mu = P[np.tile(touching, d)], friction[touching]
+    if _unresisted(rows, np.minimum(mu, STICKY), load) is None:
+        return np.zeros(k), True
+    if not len(mu):
+        return load, k == 1
+    found = _forces(rows, mu, load)
+    if found is None:
+        return None
+    forces, state = found
+    v = load + rows.T @ forces
+    held = rows[np.concatenate([state != OPEN, np.tile(state == STICK, d - 1)])]
+    v -= np.linalg.lstsq(held, held @ v)[0]  # what the compliance of the pairs lets pass
+    if np.linalg.norm(v) <= _STILL:
+        return np.zeros(k), True
+    return v, bool(np.linalg.matrix_rank(held, tol=_STILL) >= k - 1)
+
+
+def _forces(rows: Array, friction: Array, load: Array) -> tuple[Array, IntArray] | None:
+    """(d m,) Forces of m touching pairs on moving bodies and (m,) their states; None where none were found."""
+    compliance = rows @ rows.T
+    compliance[np.diag_indices_from(compliance)] += _SOFT * compliance.trace() / len(compliance)
+    none = np.zeros((len(rows), 0))
+    image = Image.of_compliance(compliance, none, none)
+    b = image.load(rows @ load, np.zeros(0))
+    scale = float(np.abs(b).max())
+    found: CoulombResult | SpatialResult
+    if friction.shape[1] == 1:
+        found = solve_coulomb(CoulombProblem(image=image, b=b, friction=friction[:, 0], scale=scale))
+    else:
+        found = solve_spatial(SpatialProblem(image=image, b=b, friction=friction, scale=scale))
+    if not found.solved:
+        return None
+    return np.concatenate([found.normal_force, found.tangential_force.T.ravel()]), found.state

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bodies that a gap keeps from what will hold them: histories begin where they touch."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.gallery.blocks import dragged_block
+
+SOFT = sg.Elastic(E=1000.0, nu=0.3)
+
+
+def stack(gap, kind="plane strain", **step):
+    """A block on a block on a block that is held, each ``gap`` above the one below; a force presses down."""
+    names, meshes = ("low", "middle", "high"), []
+    for k in range(3):
+        x, y = np.linspace(0.0, 4.0 - k, 9 - 2 * k), np.linspace(0.0, 1.0, 4) + k * (1.0 + gap)
+        # on quarters of it two planes of symmetry let a block fall alone
+        solid = {"x": x[::2], "y": x[::2], "z": y[::3]}
+        meshes.append(sg.box(**solid) if kind == "space" else sg.rectangle(x=x, y=y))
+    held = {"space": (0.0, 0.0, 0.0), "axisymmetric": (None, 0.0)}.get(kind, (0.0, 0.0))
+    return sg.Model(
+        sg.join(dict(zip(names, meshes, strict=True))),
+        **({} if kind == "space" else {"kind": kind}),
+        bodies=[sg.Body(name, SOFT) for name in names],
+        supports=[sg.Support("low.bottom", u=held)],
+        loads=[sg.Load("high.top", force=(0.0,) * (len(held) - 1) + (-5.0,), name="press")],
+        contacts=[
+            sg.Contact("middle.bottom", "low.top", friction=0.2, name="lower"),
+            sg.Contact("high.bottom", "middle.top", friction=0.2, name="upper"),
+        ],
+        steps=[sg.Step(name="press", **step)],
+    )
+
+
+def same(one, other, size):
+    for contact, expected in zip(one.contacts, other.contacts, strict=True):
+        np.testing.assert_allclose(contact.pressure, expected.pressure, atol=size * expected.pressure.max())
+        np.testing.assert_allclose(contact.traction, expected.traction, atol=size * expected.pressure.max())
+        np.testing.assert_allclose(contact.slip, expected.slip, atol=size)
+        np.testing.assert_allclose(contact.worn, expected.worn, atol=size * expected.worn.max())
+    np.testing.assert_allclose(one.work, other.work, rtol=size)
+    np.testing.assert_allclose(one.dissipation, other.dissipation, rtol=size)
+    np.testing.assert_allclose(one.energy_defect, other.energy_defect, atol=size * other.work)
+
+
+@pytest.mark.parametrize("kind", ["plane strain", "axisymmetric", "space"])
+@pytest.mark.parametrize("increments", [None, 2])
+def test_a_stack_with_gaps_is_the_stack_without(kind, increments):
+    """One body after the other approaches and turns as it lands; stresses, slips, work know nothing of it."""
+    apart, touching = (sg.solve(stack(gap, kind, increments=increments)).last for gap in (0.125, 0.0))
+    assert apart.path == touching.path
+    same(apart, touching, 1e-8)
+    begun = apart.instants[0]
+    assert (begun.what, begun.load_factor, begun.work) == ("approach", 0.0, 0.0)
+    assert sum("before contact can hold it" in note for note in apart.notes) == 2
+    if kind == "axisymmetric":  # no way to turn
+        names = {"middle": 0.125, "high": 0.25}
+        assert apart.notes == tuple(
+            f"step 'press': body '{name}' approaches by {way} along -y before contact can hold it"
+            for name, way in names.items()
+        )
+        lowered = touching.displacement[:, 1] - apart.displacement[:, 1]
+        np.testing.assert_allclose(lowered, np.repeat([0.0, 0.125, 0.25], [36, 28, 20]), atol=1e-10)
+
+
+def cylinder(turn, *, above=True, **step):
+    """Half a disk on a rigid plane, turned about its centre; at y = 0, or where its lowest node is."""
+    mesh = sg.half_disk(radius=8.0, contact_length=4.0, contact_spacing=0.5, refine=2)
+    c, s = np.cos(turn), np.sin(turn)
+    mesh = replace(mesh, points=(mesh.points - [0.0, 8.0]) @ [[c, s], [-s, c]] + [0.0, 8.0])
+    place = 0.0 if above else float(mesh.points[:, 1].min())
+    return sg.Model(
+        mesh,
+        bodies=[sg.Body("disk", sg.Elastic(E=200.0, nu=0.3))],
+        supports=[sg.Support("cut", u=(0.0, None))],
+        loads=[sg.Load("cut", force=(0.0, -156.0))],
+        contacts=[sg.Contact("arc", sg.Plane((0.0, place), (0.0, 1.0)), friction=0.05, name="foundation")],
+        steps=[sg.Step(**step)],
+    )
+
+
+def test_a_cylinder_that_no_node_meets_at_its_pole_has_an_exact_path():
+    """It begins where the lowest nodes touch, increments converge to it, and a node at the pole changes little."""
+    half_a_cell = 0.5 * 0.25 / 8.0
+    exact = sg.solve(cylinder(half_a_cell)).last
+    assert exact.path == "exact"
+    assert exact.notes == ("step 1: body 'disk' approaches by 0.0009765 along -y before contact can hold it",)
+    same(exact, sg.solve(cylinder(half_a_cell, above=False)).last, 1e-8)
+    pole = sg.solve(cylinder(0.0)).last
+    np.testing.assert_allclose(exact.dissipation, pole.dissipation, rtol=0.05)
+    off = [
+        sg.solve(cylinder(half_a_cell, increments=number)).last.dissipation / exact.dissipation - 1.0
+        for number in (10, 100)
+    ]
+    assert 0.0 < off[1] < 0.1 * off[0]
+
+
+def test_a_block_that_falls_starts_from_where_it_touches():
+    """A gap that a contact is given counts as one of the mesh; the exact path has no jump in it."""
+    still = replace(dragged_block(), steps=[sg.Step(name="press", path="exact")])
+    falling = replace(still, contacts=[replace(still.contacts[0], gap=0.01)])
+    same(sg.solve(falling).last, sg.solve(still).last, 1e-8)
+
+
+def test_bodies_that_loads_pull_away_are_named_with_their_motion():
+    model = replace(stack(0.125), loads=[sg.Load("high.top", force=(0.0, 5.0), name="press")])
+    with pytest.raises(sg.SolveFailed, match=r"body 'high' can move along y: .*no equilibrium"):
+        sg.solve(model)
