@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from signorini.api import Solution, load, prepare, solve
     from signorini.deck import read
     from signorini.engine import paper
-    from signorini.errors import InputError, SignoriniError, SolveFailed
+    from signorini.errors import InputError, Interrupted, SignoriniError, SolveFailed
     from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
     from signorini.fem.profile import mesh_profile, read_profile
     from signorini.fem.read import read_mesh
@@ -48,6 +48,7 @@ __all__ = [
     "Equation",
     "Foundation",
     "InputError",
+    "Interrupted",
     "Load",
     "Mesh",
     "Model",
@@ -88,7 +89,7 @@ __all__ = [
 _HOMES = {
     "signorini.api": ("Solution", "load", "prepare", "solve"),
     "signorini.deck": ("read",),
-    "signorini.errors": ("InputError", "SignoriniError", "SolveFailed"),
+    "signorini.errors": ("InputError", "Interrupted", "SignoriniError", "SolveFailed"),
     "signorini.fem.generators": ("annulus", "half_disk", "quarter_disk", "rectangle"),
     "signorini.fem.profile": ("mesh_profile", "read_profile"),
     "signorini.fem.read": ("read_mesh",),

@@ -18,7 +18,7 @@ from signorini.engine.prepare import Prepared
 from signorini.engine.prepare import prepare as prepare_model
 from signorini.engine.solve import solve as solve_history
 from signorini.engine.solve import solve_prepared
-from signorini.errors import InputError, SolveFailed, one_of
+from signorini.errors import InputError, Interrupted, SolveFailed, one_of
 from signorini.fem.path import PathResult, along
 from signorini.fem.space import Space, make_space
 from signorini.fem.stress import BodyStress, body_stresses
@@ -179,6 +179,7 @@ def solve(
     raise_on_failure: bool = True,
     wellposed: bool = False,
     clock: Clock | None = None,
+    after_step: Callable[[History], None] | None = None,
 ) -> Solution:
     """Solve every step of a model and certify every increment.
 
@@ -192,6 +193,7 @@ def solve(
     raise_on_failure : otherwise a solution whose ``status`` says why is returned, with what was solved before
     wellposed : whether to ask if the solution is the only one: ``solution.wellposedness``
     clock : counts the seconds and tells progress
+    after_step : is given what is finished after every step but the last, to keep it
 
     Raises
     ------
@@ -199,6 +201,8 @@ def solve(
         If the model is wrong; a body that nothing holds is named with its free motion.
     SolveFailed
         If no certified solution was found; ``.solution`` is what was solved before.
+    Interrupted
+        A KeyboardInterrupt, on Ctrl-C; ``.solution`` is what was solved before.
 
     Examples
     --------
@@ -213,7 +217,13 @@ def solve(
     begin = _checkpoint(start)
     return _answered(
         lambda: solve_history(
-            model, start=begin, backend=backend, raise_on_failure=raise_on_failure, wellposed=wellposed, clock=clock
+            model,
+            start=begin,
+            backend=backend,
+            raise_on_failure=raise_on_failure,
+            wellposed=wellposed,
+            clock=clock,
+            after_step=after_step,
         )
     )
 
@@ -311,6 +321,8 @@ def _answered(run: Callable[[], History]) -> Solution:
         return _dressed(run())
     except SolveFailed as failure:
         raise SolveFailed(str(failure), status=failure.status, solution=_dressed(failure.solution)) from failure
+    except Interrupted as stop:
+        raise Interrupted(str(stop), solution=_dressed(stop.solution)) from None
 
 
 def _dressed(history: object) -> Solution:

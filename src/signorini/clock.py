@@ -41,9 +41,15 @@ class Clock:
 
     @contextmanager
     def phase(self, name: str) -> Iterator[None]:
-        """Time a block under a name."""
+        """Time a block under a name, and tell that it begins."""
         if name in BEGINS:
             self._tell(name, BEGINS[name])
+        with self.spending(name):
+            yield
+
+    @contextmanager
+    def spending(self, name: str) -> Iterator[None]:
+        """Time a block under a name, in between something else."""
         start = time.perf_counter()
         try:
             yield

@@ -60,6 +60,21 @@ class SolveFailed(SignoriniError):
         super().__init__(message)
 
 
+class Interrupted(KeyboardInterrupt):
+    """Stopped from outside, by Ctrl-C or SIGTERM: carries whatever was found before.
+
+    Attributes
+    ----------
+    solution : the steps that were finished before, and the next one as far as it was followed
+    reached : the part of the step that was followed before, or None
+    """
+
+    def __init__(self, message: str = "", *, solution: object | None = None, reached: object | None = None) -> None:
+        self.solution = solution
+        self.reached = reached
+        super().__init__(message)
+
+
 def spell(where: Where) -> str:
     """A path as a deck spells it.
 

@@ -2,6 +2,8 @@
 """What ``check`` notices, plain data for other programs, and runs that are interrupted."""
 
 import json
+import os
+import signal
 from dataclasses import replace
 from pathlib import Path
 
@@ -183,5 +185,23 @@ def test_what_is_finished_survives_an_interruption(
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert (summary["status"], len(summary["steps"])) == ("interrupted", 1)
     assert len(sg.load(tmp_path).steps) == 1
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(KeyboardInterrupt) as stop:
         sg.solve(sg.read(DECK))
+    assert isinstance(stop.value, sg.Interrupted)
+    assert [step.finished for step in stop.value.solution.steps] == [True]
+    assert stop.value.solution.end is not None
+
+
+def test_a_terminated_run_keeps_what_is_finished(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """SIGTERM as Ctrl-C; afterwards it does to the process what it did before."""
+    follow, before = engine._step, signal.getsignal(signal.SIGTERM)
+
+    def terminated(prepared: object, stage: object, *rest: object) -> object:
+        if stage.number == 2:  # type: ignore[attr-defined]
+            os.kill(os.getpid(), signal.SIGTERM)
+        return follow(prepared, stage, *rest)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(engine, "_step", terminated)
+    assert main(["run", str(DECK), "-o", str(tmp_path), "--quiet"]) == 130
+    assert [step.finished for step in sg.load(tmp_path).steps] == [True]
+    assert signal.getsignal(signal.SIGTERM) == before

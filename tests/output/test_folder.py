@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A result folder holds one whole run or nothing half-written, whatever happens in between."""
 
+import errno
 import json
+import os
+import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -116,6 +121,83 @@ def test_an_interrupted_write_leaves_the_earlier_run_whole(
     deck.write_text(BLOCK.replace("-3.0", "-4.0"))
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == (130 if interruption is KeyboardInterrupt else 1)
     assert {file.name: file.read_bytes() for file in out.iterdir()} == before
+
+
+def test_a_full_disk_is_told_and_the_run_goes_on(
+    deck: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out, write = tmp_path / "out", module.write_rows
+    room = iter([False, True])
+
+    def full(history: object, path: Path) -> None:
+        if not next(room, True):
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        write(history, path)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(module, "write_rows", full)
+    deck.write_text(BLOCK + PULL.replace("-1.0", "0.5"))
+    assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0
+    full_disk = f"cannot write results into '{out}': No space left on device; what it held before is still there"
+    assert capsys.readouterr().err == f"signorini: {full_disk}; the run goes on\n"
+    before = {file.name: file.read_bytes() for file in out.iterdir()}
+    room = iter([False, False])
+    assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 1
+    said = capsys.readouterr().err
+    assert said == f"signorini: {full_disk}; the run goes on\nsignorini: {full_disk}\n"
+    assert {file.name: file.read_bytes() for file in out.iterdir()} == before
+
+
+def test_a_folder_is_for_one_run_of_one_deck(deck: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out, other = tmp_path / "out", tmp_path / "other.toml"
+    other.write_text(BLOCK)
+    with module.own_folder(out, deck.name):
+        assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 2
+    assert capsys.readouterr().err.startswith(f"signorini: another run writes into the folder '{out}'; expected")
+    assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0
+    before = {file.name: file.read_bytes() for file in out.iterdir()}
+    assert main(["run", str(other), "-o", str(out), "--quiet", "--from", str(out)]) == 2
+    words = f"the folder '{out}' holds the results of another deck, 'block.toml'; expected a folder of its own (-o)"
+    assert capsys.readouterr().err == f"signorini: {words}\n"
+    assert {file.name: file.read_bytes() for file in out.iterdir()} == before
+
+
+def test_what_is_finished_is_on_disk_while_later_steps_run(
+    deck: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each time a whole result folder, from which the steps that are left go on to the same end."""
+    steps = [f"\n[[step]]\nscale = {{ top = {factor} }}\n" for factor in (1.0, 0.5, 0.8, 0.2)]
+    deck.write_text(BLOCK + "".join(steps))
+    out, publish = tmp_path / "out", module.Publisher.publish
+    monkeypatch.setattr(module, "_SHARE", 1e9)  # of the time: every step
+
+    def copied(self: module.Publisher, history: sg.Solution) -> list[Path]:
+        files = publish(self, history)
+        shutil.copytree(out, tmp_path / f"after{len(history.steps)}")
+        return files
+
+    monkeypatch.setattr(module.Publisher, "publish", copied)
+    assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0
+    monkeypatch.undo()
+    end = sg.load(out)
+    for number in (1, 2, 3):
+        folder = tmp_path / f"after{number}"
+        assert json.loads((folder / "summary.json").read_text())["status"] == "running"
+        assert names(folder) - names(out) == set()
+        (tmp_path / "rest.toml").write_text(BLOCK + "".join(steps[number:]))
+        for start in (folder, folder / "solution.h5"):
+            rest = tmp_path / f"rest{number}"
+            assert main(["run", str(tmp_path / "rest.toml"), "-o", str(rest), "--quiet", "--from", str(start)]) == 0
+            found = sg.load(rest)
+            assert (found.last.displacement == end.last.displacement).all()
+            assert (found.contact("bottom").pressure == end.contact("bottom").pressure).all()
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
+def test_runs_that_are_killed_leave_whole_files_and_can_be_gone_on_from() -> None:
+    command = [sys.executable, "-m", "benchmarks.killed", "--number", "2", "--seed", "3"]
+    found = subprocess.run(command, cwd=Path(__file__).parents[2], capture_output=True, text=True, check=False)
+    assert found.returncode == 0, found.stderr
+    assert "every file whole, every run gone on from" in found.stdout
 
 
 def test_a_single_file_that_cannot_be_finished_does_not_appear(

@@ -13,7 +13,7 @@ from signorini.cli import main
 from signorini.clock import Clock
 from signorini.engine import fields as planning
 from signorini.gallery.cylinder import zhu_cylinder
-from signorini.output.folder import open_folder, publish
+from signorini.output.folder import Publisher, open_folder
 from signorini.output.series import frames, listed
 
 HOT = sg.Elastic(E=100.0, nu=0.3, expansion=1e-3)
@@ -41,7 +41,7 @@ def read_series(path):
 
 
 def written(solution, folder):
-    return publish(solution, open_folder(folder), Clock(), started=0.0)
+    return Publisher(folder=open_folder(folder), clock=Clock(), started=0.0).publish(solution)
 
 
 BOX = {"mesh": sg.box(x=[0, 1, 2], y=[0, 1], z=[0, 0.5, 1]), "friction": 0.0}

@@ -10,6 +10,7 @@ import traceback
 from collections.abc import Sequence
 
 from signorini.cli.parser import make_parser
+from signorini.cli.stopping import stoppable
 from signorini.errors import InputError, SolveFailed
 
 DONE, FAILED, WRONG_INPUT, NO_SOLUTION, INTERRUPTED = 0, 1, 2, 3, 130
@@ -38,7 +39,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     options = make_parser().parse_args(arguments)
     try:
-        code = int(getattr(importlib.import_module(_COMMANDS[options.command]), options.command)(options))
+        with stoppable():
+            code = int(getattr(importlib.import_module(_COMMANDS[options.command]), options.command)(options))
         sys.stdout.flush()
         return code
     except InputError as error:
@@ -51,6 +53,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # whoever read the output has left; nothing is to be said, and nothing more to be written at exit
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
+    except OSError as error:  # the system refuses: a full disk, a place that is gone
+        if options.debug:
+            traceback.print_exc()
+        at = f"'{error.filename}': " if error.filename else ""
+        return _say(f"signorini: {at}{error.strerror or error}", FAILED)
     except Exception as error:  # the last resort: a user never sees a traceback unasked
         if options.debug:
             traceback.print_exc()

@@ -8,24 +8,23 @@ import sys
 import textwrap
 import time
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from signorini.api import solve
 from signorini.cli.progress import progress
 from signorini.clock import Clock
 from signorini.deck import Deck
-from signorini.engine.solve import INTERRUPTED
 from signorini.errors import InputError, SolveFailed, one_of
 from signorini.iterative.bodies import ITERATIVE
 from signorini.linalg.multifrontal import compiled
 from signorini.linalg.registry import BACKENDS
 from signorini.output.archive import read_archive
 from signorini.output.checkpoint import read_checkpoint
-from signorini.output.folder import open_folder, publish
+from signorini.output.folder import Publisher, own_folder
 from signorini.output.table import history_table
 from signorini.solution.checkpoint import Checkpoint
-from signorini.solution.history import History
+from signorini.solution.history import INTERRUPTED, History
 
 
 def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: float) -> int:
@@ -45,11 +44,36 @@ def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: f
     if options.backend not in known:
         raise InputError(one_of(options.backend, known, "back end"), where=("--backend",))
     start = _start(options.start)
-    folder = open_folder(Path(options.folder) if options.folder else Path("out", deck.path.stem))
+    path = Path(options.folder) if options.folder else Path("out", deck.path.stem)
     note = "" if compiled() else "first solve on this machine: compiling takes half a minute, once"
-    with progress(quiet=options.quiet or options.json, seconds=clock.seconds, note=note) as clock:
-        history = _solve(deck, options, clock, start)
-        files = publish(history, folder, clock, started=started, prints=deck.prints)
+    with own_folder(path, deck.path.name) as folder:
+        with progress(quiet=options.quiet or options.json, seconds=clock.seconds, note=note) as clock:
+            publisher = Publisher(folder=folder, clock=clock, started=started, deck=deck.path.name, prints=deck.prints)
+            history = _solve(deck, options, clock, start, _kept(publisher))
+            files = publisher.publish(history)
+        return _told(deck, options, history, files, folder, started)
+
+
+def _kept(publisher: Publisher) -> Callable[[History], None]:
+    """Write finished steps; where that fails say so once, and solve on: the disk may have room at the end."""
+    told = False
+
+    def keep(history: History) -> None:
+        nonlocal told
+        try:
+            publisher.keep(history)
+        except OSError as error:
+            if not told:
+                print(f"signorini: {error.strerror}; the run goes on", file=sys.stderr)
+            told = True
+
+    return keep
+
+
+def _told(
+    deck: Deck, options: argparse.Namespace, history: History, files: Sequence[Path], folder: Path, started: float
+) -> int:
+    """Print what was found; the exit code."""
     if options.json:
         print((folder / "summary.json").read_text(encoding="utf-8"), end="")
     elif not options.quiet:
@@ -90,7 +114,13 @@ def _start(name: str | None) -> Checkpoint | None:
     return read_checkpoint(path / "state.npz" if path.is_dir() else path)
 
 
-def _solve(deck: Deck, options: argparse.Namespace, clock: Clock, start: Checkpoint | None) -> History:
+def _solve(
+    deck: Deck,
+    options: argparse.Namespace,
+    clock: Clock,
+    start: Checkpoint | None,
+    after_step: Callable[[History], None],
+) -> History:
     """The history, finished or not; what is wrong with the deck is told with its line."""
     try:
         return solve(
@@ -100,6 +130,7 @@ def _solve(deck: Deck, options: argparse.Namespace, clock: Clock, start: Checkpo
             raise_on_failure=False,
             wellposed=options.wellposed,
             clock=clock,
+            after_step=after_step,
         )
     except InputError as error:
         raise deck.locate(error) from error

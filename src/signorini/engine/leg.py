@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from signorini.errors import SolveFailed
+from signorini.errors import Interrupted, SolveFailed
 from signorini.solution.certificate import Certificate
 from signorini.solution.results import PairEvent
 from signorini.solution.state import State
@@ -106,19 +106,6 @@ def joined(legs: Sequence[Leg]) -> Leg:
     )
 
 
-class Interrupted(KeyboardInterrupt):
-    """Interrupted by the user, with the part of the step that was followed before.
-
-    Attributes
-    ----------
-    reached : that part
-    """
-
-    def __init__(self, reached: Leg) -> None:
-        self.reached = reached
-        super().__init__()
-
-
 def keep(stop: SolveFailed | KeyboardInterrupt, legs: Sequence[Leg]) -> SolveFailed | KeyboardInterrupt:
     """What stopped a step, with what was followed before: legs, and what it already carries."""
     last = reached(stop)
@@ -126,7 +113,7 @@ def keep(stop: SolveFailed | KeyboardInterrupt, legs: Sequence[Leg]) -> SolveFai
     if not every:
         return stop
     if isinstance(stop, KeyboardInterrupt):
-        return Interrupted(joined(every))
+        return Interrupted(reached=joined(every))
     stop.reached = joined(every)
     return stop
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from math import ceil
 
@@ -24,7 +25,7 @@ from signorini.engine.staged import nominal_gap, staged
 from signorini.engine.stretch import Stretch
 from signorini.engine.upheld import at_the_end, handed_over, refuse_moved
 from signorini.engine.wellposed import assess
-from signorini.errors import InputError, SolveFailed
+from signorini.errors import InputError, Interrupted, SolveFailed
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.friction.law import OPEN
 from signorini.interface.interface import pairs_of
@@ -33,16 +34,13 @@ from signorini.model.stage import Stage, Standing, stages
 from signorini.model.step import Step
 from signorini.solution.certificate import TOLERANCE
 from signorini.solution.checkpoint import Checkpoint
-from signorini.solution.history import History
+from signorini.solution.history import INTERRUPTED, RUNNING, History
 from signorini.solution.results import StepResult
 from signorini.solution.scale import Loading, data_scale, loading_of
 from signorini.solution.state import LoadPoint, State, initial_state
 
 RELAXED = "friction is lower than what pairs carried: they slip at once, before the loads of the step"
 """What a step says whose change of friction lets pairs slip."""
-
-INTERRUPTED = "interrupted"
-"""Status of a history that was stopped from outside."""
 
 _BEHIND_A_JUMP = 10  # increments
 _ENOUGH = 16  # in space, where no increments were asked for: none needs to be shorter than 1/16 of a straight part
@@ -56,25 +54,35 @@ def solve(
     raise_on_failure: bool = True,
     wellposed: bool = False,
     clock: Clock | None = None,
+    after_step: Callable[[History], None] | None = None,
 ) -> History:
     """Solve every step of a model and certify every increment; see :func:`signorini.api.solve`, which dresses it."""
     prepared = prepare(model, start=start, backend=backend, clock=clock)
-    return solve_prepared(prepared, start=start, raise_on_failure=raise_on_failure, wellposed=wellposed)
+    return solve_prepared(
+        prepared, start=start, raise_on_failure=raise_on_failure, wellposed=wellposed, after_step=after_step
+    )
 
 
 def solve_prepared(
-    prepared: Prepared, *, start: Checkpoint | None = None, raise_on_failure: bool = True, wellposed: bool = False
+    prepared: Prepared,
+    *,
+    start: Checkpoint | None = None,
+    raise_on_failure: bool = True,
+    wellposed: bool = False,
+    after_step: Callable[[History], None] | None = None,
 ) -> History:
     """Solve the load history of a prepared model; see :func:`solve`.
 
     Parameters
     ----------
     start : for which the model was prepared
+    after_step : is given what is finished after every step but the last
     """
     refuse_fields(prepared.model)
-    history = _follow(prepared, _first(prepared) if start is None else _fitting(prepared, start), wellposed)
+    begin = _first(prepared) if start is None else _fitting(prepared, start)
+    history = _follow(prepared, begin, wellposed, after_step)
     if raise_on_failure and history.status == INTERRUPTED:
-        raise KeyboardInterrupt
+        raise Interrupted(history.message, solution=history)
     if raise_on_failure and not history.solved:
         raise SolveFailed(history.message, status=history.status, solution=history)
     return history
@@ -118,7 +126,9 @@ def _near(prepared: Prepared) -> BoolArray:
     return prepared.bodies.active | prepared.bodies.settled
 
 
-def _follow(prepared: Prepared, begin: Checkpoint, wellposed: bool) -> History:
+def _follow(
+    prepared: Prepared, begin: Checkpoint, wellposed: bool, after_step: Callable[[History], None] | None
+) -> History:
     """Step after step, up to the end or to what stops it; then the last one goes as far as it was followed.
 
     Pairs that were left out as too far apart are looked at after every increment; where one has met the other side, or
@@ -146,12 +156,16 @@ def _follow(prepared: Prepared, begin: Checkpoint, wellposed: bool) -> History:
                     if not prepared.limited:
                         raise
                     prepared = prepared.widened()
-            steps.append(step_result(now, stage, leg, cycle_ends))
-            end = Checkpoint.of(model, interface, leg.after, stage.standing, loading, _near(prepared))
-            before = now
+            result = step_result(now, stage, leg, cycle_ends)
+            after = Checkpoint.of(model, interface, leg.after, stage.standing, loading, _near(prepared))
+            steps, end, before = [*steps, result], after, now  # at once, whenever an interruption comes
+            if after_step is not None and len(steps) < len(schedule):
+                words = f"{len(steps)} of {len(schedule)} steps are finished"
+                after_step(_history(prepared, RUNNING, words, steps, end))
     except (SolveFailed, KeyboardInterrupt) as stop:
         status = INTERRUPTED
-        words = f"interrupted in step {len(steps) + 1} of {len(schedule)}; {len(steps)} steps were finished"
+        number = min(len(steps) + 1, len(schedule))
+        words = f"interrupted in step {number} of {len(schedule)}; {len(steps)} steps were finished"
         if isinstance(stop, SolveFailed):
             status, words = stop.status, str(stop)
         last = end if steps else None

@@ -5,18 +5,26 @@ from __future__ import annotations
 
 import hashlib
 import json
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import fields
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from signorini._version import __version__
 from signorini.errors import InputError
-from signorini.output.plain import AnyArray, from_plain, to_plain
+from signorini.output.plain import AnyArray, from_plain, to_plain, tuple_of
 from signorini.output.replacing import replacing
 from signorini.solution.history import History
 
+if TYPE_CHECKING:
+    import h5py
+
 _FORMAT = "signorini archive 2"
+_STRUCTURE, _END = "structure", "end"  # the text, and what is another one after every step
 _FROM = 65536  # bytes: smaller arrays are not worth compressing
 
 
@@ -30,24 +38,67 @@ def write_archive(history: History, path: Path) -> None:
     ----------
     path : of the file, usually ``*.h5``
     """
+    GrowingArchive().write(history, path)
+
+
+class GrowingArchive:
+    """A history that is written again after every step: what was there before is copied, not made anew."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[str, bytes], str] = {}
+        self._steps: list[Any] = []
+
+    def write(self, history: History, path: Path, *, last: Path | None = None) -> None:
+        """Write a history that begins with what was written before.
+
+        Parameters
+        ----------
+        last : where the file that was written before is now
+        """
+        import h5py
+
+        with replacing(path) as aside:
+            if last is not None:
+                shutil.copyfile(last, aside)
+            with _closing(h5py.File(aside, "w" if last is None else "a")) as file:
+                self._known = {key: name for key, name in self._known.items() if not name.startswith(f"{_END}/")}
+                for old in (_END, _STRUCTURE):
+                    if old in file:
+                        del file[old]
+
+                def keep(name: str, array: AnyArray) -> str:
+                    data = np.ascontiguousarray(array)
+                    key = (f"{array.dtype.str}{array.shape}", hashlib.blake2b(data.tobytes()).digest())
+                    if key not in self._known:
+                        self._known[key] = name
+                        _write(file, name, array)
+                    return self._known[key]
+
+                for i in range(len(self._steps), len(history.steps)):
+                    self._steps.append(to_plain(history.steps[i], f"steps/{i}", keep))
+                rest = [field.name for field in fields(History) if field.name != "steps"]
+                plain = {name: to_plain(getattr(history, name), name, keep) for name in rest}
+                plain["steps"] = tuple_of(self._steps)
+                file.attrs["format"], file.attrs["signorini"] = _FORMAT, __version__
+                file.create_dataset(_STRUCTURE, data=json.dumps(plain))
+
+
+def _write(file: h5py.File, name: str, array: AnyArray) -> None:
     import h5py
 
-    with replacing(path) as aside, h5py.File(aside, "w") as file:
-        known: dict[tuple[str, bytes], str] = {}
+    data = array.astype(h5py.string_dtype()) if array.dtype.kind == "U" else array
+    small = array.nbytes < _FROM or array.dtype.kind == "U"
+    file.create_dataset(name, data=data, **({} if small else {"compression": "gzip", "compression_opts": 1}))
 
-        def keep(name: str, array: AnyArray) -> str:
-            key = (f"{array.dtype.str}{array.shape}", hashlib.blake2b(np.ascontiguousarray(array).tobytes()).digest())
-            if key in known:
-                return known[key]
-            known[key] = name
-            data = array.astype(h5py.string_dtype()) if array.dtype.kind == "U" else array
-            small = array.nbytes < _FROM or array.dtype.kind == "U"
-            file.create_dataset(name, data=data, **({} if small else {"compression": "gzip", "compression_opts": 1}))
-            return name
 
-        plain = {field.name: to_plain(getattr(history, field.name), field.name, keep) for field in fields(History)}
-        file.attrs["format"], file.attrs["signorini"] = _FORMAT, __version__
-        file.create_dataset("structure", data=json.dumps(plain))
+@contextmanager
+def _closing(file: h5py.File) -> Iterator[h5py.File]:
+    """A file whose last part cannot be written says so as others do."""
+    try:
+        with file:
+            yield file
+    except RuntimeError as error:  # what h5py makes of a system that refuses at the end
+        raise OSError(str(error)) from error
 
 
 def read_archive(path: Path) -> History:
@@ -71,7 +122,7 @@ def read_archive(path: Path) -> History:
                 data = file[name]
                 return data.asstr()[...] if h5py.check_string_dtype(data.dtype) else data[...]
 
-            plain = json.loads(file["structure"].asstr()[()])
+            plain = json.loads(file[_STRUCTURE].asstr()[()])
             return History(**{name: from_plain(part, get) for name, part in plain.items()})
     except InputError as error:
         raise InputError(f"'{path}': {error.message}") from error

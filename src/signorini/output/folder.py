@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A result folder: all files of a run appear in it together, and none of an earlier run stays."""
+"""A result folder: one run at a time writes into it, whole files alone, and none of an earlier run stays."""
 
 from __future__ import annotations
 
@@ -9,13 +9,15 @@ import re
 import shutil
 import tempfile
 import time
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from signorini.clock import Clock
 from signorini.errors import InputError
 from signorini.model.prints import Prints
-from signorini.output.archive import write_archive
+from signorini.output.archive import GrowingArchive, write_archive
 from signorini.output.checkpoint import write_checkpoint
 from signorini.output.dat import write_dat
 from signorini.output.frd import write_frd
@@ -26,14 +28,24 @@ from signorini.output.series import FIELDS, frames, write_series
 from signorini.output.summary import summary
 from signorini.output.surface import write_surfaces
 from signorini.output.vtu import write_step
-from signorini.solution.history import History
+from signorini.solution.history import RUNNING, History
 
+try:
+    import fcntl
+except ImportError:  # Windows has no such module; two runs into one folder are not told apart there
+    fcntl = None  # type: ignore[assignment]
+
+_SHARE = 0.1  # of the time: what writing finished steps may take while others wait
+_ASIDE = ".writing-"  # begins the names of folders in which files are written before they appear
 _OURS = re.compile(
     r"(summary\.json|(contact|history)\.csv|state\.npz|solution(_\d{4,})?\.vtu|contact\.(vtu|pvd)|"
     r"solution\.(pvd|h5|frd|dat)|"
     r"(contact|stress|mesh|view|history)\.png)"
 )
 _FIELD = re.compile(r"(solution|contact)_\d{4,}_\d{4,}\.vtu")
+
+SUMMARY = "summary.json"
+"""What tells of a run, in a result folder."""
 
 ARCHIVE = "solution.h5"
 """The whole history, in a result folder."""
@@ -59,43 +71,154 @@ def open_folder(path: Path) -> Path:
     return path
 
 
-def publish(
-    history: History, folder: Path, clock: Clock, *, started: float, prints: Prints | None = None
-) -> list[Path]:
-    """Write a history, finished or not, in place of whatever an earlier run left in the folder.
-
-    Everything is written aside first; then earlier results go, and the new files come under their names, the summary
-    last: a summary in the folder means that the files beside it belong to it and are complete.
+@contextmanager
+def own_folder(path: Path, deck: str) -> Iterator[Path]:
+    """Open a folder for one run alone, as long as the block lasts.
 
     Parameters
     ----------
-    history : with no step at all, a summary is written, which says why, and an archive with the motion of bodies that
-        run away
-    folder : that :func:`open_folder` opened
+    deck : name of the run's deck: results of another one are left alone
+
+    Raises
+    ------
+    InputError
+        If the folder cannot be written to, another run is at it, or it holds the results of another deck.
+    """
+    folder = open_folder(path)
+    with _locked(folder):
+        other = _deck_of(folder / SUMMARY)
+        if other not in ("", deck):
+            raise InputError(
+                f"the folder '{folder}' holds the results of another deck, '{other}'; expected a folder of its own (-o)"
+            )
+        for left in folder.glob(f"{_ASIDE}*"):  # of a run that was killed while it wrote
+            shutil.rmtree(left, ignore_errors=True)
+        yield folder
+
+
+def _deck_of(summary: Path) -> str:
+    """The deck that a summary speaks of; empty where there is none, or none that can be read."""
+    try:
+        return str(json.loads(summary.read_text(encoding="utf-8"))["deck"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return ""
+
+
+@contextmanager
+def _locked(folder: Path) -> Iterator[None]:
+    """Hold the folder; the system lets go of it whenever the process ends, however it ends."""
+    if fcntl is None:
+        yield
+        return
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            words = f"another run writes into the folder '{folder}'; expected a folder of its own for each (-o)"
+            raise InputError(words) from None
+        except OSError:  # a file system that knows no locks
+            pass
+        yield
+    finally:
+        os.close(handle)
+
+
+@dataclass(kw_only=True)
+class Publisher:
+    """Writes the history of a run into its folder, what is finished first, in the end everything.
+
+    Attributes
+    ----------
+    folder : that :func:`own_folder` opened
+    deck : name of the deck
     clock : its seconds go into the summary, and those of the output are added to it
+    started : ``time.perf_counter()`` at the beginning of the run
     prints : what a deck of keywords asks for: what its users expect is written too, ``.frd`` and, if there are tables,
         ``.dat``
-    started : ``time.perf_counter()`` at the beginning of the run
-
-    Returns
-    -------
-    The files, in the order of their appearance
     """
-    with tempfile.TemporaryDirectory(dir=folder, prefix=".writing-") as name:
-        aside = Path(name)
-        with clock.phase("output"):
-            names = _write_fields(history, aside, prints)
-        seconds = clock.seconds | {"total": time.perf_counter() - started}
-        write_summary(history, aside / "summary.json", seconds)
-        _clear(folder)
-        for file in [*names, "summary.json"]:
-            (folder / file).parent.mkdir(exist_ok=True)
-            os.replace(aside / file, folder / file)
-    return [folder / file for file in [*names, "summary.json"]]
+
+    folder: Path
+    clock: Clock
+    started: float
+    deck: str = ""
+    prints: Prints | None = None
+    _written: set[str] = field(default_factory=set)
+    _archive: GrowingArchive = field(default_factory=GrowingArchive)
+    _spent: float = 0.0
+
+    def keep(self, history: History) -> None:
+        """Write what is finished while the next step waits, where that has taken at most a tenth of the time so far.
+
+        Every step that takes ten times as long as writing is on disk at its end; faster ones some at a time.
+        """
+        begin = time.perf_counter()
+        if self._spent > _SHARE * (begin - self.started):
+            return
+        first = not self._written
+        try:
+            self.publish(history)
+        finally:
+            # the first time loads what the end of the run needs anyway, and takes several times as long
+            self._spent += 0.0 if first else time.perf_counter() - begin
+
+    def publish(self, history: History) -> list[Path]:
+        """Write a history, finished or not, in place of whatever an earlier run left in the folder.
+
+        Everything is written aside first, then the new files come under their names, each whole, the summary last: a
+        summary in the folder means that the files beside it are complete. Earlier results go before that; what this
+        run itself wrote earlier stays until it is replaced, so that it is there whenever the process is killed.
+
+        Parameters
+        ----------
+        history : with no step at all, a summary is written, which says why, and an archive with the motion of bodies
+            that run away
+
+        Returns
+        -------
+        The files, in the order of their appearance
+
+        Raises
+        ------
+        OSError
+            If they cannot be written, because the disk is full; what the folder held before is still there.
+        """
+        try:
+            return self._publish(history)
+        except OSError as error:
+            self._archive, self._written = GrowingArchive(), self._written - {ARCHIVE}  # begin it anew
+            reason = os.strerror(error.errno) if error.errno else str(error)
+            words = f"cannot write results into '{self.folder}': {reason}; what it held before is still there"
+            raise OSError(error.errno or 0, words) from error
+
+    def _publish(self, history: History) -> list[Path]:
+        folder, running = self.folder, history.status == RUNNING
+        with tempfile.TemporaryDirectory(dir=folder, prefix=_ASIDE) as name:
+            aside = Path(name)
+            with (self.clock.spending if running else self.clock.phase)("output"):
+                names = self._growing(history, aside) if running else _write_fields(history, aside, self.prints)
+            seconds = self.clock.seconds | {"total": time.perf_counter() - self.started}
+            write_summary(history, aside / SUMMARY, seconds, self.deck)
+            names.append(SUMMARY)
+            if not self._written:
+                _clear(folder)
+            for file in names:
+                (folder / file).parent.mkdir(exist_ok=True)
+                if (aside / file).exists():
+                    os.replace(aside / file, folder / file)
+            self._written |= set(names)
+        return [folder / file for file in names]
+
+    def _growing(self, history: History, aside: Path) -> list[str]:
+        """What further steps add; the tables that users of other codes expect come in the end."""
+        last = self.folder / ARCHIVE if ARCHIVE in self._written else None
+        self._archive.write(history, aside / ARCHIVE, last=last)
+        return [*_write_tables(history, aside, done=self._written), ARCHIVE]
 
 
 def _clear(folder: Path) -> None:
-    """Remove what an earlier run has left, and nothing else."""
+    """Remove what an earlier run has left, and nothing else; the summary first, for it speaks of the rest."""
+    (folder / SUMMARY).unlink(missing_ok=True)
     for old in folder.iterdir():
         if _OURS.fullmatch(old.name):
             old.unlink()
@@ -114,29 +237,50 @@ def write_drawn(history: History, folder: Path) -> None:
     write_step(history.model, history.last, folder / "solution.vtu")
     if history.model.dimension == 3 and history.model.contacts:
         write_surfaces(history.model, history.last.contacts, folder / SURFACES)
-    write_summary(history, folder / "summary.json", history.timings)
+    write_summary(history, folder / SUMMARY, history.timings)
 
 
-def write_summary(history: History, path: Path, seconds: Mapping[str, float]) -> None:
+def write_summary(history: History, path: Path, seconds: Mapping[str, float], deck: str = "") -> None:
     """Write ``summary.json``; see :func:`signorini.output.summary.summary`."""
-    words = json.dumps(summary(history, seconds), indent=2, allow_nan=False, ensure_ascii=False)
+    words = json.dumps(summary(history, seconds, deck), indent=2, allow_nan=False, ensure_ascii=False)
     with replacing(path) as aside:
         aside.write_text(words + "\n", encoding="utf-8")
 
 
 def _write_fields(history: History, folder: Path, prints: Prints | None) -> list[str]:
-    """Rows and fields of the steps; their names."""
+    """All files but the summary; their names."""
     if not history.steps:
         if history.escape is None:
             return []
         write_archive(history, folder / ARCHIVE)
         return [ARCHIVE]
+    names = _write_tables(history, folder)
+    write_archive(history, folder / ARCHIVE)
+    names.append(ARCHIVE)
+    if prints is not None:
+        write_frd(history, folder / "solution.frd", prints.times)
+        names.append("solution.frd")
+    if prints is not None and prints.tables:
+        write_dat(history, prints, folder / "solution.dat")
+        names.append("solution.dat")
+    return names
+
+
+def _write_tables(history: History, folder: Path, *, done: Collection[str] = ()) -> list[str]:
+    """Rows and fields of the steps, and the state at the end of the last one; their names.
+
+    Parameters
+    ----------
+    done : names of fields that need not be written again
+    """
     write_rows(history, folder / "contact.csv")
     names = ["contact.csv"]
     model, states = history.model, frames(history)
     if len(states) > 1:
-        names += write_series(model, states, folder)
-        shutil.copyfile(folder / f"solution_{len(history.steps):04d}.vtu", folder / "solution.vtu")
+        names += write_series(model, states, folder, done=done)
+    last = folder / f"solution_{len(history.steps):04d}.vtu"
+    if last.exists():
+        shutil.copyfile(last, folder / "solution.vtu")
     else:
         write_step(model, history.last, folder / "solution.vtu")
     if model.dimension == 3 and model.contacts:
@@ -147,12 +291,4 @@ def _write_fields(history: History, folder: Path, prints: Prints | None) -> list
     if history.end is not None:
         write_checkpoint(history.end, folder / "state.npz")
         names.append("state.npz")
-    write_archive(history, folder / ARCHIVE)
-    names.append(ARCHIVE)
-    if prints is not None:
-        write_frd(history, folder / "solution.frd", prints.times)
-        names.append("solution.frd")
-    if prints is not None and prints.tables:
-        write_dat(history, prints, folder / "solution.dat")
-        names.append("solution.dat")
     return names

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
@@ -71,7 +71,13 @@ def frames(history: History) -> list[Frame]:
 
 
 def write_series(
-    model: Model, states: Sequence[Frame], folder: Path, *, bodies: str = "solution", surfaces: str = "contact"
+    model: Model,
+    states: Sequence[Frame],
+    folder: Path,
+    *,
+    bodies: str = "solution",
+    surfaces: str = "contact",
+    done: Collection[str] = (),
 ) -> list[str]:
     """Write fields of the bodies, in space of the contact surfaces too, and the lists that ParaView opens.
 
@@ -82,6 +88,7 @@ def write_series(
     Parameters
     ----------
     bodies, surfaces : how the names of the files begin
+    done : names of files that were written before, and are left out
 
     Returns
     -------
@@ -95,11 +102,13 @@ def write_series(
     for state in states:
         within = f"{state.step:04d}_{state.number:04d}.vtu"
         name = f"{bodies}_{state.step:04d}.vtu" if state.last else f"{FIELDS}/{bodies}_{within}"
-        write_fields(space, model, state.displacement, state.factors, folder / name)
+        if name not in done:
+            write_fields(space, model, state.displacement, state.factors, folder / name)
         lists[bodies].append((state.time, name))
         if touching:
             name = f"{FIELDS}/{surfaces}_{within}"
-            write_surfaces(model, state.contacts, folder / name)
+            if name not in done:
+                write_surfaces(model, state.contacts, folder / name)
             lists[surfaces].append((state.time, name))
     for name, entries in lists.items():
         with replacing(folder / f"{name}.pvd") as aside:

@@ -19,17 +19,19 @@ from signorini.solution.history import PHASES, History
 from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, ObstacleResult, StepResult
 
 
-def summary(history: History, seconds: Mapping[str, float]) -> dict[str, Any]:
+def summary(history: History, seconds: Mapping[str, float], deck: str = "") -> dict[str, Any]:
     """Everything but the fields, in the order in which a reader wants it.
 
     Parameters
     ----------
     history : solved or not; its last step may not be finished
     seconds : by phase; phases that did not happen count 0
+    deck : name of the file that was run, empty where there was none
     """
     model = history.model
     return {
         "signorini": __version__,
+        "deck": deck,
         "title": model.title,
         "status": history.status,
         "message": history.message,

@@ -16,6 +16,13 @@ from signorini.solution.wellposedness import WellPosedness
 PHASES = ("read", "assembly", "factorisation", "condensation", "complementarity", "recovery", "output", "total")
 
 
+INTERRUPTED = "interrupted"
+"""Status of a history that was stopped from outside."""
+
+RUNNING = "running"
+"""Status of a history whose next step is being solved; of one that stays so, the process was killed."""
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class History:
     """The end of every step, of one that could not be finished how far it was followed.
@@ -23,7 +30,7 @@ class History:
     Attributes
     ----------
     model : what was solved
-    status : "solved", or why not: "no_equilibrium" (proved), "not_found", "jump"
+    status : "solved", or why not: "no_equilibrium" (proved), "not_found", "jump", "interrupted", "running"
     message : the same in words, empty where solved
     steps : certified, in order; the last one may not be finished, see `StepResult`
     backend : of the factorisation
