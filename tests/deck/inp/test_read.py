@@ -92,7 +92,12 @@ WRONG = {
     "times": ("*STEP\n", "*AMPLITUDE, NAME=A\n0., 0., 2., 1.,\n1., 1.\n*STEP\n", "1., 1.", "has the time 1 after 2"),
     "support": ("Top, 1, 1\n*STEP", "Top, 1, 1\n99, 1\n*STEP", "99, 1", "there is no node 99"),
     "type": ("TYPE=CPE4", "TYPE=C3D14", "*ELEMENT", "TYPE=C3D14 is not supported"),
-    "beam": ("TYPE=CPE4", "TYPE=B31", "*ELEMENT", "TYPE=B31 is not supported; expected CPE"),
+    "beam": (
+        "TYPE=CPE4, ELSET=Lower\n10, 1, 2, 5, 4\n20, 2, 3, 6, 5",
+        "TYPE=B31, ELSET=Lower\n10, 1, 2\n20, 2, 3",
+        "*SOLID",
+        "'Lower' holds B31 beside CPE4 of the model; expected no section for these",
+    ),
     "set": ("Base, 1, 2", "Basis, 1, 2", "Basis", "unknown node set 'Basis'; did you mean 'Base'"),
     "face": ("Upper, S1", "Upper, S5", "Upper, S5", "these elements have no face 'S5'"),
     "direction": ("Top, 1, 1\n", "Top, 1, 3, 0.1\n", "Top, 1, 3", "direction 3 moves"),

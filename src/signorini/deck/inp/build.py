@@ -182,6 +182,7 @@ def _refuse_large(steps: Sequence[DeckStep], small_strain: bool) -> None:
 
 def _kind(grid: Grid) -> Kind:
     first = grid.groups[0]
+    assert first.type.kind is not None
     for group in grid.groups:
         if group.type.kind != first.type.kind:
             raise group.block.error(
@@ -202,7 +203,7 @@ def _mesh(grid: Grid, sections: Sequence[Section], places: Places) -> Mesh:
         if family in families
     }
     element = grid.elements_of_cells
-    cell_of = np.empty(len(element), np.int64)
+    cell_of = np.empty(len(grid.elements.labels), np.int64)
     cell_of[element] = np.arange(len(element))
     return Mesh(
         points=grid.points[:, : 3 if grid.groups[0].type.kind == "3d" else 2],
@@ -284,6 +285,9 @@ def _notes(
     deck_increments: bool,
 ) -> list[str]:
     notes = list(dict.fromkeys(group.type.note for group in grid.groups if group.type.note))
+    if grid.skins:
+        types = ", ".join(dict.fromkeys(group.type.name for group in grid.skins))
+        notes.append(f"{types}: faces and lines of the bodies, for sets and surfaces; they carry nothing")
     if any(not pair.contact.tied for pair in contacts):
         notes.append(_SMALL_SLIDING)
     if any(pair.contact.tied and pair.block.keyword == "CONTACT PAIR" for pair in contacts):

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import cast
 
+from signorini.deck.error import DeckError
 from signorini.deck.inp.block import Block
 from signorini.model.mesh import CORNERS, NODES_PER_CELL
 from signorini.model.model import Kind
@@ -13,6 +14,12 @@ from signorini.model.model import Kind
 _PLANES = {"CPE": "plane strain", "CPS": "plane stress", "CAX": "axisymmetric"}
 _PLANE = {"3": "triangle", "4": "quad", "6": "triangle6", "8": "quad8"}
 _SOLID = {"4": "tetra", "6": "wedge", "8": "hexahedron", "10": "tetra10", "15": "wedge15", "20": "hexahedron20"}
+_LINES = {"line": 2, "line3": 3}  # to their nodes
+_SHAPES = {  # of trusses, beams, membranes and shells, which meshers write for edges and faces of bodies
+    **dict.fromkeys(("T2D2", "T3D2", "B21", "B31"), "line"),
+    **dict.fromkeys(("T2D3", "T3D3", "B22", "B32"), "line3"),
+    **{f"{word}{nodes}": family for word in ("S", "M3D") for nodes, family in _PLANE.items()},
+}
 _FULLY = "reduced integration is not used: all elements are integrated fully"
 _VARIANTS = {
     "": "",
@@ -50,21 +57,28 @@ class ElementType:
 
     Attributes
     ----------
-    family : of cells, as "quad8"; the order of its nodes is that of decks
-    kind : of the model, as "plane strain"
+    name : in the deck, in capitals
+    family : of cells, as "quad8", or of lines; the order of its nodes is that of decks
+    kind : of the model, as "plane strain"; None of lines and shells, of which there is no model
     incompatible : with incompatible modes
     note : how it differs from what the deck asks for, empty if it does not
     """
 
+    name: str
     family: str
-    kind: Kind
+    kind: Kind | None
     incompatible: bool = False
     note: str = ""
 
     @property
     def nodes(self) -> int:
         """Of an element."""
-        return NODES_PER_CELL[self.family]
+        return _LINES.get(self.family) or NODES_PER_CELL[self.family]
+
+    @property
+    def dimension(self) -> int:
+        """1 for lines, 2 for faces and plane models, 3 for solids."""
+        return 1 if self.family in _LINES else 3 if self.kind == "3d" else 2
 
     @property
     def faces(self) -> tuple[tuple[int, ...], ...]:
@@ -89,6 +103,8 @@ def element_type(block: Block) -> ElementType:
         For types that this version does not have.
     """
     name = block.value("TYPE", "an element type").upper()
+    if name.rstrip("R") in _SHAPES:
+        return ElementType(name=name, family=_SHAPES[name.rstrip("R")], kind=None)
     solid = name.startswith("C3D")
     size = name[3:].rstrip("RIHMT")
     variant = name[3 + len(size) :]
@@ -100,8 +116,13 @@ def element_type(block: Block) -> ElementType:
         if family == "wedge15":
             note = note or f"{name}: integrated with 21 points, where CalculiX and Abaqus take 9"
         kind = cast(Kind, "3d" if solid else _PLANES[name[:3]])
-        return ElementType(family=family, kind=kind, incompatible=variant.startswith("I"), note=note)
-    raise block.error(
-        f"TYPE={name} is not supported; expected CPE, CPS or CAX with 3, 4, 6 or 8 nodes, or C3D with 4, 6, 8, 10, "
-        "15 or 20 (variants R, I, H, M)"
+        return ElementType(name=name, family=family, kind=kind, incompatible=variant.startswith("I"), note=note)
+    raise unknown_type(block)
+
+
+def unknown_type(block: Block) -> DeckError:
+    """What is said of an ``*ELEMENT`` keyword whose elements no model has."""
+    return block.error(
+        f"TYPE={block.get('TYPE')} is not supported; expected CPE, CPS or CAX with 3, 4, 6 or 8 nodes, or C3D with 4, "
+        "6, 8, 10, 15 or 20 (variants R, I, H, M)"
     )

@@ -10,7 +10,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray, distinct
 from signorini.deck.inp.block import MOST, Block
-from signorini.deck.inp.elements import ElementType, element_type
+from signorini.deck.inp.elements import ElementType, element_type, unknown_type
 from signorini.deck.inp.flatten import Placed, Scope
 from signorini.deck.inp.numbering import Numbering
 from signorini.deck.inp.numbers import number_table, record_table
@@ -28,12 +28,19 @@ class Grid:
     points : (n, 3) coordinates
     nodes, elements : numberings
     groups : one for every ``*ELEMENT`` keyword: its type, its elements' indices and their nodes
+    skins : the same of lower dimension: faces and lines that meshers write beside the cells, for sets and surfaces
     """
 
     points: Array
     nodes: Numbering
     elements: Numbering
     groups: tuple[Group, ...]
+    skins: tuple[Group, ...] = ()
+
+    @property
+    def all_groups(self) -> tuple[Group, ...]:
+        """Those of cells and of skins."""
+        return self.groups + self.skins
 
     @cached_property
     def elements_of_cells(self) -> IntArray:
@@ -43,7 +50,7 @@ class Grid:
 
     def at(self, element: int) -> Block:
         """The ``*ELEMENT`` keyword of an element, at its line."""
-        group = next(group for group in self.groups if element in group.index)
+        group = next(group for group in self.all_groups if element in group.index)
         return group.at(int(np.nonzero(group.index == element)[0][0]))
 
 
@@ -90,8 +97,14 @@ def make_grid(placed: list[Placed]) -> Grid:
                     nodes=_members(block, kind, table, nodes, scope),
                 )
             )
-    _refuse_space(points, groups, nodes, elements)
-    return Grid(points=points, nodes=nodes, elements=elements, groups=tuple(groups))
+    top = max((group.type.dimension for group in groups), default=0)
+    cells = tuple(group for group in groups if group.type.dimension == top)
+    for group in cells:
+        if group.type.kind is None:
+            raise unknown_type(group.block)
+    _refuse_space(points, cells, nodes, elements)
+    skins = tuple(group for group in groups if group.type.dimension < top)
+    return Grid(points=points, nodes=nodes, elements=elements, groups=cells, skins=skins)
 
 
 def _members(block: Block, kind: ElementType, table: IntArray, nodes: Numbering, scope: Scope) -> IntArray:
@@ -109,7 +122,7 @@ def _at_record(block: Block, record: int, kind: ElementType) -> Block:
 
 def nodes_of(grid: Grid, elements: IntArray) -> IntArray:
     """The sorted nodes of elements."""
-    pieces = [group.nodes[np.isin(group.index, elements)].ravel() for group in grid.groups]
+    pieces = [group.nodes[np.isin(group.index, elements)].ravel() for group in grid.all_groups]
     return distinct(np.concatenate([np.empty(0, np.int64), *pieces]))
 
 
@@ -171,7 +184,7 @@ def _refuse_twice(tables: list[tuple[Block, ElementType, IntArray]]) -> None:
         record -= len(table)
 
 
-def _refuse_space(points: Array, groups: list[Group], nodes: Numbering, elements: Numbering) -> None:
+def _refuse_space(points: Array, groups: tuple[Group, ...], nodes: Numbering, elements: Numbering) -> None:
     """Plane elements lie in a plane of constant z."""
     for group in groups:
         if group.type.kind == "3d" or not len(group.index):

@@ -144,6 +144,7 @@ def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Sub
         members = distinct(members)
         if not len(members):
             raise block.error(f"element set '{name}' is empty")
+        _refuse_skins(block, name, members, grid)
         if (owner[members] >= 0).any():
             first = members[owner[members] >= 0][0]
             number = elements.numbering.labels[first]
@@ -158,10 +159,20 @@ def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Sub
                     block=block, name=label, elements=own, nodes=nodes_of(grid, own), incompatible=bool(kind), **given
                 )
             )
-    if (owner < 0).any():
-        bare = int(np.argmax(owner < 0))
+    bodies = grid.elements_of_cells
+    if (owner[bodies] < 0).any():
+        bare = int(bodies[owner[bodies] < 0].min())
         raise grid.at(bare).error(f"element {elements.numbering.labels[bare]} has no section; expected *SOLID SECTION")
     return sections
+
+
+def _refuse_skins(block: Block, name: str, members: IntArray, grid: Grid) -> None:
+    for skin in grid.skins:
+        if np.isin(skin.index, members).any():
+            cells = grid.groups[0].type.name
+            raise block.error(
+                f"'{name}' holds {skin.type.name} beside {cells} of the model; expected no section for these"
+            )
 
 
 def _by_formulation(members: IntArray, grid: Grid) -> Iterator[tuple[str, IntArray]]:

@@ -38,8 +38,10 @@ def make_prints(steps: Sequence[DeckStep], known: Known, mesh: Mesh, contacts: S
     DeckError
         For a set or a contact pair that does not exist.
     """
-    order = np.argsort(mesh.cell_labels)
-    cell_of = order[np.searchsorted(mesh.cell_labels[order], known.elements.numbering.labels)]
+    labels, cells = known.elements.numbering.labels, mesh.cell_labels
+    order = np.argsort(cells)
+    near = order[np.minimum(np.searchsorted(cells[order], labels), len(cells) - 1)]
+    cell_of = np.where(cells[near] == labels, near, -1)  # faces and lines beside the cells are none
     asked: list[Placed] = []
     tables: list[Table] = []
     for k, step in enumerate(steps):
@@ -64,7 +66,7 @@ def _tables(k: int, item: Placed, known: Known, cell_of: IntArray, contacts: Seq
             step=k,
             of=of,
             place=place.upper(),
-            members=members if nodes else np.sort(cell_of[members]),
+            members=members if nodes else np.sort(cell_of[members][cell_of[members] >= 0]),
             quantities=quantities,
             totals=_totals(item.block),
             rotations={rigid.turning: rigid.body.name for rigid in known.rigid if nodes and rigid.turning >= 0},

@@ -87,7 +87,7 @@ def _ascending(members: IntArray) -> bool:
 def make_sets(placed: list[Placed], grid: Grid) -> tuple[Sets, Sets]:
     """Node sets and element sets of a deck, in the order of their definitions."""
     nodes, elements = Sets(grid.nodes), Sets(grid.elements)
-    for group in grid.groups:
+    for group in grid.all_groups:
         if group.block.parameters.get("ELSET"):
             elements.add(group.scope.prefixed(group.block.parameters["ELSET"]), group.index)
     node_scopes = [item for item in placed if item.block.keyword == "NODE" and item.block.parameters.get("NSET")]

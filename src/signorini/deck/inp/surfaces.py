@@ -32,7 +32,8 @@ class Edges:
     """
 
     def __init__(self, grid: Grid) -> None:
-        count = sum(len(group.index) for group in grid.groups)
+        self._skins = grid.skins
+        count = len(grid.elements.labels)
         self._quadratic = np.zeros(count, bool)
         self.ends = np.full((FACES * count, _WIDEST if grid.groups[0].type.kind == "3d" else 2), -1)
         for group in grid.groups:
@@ -71,11 +72,28 @@ class Edges:
         keys = (FACES * elements[:, None] + np.arange(FACES)).ravel()
         return keys[self.outer[keys]]
 
+    def under(self, elements: IntArray) -> IntArray:
+        """Keys of the faces of cells that have the nodes of faces or lines among the elements."""
+        own = [group.nodes[np.isin(group.index, elements)] for group in self._skins]
+        wanted = _padded(own)
+        wanted[~np.isin(wanted, self.ends)] = -1  # middles of edges in the plane, whose keys know the ends
+        near = self.between(distinct(wanted[wanted >= 0])) if (wanted >= 0).any() else np.empty(0, np.int64)
+        both = np.sort(_padded([wanted, self.ends[near]]), axis=1)
+        which = np.unique(both, axis=0, return_inverse=True)[1].ravel()
+        return near[np.isin(which[len(wanted) :], which[: len(wanted)])]
+
     def between(self, nodes: IntArray) -> IntArray:
         """Keys of outer faces whose nodes are all among ``nodes``."""
         inside = np.zeros(int(max(self.ends.max(initial=0), nodes.max(initial=0))) + 2, bool)
         inside[nodes] = inside[-1] = True  # the last stands for what is not there
         return np.nonzero(self.outer & inside[self.ends].all(axis=1))[0]
+
+
+def _padded(tables: list[IntArray]) -> IntArray:
+    """Rows of all tables, -1 behind the shorter ones."""
+    width = max((table.shape[1] for table in tables), default=0)
+    rows = [np.pad(table, ((0, 0), (0, width - table.shape[1])), constant_values=-1) for table in tables]
+    return np.concatenate([np.empty((0, width), np.int64), *rows])
 
 
 class Surfaces:
@@ -156,7 +174,7 @@ def _of_elements(item: Placed, edges: Edges, elements: Sets) -> IntArray:
         members = elements.find(row.text(0, "an element or an element set"), item.scope, row)[1]
         face = row.fields[1].upper() if len(row.fields) > 1 else ""
         if not face:
-            pieces.append(edges.outer_of(members))
+            pieces += [edges.outer_of(members), edges.under(members)]
         elif face[:1] != "S":
             raise row.error(f"*SURFACE: face '{face}' is not supported; expected S1, S2, ...")
         else:
