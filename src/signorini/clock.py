@@ -28,8 +28,11 @@ class Clock:
     >>> with clock.phase("factorisation"):
     ...     clock.expect(4)
     ...     clock.increment("step 1")
+    ...     with clock.again("the last way was lost"):
+    ...         clock.says("step 1 at 2 %")
     15% factorisation
     65% step 1
+    65% step 1 at 2 % (the last way was lost)
     >>> sorted(clock.seconds)
     ['factorisation']
     """
@@ -37,7 +40,8 @@ class Clock:
     def __init__(self, listener: Listener | None = None) -> None:
         self.seconds: dict[str, float] = {}
         self._listener = listener
-        self._total, self._done = 1, 0
+        self._total, self._done, self._share = 1, 0, 0.0
+        self._why = ""
 
     @contextmanager
     def phase(self, name: str) -> Iterator[None]:
@@ -56,6 +60,15 @@ class Clock:
         finally:
             self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - start
 
+    @contextmanager
+    def again(self, why: str) -> Iterator[None]:
+        """Say with all that is done inside why it is done once more; nothing where there are no words."""
+        before, self._why = self._why, "; ".join(filter(None, (self._why, why)))
+        try:
+            yield
+        finally:
+            self._why = before
+
     def expect(self, increments: int) -> None:
         """Say how many increments will follow."""
         self._total, self._done = increments, 0
@@ -66,6 +79,11 @@ class Clock:
         self._tell(words, first + (last - first) * min(1.0, self._done / self._total))
         self._done += 1
 
+    def says(self, words: str) -> None:
+        """Say how far the increment is, or what is done for it."""
+        self._tell(words, self._share)
+
     def _tell(self, words: str, done: float) -> None:
+        self._share = done
         if self._listener is not None:
-            self._listener(words, done)
+            self._listener(f"{words} ({self._why})" if self._why else words, done)

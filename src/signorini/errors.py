@@ -48,6 +48,7 @@ class SolveFailed(SignoriniError):
     solution : the steps that were finished before, or None
     motion : array (nodes, d) of displacements along which bodies run away, or None
     reached : the part of the step that was followed before, or None
+    hopeless : whether it is proved that no way of stepping leads to the end of the step
     """
 
     def __init__(
@@ -57,6 +58,7 @@ class SolveFailed(SignoriniError):
         self.motion = motion
         self.solution = solution
         self.reached: object | None = None
+        self.hopeless = status == "no_equilibrium"
         super().__init__(message)
 
 

@@ -26,6 +26,7 @@ from signorini.iterative.bodies import Bodies
 MOST = 4096
 """Increments of one straight part of a step; in space the part of it that they need not undercut."""
 _CERTAIN = 16  # increments on a way in space of which it is believed that it jumps, or that it does not
+_LOST = 4  # times the number that is enough: the most that are tried where a way in space is lost
 _MORE = 'expected less? Give the step increments = "auto" or their number'
 
 
@@ -48,20 +49,24 @@ def follow_automatically(
     Raises
     ------
     SolveFailed
-        If an increment has no certified solution however short, or 4096 are not enough.
+        If an increment has no certified solution however short, or 4096 are not enough; in space 4 times ``enough``
+        are tried where fewer are lost.
     """
     coarse: Leg | None = None
     prepared = stretch.prepared
-    changes, number = "the answer, where one is found", 1
+    changes, number, why = "the answer, where one is found", 1, ""
     more, fewer = (2, "half as many") if prepared.interface.directions == 2 else (4, "a quarter as many")
+    most = MOST if enough is None or prepared.interface.directions == 2 else _LOST * enough
     while number <= MOST:
         try:
-            fine, words = _followed(stretch, number, jump)
+            with prepared.clock.again(why):
+                fine, words = _followed(stretch, number, jump)
         except SolveFailed as failure:
-            certain = failure.status == "no_equilibrium" or (failure.status == "jump" and number >= _CERTAIN)
-            if certain or more * number > MOST:
+            certain = failure.hopeless or (failure.status == "jump" and number >= _CERTAIN)
+            if certain or more * number > most:
                 raise
             coarse, number = None, more * number
+            why = f"once more, in up to {number} increments: fewer were lost"
             continue
         if is_straight(prepared, fine):
             note = f"{words}: the law of contact holds all along, more of them would change nothing"
@@ -74,6 +79,7 @@ def follow_automatically(
             if enough is not None and number >= enough:
                 return replace(fine, path="increments", notes=(*fine.notes, f"{note}; {_MORE}"))
         coarse, number = fine, more * number
+        why = f"once more, in up to {number} increments: whether the answer stays"
     raise SolveFailed(
         f'{stretch.where}: {MOST} increments still change {changes}; expected a larger tolerance, or path = "exact"',
         status="not_found",
@@ -110,6 +116,10 @@ def _followed(stretch: Stretch, number: int, jump: Literal["stop", "follow"] | N
         except SolveFailed as failure:
             if failure.status == "jump" and jump == "stop":
                 raise
+            if failure.hopeless:
+                worse = SolveFailed(str(failure), status="no_equilibrium", motion=failure.motion)
+                worse.reached = failure.reached
+                raise worse from failure
             if failure.status == "jump":
                 notes = (f"{failure}; followed in {number} increments to what is a candidate",)
     leg = follow_increments(stretch, number)

@@ -10,7 +10,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.bound import plain
-from signorini.engine.increments import applied, certified, free_load, moved_by_supports, refuse_overlap
+from signorini.engine.increments import applied, certified, free_load, leaving, moved_by_supports, refuse_overlap
 from signorini.engine.leg import Leg, Snapshot, joined, keep
 from signorini.engine.prepare import Prepared
 from signorini.engine.stretch import Stretch
@@ -23,6 +23,7 @@ from signorini.solution.results import PairEvent
 from signorini.solution.state import LoadPoint, State, next_state
 from signorini.trace import Attempt
 
+_NAMED = 12  # nodes that a message lists
 _JUMPS = 100  # most that one part of a step may hold
 _TURN = 0.04  # radians over the root of the number: what friction may turn in an increment that could be shorter
 _NO_LANDING = "no equilibrium that it could land on was found"
@@ -101,8 +102,8 @@ def _beyond_jumps(stretch: Stretch, how: str, *, jumps: bool, stops: StopSetting
         lost = _lost(followed)
         landing = _landing(followed) if jumps and len(legs) < _JUMPS else None
         if jump is None or landing is None:
-            if jumps and jump is not None:
-                lost = SolveFailed(f"{lost}; {_NO_LANDING}", status="jump")
+            if jumps and jump is not None and not lost.hopeless:
+                lost = SolveFailed(f"{lost}; {_NO_LANDING}", status="jump", motion=lost.motion)
             raise keep(lost, [*legs, *_so_far(followed)])
         cut = followed.cut
         leg = _leg(cut)
@@ -126,7 +127,11 @@ def _follow(stretch: Stretch, stops: StopSettings | None) -> _Followed:
     with prepared.clock.phase("complementarity"):
         start, b = _start(prepared, stretch.before), _right_hand_side(prepared, stretch.end)
         if isinstance(prepared.law, SpatialProblem):
-            segment = follow_stopping(prepared.law, start, b, settings=stops)
+
+            def tell(part: float) -> None:
+                prepared.clock.says(f"{stretch.where} at {stretch.span.part(part):.1%}")
+
+            segment = follow_stopping(prepared.law, start, b, settings=stops, tell=tell)
         else:
             segment = follow(prepared.law, start, b)
     return _Followed(stretch=stretch, start=start, segment=segment, stops=stops)
@@ -257,7 +262,7 @@ def _start(prepared: Prepared, state: State) -> PathState:
     h = condensed.root * np.concatenate([state.gap, state.tangential])[rows]
     slip, dissipation = condensed.root[n:] * state.slip[_along(prepared)], state.dissipation[active]
     if not state.forces.any() and not state.displacement.any() and (h[:n] < 0.0).any():
-        pressed = at_rest(law, b) if isinstance(law, SpatialProblem) else initial_state(law, b)
+        pressed = at_rest(law, b, motion=h) if isinstance(law, SpatialProblem) else initial_state(law, b)
         return replace(pressed, slip=slip + pressed.slip, dissipation=dissipation + pressed.dissipation)
     r, status = state.forces[rows] / condensed.root, state.status[active]
     if isinstance(law, CoulombProblem):  # friction that has risen since leaves some to spare
@@ -409,10 +414,18 @@ def _lost(followed: _Followed) -> SolveFailed:
             f"{where}: the exact path was lost: {segment.message}; follow the step in increments", status="not_found"
         )
     pairs = np.nonzero(prepared.condensed.active)[0][list(segment.jump.pairs)]
-    nodes = ", ".join(str(node) for node in prepared.model.mesh.labels[prepared.interface.node[pairs]])
+    nodes = ", ".join(str(node) for node in prepared.model.mesh.labels[prepared.interface.node[pairs[:_NAMED]]])
+    if len(pairs) > _NAMED:
+        nodes += f" and {len(pairs) - _NAMED} more"
     what = "gross sliding" if segment.jump.gross_sliding else "a jump"
-    return SolveFailed(
-        f"{where} at {stretch.span.part(segment.jump.factor):.6%}: {what}: no equilibrium continues the history "
-        f"gradually (acting nodes {nodes}; {segment.jump.proof})",
-        status="jump",
-    )
+    where = f"{where} at {stretch.span.part(segment.jump.factor):.6%}"
+    motion = None
+    if segment.jump.escape is not None:
+        words, motion = leaving(prepared, segment.jump.escape)
+        what = f"{what}: {words}"
+    words = f"{where}: {what}: no equilibrium continues the history gradually"
+    if segment.jump.hopeless is not None:
+        words += f", and beyond {stretch.span.part(segment.jump.hopeless):.6%} there is none at all"
+    failure = SolveFailed(f"{words} (acting nodes {nodes}; {segment.jump.proof})", status="jump", motion=motion)
+    failure.hopeless = segment.jump.hopeless is not None
+    return failure

@@ -27,6 +27,7 @@ from signorini.trace import Attempt
 
 _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
 _REFINEMENTS = 2
+_SLIGHT = 1e-3  # of a rigid motion: what words leave out of it
 _CANCELLED = 1e-14  # of the largest displacement that supports impose: less between two sides is rounding
 
 
@@ -331,8 +332,14 @@ def _failure(prepared: Prepared, result: CoulombResult | SpatialResult | Answer,
     """The reason, and the bodies that leave by name, with their motion."""
     if isinstance(result, Answer) or result.escape is None or not prepared.law.floating:
         return SolveFailed(f"{where}: {result.message}", status=result.outcome)
-    coefficients, *_ = np.linalg.lstsq(prepared.law.motions, result.escape, rcond=None)
+    words, motion = leaving(prepared, result.escape)
+    return SolveFailed(f"{where}: {words}: {result.message}", status=result.outcome, motion=motion)
+
+
+def leaving(prepared: Prepared, escape: Array) -> tuple[str, Array]:
+    """The bodies that leave by name, and their motion (nodes, d), largest entry 1, of a rigid motion of the pairs."""
+    coefficients, *_ = np.linalg.lstsq(prepared.law.motions, escape, rcond=None)
     rigid = prepared.floating @ coefficients
     motion = (prepared.motions @ rigid).reshape(-1, prepared.model.dimension)
-    words = f"{where}: {describe_motion(prepared.parts, rigid)}: {result.message}"
-    return SolveFailed(words, status=result.outcome, motion=frozen(motion / (np.abs(motion).max() or 1.0)))
+    said = np.where(np.abs(rigid) < _SLIGHT * np.abs(rigid).max(initial=0.0), 0.0, rigid)
+    return describe_motion(prepared.parts, said), frozen(motion / (np.abs(motion).max() or 1.0))

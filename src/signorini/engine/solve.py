@@ -147,15 +147,19 @@ def _follow(
         for stage in schedule:
             prepared = prepared.upheld(stage.released)
             loading = loading_of(stage, prepared.loads, prepared.constraints, end.loading)
+            why = ""
             while True:
                 try:
-                    now = staged(prepared, stage, loading)
-                    leg, cycle_ends = _from(before, now, stage, end.state)
+                    with prepared.clock.again(why):
+                        now = staged(prepared, stage, loading)
+                        leg, cycle_ends = _from(before, now, stage, end.state)
                     break
                 except SolveFailed:
                     if not prepared.limited:
                         raise
-                    prepared = prepared.widened()
+                    why = "once more, with the pairs that seemed too far apart"
+                    with prepared.clock.again(why):
+                        prepared = prepared.widened()
             result = step_result(now, stage, leg, cycle_ends)
             after = Checkpoint.of(model, interface, leg.after, stage.standing, loading, _near(prepared))
             steps, end, before = [*steps, result], after, now  # at once, whenever an interruption comes

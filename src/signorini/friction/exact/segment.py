@@ -62,12 +62,16 @@ class Jump:
     proof : what shows it: that no combination of states has rates, or a rigid motion; a ray of Lemke's method alone
         (too many combinations to try) is strong evidence, no proof
     gross_sliding : whether bodies slide as a whole: every closed pair has used up its friction and the loads go on
+    escape : rows of pairs, rigid motion along which bodies leave, largest entry 1, where it is known
+    hopeless : part of the segment beyond which it is proved that no load has any equilibrium, where it is known
     """
 
     factor: float
     pairs: tuple[int, ...]
     proof: str
     gross_sliding: bool
+    escape: Array | None = None
+    hopeless: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,6 +11,7 @@ up to there is solved for afresh and certified.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,6 +24,7 @@ from signorini.friction.exact.segment import Breakpoint, Jump, Segment
 from signorini.friction.exact.state import PathState
 from signorini.friction.exact.way import Way, check_loads
 from signorini.friction.spatial.balance import passed_over
+from signorini.friction.spatial.bearing import OVERLOADED, Bearing
 from signorini.friction.spatial.law import OPEN, SLIP, STICK
 from signorini.friction.spatial.pieces import columns, held_until, lasts, spare, turned
 from signorini.friction.spatial.problem import SpatialProblem
@@ -70,7 +72,12 @@ class StopSettings:
 
 
 def follow_stopping(
-    problem: SpatialProblem, start: PathState, b_end: Array, *, settings: StopSettings | None = None
+    problem: SpatialProblem,
+    start: PathState,
+    b_end: Array,
+    *,
+    settings: StopSettings | None = None,
+    tell: Callable[[float], None] | None = None,
 ) -> Segment:
     """Follow the load from ``start.b`` straight to ``b_end``, as `signorini.friction.exact.follow` does in the plane.
 
@@ -80,6 +87,7 @@ def follow_stopping(
     start : where the history stands
     b_end : (3n,) load at the end of the segment
     settings : how increments are chosen
+    tell : called with the part of the segment that is behind, increment by increment
 
     Returns
     -------
@@ -108,6 +116,8 @@ def follow_stopping(
         lost = None
         while walk.factor < 1.0 and lost is None:
             lost = walk.go_on()
+            if tell is not None:
+                tell(walk.factor)
         if not walk.again():
             break
     if lost is not None:
@@ -180,12 +190,16 @@ class Walk(Way):
         self.careful, self.trusting, self.balanced = 0.0, False, 0.0
         self.smooth = bool(((problem.mu > 0).any(axis=1) & (problem.sides == 0)).any())
         self.refused: SpatialResult | None = None
+        self.bearing = Bearing(problem, self.b_end)
         # the load as rates see it; what smooth sections know of an event is less sharp
         self.rate_problem = replace(problem, b=frozen(b_end - start.b))
         self.near, self._astray = (_NEAR * (problem.scale or 1.0), 0.5) if self.smooth else (self.width, 1e-6)
 
     def go_on(self) -> NoRates | None:
         """One increment, found as it comes or by the rates; why there is none, or None."""
+        if self.factor >= self.reach and not self._crosses():
+            self._to_the_brink()
+            return NoRates(proof=OVERLOADED, proved=True)
         words = self.advance(patience=_PATIENCE)
         if not words:
             return None
@@ -216,6 +230,30 @@ class Walk(Way):
         return True
 
     @property
+    def reach(self) -> float:
+        """Part of the way that increments do not go beyond, see `Bearing`."""
+        return self.bearing.reach(self.now, self.factor)
+
+    def _crosses(self) -> bool:
+        """Whether equilibrium goes on gradually beyond the reach: other pairs close as the bodies deform."""
+        gradually = self._near_by(self._trial(self.bearing.beyond - self.factor, 0.0)) is not None
+        if gradually:
+            self.bearing.cross()
+        return gradually
+
+    def _to_the_brink(self) -> None:
+        """The last increment, to the very load that can be held, where equilibrium at it is near by."""
+        trial = self._near_by(self._trial(self.bearing.limit - self.factor, 0.0))
+        if trial is not None and trial.until >= 1.0 - _LATE:
+            self._enter(trial, self._settled(trial, trial.after.state), 1)
+
+    def _near_by(self, trial: _Trial | SpatialResult) -> _Trial | None:
+        """An increment that moves no pair farther than the loads of the whole history deform the bodies."""
+        if isinstance(trial, SpatialResult) or np.abs(trial.after.h - self.now.h).max() > (self.problem.scale or 1.0):
+            return None
+        return trial
+
+    @property
     def _leaves(self) -> bool:
         """Whether an increment was refused with the proof that loads pull bodies away."""
         return self.refused is not None and self.refused.outcome == "no_equilibrium"
@@ -225,7 +263,7 @@ class Walk(Way):
         now, tried, n = self.now, self.tried, self.problem.pairs
         short = 0.5 * self._pressed_for(rates)
         piece = replace(now, h=now.h + short * rates.h, r=now.r + short * rates.r, state=rates.state)
-        step = min(short * lasts(self.problem, now, piece, self.width), 1.0 - self.factor)
+        step = min(short * lasts(self.problem, now, piece, self.width), self.reach - self.factor)
         for _ in range(_TRIES):
             if step < SHORTEST:
                 return False
@@ -266,7 +304,7 @@ class Walk(Way):
     def _pressed_for(self, rates: SpatialRates) -> float:
         """How long no normal force vanishes or comes to a kink of the bound on friction, within the segment."""
         p, rate = self.now.r[: self.problem.pairs], rates.r[: self.problem.pairs]
-        times = [1.0 - self.factor]
+        times = [self.reach - self.factor]
         for kink in self.problem.bound.kinks[:-1]:
             away = np.where(np.isfinite(kink), kink, np.inf) - p
             comes = (away * rate > 0.0) & (np.abs(away) > self.width)
@@ -279,10 +317,11 @@ class Walk(Way):
             return f"{self.settings.most} increments end at factor {self.factor:.12g}"
         self.refused = None
         shortest = self._shortest
-        step = min(max(_PROBE * self.last, _LEAST, shortest), 1.0 - self.factor)
+        left = self.reach - self.factor
+        step = min(max(_PROBE * self.last, _LEAST, shortest), left)
         tried, best = self.tried, None
         inner: _Trial | None = None
-        words, longest = "", 1.0 - self.factor
+        words, longest = "", left
         for number in range(_TRIES):
             late = _LATE if self.smooth and number >= _PATIENCE else _SAME
             trial = self._trial(step, shortest)
@@ -296,10 +335,10 @@ class Walk(Way):
             elif trial.until >= 1.0 - late and trial.turn <= self._turn:
                 best, inner = trial, inner or trial
                 step = trial.step * self._room(trial, inner.after.state)
-                step = step if step < longest or longest >= 1.0 - self.factor else 0.5 * (trial.step + longest)
-                if min(step, 1.0 - self.factor) <= trial.step * (1.0 + late):
+                step = step if step < longest or longest >= left else 0.5 * (trial.step + longest)
+                if min(step, left) <= trial.step * (1.0 + late):
                     break
-                step = min(step, 1.0 - self.factor)
+                step = min(step, left)
             elif trial.step <= shortest and not self._grips(trial):
                 best = inner = trial
                 break
@@ -368,7 +407,7 @@ class Walk(Way):
     def _shortest(self) -> float:
         """What an increment need not undercut here: little at the beginning, where contact grows and friction turns."""
         whole = 0.0 if self.factor < self.careful else self.settings.shortest
-        return min(whole, max(_GROWTH * self.factor, _FINER * whole), 1.0 - self.factor)
+        return min(whole, max(_GROWTH * self.factor, _FINER * whole), self.reach - self.factor)
 
     def _trial(self, step: float, shortest: float, ahead: Array | None = None) -> _Trial | SpatialResult:
         """The increment of a part of the segment, sought from where it is or ahead, or the answer that it has none."""
@@ -423,6 +462,8 @@ class Walk(Way):
         spent = pressed & (spare(self.problem, r) <= self.near)
         leaves, refused = self._leaves, self.refused
         acting = np.flatnonzero(spent) if leaves else acting_pairs(self.rate_problem, self.now, self.near)
+        if self.factor >= self.reach:
+            return self.segment("jump", self.bearing.jump(self.now, self.factor, pressed, lost.proof), lost.proof)
         jump = Jump(
             factor=self.factor,
             pairs=tuple(int(k) for k in (acting if len(acting) else np.flatnonzero(spent))),

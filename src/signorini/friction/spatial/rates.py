@@ -190,7 +190,9 @@ def _with_cones(problem: ConeProblem) -> Array | NoRates:
     if answer.proved:
         words = f"{answer.programmes} linear programmes show that no states and directions of slip have rates"
         return NoRates(proof=f"{words} that obey the law", proved=True)
-    words = f"{answer.programmes} linear programmes of states and directions of slip did not tell"
+    words = (
+        f"{answer.programmes} linear programmes of states and directions of slip, as many as are tried, did not tell"
+    )
     return NoRates(proof=words, proved=False)
 
 

@@ -63,7 +63,7 @@ def unresisted(R: Array, mu: Array, sides: IntArray, load: Array) -> Array | Non
         size = float(np.linalg.norm(a))
         if size <= GAIN * np.sqrt(n) * most:
             return None
-        strongest = np.einsum("ni,ink->nk", _strongest(mu, sides, R @ a), R.reshape(3, n, -1))
+        strongest = np.einsum("ni,ink->nk", strongest_edges(mu, sides, R @ a), R.reshape(3, n, -1))
         work = strongest @ a
         resisted = STRONGEST * most * work < -0.25 * size**2
         if not resisted.any():
@@ -72,9 +72,13 @@ def unresisted(R: Array, mu: Array, sides: IntArray, load: Array) -> Array | Non
     return None
 
 
-def _strongest(mu: Array, sides: IntArray, rho: Array) -> Array:
+def strongest_edges(mu: Array, sides: IntArray, rho: Array) -> Array:
     """(n, 3) Edge of each pair's cone that works most against the motion, scaled to length 1."""
-    n = len(mu)
-    slip = rho[n:].reshape(2, n).T
-    edge = np.column_stack([np.ones(n), outermost(-slip, mu, sides)])
+    slip = rho[len(mu) :].reshape(2, -1).T
+    return unit_edges(outermost(-slip, mu, sides))
+
+
+def unit_edges(share: Array) -> Array:
+    """(n, 3) Forces of length 1 with tangential parts (n, 2) per normal force."""
+    edge = np.column_stack([np.ones(len(share)), share])
     return np.asarray(edge / np.linalg.norm(edge, axis=1)[:, None])

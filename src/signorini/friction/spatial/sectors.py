@@ -20,10 +20,13 @@ from signorini.arrays import Array
 from signorini.friction.spatial.cones import ConeProblem
 
 _MOST = 400  # linear programmes
-_SLACK = 1e-9  # of the data, that inequalities are relaxed by and linear programmes solved to
+_WORK, _FACTORISATIONS = 2e9, 20.0  # operations, and factorisations of a system as large: the more of both is the most
+_FAR = 1e6  # of the data: motions larger than that are none that equilibrium goes on with
+_SHARP = 1e-10  # of the data, that linear programmes are solved to
+_SLACK = 1e-8  # of the data: what an answer may lack to be looked at further
+_MARGIN = 1e-6  # of the data: what every answer must lack for a proof that there is none
+_PIVOTS = 10  # of a linear programme, per row and column; a half is usual
 _TANGENTS = 8
-_INFEASIBLE = 2
-"""Status of `scipy.optimize.linprog`."""
 
 Region = str | tuple[float, float] | None
 """Of a pair: "open", "stick", the angles between which its force lies while it slips, or undecided."""
@@ -52,7 +55,7 @@ class Exhausted:
 
 
 def search(problem: ConeProblem) -> Array | Exhausted:
-    """A solution x, or that there is none, or that too many linear programmes are needed to tell.
+    """A solution x, or that there is none up to 1e6 times the data, or that too many linear programmes would tell.
 
     Examples
     --------
@@ -70,13 +73,15 @@ def search(problem: ConeProblem) -> Array | Exhausted:
     nodes = [_Node(numbers=(None,) * N, pairs=(None,) * m)]
     tangents = [[2.0 * np.pi * j / _TANGENTS for j in range(_TANGENTS)] for _ in range(m)]
     count, open_ends = 0, False
-    while nodes and count < _MOST:
+    work = max(_WORK, _FACTORISATIONS * 2.0 / 3.0 * len(posed.q) ** 3)
+    while nodes and count < _MOST and work > 0.0:
         node = nodes.pop()
         count += 1
-        status, x = _feasible(posed, node, tangents)
-        if status == _INFEASIBLE:
+        lacks, x, took = _relaxed(posed, node, tangents, work)
+        work -= took
+        if lacks > _MARGIN:
             continue
-        if x is None:
+        if not lacks <= _SLACK:
             open_ends = True
             continue
         near = posed.newton(posed.w(x) - x)
@@ -122,36 +127,53 @@ def _rows(problem: ConeProblem, k: int, matrix: Array) -> tuple[Array, Array]:
 
 
 class _Programme:
-    """Rows of a linear programme ``A x <= b``, ``C x = d``, ``low <= x <= high``."""
+    """Rows of a linear programme ``A x <= b + t``, ``|C x - d| <= t``, ``low <= x <= high``, in the least t.
+
+    Whether t vanishes is what is asked. Posed so, and with motions that have an end, it always has an answer, whose t
+    is the margin of a proof. Without an end answers of 1e7 times the data came up where bodies nearly roll, and the
+    simplex method went round for ever.
+    """
 
     def __init__(self, size: int) -> None:
         self.above: list[tuple[Array, float]] = []
         self.equal: list[tuple[Array, float]] = []
-        self.low, self.high = np.full(size, -np.inf), np.full(size, np.inf)
+        self.low, self.high = np.full(size, -_FAR), np.full(size, _FAR)
 
-    def solve(self) -> tuple[int, Array | None]:
-        """Status and answer."""
-        A, b = _stacked(self.above, len(self.low))
-        C, d = _stacked(self.equal, len(self.low))
+    def solve(self, work: float) -> tuple[float, Array, float]:
+        """The least t, its x, and the operations that it took; NaN where these were not enough to solve it."""
+        size = len(self.low)
+        A, b = _stacked(self.above, size)
+        C, d = _stacked(self.equal, size)
+        rows, right = np.concatenate([A, C, -C]), np.concatenate([b, d, -d])
+        pivot = 2.0 * len(rows) * size
+        length = np.maximum(np.abs(rows).max(axis=1, initial=0.0), 1.0)
         found = linprog(
-            np.zeros(len(self.low)),
-            A_ub=A,
-            b_ub=b + _SLACK,
-            A_eq=C,
-            b_eq=d,
-            bounds=np.column_stack([self.low, self.high]),
+            np.append(np.zeros(size), 1.0),
+            A_ub=np.column_stack([rows / length[:, None], -np.ones(len(rows))]),
+            b_ub=right / length,
+            bounds=np.column_stack([np.append(self.low, 0.0), np.append(self.high, np.inf)]),
             method="highs",
-            options={"primal_feasibility_tolerance": _SLACK},
+            options={
+                "primal_feasibility_tolerance": _SHARP,
+                "dual_feasibility_tolerance": _SHARP,
+                "maxiter": max(1, min(_PIVOTS * (len(rows) + size), int(work / pivot))),
+            },
         )
-        return int(found.status), None if found.status else np.asarray(found.x, dtype=np.float64)
+        took = pivot * max(int(found.nit), 1)
+        if found.status != 0:
+            return float("nan"), np.zeros(size), took
+        return float(found.fun), np.asarray(found.x[:size], dtype=np.float64), took
 
 
 def _stacked(rows: list[tuple[Array, float]], size: int) -> tuple[Array, Array]:
     return np.array([row for row, _ in rows]).reshape(-1, size), np.array([value for _, value in rows])
 
 
-def _feasible(problem: ConeProblem, node: _Node, tangents: list[list[float]]) -> tuple[int, Array | None]:
-    """Whether the relaxed law of a node can be obeyed: the status of its linear programme, and an answer."""
+def _relaxed(problem: ConeProblem, node: _Node, tangents: list[list[float]], work: float) -> tuple[float, Array, float]:
+    """How far the relaxed law of a node is from being obeyed, of the data, by which x, and the operations it took.
+
+    NaN where ``work`` operations do not tell.
+    """
     M, q = problem.M, problem.q
     programme = _Programme(len(q))
     for i, positive in enumerate(node.numbers):
@@ -161,7 +183,7 @@ def _feasible(problem: ConeProblem, node: _Node, tangents: list[list[float]]) ->
         (programme.equal if positive else programme.above).append((-M[i], q[i]))
     for k, region in enumerate(node.pairs):
         _pair(problem, k, region, tangents[k], programme)
-    return programme.solve()
+    return programme.solve(work)
 
 
 def _pair(problem: ConeProblem, k: int, region: Region, tangents: list[float], programme: _Programme) -> None:
@@ -169,7 +191,7 @@ def _pair(problem: ConeProblem, k: int, region: Region, tangents: list[float], p
     N, m = problem.numbers, len(problem.friction)
     at = N + k + m * np.arange(3)
     closed = problem.closed[k] or region not in (None, "open")
-    programme.low[at[0]], programme.high[at[0]] = 0.0, 0.0 if closed else np.inf
+    programme.low[at[0]], programme.high[at[0]] = 0.0, 0.0 if closed else _FAR
     normal, along = _rows(problem, k, problem.M)
     start = problem.q[at[1:]] / problem.friction[k]
     if region == "open":
