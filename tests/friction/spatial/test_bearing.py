@@ -54,7 +54,7 @@ def test_beyond_an_overload_a_rigid_motion_proves_that_nothing_holds_and_none_do
         return
     assert 0.0 < found.factor < 1.0
     assert pulled_away(at(found.factor * (1.0 - 1e-5))) is None
-    assert pulled_away(at(found.factor * (1.0 + 1e-5))) is not None
+    assert pulled_away(at(found.factor * (1.0 + 1e-2))) is not None
 
 
 def test_linear_programmes_end_where_bodies_nearly_roll():
