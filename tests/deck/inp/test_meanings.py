@@ -89,6 +89,7 @@ CASES = {
         ["*CLOAD,AMPLITUDE=TOTAL\nR,3,1.", "*STATIC,TIME RESET\n*CLOAD,AMPLITUDE=TOTAL\nR,3,2.", "*CLOAD\nR,1,1."],
         ["*CLOAD\nR,3,1.", "*CLOAD\nR,3,2.", "*CLOAD\nR,3,.6\nR,1,1."],
     ),
+    "supports at once": (["*STEP,AMPLITUDE=STEP\n*STATIC\n.5,1.\n*BOUNDARY\nR,3,3,.1"], ["*BOUNDARY\nR,3,3,.1"]),
     "loads at once": (
         ["*STEP,AMPLITUDE=STEP\n*STATIC\n.5,1.\n*CLOAD\nR,3,1.", "*CLOAD\nR,3,3."],
         ["*CLOAD\nR,3,1.", "*CLOAD\nR,3,3."],
@@ -188,6 +189,12 @@ def test_an_orientation_is_turned(tmp_path: Path, lines: str, angle: float) -> N
         load(deck(tmp_path, [PULL], out))
 
 
+def test_gravity_without_a_set_is_that_of_all(tmp_path: Path) -> None:
+    """As CAE writes it."""
+    whole, named = (displacements(deck(tmp_path, [f"*DLOAD\n{word},GRAV,9.,0,0,-1"])) for word in ("", "E"))
+    np.testing.assert_array_equal(whole, named)
+
+
 def test_another_axis_after_op_new(tmp_path: Path) -> None:
     """CalculiX 2.20, to which a set has one axis for all steps, is without rotation then."""
     other = "*DLOAD,OP=NEW\nE,CENTRIF,5.,0,0,0,1,0,0"
@@ -207,6 +214,8 @@ def test_another_axis_after_op_new(tmp_path: Path) -> None:
         ([f"{PULL}\n*CLOAD,AMPLITUDE=A\n18,3,2."], "18,3,2.", r"\*CLOAD: acts with 'A' where line \d+ .* no amplitude"),
         (["*DLOAD,AMPLITUDE=A\n5,P2,1.\n*DSLOAD,AMPLITUDE=TOTAL\nTOP,P,1."], "TOP,P", "acts with 'TOTAL' where"),
         (["*BOUNDARY,AMPLITUDE=A\nR,1,1,.1\n*BOUNDARY\nR,1,1,.2"], "R,1,1,.2", "acts with no amplitude where"),
+        (["*AMPLITUDE,NAME=B,VALUE=ABSOLUTE\n0.,1."], "*AMPLITUDE,NAME=B", "VALUE: unknown value 'ABSOLUTE'"),
+        (["*AMPLITUDE,NAME=a\n0.,1."], "*AMPLITUDE,NAME=a", "there is another amplitude 'a'"),
         (["*STATIC,TOTAL TIME AT START=x"], "*STATIC", "TOTAL TIME AT START=X: expected a time, a number"),
     ],
 )
@@ -223,6 +232,7 @@ def test_what_contradicts_itself_is_refused(tmp_path: Path, steps: list[str], na
         ("OP=NEW behind a card without", "takes nothing away, as in CalculiX: the first *CLOAD of the step"),
         ("OP=NEW of *DLOAD takes *DSLOAD too", "takes away what *DSLOAD has set too, as in CalculiX"),
         ("gravity with another direction in a later step", "GRAV of step 2 acts beside that of an earlier step"),
+        ("supports at once", "supports move at the beginning of step 1, by its AMPLITUDE=STEP, as in CalculiX"),
     ],
 )
 def test_where_programs_differ_is_said(tmp_path: Path, case: str, said: str) -> None:

@@ -51,7 +51,7 @@ def make_amplitudes(placed: list[Placed]) -> Mapping[str, Amplitude]:
     Raises
     ------
     DeckError
-        If times do not ascend, or the factor is not given as a table.
+        If times do not ascend, the factor is not given as a table, or a name is given twice.
     """
     amplitudes = {}
     for item in placed:
@@ -60,7 +60,7 @@ def make_amplitudes(placed: list[Placed]) -> Mapping[str, Amplitude]:
             continue
         block.refuse_unknown(("NAME", "TIME", "DEFINITION", "VALUE", "INPUT"))
         block.choice("DEFINITION", ("TABULAR",), "TABULAR")
-        block.choice("VALUE", ("RELATIVE", "ABSOLUTE"), "RELATIVE")
+        block.choice("VALUE", ("RELATIVE",), "RELATIVE")  # ABSOLUTE would take the place of the load's own value
         total = block.choice("TIME", ("STEP TIME", "TOTAL TIME", "TOTALTIME"), "STEP TIME") != "STEP TIME"
         flat = [row.number(i, "a time or a factor") for row in block.rows() for i in range(len(row.fields))]
         if not flat or len(flat) % 2:
@@ -71,6 +71,8 @@ def make_amplitudes(placed: list[Placed]) -> Mapping[str, Amplitude]:
             words = f"has the time {times[late]:g} after {times[late - 1]:g}; expected times that ascend"
             raise block.at(block.row_with(2 * late)).error(words)
         name = block.value("NAME")
+        if name.upper() in amplitudes:
+            raise block.error(f"there is another amplitude '{name}'")
         amplitudes[name.upper()] = Amplitude(name=name, times=times, values=values, total=total)
     return amplitudes
 

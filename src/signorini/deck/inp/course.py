@@ -135,6 +135,11 @@ class Course:
         """Slots with values of this step."""
         return self._now.keys() - self._before
 
+    @property
+    def plain(self) -> bool:
+        """Whether this step gives any value but 0 that follows no amplitude."""
+        return any(self._now[slot][0] and not self._now[slot][1] for slot in self.fresh)
+
     def end_step(self, step: DeckStep) -> None:
         """Note what there is at the end of a step; what follows an amplitude of the step's time stays as it ends."""
         self._ends.append({slot: (magnitude, index, hold) for slot, (magnitude, index, _, hold) in self._now.items()})

@@ -21,7 +21,10 @@ def read_dload(item: Placed, known: Known, courses: Courses) -> None:
     amplitude = find_amplitude(block, known.amplitudes)
     for row in block.rows():
         kind = row.text(1, "the kind of load, like P2").upper()
-        label, elements = known.elements.find(row.text(0, "an element or an element set"), item.scope, row)
+        if kind == "GRAV" and not row.fields[0]:  # as CAE writes it for the whole model
+            label, elements = "", np.concatenate([section.elements for section in known.sections])
+        else:
+            label, elements = known.elements.find(row.text(0, "an element or an element set"), item.scope, row)
         if kind[:1] == "P" and kind[1:].isdigit():
             keys = known.edges.keys(elements, kind, row, "*DLOAD")
             value = row.number(2, "the pressure")

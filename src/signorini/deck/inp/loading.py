@@ -62,6 +62,11 @@ def follow_steps(model: list[Placed], steps: list[DeckStep], known: Known) -> Co
         for item in cards:
             readers[item.block.keyword](item, known, courses)
         courses.notes.extend(_kept_beside(courses, step))
+        if step.held and courses.displacement.plain:
+            courses.notes.append(
+                f"supports move at the beginning of {step.name}, by its AMPLITUDE=STEP, as in CalculiX; Abaqus takes "
+                "them linearly to the end of the step"
+            )
         for course in courses.all:
             course.end_step(step)
     return courses

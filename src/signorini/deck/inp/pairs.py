@@ -98,7 +98,7 @@ def make_ties(
         block = item.block
         if block.keyword != "TIE":
             continue
-        block.refuse_unknown(("NAME", "POSITION TOLERANCE", "ADJUST"), ("TYPE", "TIED NSET", "CONSTRAINT RATIO"))
+        block.refuse_unknown(("NAME", "POSITION TOLERANCE", "ADJUST"), ("TYPE", "CONSTRAINT RATIO"))
         given: dict[str, Any] = {}
         if "POSITION TOLERANCE" in block.parameters:
             reach = to_number(block.value("POSITION TOLERANCE", "a distance"))
