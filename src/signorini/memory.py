@@ -5,12 +5,19 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 try:
     import resource
 except ImportError:  # Windows has no such module
     resource = None  # type: ignore[assignment]
+
+_GROUP_FILES = {
+    "": ("memory.max", "memory.current", "inactive_file"),
+    "memory": ("memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"),
+}
+"""Limit and use of a control group, and in ``memory.stat`` what of it is cached files that give way."""
 
 
 def peak_memory() -> int:
@@ -26,14 +33,56 @@ def peak_memory() -> int:
 
 
 def available_memory() -> int:
-    """Bytes that this process can still take without swapping; half of all where the system does not say.
+    """Bytes that this process can still take without swapping: of the machine, and under limits set for the process.
+
+    Half of all memory where the system does not say.
 
     >>> available_memory() > 1_000_000
     True
     """
+    return max(0, min([_of_the_machine(), *_under_limits(), *_in_groups()]))
+
+
+def _of_the_machine() -> int:
     try:
         lines = Path("/proc/meminfo").read_text().splitlines()
         return next(1024 * int(line.split()[1]) for line in lines if line.startswith("MemAvailable:"))
     except (OSError, StopIteration):
         pages = os.sysconf("SC_PHYS_PAGES") if hasattr(os, "sysconf") else 2**21
         return pages * 4096 // 2
+
+
+def _under_limits() -> Iterator[int]:
+    """What ``ulimit -v`` and ``ulimit -d`` leave."""
+    if resource is None:
+        return
+    try:
+        pages = [int(part) for part in Path("/proc/self/statm").read_text().split()]
+    except (OSError, ValueError):
+        return
+    for limit, used in ((resource.RLIMIT_AS, pages[0]), (resource.RLIMIT_DATA, pages[5])):
+        most = resource.getrlimit(limit)[0]
+        if most != resource.RLIM_INFINITY:
+            yield most - used * resource.getpagesize()
+
+
+def _in_groups() -> Iterator[int]:
+    """What the control groups of the process leave: those of containers and batch systems, of both versions."""
+    try:
+        lines = Path("/proc/self/cgroup").read_text().splitlines()
+    except OSError:
+        return
+    for _, kinds, path in (line.split(":", 2) for line in lines):
+        if kinds not in ("", "memory"):
+            continue
+        root = Path("/sys/fs/cgroup", kinds)
+        most, used, idle = _GROUP_FILES[kinds]
+        here = root / path.lstrip("/")
+        for folder in (here, *here.parents):
+            try:
+                files = dict(line.split() for line in (folder / "memory.stat").read_text().splitlines())
+                yield int((folder / most).read_text()) - int((folder / used).read_text()) + int(files.get(idle, 0))
+            except (OSError, ValueError):  # no such group, or none that is limited
+                pass
+            if folder == root:
+                break

@@ -105,6 +105,8 @@ def test_check_notes_what_looks_wrong(tmp_path: Path, capsys: pytest.CaptureFixt
             1,
             "signorini: internal error: ZeroDivisionError: by zero; please report it (--debug shows where)\n",
         ),
+        (MemoryError("an array"), 1, "signorini: out of memory (an array): "),
+        (OSError(28, "No space left on device", "a.h5"), 1, "signorini: 'a.h5': No space left on device\n"),
         (sg.SolveFailed("no way", status="jump"), 3, "signorini: no certified solution (jump): no way\n"),
         (sg.InputError("is 1", where=("a",)), 2, "signorini: a: is 1\n"),
     ],
@@ -117,7 +119,9 @@ def test_every_failure_is_one_line(
 
     monkeypatch.setattr("signorini.cli.check.check", fail)
     assert main(["check", CYLINDER]) == code
-    assert capsys.readouterr().err == said
+    told = capsys.readouterr().err
+    assert told.startswith(said)
+    assert told.count("\n") == 1
 
 
 def test_debug_shows_where(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

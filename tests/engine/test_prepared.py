@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pairs that are left out, and one factorisation for many laws and loads."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -10,6 +12,7 @@ from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit
+from signorini.memory import available_memory
 
 
 def pressures(history):
@@ -74,3 +77,18 @@ def test_wrong_changes_are_said(change, message):
     with pytest.raises(sg.InputError) as caught:
         sg.prepare(zhu_cylinder()).solve(**change)
     assert str(caught.value) == message
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="the system does not tell")
+def test_memory_that_a_limit_leaves_is_what_there_is():
+    """``ulimit -v`` counts, as the machine's memory does."""
+    import resource
+
+    used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+    limits = resource.getrlimit(resource.RLIMIT_AS)
+    try:
+        resource.setrlimit(resource.RLIMIT_AS, (used + 50_000_000, limits[1]))
+        assert 0 < available_memory() <= 50_000_000
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, limits)
+    assert available_memory() > 50_000_000

@@ -15,6 +15,8 @@ from signorini.errors import InputError, SolveFailed
 
 DONE, FAILED, WRONG_INPUT, NO_SOLUTION, INTERRUPTED = 0, 1, 2, 3, 130
 
+_LESS = "expected a coarser mesh, --backend iterative, or more memory"
+
 _COMMANDS = {
     "run": "signorini.cli.run",
     "check": "signorini.cli.check",
@@ -58,6 +60,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
             traceback.print_exc()
         at = f"'{error.filename}': " if error.filename else ""
         return _say(f"signorini: {at}{error.strerror or error}", FAILED)
+    except MemoryError as error:  # more than was estimated, or a mesh beyond all estimates
+        if options.debug:
+            traceback.print_exc()
+        from signorini.memory import available_memory, peak_memory
+
+        held, free = (f"{size / 1e9:.3g} GB" for size in (peak_memory(), available_memory()))
+        asked = f" ({error})" if str(error) else ""
+        return _say(f"signorini: out of memory{asked}: {held} were held, {free} are free; {_LESS}", FAILED)
     except Exception as error:  # the last resort: a user never sees a traceback unasked
         if options.debug:
             traceback.print_exc()

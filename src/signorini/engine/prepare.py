@@ -14,9 +14,9 @@ from signorini.arrays import Array, BoolArray
 from signorini.checks import number
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
-from signorini.condense.size import condensing_bytes
 from signorini.condense.ties import Ties
 from signorini.engine.idle import refuse_idle
+from signorini.engine.room import iterates, refuse_unassembled
 from signorini.engine.twice import refuse_same_contacts
 from signorini.engine.unheld import refuse_free_motions, refuse_unheld
 from signorini.errors import InputError, one_of
@@ -33,7 +33,6 @@ from signorini.interface.candidates import candidates
 from signorini.interface.interface import Interface, anisotropy_of, friction_of, make_interface
 from signorini.iterative.bodies import ITERATIVE, Bodies, make_bodies
 from signorini.linalg.protocol import NotPositiveDefinite
-from signorini.memory import available_memory
 from signorini.model.conditions import Load, Temperature
 from signorini.model.model import Model
 from signorini.model.stage import Stage, Standing, stages
@@ -305,6 +304,7 @@ def prepare(
     clock = clock or Clock()
     with clock.phase("assembly"):
         examined = examine(model, start=start)
+        refuse_unassembled(model)
         K = stiffness(examined.space, model)
         for springs in examined.constraints.springs.values():
             K = sp.csr_array(K + springs.T @ springs)
@@ -332,13 +332,7 @@ def _made(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, cl
     interface, T, nodes = examined.interface, examined.constraints.transform, examined.constraints.nodes
     with clock.phase("assembly"):
         reduced, relative = sp.csr_array(T.T @ K @ T), sp.csr_array(interface.B @ T)
-        whole = backend == ITERATIVE and reduced.nnz > 0  # where nothing deforms there is nothing to iterate on
-        if backend == "auto":
-            room = available_memory()
-            asked = condensing_bytes(
-                reduced, relative, interface, nodes, examined.space.places, candidates=near, plenty=0.5 * room
-            )
-            whole = asked > room
+        whole = iterates(reduced, relative, interface, nodes, examined.space.places, candidates=near, backend=backend)
         law: CoulombProblem | SpatialProblem | None = None
         bodies: Condensed | Bodies
         softness = 0.0

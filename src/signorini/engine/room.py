@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whether a model fits in memory, and in which way, before anything large is made."""
+
+from __future__ import annotations
+
+import scipy.sparse as sp
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.condense.size import condensing_bytes
+from signorini.errors import InputError
+from signorini.interface.interface import Interface
+from signorini.iterative.bodies import ITERATIVE
+from signorini.memory import available_memory
+from signorini.model.model import Model
+
+# measured on cubes of 13 000 to 1 000 000 unknowns and cylinders in the plane (benchmarks/memory.py), the least of each
+_ASSEMBLY = 20.0  # bytes an entry of K
+_ITERATION = 44.0  # bytes an entry of K more, for its blocks, the coarse grids and vectors
+# of the entries of all element matrices: how many K has in a regular mesh; of families that are not named more
+_SHARED = {"tetra": 0.17, "wedge": 0.29}
+_SHARED_ELSE = 0.39
+
+
+def refuse_unassembled(model: Model) -> None:
+    """Refuse a model whose stiffness alone does not fit.
+
+    Raises
+    ------
+    InputError
+        With the least that it takes and what there is.
+    """
+    entries = sum(
+        _SHARED.get(family, _SHARED_ELSE) * cells.shape[0] * (cells.shape[1] * model.dimension) ** 2
+        for family, cells in model.mesh.cells.items()
+    )
+    asked, room = _ASSEMBLY * entries, available_memory()
+    if asked > room:
+        unknowns = model.mesh.points.size
+        raise InputError(
+            f"the stiffness of {unknowns} unknowns takes at least {_size(asked)}, and {_size(room)} of memory are "
+            "free; expected a coarser mesh, or more memory"
+        )
+
+
+def iterates(
+    K: sp.csr_array,
+    B: sp.csr_array,
+    interface: Interface,
+    nodes: IntArray,
+    points: Array,
+    *,
+    candidates: BoolArray,
+    backend: str,
+) -> bool:
+    """Whether contact is solved on the bodies as they are: where that is asked for, or nothing else fits.
+
+    Parameters
+    ----------
+    K, B, interface, nodes, points, candidates : see :func:`signorini.condense.size.condensing_bytes`
+    backend : as asked for
+
+    Raises
+    ------
+    InputError
+        Where what was asked for does not fit, or nothing does: with what it takes, what there is, and ways out.
+    """
+    if not K.nnz:  # nothing deforms, so there is nothing to iterate on
+        return False
+    room, iterated = available_memory(), _ITERATION * K.nnz
+    if backend == ITERATIVE:
+        if iterated <= room:
+            return True
+        needs, ways = f"{_size(iterated)} to iterate on", ""
+    else:
+        condensed = condensing_bytes(K, B, interface, nodes, points, candidates=candidates, plenty=0.5 * room)
+        if condensed <= room:
+            return False
+        if backend == "auto" and iterated <= room:
+            return True
+        needs = f"{_size(condensed)} to factorise and condense, {_size(iterated)} to iterate on"
+        ways = f"back end '{ITERATIVE}', " if iterated <= room else ""
+    raise InputError(
+        f"{K.shape[0]} unknowns with {len(interface)} contact pairs take about {needs}, and {_size(room)} of memory "
+        f"are free; expected {ways}a coarser mesh, or more memory"
+    )
+
+
+def _size(number: float) -> str:
+    """Bytes in words.
+
+    >>> _size(1.234e10), _size(5.0e7)
+    ('12.3 GB', '0.05 GB')
+    """
+    return f"{number / 1e9:.3g} GB"
