@@ -19,7 +19,7 @@ from signorini.errors import one_of
 from signorini.model.contact import Contact
 
 _TYPES = ("", "NODE TO SURFACE", "SURFACE TO SURFACE", "MORTAR", "LINMORTAR", "PGLINMORTAR", "MASSLESS")
-_IGNORED = (
+IGNORED = (
     "SMALL SLIDING",
     "EXTENSION ZONE",
     "MECHANICAL CONSTRAINT",
@@ -54,7 +54,7 @@ def make_contacts(
         block = item.block
         if block.keyword != "CONTACT PAIR":
             continue
-        block.refuse_unknown(("INTERACTION", "TYPE", "ADJUST"), _IGNORED)
+        block.refuse_unknown(("INTERACTION", "TYPE", "ADJUST"), IGNORED)
         block.choice("TYPE", _TYPES, "")
         name = block.value("INTERACTION")
         if name.upper() not in interactions:

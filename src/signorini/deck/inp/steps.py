@@ -11,8 +11,7 @@ from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.keywords import HARMLESS, STEP_WORDS
 
 _MOST = 100_000  # increments of a step
-_IGNORED = ("INC", "INCF", "NAME", "UNSYMM", "SOLVER", "CONVERT SDI", "EXTRAPOLATION", "PERTURBATION MASS")
-_STATIC_IGNORED = ("STABILIZE", "FACTOR", "ALLSDTOL", "CONTINUE", "FULLY PLASTIC")
+IGNORED = ("INC", "INCF", "NAME", "UNSYMM", "SOLVER", "CONVERT SDI", "EXTRAPOLATION", "PERTURBATION MASS")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -79,7 +78,7 @@ def split_steps(placed: list[Placed]) -> tuple[list[Placed], list[DeckStep]]:
 
 
 def _step(block: Block, number: int, members: list[Placed], start: float, before: DeckStep | None) -> DeckStep:
-    block.refuse_unknown(("NLGEOM", "AMPLITUDE"), _IGNORED)
+    block.refuse_unknown(("NLGEOM", "AMPLITUDE"), IGNORED)
     statics = [item.block for item in members if item.block.keyword == "STATIC"]
     if len(statics) != 1:
         other = next((m.block for m in members if m.block.keyword not in (*STEP_WORDS, *HARMLESS)), None)
