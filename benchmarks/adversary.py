@@ -1,0 +1,355 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Random small models, solved by the package and looked at by an adversary that shares no line with it.
+
+    python benchmarks/adversary.py                        # 200 models, all kinds
+    python benchmarks/adversary.py 5000 --seed 17         # thousands, any seed
+    python benchmarks/adversary.py 500 --kinds rigid thin # those with rigid or thin bodies
+    python benchmarks/adversary.py --only 4711            # one model, with all its numbers
+
+Stacks of one to three bodies in the plane and in space, on a rigid floor or held, pressed, sheared, lifted off and
+pressed again by forces or by motions, with gaps, ties, rigid and thin bodies, in any units, cut in two and gone on with.
+Every answer is put into the equations of `independent`: equilibrium and the law of contact, row by row, to 1e-8. Where
+the package proves that there is no equilibrium, or finds none, all states are tried in the plane, and many starts in
+space; where they find one, that is a failure.
+"""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+import time
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import independent
+import numpy as np
+
+import signorini as sg
+
+KINDS = ("space", "rigid", "tied", "stack", "thin", "units", "restart", "exact", "driven", "floor")
+TOLERANCE = 1e-8
+
+
+@dataclass(kw_only=True)
+class Case:
+    """A random model, and the same in the words of the adversary.
+
+    Attributes
+    ----------
+    kinds : what was mixed in
+    model : of all steps
+    factors : (steps, 2) of what presses and of what shears
+    structure : its finite elements
+    unit : forces and motions for a factor of 1 of pressing, of shearing: force (N, d), moved (N, d), loads
+    """
+
+    seed: int
+    kinds: frozenset[str]
+    model: sg.Model
+    factors: np.ndarray
+    structure: independent.Structure
+    unit: list[tuple[np.ndarray, np.ndarray, list[np.ndarray]]]
+
+
+def grid(d: int, xs: np.ndarray, ys: np.ndarray, heights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Points and cells of a box, numbered as the package does: x fastest in the plane, the height in space."""
+    order: Literal["F", "C"] = "F" if d == 2 else "C"
+    sides = [xs, heights] if d == 2 else [xs, ys, heights]
+    counts = [len(side) for side in sides]
+    mesh = np.meshgrid(*sides, indexing="ij")
+    points = np.column_stack([part.ravel(order=order) for part in mesh])
+    number = np.arange(len(points)).reshape(counts, order=order)
+    if d == 2:
+        cells = np.stack([number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]], axis=-1)
+        return points, cells.reshape(-1, 4)
+    low = [number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]]
+    cells = np.stack([part[..., k] for k in (slice(None, -1), slice(1, None)) for part in low], axis=-1)
+    return points, cells.reshape(-1, 8)
+
+
+def make(seed: int, wanted: frozenset[str] = frozenset()) -> Case:
+    """The model of a seed; the same seed makes the same one."""
+    rng = np.random.default_rng(seed)
+    kinds = {kind for kind in KINDS if rng.random() < (0.25 if kind in ("space", "rigid", "tied", "thin") else 0.5)}
+    kinds |= wanted
+    d = 3 if "space" in kinds else 2
+    bodies = int(rng.integers(2, 4)) if "stack" in kinds else 1 + (rng.random() < 0.5)
+    floor = "floor" in kinds or bodies == 1
+    length, modulus = 10.0 ** rng.uniform(-9, 9, 2) if "units" in kinds else np.ones(2)
+    most = 6 // (bodies if floor else bodies - 1) if d == 2 else 3
+    xs = length * np.sort(np.append([0.0, 1.0], rng.uniform(0.2, 0.8, int(rng.integers(0, max(most - 1, 1))))))
+    ys = length * np.linspace(0, 0.8, int(rng.integers(2, 4)))
+    names = "abc"[:bodies]
+    flat = [rng.random() < 0.5 and "thin" in kinds for _ in names]
+    thick = [length * (0.01 if thin else rng.uniform(0.3, 1.2)) for thin in flat]
+    layers = [1 if thin else int(rng.integers(1, 3)) for thin in flat]
+    moduli = modulus * 10.0 ** rng.uniform(-1, 1, bodies)
+    nu, kind = rng.uniform(0.0, 0.4), "3d" if d == 3 else str(rng.choice(["plane strain", "plane stress"]))
+    rigid = int(rng.integers(1, bodies)) if "rigid" in kinds and bodies > 1 else None
+    bottom = np.append(0.0, np.cumsum(thick))
+    heights = [np.linspace(bottom[k], bottom[k + 1], layers[k] + 1) for k in range(bodies)]
+    meshes = [grid(d, xs, ys, heights[k]) for k in range(bodies)]
+    offsets = np.append(0, np.cumsum([len(points) for points, _ in meshes]))
+    points = np.vstack([points for points, _ in meshes])
+    build = sg.rectangle if d == 2 else sg.box
+    sides = {"x": xs} if d == 2 else {"x": xs, "y": ys}
+    boxes = {name: build(**sides, **{"y" if d == 2 else "z": heights[k]}) for k, name in enumerate(names)}
+    mesh = sg.join(boxes) if bodies > 1 else boxes["a"]
+    at = (lambda name, side: f"{name}.{side}") if bodies > 1 else (lambda _, side: side)
+
+    def on_side(k: int, height: float) -> np.ndarray:
+        return offsets[k] + np.flatnonzero(np.isclose(meshes[k][0][:, -1], height, rtol=0, atol=1e-12 * length))
+
+    face = length ** (d - 1) * (1.0 if d == 2 else 0.8)
+    strain = 10.0 ** rng.uniform(-4, -2)
+    press = modulus * strain
+    contacts, upper, lower, gaps, mus, ties = [], [], [], [], [], []
+    ground = sg.Plane((0.0,) * d, (0.0,) * (d - 1) + (1.0,))
+    for k in range(0 if floor else 1, bodies):
+        tied = "tied" in kinds and k > 0 and rng.random() < 0.6 and not (len(contacts) == 0 and bodies == 1)
+        mu: Any = (
+            "tied"
+            if tied
+            else "stick"
+            if rng.random() < 0.1
+            else round(float(rng.choice([0.0, rng.uniform(0.05, 1)], p=[0.1, 0.9])), 3)
+        )
+        gap = 0.0 if rng.random() < 0.6 else float(strain * length * rng.uniform(-0.2, 0.5))
+        contacts.append(
+            sg.Contact(
+                at(names[k], "bottom"),
+                ground if k == 0 else at(names[k - 1], "top"),
+                friction=mu,
+                gap=gap,
+                name=f"c{k}",
+            )
+        )
+        nodes = on_side(k, bottom[k])
+        upper.append(nodes)
+        lower.append(np.full(len(nodes), -1) if k == 0 else on_side(k - 1, bottom[k]))
+        gaps.append(np.full(len(nodes), gap))
+        mus.append(np.full(len(nodes), np.inf if isinstance(mu, str) else mu))
+        ties.append(np.full(len(nodes), tied))
+    pairs = independent.Pairs(
+        upper=np.concatenate(upper), lower=np.concatenate(lower), gap=np.concatenate(gaps),
+        friction=np.concatenate(mus), tied=np.concatenate(ties),
+    )  # fmt: skip
+    held, supports = np.zeros(points.shape, bool), []
+    if not floor:
+        held[on_side(0, 0.0)] = True
+        supports.append(sg.Support(at("a", "bottom"), u=(0.0,) * d, name="base"))
+    top, over = bodies - 1, on_side(bodies - 1, bottom[-1])
+    shear_way = np.append(rng.normal(size=d - 1), 0.0)
+    shear_way /= np.linalg.norm(shear_way)
+    down = np.append(np.zeros(d - 1), -1.0)
+    groups, loads, rigid_bodies = [], [], []
+    zero = np.zeros_like(points)
+    if rigid is not None:
+        about = np.append(np.full(d - 1, 0.45 * length), 0.5 * (bottom[rigid] + bottom[rigid + 1]))
+        groups.append((np.arange(offsets[rigid], offsets[rigid + 1]), about))
+        rigid_bodies.append(sg.RigidBody("R", names[rigid], tuple(about)))
+    turns = 1 if d == 2 else 3
+    unit = []
+    driven = "driven" in kinds and rigid != top
+    for name, way in (("press", down), ("shear", shear_way)):
+        none = [np.zeros(d + turns) for _ in groups]
+        if driven:
+            moved = zero.copy()
+            moved[over] = strain * length * way
+            if name == "press":
+                supports.append(sg.Support(at(names[top], "top"), u=(None,) * (d - 1) + (-strain * length,), name=name))
+            else:
+                held[over] = True
+                supports.append(sg.Support(at(names[top], "top"), u=(*(strain * length * way[:-1]), None), name=name))
+            unit.append((zero, moved, none))
+        elif rigid == top:
+            force = np.append(press * face * way, np.zeros(turns))
+            unit.append((zero, zero, [force]))
+            loads.append(sg.Load("R", force=tuple(force), name=name))
+        else:
+            force = zero.copy()
+            shares = np.zeros(len(points))
+            flat_top = meshes[top][0][over - offsets[top]][:, : d - 1]
+            axes = [np.unique(flat_top[:, k]) for k in range(d - 1)]
+            for node, place in zip(over, flat_top, strict=True):
+                shares[node] = np.prod([_tributary(axis, x) for axis, x in zip(axes, place, strict=True)])
+            force += press * shares[:, None] * way
+            unit.append((force, zero, none))
+            loads.append(sg.Load(at(names[top], "top"), traction=tuple(press * way), name=name))
+    count = int(rng.integers(2, 6))
+    factors = np.column_stack(
+        [
+            rng.choice([1.0, 0.5, 1.5, 0.2, -0.3], count, p=[0.35, 0.25, 0.15, 0.1, 0.15]),
+            rng.uniform(-1, 1, count) * rng.choice([0.1, 0.4, 1.0]),
+        ]
+    )
+    factors[0, 0] = 1.0
+    plain = {} if "exact" in kinds and d == 2 else {"increments": 1}
+    steps = [sg.Step(scale={"press": float(a), "shear": float(b)}, **plain) for a, b in factors]
+    model = sg.Model(
+        mesh, kind=kind, bodies=[sg.Body(name if bodies > 1 else "block", sg.Elastic(E=moduli[k], nu=nu)) for k, name in enumerate(names)],
+        supports=supports, loads=loads, rigid_bodies=rigid_bodies, contacts=contacts, steps=steps,
+    )  # fmt: skip
+    cells = [(offsets[k] + meshes[k][1], independent.elasticity(moduli[k], nu, kind)) for k in range(bodies)]
+    structure = independent.Structure(
+        points=points, K=independent.stiffness(points, cells), held=held, pairs=pairs, rigid=groups
+    )
+    return Case(
+        seed=seed, kinds=frozenset(kinds - ({"rigid"} if rigid is None else set())), model=model, factors=factors,
+        structure=structure, unit=unit,
+    )  # fmt: skip
+
+
+def _tributary(axis: np.ndarray, x: float) -> float:
+    """Half the lengths of the edges beside a node."""
+    k = int(np.searchsorted(axis, x))
+    return 0.5 * (axis[min(k + 1, len(axis) - 1)] - axis[max(k - 1, 0)])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Verdict:
+    """What became of a model.
+
+    Attributes
+    ----------
+    outcome : "right", "proved" (no equilibrium, and the adversary finds none either), "not found" (nor by the
+        adversary), "refused" (before solving); and the failures: "WRONG", "FALSE PROOF", "MISSED", "RESTART", "ERROR"
+    words : numbers and messages
+    """
+
+    outcome: str
+    words: str
+
+    @property
+    def failed(self) -> bool:
+        return self.outcome.isupper()
+
+
+def increment(case: Case, k: int, before: np.ndarray) -> independent.Increment:
+    """What acts at the end of step k."""
+    press, shear = case.unit
+    a, b = case.factors[k]
+    return independent.Increment(
+        force=a * press[0] + b * shear[0],
+        moved=a * press[1] + b * shear[1],
+        loads=[a * one + b * two for one, two in zip(press[2], shear[2], strict=True)],
+        before=case.structure.relative(before),
+    )
+
+
+def judge(case: Case) -> Verdict:
+    """Solve, whole and where asked in two parts, and look at every increment."""
+    model, structure = case.model, case.structure
+    assert np.allclose(model.mesh.points, structure.points, rtol=0, atol=1e-9 * np.abs(structure.points).max())
+    try:
+        history = sg.solve(model, raise_on_failure=False)
+    except sg.InputError as error:
+        return _refused(case, str(error))
+    except Exception as error:  # whatever a solver may do is told, not raised
+        return Verdict(outcome="ERROR", words=f"{type(error).__name__}: {str(error)[:300]}")
+    incremental = model.steps[0].increments == 1
+    before, worst = np.zeros_like(structure.points), 0.0
+    for k, step in enumerate(history.steps):
+        if not step.finished:
+            break
+        found = independent.violations(
+            structure, increment(case, k, before), step.displacement, incremental=incremental
+        )
+        name = max(found, key=lambda key: found[key])
+        if not found[name] <= TOLERANCE:
+            return Verdict(outcome="WRONG", words=f"step {k + 1}: {name} {found[name]:.1e} {step.path} {step.methods}")
+        worst = max(worst, found[name])
+        if step.path == "exact" and abs(step.energy_defect) > 1e-8 * _energy(step):
+            return Verdict(
+                outcome="WRONG", words=f"step {k + 1}: energy defect {step.energy_defect / _energy(step):.1e}"
+            )
+        before = step.displacement
+    if "restart" in case.kinds and len(history.steps) > 1:
+        parted = _gone_on(case, history)
+        if parted:
+            return Verdict(outcome="RESTART", words=parted)
+    if history.status == "solved":
+        return Verdict(outcome="right", words=f"{worst:.1e}")
+    done = sum(step.finished for step in history.steps)
+    return _without_answer(case, history, done, before, incremental)
+
+
+def _energy(step: Any) -> float:
+    return max(abs(step.work), step.strain_energy, step.dissipation, step.released, 1e-300)
+
+
+def _refused(case: Case, words: str) -> Verdict:
+    """A model that is no model: something moves freely though all pairs touch."""
+    return Verdict(outcome="refused" if independent.floats(case.structure) else "REFUSED", words=words[:300])
+
+
+def _without_answer(case: Case, history: Any, done: int, before: np.ndarray, incremental: bool) -> Verdict:
+    """Where the package found no equilibrium, the adversary looks for one."""
+    words = f"step {done + 1}: {history.message[:300]}"
+    if not incremental:
+        return Verdict(outcome=history.status.replace("_", " "), words=words)
+    acts, rng = increment(case, done, before), np.random.default_rng(case.seed)
+    loose = int((~case.structure.pairs.tied).sum())
+    if case.structure.d == 2 and loose <= 6:
+        exists = bool(independent.equilibria(case.structure, acts))
+    else:
+        exists = independent.searched(case.structure, acts, rng) is not None
+    if history.status == "no_equilibrium":
+        return Verdict(outcome="FALSE PROOF" if exists else "proved", words=words)
+    return Verdict(outcome="MISSED" if exists else history.status.replace("_", " "), words=words)
+
+
+def _gone_on(case: Case, whole: Any) -> str:
+    """Cut behind a step and gone on with through a file: what differs, or nothing."""
+    from dataclasses import replace
+
+    finished = [step for step in whole.steps if step.finished]
+    cut = int(np.random.default_rng(case.seed).integers(1, len(finished) + 1))
+    if cut == len(case.model.steps):
+        return ""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "state.npz"
+        sg.solve(replace(case.model, steps=case.model.steps[:cut])).save_state(path)
+        after = sg.solve(replace(case.model, steps=case.model.steps[cut:]), start=path, raise_on_failure=False)
+    if after.status != whole.status:
+        return f"cut behind step {cut}: {after.status}, the whole {whole.status}: {after.message[:200]}"
+    for k, (one, two) in enumerate(zip(whole.steps[cut:], after.steps, strict=False)):
+        if not np.array_equal(one.displacement, two.displacement):
+            gone = np.abs(one.displacement - two.displacement).max() / np.abs(one.displacement).max()
+            return f"cut behind step {cut}: displacements of step {cut + k + 1} differ by {gone:.1e}"
+        if (one.work, one.dissipation) != (two.work, two.dissipation):
+            return f"cut behind step {cut}: energies of step {cut + k + 1} differ"
+    return ""
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("models", type=int, nargs="?", default=200)
+    parser.add_argument("--seed", type=int, default=0, help="of the first model; the others follow")
+    parser.add_argument("--kinds", nargs="*", default=[], choices=KINDS, help="what is in every model")
+    parser.add_argument("--only", type=int, help="the one model of this seed")
+    options = parser.parse_args()
+    seeds = [options.only] if options.only is not None else range(options.seed, options.seed + options.models)
+    wanted = frozenset(options.kinds)
+    outcomes: Counter[str] = Counter()
+    by_kind: dict[str, Counter[str]] = {kind: Counter() for kind in KINDS}
+    start = time.perf_counter()
+    for seed in seeds:
+        case = make(seed, wanted)
+        verdict = judge(case)
+        outcomes[verdict.outcome] += 1
+        for kind in case.kinds:
+            by_kind[kind][verdict.outcome] += 1
+        if verdict.failed or options.only is not None:
+            print(f"{seed} ({' '.join(sorted(case.kinds))}): {verdict.outcome}: {verdict.words}", flush=True)
+    names = sorted(outcomes, key=lambda name: (name.isupper(), -outcomes[name]))
+    print(f"\n| models with | {' | '.join(names)} |\n|---|{'---|' * len(names)}")
+    for kind, counts in {"all": outcomes, **by_kind}.items():
+        print(f"| {kind} | {' | '.join(str(counts[name]) for name in names)} |")
+    print(f"\n{time.perf_counter() - start:.0f} s")
+
+
+if __name__ == "__main__":
+    main()
