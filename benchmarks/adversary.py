@@ -7,10 +7,10 @@
     python benchmarks/adversary.py --only 4711            # one model, with all its numbers
 
 Stacks of one to three bodies in the plane and in space, on a rigid floor or held, pressed, sheared, lifted off and
-pressed again by forces or by motions, with gaps, ties, rigid and thin bodies, in any units, cut in two and gone on with.
-Every answer is put into the equations of `independent`: equilibrium and the law of contact, row by row, to 1e-8. Where
-the package proves that there is no equilibrium, or finds none, all states are tried in the plane, and many starts in
-space; where they find one, that is a failure.
+pressed again by forces or by motions, with gaps, ties, rigid and thin bodies, in any units, cut in two and gone on
+with. Every answer is put into the equations of `independent`: equilibrium and the law of contact, row by row, to
+1e-8. Where the package proves that there is no equilibrium, or finds none, all states are tried in the plane, and many
+starts in space; where they find one, that is a failure.
 """
 
 from __future__ import annotations
@@ -186,10 +186,11 @@ def make(seed: int, wanted: frozenset[str] = frozenset()) -> Case:
         ]
     )
     factors[0, 0] = 1.0
-    plain = {} if "exact" in kinds and d == 2 else {"increments": 1}
+    plain: dict[str, Any] = {"at": "events"} if "exact" in kinds and d == 2 else {"at": "events", "increments": 1}
     steps = [sg.Step(scale={"press": float(a), "shear": float(b)}, **plain) for a, b in factors]
+    made = [sg.Body(name, sg.Elastic(E=E, nu=nu)) for name, E in zip(mesh.bodies, moduli, strict=True)]
     model = sg.Model(
-        mesh, kind=kind, bodies=[sg.Body(name if bodies > 1 else "block", sg.Elastic(E=moduli[k], nu=nu)) for k, name in enumerate(names)],
+        mesh, kind=kind, bodies=made,
         supports=supports, loads=loads, rigid_bodies=rigid_bodies, contacts=contacts, steps=steps,
     )  # fmt: skip
     cells = [(offsets[k] + meshes[k][1], independent.elasticity(moduli[k], nu, kind)) for k in range(bodies)]
@@ -250,21 +251,24 @@ def judge(case: Case) -> Verdict:
     except Exception as error:  # whatever a solver may do is told, not raised
         return Verdict(outcome="ERROR", words=f"{type(error).__name__}: {str(error)[:300]}")
     incremental = model.steps[0].increments == 1
-    before, worst = np.zeros_like(structure.points), 0.0
+    before, worst, energy = np.zeros_like(structure.points), 0.0, 1e-300
     for k, step in enumerate(history.steps):
         if not step.finished:
             break
-        found = independent.violations(
-            structure, increment(case, k, before), step.displacement, incremental=incremental
-        )
+        came = [instant.displacement for instant in step.instants if instant.what == "approach"]
+        if came and not (way := independent.carried(structure, before, came[-1])) <= TOLERANCE:
+            return Verdict(
+                outcome="WRONG", words=f"step {k + 1}: the approach is no rigid motion to contact, {way:.1e}"
+            )
+        begin = came[-1] if came else before
+        found = independent.violations(structure, increment(case, k, begin), step.displacement, incremental=incremental)
         name = max(found, key=lambda key: found[key])
         if not found[name] <= TOLERANCE:
             return Verdict(outcome="WRONG", words=f"step {k + 1}: {name} {found[name]:.1e} {step.path} {step.methods}")
         worst = max(worst, found[name])
-        if step.path == "exact" and abs(step.energy_defect) > 1e-8 * _energy(step):
-            return Verdict(
-                outcome="WRONG", words=f"step {k + 1}: energy defect {step.energy_defect / _energy(step):.1e}"
-            )
+        energy = max(energy, abs(step.work), step.strain_energy, step.dissipation, step.released)
+        if step.path == "exact" and abs(step.energy_defect) > 1e-8 * energy:
+            return Verdict(outcome="WRONG", words=f"step {k + 1}: energy defect {step.energy_defect / energy:.1e}")
         before = step.displacement
     if "restart" in case.kinds and len(history.steps) > 1:
         parted = _gone_on(case, history)
@@ -272,12 +276,7 @@ def judge(case: Case) -> Verdict:
             return Verdict(outcome="RESTART", words=parted)
     if history.status == "solved":
         return Verdict(outcome="right", words=f"{worst:.1e}")
-    done = sum(step.finished for step in history.steps)
-    return _without_answer(case, history, done, before, incremental)
-
-
-def _energy(step: Any) -> float:
-    return max(abs(step.work), step.strain_energy, step.dissipation, step.released, 1e-300)
+    return _without_answer(case, history, sum(step.finished for step in history.steps), before, incremental)
 
 
 def _refused(case: Case, words: str) -> Verdict:

@@ -210,6 +210,16 @@ def violations(structure: Structure, increment: Increment, u: Array, *, incremen
     return {name: max(float(value), 0.0) for name, value in found.items()}
 
 
+def carried(structure: Structure, before: Array, after: Array) -> float:
+    """How far a motion of bodies through the air is from one: nothing is strained by it, no pair overlaps behind it."""
+    s, moved = structure, (after - before).ravel()
+    K = unknowns(s)[1]
+    strained = np.abs(K @ moved).max() / max((np.abs(K) @ np.abs(moved)).max(), 1e-300)
+    gap = (s.relative(after)[:, -1] + s.pairs.gap)[~s.pairs.tied]
+    overlap = np.maximum(-gap, 0.0).max(initial=0.0) / max(np.abs(after).max(), np.abs(s.pairs.gap).max())
+    return float(max(strained, overlap))
+
+
 def unknowns(structure: Structure) -> tuple[Array, Array]:
     """(T, K): displacements by free unknowns, those of rigid bodies last, and the stiffness without rigid bodies."""
     s = structure
@@ -341,7 +351,7 @@ def equilibria(structure: Structure, increment: Increment, *, tolerance: float =
 
 
 def searched(structure: Structure, increment: Increment, rng: np.random.Generator, *, starts: int = 30) -> Array | None:
-    """Motions and forces (2 n d,) of some equilibrium, in space as in the plane, by Newton's method from many starts."""
+    """Motions and forces (2 n d,) of an equilibrium, in space as in the plane, by Newton's method from many starts."""
     s, n = structure, len(structure.pairs.upper)
     relation = condensed(s, increment)
     if relation is None:

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Random small models beside elements, a law and an enumeration that share no line with the package (a sample).
+
+Thousands more, of any seed: `python benchmarks/adversary.py 5000 --seed 17`.
+"""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import signorini as sg
+
+sys.path.append(str(Path(__file__).parents[2] / "benchmarks"))
+import adversary
+import independent
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_answers_proofs_and_restarts(seed):
+    case = adversary.make(seed)
+    if {"space", "thin"} <= case.kinds:
+        pytest.skip("thin bodies in space")
+    verdict = adversary.judge(case)
+    assert not verdict.failed, (sorted(case.kinds), verdict)
+
+
+def slipping():
+    """An increment where one pair of five slips, and its answer."""
+    case = adversary.make(599)
+    step = sg.solve(replace(case.model, steps=case.model.steps[:1])).last
+    assert (step.contacts[0].count("slip"), step.contacts[0].count("stick")) == (1, 4)
+    return case.structure, adversary.increment(case, 0, np.zeros_like(step.displacement)), step.displacement
+
+
+def test_the_adversary_sees_what_is_wrong():
+    structure, increment, u = slipping()
+    assert max(independent.violations(structure, increment, u).values()) < 1e-10
+    pairs, K = structure.pairs, structure.K
+    for wrong, what in (
+        (replace(structure, K=K + 1e-5 * np.diag(np.diag(K))), "equilibrium"),
+        (replace(structure, pairs=replace(pairs, friction=0.99999 * pairs.friction)), "cone"),
+        (replace(structure, pairs=replace(pairs, friction=1.00001 * pairs.friction)), "slip"),
+        (replace(structure, pairs=replace(pairs, gap=pairs.gap - 1e-5 * np.abs(u).max())), "penetration"),
+        (replace(structure, pairs=replace(pairs, gap=pairs.gap + 1e-5 * np.abs(u).max())), "complementarity"),
+    ):
+        assert independent.violations(wrong, increment, u)[what] > 1e-7, what
+
+
+def test_of_all_states_the_one_that_was_found_is_in_equilibrium():
+    structure, increment, u = slipping()
+    found = independent.equilibria(structure, increment)
+    motion = structure.relative(u)
+    motion[~structure.pairs.tied, 1] += structure.pairs.gap[~structure.pairs.tied]
+    apart = [np.abs(h - motion.T.ravel()).max() for h, _ in found]
+    assert min(apart) < 1e-9 * np.abs(motion).max()
+    pulled = replace(increment, force=-increment.force, moved=-increment.moved)
+    away = [h for h, _ in independent.equilibria(structure, pulled)]
+    assert all(h[len(h) // 2 :].max() > 0 for h in away)
+    searched = independent.searched(structure, increment, np.random.default_rng(0))
+    assert searched is not None
