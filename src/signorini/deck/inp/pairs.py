@@ -31,7 +31,7 @@ IGNORED = (
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Pair:
-    """A contact, the keyword that it comes from, and the name of its law in capitals."""
+    """A contact, the keyword that it comes from, at its line, and the name of its law in capitals."""
 
     contact: Contact
     block: Block
@@ -79,7 +79,7 @@ def make_contacts(
                 name=_label(slave, master, found),
                 **given,
             )
-            found.append(Pair(contact=contact, block=block, interaction=name.upper()))
+            found.append(Pair(contact=contact, block=block.at(row), interaction=name.upper()))
     return found
 
 
@@ -108,7 +108,7 @@ def make_ties(
         for row in block.rows():
             slave, master = (_side(item, row, i, surfaces, edges, nodes) for i in (0, 1))
             name = _label(slave, master, [*contacts, *found])
-            found.append(Pair(contact=Contact(slave, master, friction="tied", name=name, **given), block=block))
+            found.append(Pair(contact=Contact(slave, master, friction="tied", name=name, **given), block=block.at(row)))
     return found
 
 

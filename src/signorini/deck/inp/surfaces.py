@@ -74,10 +74,14 @@ class Edges:
 
     def under(self, elements: IntArray) -> IntArray:
         """Keys of the faces of cells that have the nodes of faces or lines among the elements."""
-        own = [group.nodes[np.isin(group.index, elements)] for group in self._skins]
-        wanted = _padded(own)
-        wanted[~np.isin(wanted, self.ends)] = -1  # middles of edges in the plane, whose keys know the ends
-        near = self.between(distinct(wanted[wanted >= 0])) if (wanted >= 0).any() else np.empty(0, np.int64)
+        wanted = _padded([group.nodes[np.isin(group.index, elements)] for group in self._skins])
+        if not len(wanted):
+            return np.empty(0, np.int64)
+        known = np.zeros(int(max(self.ends.max(), wanted.max())) + 2, bool)
+        known[self.ends] = True
+        known[-1] = False
+        wanted[~known[wanted]] = -1  # middles of edges in the plane, whose keys know the ends
+        near = self.between(distinct(wanted[wanted >= 0]))
         both = np.sort(_padded([wanted, self.ends[near]]), axis=1)
         which = np.unique(both, axis=0, return_inverse=True)[1].ravel()
         return near[np.isin(which[len(wanted) :], which[: len(wanted)])]
