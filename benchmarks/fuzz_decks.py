@@ -78,6 +78,11 @@ _LINES = (
     ),
     *(
         "*BOUNDARY, OP=NEW",
+        "*DLOAD, OP=NEW",
+        "*STATIC, TIME RESET",
+        "*ELEMENT, TYPE=T3D2, ELSET=s",
+        "CENTRIF",
+        "GRAV",
         "*INCLUDE, INPUT=deck.inp",
         "*NSET, NSET=a, GENERATE",
         "1, 1000000000, 1",

@@ -195,6 +195,13 @@ def test_gravity_without_a_set_is_that_of_all(tmp_path: Path) -> None:
     np.testing.assert_array_equal(whole, named)
 
 
+def test_a_support_before_the_steps_is_replaced(tmp_path: Path) -> None:
+    """It is of no step, so that an amplitude contradicts nothing."""
+    move = "*BOUNDARY,AMPLITUDE=A\nR,3,3,.2"
+    replaced = displacements(deck(tmp_path, [move], f"{HEAD}*BOUNDARY\nR,3,3,.1\n"))
+    np.testing.assert_array_equal(replaced, displacements(deck(tmp_path, [move])))
+
+
 def test_another_axis_after_op_new(tmp_path: Path) -> None:
     """CalculiX 2.20, to which a set has one axis for all steps, is without rotation then."""
     other = "*DLOAD,OP=NEW\nE,CENTRIF,5.,0,0,0,1,0,0"

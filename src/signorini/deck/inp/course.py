@@ -112,6 +112,10 @@ class Course:
             self._before.discard(slot)
             self._first.setdefault(slot, source)
 
+    def begin_step(self) -> None:
+        """What there is was set before; the step replaces it where it sets anything."""
+        self._before = set(self._now)
+
     def clear(self) -> None:
         """Remove every value (``OP=NEW``)."""
         self._now = {}
@@ -143,7 +147,6 @@ class Course:
     def end_step(self, step: DeckStep) -> None:
         """Note what there is at the end of a step; what follows an amplitude of the step's time stays as it ends."""
         self._ends.append({slot: (magnitude, index, hold) for slot, (magnitude, index, _, hold) in self._now.items()})
-        self._before = set(self._now)
         ends = [
             1.0 if amplitude is None else amplitude.at(step.end if amplitude.total else step.period)
             for amplitude in self._amplitudes

@@ -56,6 +56,8 @@ def follow_steps(model: list[Placed], steps: list[DeckStep], known: Known) -> Co
         elif item.block.keyword in readers:
             raise item.block.error("stands outside the steps; expected loads inside a *STEP")
     for step in steps:
+        for course in courses.all:
+            course.begin_step()
         cards = [item for item in step.placed if item.block.keyword in readers]
         for keywords in (("BOUNDARY",), ("CLOAD",), _DISTRIBUTED, ("TEMPERATURE",)):
             _renew([item.block for item in cards if item.block.keyword in keywords], courses)
