@@ -135,7 +135,8 @@ def _leg(stretch: Stretch, apart: BoolArray, motion: Array, loose: Array, relati
     )
     notes = []
     if np.abs(motion).max() > _SEEN * float(extent(prepared.space.mesh.points).max()):
-        notes = [f"{stretch.where}: {words}" for words in describe_approach(prepared.parts, motion, loose)]
+        where = f"{stretch.where} at {stretch.span.low:.6%}" if stretch.span.low else stretch.where
+        notes = [f"{where}: {words}" for words in describe_approach(prepared.parts, motion, loose)]
     return Leg(
         path="exact",
         before=state,

@@ -10,7 +10,16 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.bound import plain
-from signorini.engine.increments import applied, certified, free_load, leaving, moved_by_supports, refuse_overlap
+from signorini.engine.approach import approached
+from signorini.engine.increments import (
+    applied,
+    certified,
+    free_load,
+    leaving,
+    moved_by_supports,
+    refuse_overlap,
+    settled,
+)
 from signorini.engine.leg import Leg, Snapshot, joined, keep
 from signorini.engine.prepare import Prepared
 from signorini.engine.stretch import Stretch
@@ -100,6 +109,11 @@ def _beyond_jumps(stretch: Stretch, how: str, *, jumps: bool, stops: StopSetting
         if followed.segment.followed:
             return joined([*legs, _leg(followed)])
         lost = _lost(followed)
+        begun = _anew(followed, legs) if len(legs) < _JUMPS else []
+        if begun:
+            legs += begun
+            stretch = stretch.rest(followed.cut.stretch, legs[-1].after)
+            continue
         landing = _landing(followed) if jumps and len(legs) < _JUMPS else None
         if jump is None or landing is None:
             if jumps and jump is not None and not lost.hopeless:
@@ -109,6 +123,25 @@ def _beyond_jumps(stretch: Stretch, how: str, *, jumps: bool, stops: StopSetting
         leg = _leg(cut)
         legs += [leg, _landed(cut.stretch, leg.after, landing)]
         stretch = stretch.rest(cut.stretch, legs[-1].after)
+
+
+def _anew(followed: _Followed, legs: list[Leg]) -> list[Leg]:
+    """Up to where bodies lose at no load what held them, and where loads carry them from there; nothing where not so.
+
+    Raises
+    ------
+    SolveFailed
+        Where loads pull a body away from there on; it carries the legs before.
+    """
+    stretch = followed.stretch
+    if followed.reached == 0.0 or not stretch.prepared.floating.shape[1]:
+        return []
+    found = _so_far(followed)
+    try:
+        approach = approached(stretch.rest(followed.cut.stretch, found[0].after)) if found else None
+    except SolveFailed as gone:
+        raise keep(gone, [*legs, *found]) from None
+    return [] if approach is None else [*found, approach]
 
 
 def _so_far(followed: _Followed) -> list[Leg]:
@@ -314,17 +347,18 @@ def _on_the_way(prepared: Prepared, last: State, point: LoadPoint, now: PathStat
     """The contacts at an event; the bodies are not looked at."""
     condensed, n = prepared.condensed, len(prepared.interface)
     rows, active = condensed.active_rows, condensed.active
-    forces, moved = point.given.copy(), np.full(prepared.interface.directions * n, np.nan)
+    forces, moved = np.zeros(len(point.given)), np.full(prepared.interface.directions * n, np.nan)
     forces[rows] = condensed.root * now.r
     moved[rows] = now.h / condensed.root
     status, slip, dissipation = np.full(n, OPEN), last.slip.copy(), last.dissipation.copy()
     status[active], status[prepared.interface.tied] = plain(now.state), STICK
+    forces, status = settled(prepared, forces, status)
     slip[_along(prepared)] = now.slip / condensed.root[now.pairs :]
     dissipation[active] = now.dissipation
     return replace(
         last,
         point=point,
-        forces=forces,
+        forces=forces + point.given,
         gap=moved[:n],
         tangential=moved[n:],
         slip=slip,

@@ -28,6 +28,7 @@ from signorini.trace import Attempt
 _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
 _REFINEMENTS = 2
 _SLIGHT = 1e-3  # of a rigid motion: what words leave out of it
+_UNLOADED = 1e-12  # of the size of forces: a normal force that rounding leaves where nothing presses
 _CANCELLED = 1e-14  # of the largest displacement that supports impose: less between two sides is rounding
 
 
@@ -117,6 +118,7 @@ def advance(
         status = np.full(n, OPEN)
         status[active] = result.state
         status[interface.tied] = STICK
+        forces, status = settled(prepared, forces, status)
         new = next_state(
             state,
             prepared.K,
@@ -130,6 +132,13 @@ def advance(
             status=status,
         )
     return new, certified(prepared, new, state.tangential, where), result
+
+
+def settled(prepared: Prepared, forces: Array, status: IntArray) -> tuple[Array, IntArray]:
+    """Forces (d n,) and states (n,) of the pairs, of which those that nothing but rounding presses are open."""
+    interface, n = prepared.interface, len(status)
+    idle = ~interface.tied & (status != OPEN) & (forces[:n] <= _UNLOADED * prepared.scale.force)
+    return np.where(interface.rows(idle), 0.0, forces), np.where(idle, OPEN, status)
 
 
 def applied(prepared: Prepared, point: LoadPoint) -> tuple[Array, Array]:
