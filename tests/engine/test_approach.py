@@ -109,3 +109,62 @@ def test_bodies_that_loads_pull_away_are_named_with_their_motion():
     model = replace(stack(0.125), loads=[sg.Load("high.top", force=(0.0, 5.0), name="press")])
     with pytest.raises(sg.SolveFailed, match=r"body 'high' can move along y: .*no equilibrium"):
         sg.solve(model)
+
+
+def test_a_load_that_turns_carries_a_block_from_wall_to_wall():
+    """Through no load the path goes on from the other wall; every cycle is the same, and nothing is set free."""
+    walls = {"floor": ((0.0, -0.25), (0.0, 1.0), "bottom"), "roof": ((0.0, 1.5), (0.0, -1.0), "top")}
+    model = sg.Model(
+        sg.rectangle(width=2.0, height=1.0, nx=6, ny=3),
+        bodies=[sg.Body("block", SOFT)],
+        loads=[sg.Load("top", force=(0.0, -5.0), name="press")],
+        contacts=[sg.Contact(on, sg.Plane(at, n), friction=0.2, name=name) for name, (at, n, on) in walls.items()],
+        steps=[sg.Step(scale={"press": [1.0, -1.0]}, repeat=2, path="exact")],
+    )
+    step = sg.solve(model).last
+    ways = [note for note in step.notes if "approaches" in note]
+    assert [note.split(": ")[0] for note in ways] == ["step 1", *(f"step 1 at {at}.500000%" for at in (37, 62, 87))]
+    assert ways[0].endswith("approaches by 0.25 along -y before contact can hold it")
+    assert all("approaches by 0.75 along" in note for note in ways[1:])
+    assert step.cycles[0].dissipation > 0.0
+    np.testing.assert_allclose(step.cycles[1].dissipation, step.cycles[0].dissipation, rtol=1e-9)
+    np.testing.assert_allclose([step.released, step.energy_defect], 0.0, atol=1e-8 * step.cycles[0].dissipation)
+
+
+@pytest.mark.parametrize("kind", ["plane strain", "space"])
+def test_a_body_that_nothing_touches_or_loads_rests_until_a_step_loads_it(kind):
+    """It is not there as far as the others feel; an unloaded contact is open, has not slipped and did not grow."""
+    apart, touching = stack(0.125, kind), stack(0.0, kind)
+    down = apart.loads[0].force
+
+    def steps(model):
+        loads = [sg.Load("middle.top", force=down, name="first"), *model.loads]
+        schedule = [sg.Step(name="first", scale={"first": 1.0}), sg.Step(name="press", scale={"press": 1.0})]
+        return sg.solve(replace(model, loads=loads, steps=schedule)).steps
+
+    first, second = steps(apart)
+    upper = first.contacts[1]
+    assert (upper.status == "open").all()
+    assert not upper.slip.any()
+    assert not upper.traction.any()
+    assert not any("high" in note or "grew" in note for note in first.notes)
+    high = apart.mesh.points[:, -1] > 2.2
+    np.testing.assert_allclose(first.displacement[high], 0.0, atol=1e-12)
+    small = (1e-9 if second.path == "exact" else 1e-6) * second.work
+    np.testing.assert_allclose([first.energy_defect, second.energy_defect], 0.0, atol=small)
+    expected = steps(touching)[1]
+    for contact, reference in zip(second.contacts, expected.contacts, strict=True):
+        np.testing.assert_allclose(contact.normal_force, reference.normal_force, atol=1e-8 * abs(down[-1]))
+        np.testing.assert_allclose(contact.pressure, reference.pressure, atol=1e-2 * reference.pressure.max())
+
+
+def test_a_support_that_pushes_a_loose_block_takes_it_along():
+    """A tool comes down on a block that hangs between it and the table: it touches, pushes, and presses at last."""
+    model = stack(0.125)
+    pushed = sg.Support("high.top", u=(0.0, -0.3), name="tool")
+    step = sg.solve(replace(model, supports=[*model.supports, pushed], loads=[])).last
+    assert step.path == "exact"
+    np.testing.assert_allclose(step.energy_defect, 0.0, atol=1e-9 * step.work)
+    touches, rests = step.events[0], step.events[1]
+    assert (touches.contact, rests.contact) == ("upper", "lower")
+    np.testing.assert_allclose([touches.load_factor, rests.load_factor], [0.125 / 0.3, 0.25 / 0.3], rtol=1e-9)

@@ -154,6 +154,11 @@ class Condensed:
             **_image(response, root, compliance),
         )
 
+    def moving(self, ways: Array) -> Condensed:
+        """The same bodies of whose k rigid motions only some combinations (k, m) occur: springs hold the others."""
+        response = self.response.moving(ways)
+        return replace(self, response=response, **_image(response, self.root, self.compliance))
+
     @property
     def settled(self) -> BoolArray:
         """(n,) Pairs that the law need not be asked of, because supports or ties hold them."""

@@ -59,6 +59,9 @@ class Response(Protocol):
     def among(self, rows: BoolArray) -> Self:
         """The same with some of the (d a,) rows alone."""
 
+    def moving(self, ways: Array) -> Self:
+        """The same where of the k rigid motions only some combinations (k, m) occur, springs hold the others."""
+
 
 Travel = Callable[[Array], Array]
 """Rigid motion (k,) beyond given relative displacements (d a,) of the pairs."""
@@ -113,6 +116,10 @@ class ByNodes:
     def among(self, rows: BoolArray) -> ByNodes:
         """The same with some rows alone."""
         return replace(self, B=self.B[rows])
+
+    def moving(self, ways: Array) -> ByNodes:
+        """The same with some rigid motions alone."""
+        return replace(self, rigid=self.rigid @ ways)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -169,6 +176,10 @@ class ByPairs:
     def among(self, rows: BoolArray) -> ByPairs:
         """The same with some rows alone."""
         return replace(self, rows=self.rows[rows], B=self.B[rows])
+
+    def moving(self, ways: Array) -> ByPairs:
+        """The same with some rigid motions alone."""
+        return replace(self, rigid=self.rigid @ ways)
 
 
 def keep_pairs(

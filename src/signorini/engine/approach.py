@@ -5,23 +5,25 @@ from __future__ import annotations
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray, extent, frozen
-from signorini.engine.increments import applied, certified
+from signorini.arrays import Array, BoolArray, extent
+from signorini.engine.increments import applied, certified, moving_away
 from signorini.engine.leg import Leg, Snapshot
 from signorini.engine.prepare import Prepared
 from signorini.engine.stretch import Stretch
 from signorini.errors import SolveFailed
 from signorini.fem.loads import nodal_volumes
-from signorini.fem.rigid import describe_approach, describe_motion
+from signorini.fem.rigid import describe_approach
 from signorini.friction.answer import PULLED_AWAY
 from signorini.friction.approach import approach
 from signorini.friction.law import OPEN
-from signorini.solution.state import next_state
+from signorini.solution.state import State, next_state
+
+DRIVES = 1e-11
+"""Of all forces that change: their work along a rigid motion that they drive."""
 
 _TOUCHES = 1e-10  # of the size of displacements: a gap
 _ROUNDING = 1e-4  # of the largest gap: what counts as the size of displacements where gaps are far larger
 _PRESSES = 1e-9  # of the size of forces: a force
-_DRIVES = 1e-11  # of all forces that change: their work along a rigid motion
 _STIFF = 1e-9  # of the largest motion of pairs that press: one that they do not feel
 _LIGHT = 1e-3  # of the volume of all bodies: what resists the motion of an obstacle or a node of no cell
 _SEEN = 1e-9  # of the size of the model: a motion that anyone would want to know of
@@ -39,23 +41,19 @@ def approached(stretch: Stretch) -> Leg | None:
         Where such a motion has no end, and it is proved that the loads pull a body away, which is named.
     """
     prepared, state = stretch.prepared, stretch.before
-    interface, scale, n = prepared.interface, prepared.scale, len(prepared.interface)
+    interface, n = prepared.interface, len(prepared.interface)
     floating, motions = prepared.floating, prepared.motions
     if not floating.shape[1] or not n:
         return None
-    (start, _), (end, _) = applied(prepared, state.point), applied(prepared, stretch.end)
-    change = end - start + interface.B.T @ (stretch.end.given - state.point.given)
-    work, enough = floating.T @ (motions.T @ change), _DRIVES * float(np.abs(change).sum())
+    change = change_of_loads(stretch)
+    work, enough = floating.T @ (motions.T @ change), DRIVES * float(np.abs(change).sum())
     if np.abs(work).max() <= enough:
         return None
-    there = ~prepared.absent & ~interface.tied & ~prepared.bodies.held
-    presses = there & (state.forces[:n] > _PRESSES * scale.force)
-    apart = there & ~presses
-    size = max(scale.length, _ROUNDING * float(np.abs(state.gap[apart]).max(initial=0.0)))
-    if (state.gap[apart] < -_TOUCHES * size).any():  # overlaps press first
+    presses, apart, width = standing(prepared, state)
+    if (state.gap[apart] < -width).any():  # overlaps press first
         return None
     moved = np.asarray((interface.B @ motions) @ floating)
-    basis = _unresisted(moved[np.concatenate([presses, np.tile(presses & interface.rubs, interface.directions - 1)])])
+    basis = unfelt(moved[np.concatenate([presses, np.tile(presses & interface.rubs, interface.directions - 1)])])
     basis = basis @ _alike(prepared, floating @ basis)
     if np.abs(basis.T @ work).max(initial=0.0) <= enough:
         return None
@@ -65,7 +63,7 @@ def approached(stretch: Stretch) -> Leg | None:
         np.maximum(state.gap[apart], 0.0),
         np.where(grips, np.inf, interface.coefficients[apart]),
         basis.T @ work,
-        width=_TOUCHES * size,
+        width=width,
     )
     if found is not None and found.escape is not None:
         share = float(work @ basis @ found.escape / np.linalg.norm(basis.T @ work) / np.linalg.norm(found.escape))
@@ -80,18 +78,30 @@ def approached(stretch: Stretch) -> Leg | None:
 
 def _pulled_away(stretch: Stretch, motion: Array, share: float) -> SolveFailed:
     """Loads pull bodies away along a motion of the parts, with a share of what they do on rigid motions."""
-    prepared = stretch.prepared
-    words = PULLED_AWAY.format(margin=share)
-    moved = (prepared.motions @ motion).reshape(-1, prepared.model.dimension)
-    return SolveFailed(
-        f"{stretch.where} at {stretch.span.low:.6%}: {describe_motion(prepared.parts, motion)}: {words}",
-        status="no_equilibrium",
-        motion=frozen(moved / (np.abs(moved).max() or 1.0)),
-    )
+    said, moved = moving_away(stretch.prepared, motion)
+    words = f"{stretch.where} at {stretch.span.low:.6%}: {said}: {PULLED_AWAY.format(margin=share)}"
+    return SolveFailed(words, status="no_equilibrium", motion=moved)
 
 
-def _unresisted(felt: Array) -> Array:
-    """(k, m) Motions, of k, that pairs that press do not feel; ``felt`` (rows, k) is what they feel."""
+def change_of_loads(stretch: Stretch) -> Array:
+    """(dofs,) By how much nodal forces change in a stretch, those of contacts that are switched off with them."""
+    prepared, begin, end = stretch.prepared, stretch.before.point, stretch.end
+    loads = applied(prepared, end)[0] - applied(prepared, begin)[0]
+    return np.asarray(loads + prepared.interface.B.T @ (end.given - begin.given))
+
+
+def standing(prepared: Prepared, state: State) -> tuple[BoolArray, BoolArray, float]:
+    """(n,) Pairs that press, (n,) those of the law that do not, and the largest gap of pairs that touch."""
+    n = len(state.gap)
+    there = ~prepared.absent & ~prepared.interface.tied & ~prepared.bodies.held
+    presses = there & (state.forces[:n] > _PRESSES * prepared.scale.force)
+    apart = there & ~presses
+    size = max(prepared.scale.length, _ROUNDING * float(np.abs(state.gap[apart]).max(initial=0.0)))
+    return presses, apart, _TOUCHES * size
+
+
+def unfelt(felt: Array) -> Array:
+    """(k, m) Orthonormal combinations of k motions that nothing feels; ``felt`` (rows, k) is what is felt of each."""
     _, values, vectors = np.linalg.svd(np.concatenate([felt, np.zeros((1, felt.shape[1]))]))
     rank = int((values > _STIFF * values[0]).sum())
     return np.asarray(vectors[rank:].T)

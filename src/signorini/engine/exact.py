@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Literal
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from signorini.engine.increments import (
 )
 from signorini.engine.leg import Leg, Snapshot, joined, keep
 from signorini.engine.prepare import Prepared
+from signorini.engine.resting import resting, undisturbed
 from signorini.engine.stretch import Stretch
 from signorini.errors import SolveFailed
 from signorini.friction.exact import Landing, PathState, Segment, follow, initial_state, land
@@ -62,7 +64,8 @@ class _Followed:
     @property
     def cut(self) -> _Followed:
         """The same where the stretch ends as far as it was followed."""
-        return replace(self, stretch=self.stretch.cut(self.reached))
+        ends: Literal["event", "jump"] = "event" if self.segment.outcome == "disturbed" else "jump"
+        return replace(self, stretch=self.stretch.cut(self.reached, ends))
 
 
 def follow_exactly(stretch: Stretch, *, jumps: bool = False) -> Leg:
@@ -108,6 +111,11 @@ def _beyond_jumps(stretch: Stretch, how: str, *, jumps: bool, stops: StopSetting
         jump = followed.segment.jump
         if followed.segment.followed:
             return joined([*legs, _leg(followed)])
+        if followed.segment.outcome == "disturbed":
+            found = [_leg(followed.cut)] if followed.reached > 0.0 else []
+            legs += found
+            stretch = resting(stretch.woken.rest(followed.cut.stretch, found[0].after if found else stretch.before))
+            continue
         lost = _lost(followed)
         begun = _anew(followed, legs) if len(legs) < _JUMPS else []
         if begun:
@@ -136,6 +144,7 @@ def _anew(followed: _Followed, legs: list[Leg]) -> list[Leg]:
     stretch = followed.stretch
     if followed.reached == 0.0 or not stretch.prepared.floating.shape[1]:
         return []
+    followed = replace(followed, segment=replace(followed.segment, outcome="disturbed"))
     found = _so_far(followed)
     try:
         approach = approached(stretch.rest(followed.cut.stretch, found[0].after)) if found else None
@@ -167,7 +176,7 @@ def _follow(stretch: Stretch, stops: StopSettings | None) -> _Followed:
             segment = follow_stopping(prepared.law, start, b, settings=stops, tell=tell)
         else:
             segment = follow(prepared.law, start, b)
-    return _Followed(stretch=stretch, start=start, segment=segment, stops=stops)
+    return _Followed(stretch=stretch, start=start, segment=undisturbed(stretch, segment), stops=stops)
 
 
 def _landing(followed: _Followed) -> Landing | None:

@@ -144,11 +144,13 @@ def settled(prepared: Prepared, forces: Array, status: IntArray) -> tuple[Array,
 def applied(prepared: Prepared, point: LoadPoint) -> tuple[Array, Array]:
     """Nodal forces of the loads and imposed displacements at a point of the history, each (dofs,).
 
-    Supports that let go are loads, what others hold beyond what they prescribe is imposed.
+    Supports that let go are loads, what others hold beyond what they prescribe is imposed, and where bodies rest.
     """
     zero = np.zeros(prepared.space.number_of_dofs)
     loads = sum((point.factors[name] * f for name, f in prepared.loads.items()), zero)
     imposed = sum((point.factors[name] * u for name, u in prepared.constraints.prescribed.items()), zero)
+    if len(prepared.resting):
+        imposed = imposed + prepared.resting
     if len(point.reaction):
         return loads + point.reaction, imposed + point.offset
     return loads, imposed
@@ -348,7 +350,11 @@ def _failure(prepared: Prepared, result: CoulombResult | SpatialResult | Answer,
 def leaving(prepared: Prepared, escape: Array) -> tuple[str, Array]:
     """The bodies that leave by name, and their motion (nodes, d), largest entry 1, of a rigid motion of the pairs."""
     coefficients, *_ = np.linalg.lstsq(prepared.law.motions, escape, rcond=None)
-    rigid = prepared.floating @ coefficients
+    return moving_away(prepared, prepared.floating @ coefficients)
+
+
+def moving_away(prepared: Prepared, rigid: Array) -> tuple[str, Array]:
+    """The same of coefficients of the rigid motions of all parts."""
     motion = (prepared.motions @ rigid).reshape(-1, prepared.model.dimension)
     said = np.where(np.abs(rigid) < _SLIGHT * np.abs(rigid).max(initial=0.0), 0.0, rigid)
     return describe_motion(prepared.parts, said), frozen(motion / (np.abs(motion).max() or 1.0))

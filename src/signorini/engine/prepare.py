@@ -85,6 +85,7 @@ class Prepared(Examined):
     clock : seconds spent so far
     backend : of the factorisation, or "iterative", as asked for
     absent : (n,) pairs whose contact is switched off
+    resting : (dofs,) rigid displacement of bodies that rest, see `engine.resting`; empty where none does
     softness : the farthest that any load moves the bodies, of its size, where springs hold the pairs: length per force
     """
 
@@ -97,6 +98,7 @@ class Prepared(Examined):
     softness: float = 0.0
     released: frozenset[str] = frozenset()
     multiplied: Mapping[str, float] = field(default_factory=dict)
+    resting: Array = field(default_factory=lambda: np.zeros(0))
 
     @property
     def ties(self) -> Ties | None:

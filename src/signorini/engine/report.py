@@ -142,7 +142,7 @@ def _open_notes(prepared: Prepared, leg: Leg) -> tuple[str, ...]:
     interface, notes = prepared.interface, []
     for i, contact in enumerate(prepared.model.contacts):
         own = interface.contact == i
-        if all((state.status[own] == OPEN).all() for state in (leg.before, leg.after)):
+        if all((state.status[own] == OPEN).all() for state in (leg.before, *(shot.state for shot in leg.snapshots))):
             notes.append(
                 f"contact '{contact.label}' is open everywhere: its sides are {leg.after.gap[own].min():.4g} apart, "
                 f"{interface.gap[own].min():.4g} to begin with"

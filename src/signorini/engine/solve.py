@@ -20,6 +20,7 @@ from signorini.engine.increments import follow_increments, measured
 from signorini.engine.leg import Leg, Snapshot, joined, keep, lightened, reached
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
+from signorini.engine.resting import resting
 from signorini.engine.span import Span, spans
 from signorini.engine.staged import nominal_gap, staged
 from signorini.engine.stretch import Stretch
@@ -241,7 +242,8 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
         try:
             first = approached(stretch)
             begun = [] if first is None else [first]
-            leg = joined([*begun, _leg(stage, stretch if first is None else replace(stretch, before=first.after))])
+            stretch = stretch if first is None else replace(stretch, before=first.after)
+            leg = joined([*begun, _calmly(stage, stretch)])
         except (SolveFailed, KeyboardInterrupt) as stop:
             raise keep(stop, [*legs, *(begun if reached(stop) is not None else [])]) from None
         leg = lightened(leg, every=at_events, end=span.asked, heated=heated)
@@ -250,6 +252,17 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
         if span.cycle:
             cycle_ends.append(span.factor(1.0))
     return legs[0], cycle_ends
+
+
+def _calmly(stage: Stage, stretch: Stretch) -> Leg:
+    """Follow a straight part of a step while bodies that nothing touches rest; if something does, wherever they go."""
+    calm = resting(stretch)
+    try:
+        return _leg(stage, calm)
+    except SolveFailed:
+        if calm is stretch:
+            raise
+    return _leg(stage, stretch)
 
 
 def _leg(stage: Stage, stretch: Stretch) -> Leg:

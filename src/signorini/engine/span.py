@@ -23,7 +23,7 @@ class Span:
     ----------
     number : of the step, from 1
     low, high : parts of the step, 0 .. 1
-    ends : what is at its end: "segment" of the loads, a time "asked" for, or a "jump"
+    ends : what is at its end: "segment" of the loads, a time "asked" for, an "event" or a "jump"
     cycle : number of the cycle that ends here, 0 where none does
     asked : whether its end, not that of the step, was asked for
     """
@@ -31,7 +31,7 @@ class Span:
     number: int
     low: float
     high: float
-    ends: Literal["segment", "asked", "jump"]
+    ends: Literal["segment", "asked", "event", "jump"]
     cycle: int = 0
     asked: bool = False
 

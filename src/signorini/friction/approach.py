@@ -41,7 +41,7 @@ class Approach:
     Attributes
     ----------
     motion : (k,)
-    loose : (k,) part of it on which several motions were free, so that the fluid decided between them
+    loose : (k,) part of it on which nothing touched, so that of several motions the fluid decided between them
     gap : (n,) at its end, exactly 0 where pairs came to touch
     escape : (k,) where it has no end, a motion that the load goes on with and that contact does not resist, whatever
         touches: the proof that there is no equilibrium; otherwise None
@@ -78,10 +78,9 @@ def approach(P: Array, gap: Array, friction: Array, load: Array, *, width: float
     load = load / (np.linalg.norm(load) or 1.0)
     for _ in range(_PIECES):
         touching = now <= width
-        found = _velocity(P, touching, friction, load)
-        if found is None:
+        v = _velocity(P, touching, friction, load)
+        if v is None:
             return None
-        v, fixed = found
         if not v.any():
             return Approach(motion=motion, loose=loose, gap=now)
         closing = -(P[:n] @ v)
@@ -91,7 +90,7 @@ def approach(P: Array, gap: Array, friction: Array, load: Array, *, width: float
             return None if escape is None else Approach(motion=motion, loose=loose, gap=now, escape=escape)
         time = float((now[falls] / closing[falls]).min())
         motion += time * v
-        loose += 0.0 if fixed else time * v
+        loose += 0.0 if touching.any() else time * v
         now = now - time * closing
         now[now <= width + _TOGETHER * time * float(np.abs(closing).max())] = 0.0
     return None
@@ -112,27 +111,22 @@ def _unresisted(P: Array, mu: Array, load: Array) -> Array | None:
     return unresisted_in_space(P, mu, np.zeros(len(mu), dtype=np.int64), load)
 
 
-def _velocity(P: Array, touching: BoolArray, friction: Array, load: Array) -> tuple[Array, bool] | None:
-    """(k,) Velocity under a load of size 1, 0 where the touching pairs can bear it, and whether they leave no other.
-
-    None where none was found.
-    """
-    d, k = friction.shape[1] + 1, len(load)
+def _velocity(P: Array, touching: BoolArray, friction: Array, load: Array) -> Array | None:
+    """(k,) Velocity under a load of size 1, 0 where the touching pairs can bear it; None where none was found."""
+    d, still = friction.shape[1] + 1, np.zeros(len(load))
     rows, mu = P[np.tile(touching, d)], friction[touching]
     if _unresisted(rows, np.minimum(mu, STICKY), load) is None:
-        return np.zeros(k), True
+        return still
     if not len(mu):
-        return load, k == 1
+        return load
     found = _forces(rows, mu, load)
     if found is None:
         return None
     forces, state = found
-    v = load + rows.T @ forces
+    v: Array = load + rows.T @ forces
     held = rows[np.concatenate([state != OPEN, np.tile(state == STICK, d - 1)])]
     v -= np.linalg.lstsq(held, held @ v)[0]  # what the compliance of the pairs lets pass
-    if np.linalg.norm(v) <= _STILL:
-        return np.zeros(k), True
-    return v, bool(np.linalg.matrix_rank(held, tol=_STILL) >= k - 1)
+    return v if np.linalg.norm(v) > _STILL else still
 
 
 def _forces(rows: Array, friction: Array, load: Array) -> tuple[Array, IntArray] | None:

@@ -10,7 +10,7 @@ from signorini.arrays import Array
 from signorini.friction.exact.state import PathState
 
 What = Literal["closes", "opens", "slips", "sticks", "kinks"]
-Outcome = Literal["followed", "jump", "not_found"]
+Outcome = Literal["followed", "jump", "not_found", "disturbed"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,7 +83,8 @@ class Segment:
     end : the last state reached; at the end of the segment where ``outcome`` is "followed"
     events : in order
     pieces : the ends of the linear pieces in order, the start first
-    outcome : "followed", "jump" (no gradual continuation) or "not_found" (neither rates nor proof of a jump)
+    outcome : "followed", "jump" (no gradual continuation), "not_found" (neither rates nor proof of a jump), or
+        "disturbed": cut short because another problem goes on from there
     jump : where, who and why, or None
     pivots : states tried
     factorisations, updates : dense factorisations, and changes of a factorised state by one unknown
