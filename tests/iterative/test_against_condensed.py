@@ -30,7 +30,27 @@ def cubes(friction, *, floating, push=1e-4):
     )
 
 
+def under_something_rigid(*, obstacle):
+    """A block under a free obstacle, or a body that is wholly rigid: unknowns without any stiffness of their own."""
+    mesh = sg.rectangle(x=np.linspace(0, 3, 7).tolist(), y=[-1, -0.5, 0])
+    model = sg.Model(
+        mesh if obstacle else join({"block": mesh, "up": sg.rectangle(x=[0.6, 1.4, 2.4], y=[0, 1])}),
+        bodies=[sg.Body(name, sg.Elastic(E=1000.0, nu=0.3)) for name in (["block"] if obstacle else ["block", "up"])],
+        supports=[sg.Support("bottom" if obstacle else "block.bottom", u=(0, 0))],
+        rigid_bodies=[] if obstacle else [sg.RigidBody("rigid", "up", (1.5, 1.0))],
+        loads=[] if obstacle else [sg.Load("rigid", force=(0.5, -5.0, 0.0))],
+        contacts=[] if obstacle else [sg.Contact("up.bottom", "block.top", friction=0.3)],
+        steps=[sg.Step(increments=1)],
+    )
+    if not obstacle:
+        return model
+    ball = sg.Rigid("ball", sg.Circle((1.5, 3.0), 3.0), u=(None, None), rotation=None, force=(0.5, -5.0), moment=0.0)
+    return replace(model, obstacles=[ball], contacts=[sg.Contact("top", "ball", friction=0.3)])
+
+
 MODELS = {
+    "plane, a free obstacle": under_something_rigid(obstacle=True),
+    "plane, a body wholly rigid": under_something_rigid(obstacle=False),
     "space, frictionless": cubes(0.0, floating=False),
     "space, friction": cubes(0.3, floating=False),
     "space, everything slips": cubes(0.3, floating=False, push=5e-3),

@@ -121,6 +121,26 @@ def test_a_back_end_that_is_not_installed_says_how_to_get_it(monkeypatch):
         factorise(sparse.eye_array(3, format="csr"), [0], backend="pardiso")
 
 
+def test_failures_of_mkl_are_told(monkeypatch):
+    if not pardiso.available():
+        pytest.skip("pypardiso is not installed")
+    solver = type(pardiso._solver())
+    from pypardiso import pardiso_wrapper
+
+    def out_of_memory(*_):
+        raise pardiso_wrapper.PyPardisoError(-2)
+
+    monkeypatch.setattr(solver, "_call_pardiso", out_of_memory)
+    with pytest.raises(InputError, match=r"error -2 \(not enough memory\); expected another back end"):
+        factorise(sparse.eye_array(3, format="csr"), [0], backend="pardiso")
+
+
+def test_no_unknowns_at_all(backend):
+    factor = factorise(sparse.csr_array((0, 0)), [], backend=backend)
+    assert factor.schur().shape == (0, 0)
+    assert factor.reduce(np.empty(0)).expand(np.empty(0)).shape == (0,)
+
+
 def test_the_plan_counts_what_is_stored():
     p = lattice((30, 20))
     plan = factorise(p.K, p.interface, nodes=p.nodes, backend="multifrontal").plan

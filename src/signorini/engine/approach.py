@@ -109,11 +109,12 @@ def unfelt(felt: Array) -> Array:
 
 def _alike(prepared: Prepared, motions: Array) -> Array:
     """(m, m) Combinations of motions (all parts, m) that bodies of one density resist alike, each on its own."""
-    space, everything = prepared.space, sum(float(volumes.sum()) for volumes in prepared.space.volumes)
+    space, volumes = prepared.space, nodal_volumes(prepared.space, prepared.model)
+    everything = float(volumes.sum())
     weights = np.full(space.number_of_dofs, _LIGHT * everything)
     weights[: space.mesh.points.size] = np.where(
         np.repeat(space.used, space.dimension),
-        np.repeat(nodal_volumes(space, prepared.model), space.dimension),
+        np.repeat(volumes, space.dimension),
         _LIGHT * everything,
     )
     resisted = motions.T @ (prepared.motions.T @ (weights[:, None] * (prepared.motions @ motions)))

@@ -456,7 +456,7 @@ def _size(interface: Interface, condensed: Condensed, scale: Scale) -> float:
     Gaps far larger than that, and displacements of what bends, leave their rounding in it.
     """
     gap = float(np.abs(interface.gap[condensed.active]).max(initial=0.0))
-    return max(scale.compressed, _ROUNDING * max(gap, scale.length)) * float(condensed.root.max(initial=1.0))
+    return max(scale.compressed, _ROUNDING * max(gap, scale.length)) * (float(condensed.root.max(initial=0.0)) or 1.0)
 
 
 def _times(load: Load, factors: Mapping[str, float]) -> Temperature | None:

@@ -47,6 +47,7 @@ class Blocks:
     def matrix(self, K: sp.csr_array) -> sp.bsr_array:
         """A symmetric matrix (z, z) in blocks, ones of its size on the diagonal of the padding."""
         d, n = self.size, self.size * self.count
+        K = _with_places(K)
         order = np.argsort(self.place)
         K = K if (np.diff(order) == 1).all() else sp.csr_array(K[order])
         counts = np.zeros(n + 1, dtype=np.int64)
@@ -58,6 +59,16 @@ class Blocks:
         across = np.flatnonzero(self.padding)
         blocks.data[own[across // d], across % d, across % d] = whole.diagonal().sum() / len(self.place)
         return blocks
+
+
+def _with_places(K: sp.csr_array) -> sp.csr_array:
+    """The same with zeros stored on the diagonal of empty rows: of obstacles and rigid bodies, which are not stiff."""
+    bare = np.flatnonzero(np.diff(K.indptr) == 0)
+    if not len(bare):
+        return K
+    entries = K.tocoo()
+    rows, columns = np.append(entries.row, bare), np.append(entries.col, bare)
+    return sp.csr_array((np.append(entries.data, np.zeros(len(bare))), (rows, columns)), shape=K.shape)
 
 
 def make_blocks(nodes: IntArray, axis: IntArray, size: int) -> Blocks:

@@ -26,8 +26,9 @@ from scipy import sparse
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
+from signorini.linalg import multifrontal
 from signorini.linalg.definite import check_energy
-from signorini.linalg.protocol import NotPositiveDefinite, Reduced
+from signorini.linalg.protocol import Factorisation, NotPositiveDefinite, Reduced
 from signorini.linalg.system import System, columns, interface_lift, like
 
 SYMMETRIC_POSITIVE_DEFINITE = 2
@@ -36,6 +37,7 @@ SETTINGS = {1: 1, 2: 2, 18: -1, 21: 0, 24: 0}
 
 SCHUR, FORWARD, BACKWARD, ANALYSE, FACTORISE, RELEASE = 36, 331, 333, 11, 22, -1
 NOT_POSITIVE = -4
+FAILURES = {-1: "inconsistent input", -2: "not enough memory", -3: "reordering", -8: "integers too small", -9: "memory"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,18 +88,20 @@ def available() -> bool:
     return importlib.util.find_spec("pypardiso") is not None
 
 
-def factorise(system: System) -> PardisoFactorisation:
+def factorise(system: System) -> Factorisation:
     """Factorise by PARDISO.
 
     Raises
     ------
     InputError
-        If pypardiso is not installed.
+        If pypardiso is not installed or does not find MKL, or PARDISO gives up.
     NotPositiveDefinite
         If the interior is singular or indefinite.
     """
     if not available():
         raise InputError("the back end 'pardiso' needs pypardiso: pip install signorini[mkl]")
+    if not system.n:
+        return multifrontal.factorise(system)  # no unknowns, which MKL calls an inconsistent input
     diagonal = system.matrix.diagonal()
     if np.any(bad := (diagonal <= 0) & system.inside):
         raise NotPositiveDefinite(int(np.argmax(bad)))
@@ -134,7 +138,12 @@ def _solver() -> Any:
 
 @functools.cache
 def _first_solver() -> Any:
-    return importlib.import_module("pypardiso").PyPardisoSolver(mtype=SYMMETRIC_POSITIVE_DEFINITE)
+    try:
+        return importlib.import_module("pypardiso").PyPardisoSolver(mtype=SYMMETRIC_POSITIVE_DEFINITE)
+    except (ImportError, OSError) as error:  # MKL itself is looked for when a solver is made
+        raise InputError(
+            f"the back end 'pardiso' does not find MKL ({error}); pip install signorini[mkl], or take another back end"
+        ) from error
 
 
 def _upper(system: System, lift: Array) -> sparse.csr_array:
@@ -171,6 +180,8 @@ def _call(solver: Any, phase: int, upper: sparse.csr_array, b: Array) -> Array:
     ------
     NotPositiveDefinite
         If a pivot is not positive.
+    InputError
+        For any other failure: memory, most of all.
     """
     from_mkl = importlib.import_module("pypardiso.pardiso_wrapper").PyPardisoError
     solver.set_phase(phase)
@@ -178,6 +189,9 @@ def _call(solver: Any, phase: int, upper: sparse.csr_array, b: Array) -> Array:
         result: Array = solver._call_pardiso(upper, b)
     except from_mkl as error:
         if error.value != NOT_POSITIVE:
-            raise
+            why = FAILURES.get(error.value, "see its reference")
+            raise InputError(
+                f"the back end 'pardiso' failed with MKL's error {error.value} ({why}); expected another back end"
+            ) from error
         raise NotPositiveDefinite(max(0, int(solver.get_iparm(30)) - 1)) from error
     return result
