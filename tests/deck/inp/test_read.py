@@ -90,6 +90,24 @@ WRONG = {
     "node of a set": ("14, 15, 16\n*SURF", "14, 15,\n16, 99\n*SURF", "16, 99", r"\*NSET: there is no node 99"),
     "no section": ("*SOLID SECTION, ELSET=Upper, MATERIAL=Steel\n1.\n", "", "30, 11", "element 30 has no section"),
     "times": ("*STEP\n", "*AMPLITUDE, NAME=A\n0., 0., 2., 1.,\n1., 1.\n*STEP\n", "1., 1.", "has the time 1 after 2"),
+    "clearance": (
+        "*BOUNDARY\nBase",
+        "*CLEARANCE, MASTER=Sslave, SLAVE=Smaster, VALUE=1.\n*BOUNDARY\nBase",
+        "*CLEARANCE",
+        "there is no contact pair of 'Smaster' and 'Sslave'",
+    ),
+    "empty tie": (
+        "*BOUNDARY\nBase",
+        "*TIE, NAME=T\n*BOUNDARY\nBase",
+        "*TIE",
+        "has no data line; expected the slave and",
+    ),
+    "a part of a tie": (
+        "*BOUNDARY\nBase",
+        "*TIE, TIED NSET=Top\n*BOUNDARY\nBase",
+        "*TIE",
+        "TIED NSET is not supported",
+    ),
     "support": ("Top, 1, 1\n*STEP", "Top, 1, 1\n99, 1\n*STEP", "99, 1", "there is no node 99"),
     "type": ("TYPE=CPE4", "TYPE=C3D14", "*ELEMENT", "TYPE=C3D14 is not supported"),
     "beam": (

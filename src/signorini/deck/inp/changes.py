@@ -66,6 +66,7 @@ def _switched(item: Placed, pairs: Sequence[Pair], surfaces: Surfaces) -> dict[s
     if ("ADD" in block.parameters) == ("REMOVE" in block.parameters):
         raise block.error("expected either ADD or REMOVE")
     found: dict[str, bool] = {}
+    block.row("the slave and the master surface")
     for row in block.rows():
         sides = tuple(surfaces.find(row.text(i, "a surface"), item.scope, row) for i in (0, 1))
         names = [pair.contact.label for pair in pairs if (pair.contact.nonmortar, pair.contact.mortar) == sides]

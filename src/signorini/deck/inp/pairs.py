@@ -61,14 +61,13 @@ def make_contacts(
             known = [law.block.value("NAME") for law in interactions.values()]
             raise block.error(one_of(name, known, "surface interaction"))
         law = interactions[name.upper()]
-        if not block.has_data:
-            raise block.error("has no data line; expected the slave and the master surface")
+        block.row("the slave and the master surface")
         for row in block.rows():
             slave, master = (_side(item, row, i, surfaces, edges, nodes) for i in (0, 1))
             faces = edges.ends[surfaces.keys[slave.upper()]]
             given = _adjusted(block, nodes, item, distinct(faces[faces >= 0]))
             if (slave, master) in clearances:
-                given = {"gap": clearances[slave, master]}
+                given = {"gap": clearances[slave, master][0]}
             contact = Contact(
                 slave,
                 master,
@@ -80,6 +79,10 @@ def make_contacts(
                 **given,
             )
             found.append(Pair(contact=contact, block=block.at(row), interaction=name.upper()))
+    sides = {(pair.contact.nonmortar, pair.contact.mortar) for pair in found}
+    for (slave, master), (_, block) in clearances.items():
+        if (slave, master) not in sides:
+            raise block.error(f"there is no contact pair of '{slave}' and '{master}'")
     return found
 
 
@@ -105,6 +108,7 @@ def make_ties(
             if reach is None or not reach > 0.0:
                 raise block.error("POSITION TOLERANCE: expected a distance > 0")
             given["search"] = reach
+        block.row("the slave and the master surface")
         for row in block.rows():
             slave, master = (_side(item, row, i, surfaces, edges, nodes) for i in (0, 1))
             name = _label(slave, master, [*contacts, *found])
@@ -144,7 +148,8 @@ def _adjusted(block: Block, nodes: Sets, item: Placed, slave: IntArray) -> dict[
     return {"adjust": distance}
 
 
-def _clearances(placed: list[Placed], surfaces: Surfaces) -> dict[tuple[str, str], float]:
+def _clearances(placed: list[Placed], surfaces: Surfaces) -> dict[tuple[str, str], tuple[float, Block]]:
+    """Gap of every pair of slave and master surface, and where it stands."""
     found = {}
     for item in placed:
         if item.block.keyword == "CLEARANCE":
@@ -154,5 +159,5 @@ def _clearances(placed: list[Placed], surfaces: Surfaces) -> dict[tuple[str, str
             if value is None:
                 raise block.error(f"VALUE is '{block.value('VALUE')}'; expected a number")
             slave, master = (surfaces.find(block.value(key), item.scope, block) for key in ("SLAVE", "MASTER"))
-            found[slave, master] = value
+            found[slave, master] = value, block
     return found
