@@ -19,6 +19,7 @@ BASE = {
     "checks",
     "clock",
     "formats",
+    "hdf5",
     "memory",
     "bound",
     "pairstate",

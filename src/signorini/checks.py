@@ -7,6 +7,9 @@ import math
 from collections.abc import Collection, Sequence
 from typing import Any
 
+import numpy as np
+
+from signorini.arrays import Array
 from signorini.errors import InputError, Where, one_of
 
 
@@ -23,11 +26,15 @@ def number(
         f"{sign} {limit:g}" for sign, limit in ((">", above), (">=", least), ("<", below)) if math.isfinite(limit)
     ]
     expected = f"a number{' ' if limits else ''}{' and '.join(limits)}"
-    if isinstance(value, bool) or not hasattr(value, "__float__"):
+    if isinstance(value, bool) or not hasattr(value, "__float__") or np.ndim(value):
         raise InputError(f"is {value!r}; expected {expected}", where=where)
-    if not (math.isfinite(value) and above < value < below and value >= least):
+    try:
+        found = float(value)
+    except OverflowError as error:
+        raise InputError(f"is a number of {len(str(value))} digits; expected {expected}", where=where) from error
+    if not (math.isfinite(found) and above < found < below and found >= least):
         raise InputError(f"is {value!r}; expected {expected}", where=where)
-    return float(value)
+    return found
 
 
 def whole(value: Any, where: Where, *, least: int = 1) -> int:
@@ -79,3 +86,20 @@ def components(
         else:
             parts.append(number(part, (*where, i)))
     return tuple(parts)
+
+
+def rows(value: Any, where: Where, *, size: int) -> Array:
+    """A list of rows of finite numbers, each of the given length: (n, size).
+
+    >>> rows([[0, 1], [2.5, 3]], ("points",), size=2).tolist()
+    [[0.0, 1.0], [2.5, 3.0]]
+    """
+    try:
+        found = np.asarray(value, float)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"holds what is no number; expected rows of {size} numbers", where=where) from error
+    if found.ndim != 2 or found.shape[1] != size:
+        raise InputError(f"has shape {found.shape}; expected (n, {size})", where=where)
+    if not np.isfinite(found).all():
+        raise InputError("holds what is no finite number", where=where)
+    return found

@@ -8,6 +8,8 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from signorini.errors import InputError, Where
+
 try:
     import resource
 except ImportError:  # Windows has no such module
@@ -86,3 +88,22 @@ def _in_groups() -> Iterator[int]:
                 pass
             if folder == root:
                 break
+
+
+def check_memory(size: float, what: str, where: Where = ()) -> None:
+    """Refuse what takes more bytes than there are.
+
+    Raises
+    ------
+    InputError
+        With both sizes.
+
+    Examples
+    --------
+    >>> check_memory(1e18, "a mesh of 1e15 cells")  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    signorini.errors.InputError: a mesh of 1e15 cells takes 1e+09 GB of memory; there are ...
+    """
+    free = available_memory()
+    if size > free:
+        raise InputError(f"{what} takes {size / 1e9:.3g} GB of memory; there are {free / 1e9:.3g} GB", where=where)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from signorini.errors import InputError, Where
-from signorini.memory import available_memory
+from signorini.memory import check_memory
 
 _UP = 2
 """Folders above that of a deck: ``../../common/steel.inc`` is usual, more is not."""
@@ -126,25 +126,6 @@ def check_file(path: Path) -> None:
     if not stat.S_ISREG(found.st_mode):
         raise InputError(f"'{path}' is a device or a pipe; expected a file")
     check_memory(found.st_size, f"'{path}'")
-
-
-def check_memory(size: float, what: str) -> None:
-    """Refuse what takes more bytes than there are.
-
-    Raises
-    ------
-    InputError
-        With both sizes.
-
-    Examples
-    --------
-    >>> check_memory(1e18, "a mesh of 1e15 cells")  # doctest: +ELLIPSIS
-    Traceback (most recent call last):
-    signorini.errors.InputError: a mesh of 1e15 cells takes 1e+09 GB of memory; there are ...
-    """
-    free = available_memory()
-    if size > free:
-        raise InputError(f"{what} takes {size / 1e9:.3g} GB of memory; there are {free / 1e9:.3g} GB")
 
 
 def _short(name: str) -> str:

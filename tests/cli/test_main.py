@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 import types
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -159,9 +160,12 @@ def test_verify(
 ) -> None:
     asked = []
 
-    def run(*, slow: bool) -> list[dict[str, Any]]:
+    def run(*, slow: bool, begin: Any) -> Iterator[dict[str, Any]]:
         asked.append(slow)
-        return [CASE | {"passed": one} for one in passed]
+        for done, one in enumerate(passed):
+            begin("disk", done, len(passed))
+            assert capsys.readouterr().out.count("Hertz") == min(done, 1)  # the row before is there already
+            yield CASE | {"passed": one}
 
     monkeypatch.setitem(sys.modules, "signorini.verify.suite", types.SimpleNamespace(run=run))
     file = tmp_path / "cases.json"
@@ -169,23 +173,34 @@ def test_verify(
     assert asked == [True]
     assert [case["passed"] for case in json.loads(file.read_text())] == passed
     said = capsys.readouterr().out
-    assert ("NO" in said) == (False in passed)
-    assert ("disk [a]" in said) == bool(passed)
+    assert ("NO" in said) == (passed[-1:] == [False])
+    assert said.endswith(f", {passed.count(False)} failed\n" if False in passed else " quantities, all passed\n")
 
 
 def test_bench(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     asked = []
 
-    def run(names: list[str], dofs: int | None) -> list[dict[str, Any]]:
-        asked.append((names, dofs))
+    def run(names: list[str], dofs: int | None, sample: int | None, _begin: Any) -> list[dict[str, Any]]:
+        asked.append((names, dofs, sample))
         return [{"name": "cylinder", "dofs": 186, "ratio": 1.25}]
 
     monkeypatch.setitem(sys.modules, "signorini.bench.suite", types.SimpleNamespace(run=run))
     file = tmp_path / "bench.json"
     assert main(["bench", "cylinder", "--dofs", "200", "--json", str(file)]) == 0
-    assert asked == [(["cylinder"], 200)]
+    assert asked == [(["cylinder"], 200, None)]
     assert json.loads(file.read_text())[0]["ratio"] == 1.25
     assert "1.25" in capsys.readouterr().out
+
+
+def test_a_sample_of_the_hard_set(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "bench.json"
+    assert main(["bench", "hard", "--sample", "2", "--json", str(file)]) == 0
+    said = capsys.readouterr()
+    assert "hard, held bodies: steps" in said.out
+    assert said.err == ""
+    assert {row["problems"] for row in json.loads(file.read_text()) if "problems" in row} == {2}
+    assert main(["bench", "hard", "--sample", "0"]) == 2
+    assert capsys.readouterr().err == "signorini: --sample: is 0; expected a positive number\n"
 
 
 def test_a_json_file_that_cannot_be_is_told_first(capsys: pytest.CaptureFixture[str]) -> None:

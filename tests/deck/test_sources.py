@@ -94,7 +94,7 @@ def test_the_root_of_the_file_system_is_near_to_nothing() -> None:
 
 
 def test_a_file_that_does_not_fit_into_memory(deck: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("signorini.sources.available_memory", lambda: 10)
+    monkeypatch.setattr("signorini.memory.available_memory", lambda: 10)
     deck.write_text("*INCLUDE, INPUT=more/nodes.inc\n")
     with pytest.raises(DeckError, match=r"nodes\.inc' takes 1\.6e-08 GB of memory; there are 1e-08 GB"):
         read_blocks(deck)

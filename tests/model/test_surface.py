@@ -90,7 +90,7 @@ def test_points_at_one_place_are_one():
     [
         (np.zeros((3, 2)), [[0, 1, 2]], r"points: has shape \(3, 2\); expected \(n, 3\)"),
         ([[0, 0, np.nan], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], "points: holds what is no finite number"),
-        (SQUARE, [[0, 1, 2, 3]], r"triangles: has shape \(1, 4\); expected \(m, 3\)"),
+        (SQUARE, [[0, 1, 2, 3]], r"triangles: has shape \(1, 4\); expected \(n, 3\)"),
         (SQUARE, [[0, 1, 2.5]], "triangles: holds what is no index"),
         (SQUARE, [[0, 1, 4]], "triangles: names point 4; expected 0 to 3"),
         (SQUARE, [[0, 1, -1]], "triangles: names point -1; expected 0 to 3"),

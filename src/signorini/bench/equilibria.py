@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from signorini.arrays import Array
@@ -47,12 +47,15 @@ def solutions(problem: CoulombProblem) -> list[Array] | None:
     return all_solutions(problem) if countable(problem) else search_solutions(problem)
 
 
-def equilibria(steps: Iterable[tuple[str, CoulombProblem]]) -> Equilibria:
+def equilibria(
+    steps: Sequence[tuple[str, CoulombProblem]], begin: Callable[[str, int, int], None] = lambda *_: None
+) -> Equilibria:
     """What is known of the solutions of steps that have one.
 
     Parameters
     ----------
     steps : names and problems
+    begin : told before every step its name, how many are done and how many there are
 
     Examples
     --------
@@ -61,7 +64,8 @@ def equilibria(steps: Iterable[tuple[str, CoulombProblem]]) -> Equilibria:
     ()
     """
     unique, single, alone, several = 0, 0, 0, []
-    for name, problem in steps:
+    for done, (name, problem) in enumerate(steps):
+        begin(f"other solutions: {name}", done, len(steps))
         found = solutions(problem)
         if found is None:
             unique += 1

@@ -9,7 +9,7 @@ pulled; friction 0 to 8; histories of up to five steps. ``python -m signorini.be
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -138,12 +138,19 @@ RIVALS: dict[str, Callable[[CoulombProblem, IntArray | None], bool]] = {
 """Other solvers, by name: whether each certifies a step, given the states of the step before."""
 
 
-def hard(count: int | None = None) -> HardReport:
+def hard(
+    count: int | None = None,
+    *,
+    numbers: Sequence[int] | None = None,
+    begin: Callable[[str, int, int], None] = lambda *_: None,
+) -> HardReport:
     """Solve every step of the hard set, each with its history; a history ends where a step has no solution.
 
     Parameters
     ----------
     count : only the first of the problems, or all of them
+    numbers : instead, those of these numbers from 0
+    begin : told before every problem its name, how many are done and how many there are
 
     Examples
     --------
@@ -152,9 +159,10 @@ def hard(count: int | None = None) -> HardReport:
     (3, 0, 0)
     """
     counts: dict[bool, Counter[str]] = {False: Counter(), True: Counter()}
-    unanswered, certified, problems, negative = [], [], 0, 0
-    for problem in hard_set(count):
-        problems += 1
+    unanswered, certified, negative = [], [], 0
+    chosen = range(PROBLEMS if count is None else min(count, PROBLEMS)) if numbers is None else numbers
+    for done, problem in enumerate(map(hard_problem, chosen)):
+        begin(problem.name, done, len(chosen))
         slipped, start = np.zeros(problem.first.pairs), None
         for k in range(len(problem.loads)):
             step = problem.step(k, slipped)
@@ -171,7 +179,7 @@ def hard(count: int | None = None) -> HardReport:
             certified.append((f"{problem.name}, step {k}", step))
             slipped, start = slipped + result.slip, result.state
     return HardReport(
-        problems=problems,
+        problems=len(chosen),
         held=dict(counts[False]),
         floating=dict(counts[True]),
         unanswered=tuple(unanswered),
@@ -191,6 +199,17 @@ def _answer(result: CoulombResult) -> str:
 def hard_set(count: int | None = None) -> Iterator[HardProblem]:
     """400 random problems, 150 of up to 6 pairs, 100 held with friction 1.5 to 8, interleaved; or the first ones."""
     yield from map(hard_problem, range(PROBLEMS if count is None else min(count, PROBLEMS)))
+
+
+def spread(sample: int | None) -> Sequence[int]:
+    """Numbers of so many problems, evenly spread over the set; all of it where none or more are asked for.
+
+    >>> list(spread(4))
+    [0, 162, 325, 487]
+    """
+    if sample is None or sample >= PROBLEMS:
+        return range(PROBLEMS)
+    return [k * PROBLEMS // sample for k in range(sample)]
 
 
 def hard_problem(number: int) -> HardProblem:

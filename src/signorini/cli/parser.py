@@ -66,6 +66,7 @@ def make_parser() -> argparse.ArgumentParser:
     bench = commands.add_parser("bench", parents=[shared], help="time contact against one linear solve")
     bench.add_argument("names", nargs="*", metavar="NAME", help="problems (default: all)")
     bench.add_argument("--dofs", type=int, metavar="N", help="size of the problems")
+    bench.add_argument("--sample", type=int, metavar="N", help="of the hard set so many problems, spread over it")
     bench.add_argument("--json", metavar="FILE", help="write the table as JSON")
     return parser
 

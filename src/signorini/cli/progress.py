@@ -13,9 +13,21 @@ from signorini.clock import Clock, Listener
 @contextmanager
 def progress(*, quiet: bool, seconds: Mapping[str, float] | None = None, note: str = "") -> Iterator[Clock]:
     """A clock whose phases are shown while they last, below a note; it goes on from the seconds of another."""
+    with progress_bar(quiet=quiet, note=note) as tell:
+        clock = Clock(tell)
+        clock.seconds |= seconds or {}
+        yield clock
+
+
+@contextmanager
+def progress_bar(*, quiet: bool = False, note: str = "") -> Iterator[Listener | None]:
+    """Whom to tell what is being done and how much of the whole is behind; None where nobody watches.
+
+    What is printed meanwhile stands above the bar.
+    """
     shown = not quiet and sys.stderr.isatty()
     if not shown:
-        yield _clock(None, seconds)
+        yield None
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
@@ -31,10 +43,4 @@ def progress(*, quiet: bool, seconds: Mapping[str, float] | None = None, note: s
         console.print(note, highlight=False)
     with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task("starting", total=1.0)
-        yield _clock(lambda words, done: bar.update(task, description=words, completed=done), seconds)
-
-
-def _clock(listener: Listener | None, seconds: Mapping[str, float] | None) -> Clock:
-    clock = Clock(listener)
-    clock.seconds |= seconds or {}
-    return clock
+        yield lambda words, done: bar.update(task, description=words, completed=done)

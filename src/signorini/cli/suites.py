@@ -5,14 +5,17 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from signorini.cli.progress import progress_bar
+from signorini.clock import Listener
 from signorini.errors import InputError
 from signorini.output.replacing import replacing
 
-_VERIFY = ("case", "quantity", "computed", "reference", "error", "tolerance", "passed", "source")
+_HEAD = ("passed", "computed", "reference", "error", "tolerance", "case, quantity; source")
+_WIDTH = 12
 _BENCH = (
     "name",
     "dofs",
@@ -31,12 +34,19 @@ _BENCH = (
 
 
 def verify(options: argparse.Namespace) -> int:
-    """0 only if every case passed."""
+    """Print every row as soon as it is computed; 0 only if every case passed."""
     file = _json_file(options.json)
     from signorini.verify.suite import run
 
-    cases = run(slow=options.all)
-    _print([case | {"reference": _bound(case)} for case in cases], _VERIFY)
+    cases: list[Mapping[str, Any]] = []
+    with progress_bar() as tell:
+        print(_line(_HEAD))
+        for case in run(slow=options.all, begin=_beginning(tell)):
+            if not cases or case["case"] != cases[-1]["case"]:
+                print(case["case"])
+            cases.append(case)
+            numbers = [_word(value) for value in (case["passed"], *_numbers(case))]
+            print(_line(numbers, str(case["quantity"]), str(case["source"])), flush=True)
     _write(cases, file)
     failed = sum(not case["passed"] for case in cases)
     print(f"{len(cases)} quantities, {failed} failed" if failed else f"{len(cases)} quantities, all passed")
@@ -44,22 +54,34 @@ def verify(options: argparse.Namespace) -> int:
 
 
 def bench(options: argparse.Namespace) -> int:
-    """0 if everything could be timed."""
+    """Print what is found as soon as it is known, the table of times at the end; 0 if everything could be timed."""
     file = _json_file(options.json)
     from signorini.bench.suite import run
 
-    results = run(options.names, options.dofs)
+    results = []
+    with progress_bar() as tell:
+        for result in run(options.names, options.dofs, options.sample, _beginning(tell)):
+            results.append(result)
+            if "counts" in result:
+                counts = ", ".join(f"{what} {count}" for what, count in result["counts"].items())
+                print(f"{result['name']}, {result['bodies']} bodies: {counts}", flush=True)
+            if "words" in result:
+                print(result["words"], flush=True)
     timed = [result for result in results if "ratio" in result]
     if timed:
         _print(timed, _BENCH)
-    for result in results:
-        if "counts" in result:
-            counts = ", ".join(f"{what} {count}" for what, count in result["counts"].items())
-            print(f"{result['name']}, {result['bodies']} bodies: {counts}")
-        if "words" in result:
-            print(result["words"])
     _write(results, file)
     return 0
+
+
+def _beginning(tell: Listener | None) -> Callable[[str, int, int], None]:
+    """From what begins, how many are done and how many there are to a progress bar."""
+    return lambda what, done, count: tell(f"{done + 1} of {count}: {what}", done / count) if tell else None
+
+
+def _line(row: Sequence[str], *words: str) -> str:
+    """A row of the table of `verify`, which stands on its own: numbers in columns, then words."""
+    return "  ".join(("", *(word.rjust(_WIDTH) for word in row), "; ".join(words))).rstrip()
 
 
 def _json_file(name: str | None) -> Path | None:
@@ -95,9 +117,10 @@ def _print(results: Sequence[Mapping[str, Any]], columns: Sequence[str]) -> None
     console.print(table)
 
 
-def _bound(case: Mapping[str, Any]) -> Any:
-    """The reference, marked where it is a lower bound."""
-    return f">= {_word(case['reference'])}" if case.get("at_least") else case["reference"]
+def _numbers(case: Mapping[str, Any]) -> tuple[Any, ...]:
+    """Computed value, reference, marked where it is a lower bound, error and tolerance."""
+    bound = f">= {_word(case['reference'])}" if case.get("at_least") else case["reference"]
+    return case["computed"], bound, case["error"], case["tolerance"]
 
 
 def _word(value: Any) -> str:

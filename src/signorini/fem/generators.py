@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Literal
 
@@ -11,10 +12,14 @@ from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, IntArray
 from signorini.checks import choice, number, vector, whole
-from signorini.errors import InputError
-from signorini.model.mesh import CORNERS, NODES_PER_CELL, Mesh
+from signorini.errors import InputError, Where
+from signorini.memory import check_memory
+from signorini.model.mesh import CORNERS, NODES_PER_CELL, NODES_PER_PLANE_CELL, Mesh
 
 Cells = Literal["quad", "triangle", "quad8", "quad9", "triangle6"]
+_PER_POINT = 350
+"""Bytes: what making a mesh takes for a point of its grid, at least (a rectangle; a box takes 1000)."""
+
 _QUADRATIC = {"quad": "quad8", "triangle": "triangle6"}
 
 
@@ -47,16 +52,17 @@ def rectangle(
     Mesh(15 nodes, 8 quads; bodies: block; boundaries: bottom, top, left, right)
     """
     family = _family(cells, order)
-    lines = []
+    step, lines = _step(family), []
     for key, given, size, count, start in (("x", x, width, nx, origin[0]), ("y", y, height, ny, origin[1])):
         if given is None:
             size = number(size, ("mesh", "width" if key == "x" else "height"), above=0.0)
-            lines.append(start + np.linspace(0.0, size, whole(count, ("mesh", f"n{key}")) + 1))
+            check_grid(step * whole(count, ("mesh", f"n{key}")), ("mesh", f"n{key}"))
+            lines.append(start + np.linspace(0.0, size, count + 1))
         else:
             lines.append(np.array(vector(given, ("mesh", key))))
             if len(lines[-1]) < 2 or (np.diff(lines[-1]) <= 0).any():
                 raise InputError("does not increase; expected two or more increasing coordinates", where=("mesh", key))
-    step = _step(family)
+    check_grid(math.prod(step * len(line) for line in lines))
     lines = [np.interp(np.arange(step * (len(line) - 1) + 1) / step, np.arange(len(line)), line) for line in lines]
     grid = np.stack(np.meshgrid(*lines, indexing="xy"), axis=-1)
     return _assemble([grid], _sides(grid), "block", family)
@@ -160,6 +166,7 @@ def annulus(
     family = _family(cells, order)
     step = _step(family)
     around = whole(n_angular, ("mesh", "n_angular"), least=3 if full else 1)
+    check_grid(step * around * step * whole(n_radial, ("mesh", "n_radial")))
     turns = np.radians(np.linspace(0.0, angle, step * around + 1))
     radii = np.linspace(inner, outer, step * whole(n_radial, ("mesh", "n_radial")) + 1)
     ray = np.column_stack([np.cos(turns), np.sin(turns)])
@@ -196,7 +203,7 @@ def target(*, radii: ArrayLike, n: int, angle: float = 90.0, cells: Cells = "qua
     >>> target(radii=[1.0, 2.0], n=1)
     Mesh(10 nodes, 5 quads; bodies: disk; boundaries: outer, start, end)
     """
-    given = np.array(vector(tuple(np.asarray(radii, float)), ("mesh", "radii")))
+    given = np.array(vector(radii, ("mesh", "radii")))
     if (np.diff(given, prepend=0.0) <= 0.0).any():
         raise InputError("do not increase from above 0; expected increasing radii", where=("mesh", "radii"))
     quarters = {90.0: 1, 180.0: 2, 360.0: 4}.get(number(angle, ("mesh", "angle")))
@@ -204,7 +211,8 @@ def target(*, radii: ArrayLike, n: int, angle: float = 90.0, cells: Cells = "qua
         raise InputError(f"is {angle:g}; expected 90, 180 or 360 degrees", where=("mesh", "angle"))
     family = _family(cells, order)
     step = _step(family)
-    across = np.linspace(0.0, 1.0, step * whole(n, ("mesh", "n")) + 1)
+    check_grid(quarters * (step * whole(n, ("mesh", "n"))) * step * (n + 2 * len(given)), ("mesh", "n"))
+    across = np.linspace(0.0, 1.0, step * n + 1)
     circles = np.interp(np.arange(step * (len(given) - 1) + 1) / step, np.arange(len(given)), given)
     # a core whose corner is between that of a square and that of a circle keeps all angles away from 0 and 180 degrees
     side, corner = 0.5 * given[0] * np.eye(2), np.full(2, 0.4 * given[0])
@@ -237,6 +245,7 @@ def _quarter(
         raise InputError(
             f"is {length:g}; expected at most 0.7 radius = {0.7 * radius:g}", where=("mesh", "contact_length")
         )
+    check_grid(length / spacing * refine**2)
     steps = round(length / spacing)
     if steps < 1 or abs(steps * spacing - length) > 1e-9 * length:
         raise InputError(
@@ -314,9 +323,20 @@ def _sides(grid: Array) -> dict[str, list[Array]]:
     return {"bottom": [grid[0]], "top": [grid[-1]], "left": [grid[:, 0]], "right": [grid[:, -1]]}
 
 
+def check_grid(points: float, where: Where = ("mesh",)) -> None:
+    """Refuse a grid that takes more memory than there is, before it is made.
+
+    Raises
+    ------
+    InputError
+        With its points and both sizes.
+    """
+    check_memory(_PER_POINT * points, f"a grid of {points:.3g} points", where)
+
+
 def _family(cells: str, order: int) -> str:
     """The family of cells of an order."""
-    choice(cells, CORNERS, ("mesh", "cells"), "cells")
+    choice(cells, NODES_PER_PLANE_CELL, ("mesh", "cells"), "cells")
     if whole(order, ("mesh", "order")) > 2:
         raise InputError(f"is {order}; expected 1 or 2", where=("mesh", "order"))
     return _QUADRATIC.get(cells, cells) if order == 2 else cells

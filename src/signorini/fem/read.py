@@ -3,9 +3,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
-import tempfile
 from collections import defaultdict
 from collections.abc import Collection
 from pathlib import Path
@@ -15,12 +12,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, one_of
-from signorini.fem.families import name_families
-from signorini.fem.geometry import SUFFIX as GEOMETRY
-from signorini.fem.geometry import mesh_geometry
-from signorini.fem.unv import SUFFIX as UNV
-from signorini.fem.unv import read_unv
-from signorini.formats import complete_meshio
+from signorini.fem.files import open_mesh
 from signorini.model.mesh import NODES_PER_CELL, NODES_PER_PLANE_CELL, NODES_PER_SOLID_CELL, Mesh
 
 _LINES, _POINTS = ("line", "line3"), "vertex"
@@ -33,8 +25,6 @@ _DIMENSIONS = ("point", "curve", "surface", "volume")
 
 NODE_NUMBER = "number"
 """Array of the numbers of nodes, or of cells."""
-
-_SAVED_ALL = " (elements outside all physical groups? Save the groups alone, Mesh.SaveAll = 0)"
 
 _PLANE = 1e-9  # of the size: how far a plane mesh may leave its plane
 
@@ -60,9 +50,10 @@ def read_mesh(path: str | Path) -> Mesh:
         cells and is not plane.
     """
     path = Path(path)
-    if not path.is_file():
-        raise InputError(f"there is no file '{path}'", where=("mesh", "file"))
-    found = _opened(path)
+    try:
+        found = open_mesh(path)
+    except InputError as error:
+        raise InputError(error.message, where=("mesh", "file")) from error
     named, cells = _named_parts(found, path)
     points = np.asarray(found.points, float)
     solid = any(family in NODES_PER_SOLID_CELL for family in cells)
@@ -108,9 +99,10 @@ def read_facets(path: str | Path, dimension: int, name: str = "") -> tuple[Array
         If the file is missing or unreadable, there is no such name, or none is given where the file holds cells.
     """
     path = Path(path)
-    if not path.is_file():
-        raise InputError(f"there is no file '{path}'", where=("file",))
-    found = _opened(path)
+    try:
+        found = open_mesh(path)
+    except InputError as error:
+        raise InputError(error.message, where=("file",)) from error
     named, cells = _named_parts(found, path)
     wanted, higher = (_LINES, NODES_PER_CELL) if dimension == 1 else (NODES_PER_PLANE_CELL, NODES_PER_SOLID_CELL)
     known = {key for family in wanted for key in named[family]}
@@ -183,35 +175,6 @@ def _surfaces(
         for name, index in named[family].items():
             found[name] = (*found[name], np.vstack(cells[family])[index])
     return found
-
-
-def _opened(path: Path) -> meshio.Mesh:
-    """What a file holds, with its groups by name."""
-    complete_meshio()
-    if path.suffix.lower() == UNV:
-        found = read_unv(path)
-    elif path.suffix.lower() == GEOMETRY:
-        with tempfile.TemporaryDirectory() as folder:
-            mesh_geometry(path, Path(folder, "mesh.msh"))
-            found = _read(Path(folder, "mesh.msh"))
-    else:
-        found = _read(path)
-    name_families(found)
-    return found
-
-
-def _read(path: Path) -> meshio.Mesh:
-    # meshio prints warnings, multiplies what is no number and ends the process on some malformed files
-    said = io.StringIO()
-    try:
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), np.errstate(all="ignore"):
-            return meshio.read(path)
-    except (Exception, SystemExit) as error:
-        told = "" if isinstance(error, SystemExit) else str(error)
-        reason = told or " ".join(said.getvalue().split()) or type(error).__name__
-        if "gmsh:physical" in reason:
-            reason += _SAVED_ALL
-        raise InputError(f"meshio cannot read '{path}': {reason}", where=("mesh", "file")) from error
 
 
 def _named_parts(found: meshio.Mesh, path: Path) -> tuple[dict[str, dict[str, IntArray]], dict[str, list[IntArray]]]:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import permutations
 from typing import Literal
 
@@ -13,6 +14,7 @@ from signorini.arrays import Array, IntArray
 from signorini.checks import choice, text, vector
 from signorini.errors import InputError, Where
 from signorini.fem.faces import HEXAHEDRON, make_faces
+from signorini.fem.generators import check_grid
 from signorini.model.mesh import CORNERS, NODES_PER_CELL, NODES_PER_SOLID_CELL, Mesh
 
 SolidCells = Literal["hexahedron", "hexahedron20", "hexahedron27", "tetra", "tetra10"]
@@ -50,6 +52,7 @@ def box(*, x: ArrayLike, y: ArrayLike, z: ArrayLike, cells: SolidCells = "hexahe
     step = 1 if cells in ("hexahedron", "tetra") else 2
     lines = [_line(given, ("mesh", key), step) for key, given in (("x", x), ("y", y), ("z", z))]
     shape = tuple(len(line) for line in lines)
+    check_grid(math.prod(shape))
     points = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 3)
     number = np.arange(len(points)).reshape(shape)
     nodes = _hexahedra(number, step, cells) if cells.startswith("hexahedron") else _tetrahedra(number, step)
@@ -146,7 +149,7 @@ def _in_layers(mesh: Mesh, own: IntArray, layers: int) -> IntArray:
 
 def _line(given: ArrayLike, where: Where, step: int) -> Array:
     """Increasing coordinates, with those in the middle where a cell takes two steps."""
-    line = np.array(vector(tuple(np.asarray(given, float)), where))
+    line = np.array(vector(given, where))
     if len(line) < 2 or (np.diff(line) <= 0).any():
         raise InputError("does not increase; expected two or more increasing coordinates", where=where)
     return np.interp(np.arange(step * (len(line) - 1) + 1) / step, np.arange(len(line)), line)

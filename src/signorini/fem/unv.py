@@ -60,7 +60,7 @@ def read_unv(path: Path) -> meshio.Mesh:
             elif kind in _GROUPS:
                 groups += _groups(lines)
         return _mesh(numbers, points, cells, place, groups)
-    except (ValueError, IndexError, KeyError, StopIteration) as error:
+    except (ValueError, IndexError, KeyError, StopIteration, RuntimeError) as error:  # RuntimeError: a generator's end
         raise InputError(f"'{path}' is no universal file that can be read: {error}", where=("mesh", "file")) from error
 
 

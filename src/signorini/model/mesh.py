@@ -85,7 +85,7 @@ class Mesh:
     points : (n, 2) or (n, 3) array of coordinates, length
     cells : family ("triangle", "quad", "triangle6", "quad8", "quad9"; in space "tetra", "hexahedron", "wedge",
         "tetra10", "hexahedron20", "hexahedron27", "wedge15") to (m, k) array of node indices in the order of meshio, in
-        either orientation: corners, then the middles of the edges, then the centre
+        either orientation: corners, then the middles of the edges, then the centre; a family without cells is left out
     bodies : name to indices of cells
     boundaries : name to (m, 2) or (m, 3) array, the two end nodes of each facet, and the middle one of a quadratic cell
         (it may be left out); in space (m, 3), (m, 4), (m, 6), (m, 8) or (m, 9): corners, then middle nodes. Triangles
@@ -140,7 +140,8 @@ class Mesh:
             if family not in families:
                 known = f"{', '.join(families)} with {points.shape[1]} coordinates"
                 raise InputError(f"unknown family '{family}'; expected one of {known}", where=("mesh", "cells"))
-            cells[family] = self._indices(nodes, len(points), "cells", family, (NODES_PER_CELL[family],))
+            if len(nodes):
+                cells[family] = self._indices(nodes, len(points), "cells", family, (NODES_PER_CELL[family],))
         object.__setattr__(self, "cells", MappingProxyType(cells))
         for part, limit in (("bodies", self.number_of_cells), ("nodes", len(points))):
             named = {name: self._indices(i, limit, part, name, ()) for name, i in getattr(self, part).items()}

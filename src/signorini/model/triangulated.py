@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray, frozen
+from signorini.checks import rows
 from signorini.errors import InputError
 from signorini.model.boxes import BoxTree
 
@@ -51,15 +52,11 @@ class Surface:
     triangles: IntArray
 
     def __post_init__(self) -> None:
-        points, triangles = np.asarray(self.points, float), np.asarray(self.triangles)
-        if points.ndim != 2 or points.shape[1] != 3:
-            raise InputError(f"has shape {points.shape}; expected (n, 3)", where=("points",))
-        if not np.isfinite(points).all():
-            raise InputError("holds what is no finite number", where=("points",))
-        whole = np.issubdtype(triangles.dtype, np.integer)
-        if triangles.ndim != 2 or triangles.shape[1] != 3 or not len(triangles) or not whole:
-            found = f"has shape {triangles.shape}" if whole else "holds what is no index"
+        points, triangles = rows(self.points, ("points",), size=3), rows(self.triangles, ("triangles",), size=3)
+        if not len(triangles) or (triangles != np.rint(triangles)).any():
+            found = "holds what is no index" if len(triangles) else "is empty"
             raise InputError(f"{found}; expected (m, 3) indices of points, m > 0", where=("triangles",))
+        triangles = triangles.astype(np.int64)
         if triangles.min() < 0 or triangles.max() >= len(points):
             wrong = triangles.min() if triangles.min() < 0 else triangles.max()
             raise InputError(f"names point {wrong}; expected 0 to {len(points) - 1}", where=("triangles",))

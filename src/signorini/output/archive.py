@@ -4,27 +4,26 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import IO, TYPE_CHECKING, Any
 
 from signorini._version import __version__
 from signorini.errors import InputError
-from signorini.output.plain import AnyArray, from_plain, to_plain, tuple_of
+from signorini.hdf5 import check_hdf5
+from signorini.output.plain import AnyArray, digest, from_plain, sealed, to_plain, tuple_of, unsealed
 from signorini.output.replacing import replacing
 from signorini.solution.history import History
 
 if TYPE_CHECKING:
     import h5py
 
-_FORMAT = "signorini archive 2"
+_FORMAT = "signorini archive 3"
 _STRUCTURE, _END = "structure", "end"  # the text, and what is another one after every step
+_SEAL = 512  # bytes: the smallest user block that HDF5 has
 _FROM = 65536  # bytes: smaller arrays are not worth compressing
 
 
@@ -32,7 +31,7 @@ def write_archive(history: History, path: Path) -> None:
     """Write a history.
 
     Arrays lie under paths like ``/steps/0/displacement``, each once however often it occurs; the text dataset
-    ``structure`` holds the rest as JSON.
+    ``structure`` holds the rest as JSON. The first 512 bytes, a user block to HDF5, hold a digest of all others.
 
     Parameters
     ----------
@@ -45,7 +44,7 @@ class GrowingArchive:
     """A history that is written again after every step: what was there before is copied, not made anew."""
 
     def __init__(self) -> None:
-        self._known: dict[tuple[str, bytes], str] = {}
+        self._known: dict[str, str] = {}
         self._steps: list[Any] = []
 
     def write(self, history: History, path: Path, *, last: Path | None = None) -> None:
@@ -60,15 +59,15 @@ class GrowingArchive:
         with replacing(path) as aside:
             if last is not None:
                 shutil.copyfile(last, aside)
-            with _closing(h5py.File(aside, "w" if last is None else "a")) as file:
+            new: dict[str, Any] = {"mode": "w", "userblock_size": _SEAL} if last is None else {"mode": "a"}
+            with _closing(h5py.File(aside, **new)) as file:
                 self._known = {key: name for key, name in self._known.items() if not name.startswith(f"{_END}/")}
                 for old in (_END, _STRUCTURE):
                     if old in file:
                         del file[old]
 
                 def keep(name: str, array: AnyArray) -> str:
-                    data = np.ascontiguousarray(array)
-                    key = (f"{array.dtype.str}{array.shape}", hashlib.blake2b(data.tobytes()).digest())
+                    key = digest(array)
                     if key not in self._known:
                         self._known[key] = name
                         _write(file, name, array)
@@ -80,7 +79,24 @@ class GrowingArchive:
                 plain = {name: to_plain(getattr(history, name), name, keep) for name in rest}
                 plain["steps"] = tuple_of(self._steps)
                 file.attrs["format"], file.attrs["signorini"] = _FORMAT, __version__
-                file.create_dataset(_STRUCTURE, data=json.dumps(plain))
+                file.create_dataset(_STRUCTURE, data=sealed(plain))
+            _put_seal(aside)
+
+
+def _put_seal(path: Path) -> None:
+    with path.open("r+b") as file:
+        seal = _seal(file)
+        file.seek(0)
+        file.write(seal.ljust(_SEAL))
+
+
+def _seal(file: IO[bytes]) -> bytes:
+    """A digest of what follows the user block, in letters."""
+    found = hashlib.blake2b(_FORMAT.encode(), digest_size=32)
+    file.seek(_SEAL)
+    for part in iter(lambda: file.read(2**24), b""):
+        found.update(part)
+    return found.hexdigest().encode()
 
 
 def _write(file: h5py.File, name: str, array: AnyArray) -> None:
@@ -113,6 +129,10 @@ def read_archive(path: Path) -> History:
 
     if not path.is_file():
         raise InputError(f"there is no file '{path}'; expected an archive that a run has written")
+    with path.open("rb") as sealed_file:
+        if sealed_file.read(_SEAL).rstrip() != _seal(sealed_file):  # damage can hang HDF5 itself, which must not see it
+            raise InputError(f"'{path}' is no archive, damaged, or of another version; expected '{_FORMAT}'")
+    check_hdf5(path)
     try:
         with h5py.File(path, "r") as file:
             if file.attrs.get("format") != _FORMAT:
@@ -122,9 +142,9 @@ def read_archive(path: Path) -> History:
                 data = file[name]
                 return data.asstr()[...] if h5py.check_string_dtype(data.dtype) else data[...]
 
-            plain = json.loads(file[_STRUCTURE].asstr()[()])
+            plain = unsealed(file[_STRUCTURE].asstr()[()])
             return History(**{name: from_plain(part, get) for name, part in plain.items()})
     except InputError as error:
         raise InputError(f"'{path}': {error.message}") from error
-    except (OSError, KeyError, TypeError, ValueError, AttributeError) as error:
+    except (OSError, RuntimeError, LookupError, TypeError, ValueError, AttributeError) as error:
         raise InputError(f"'{path}' is no archive that can be read: {error}") from error

@@ -3,24 +3,31 @@
 
 from __future__ import annotations
 
-import json
 import zipfile
+import zlib
 from pathlib import Path
 
 import numpy as np
 
 from signorini.errors import InputError
-from signorini.output.plain import AnyArray, from_plain, to_plain
+from signorini.output.plain import AnyArray, from_plain, sealed, to_plain, unsealed
 from signorini.output.replacing import replacing
 from signorini.solution.checkpoint import Checkpoint
 
-_FORMAT = "signorini state 3"
+_FORMAT = "signorini state 4"
+
+_UNREADABLE = (
+    *(OSError, EOFError, ValueError, LookupError, TypeError, RuntimeError, MemoryError),
+    *(NotImplementedError, zipfile.BadZipFile, zlib.error),
+)
+"""What NumPy and the archive's reader say of damaged files, and of such that claim more than there is."""
 
 
 def write_checkpoint(checkpoint: Checkpoint, path: Path) -> None:
     """Write a state; every number is read back exactly as it is.
 
-    Arrays are members of the archive under names like ``state/displacement``; ``structure`` holds the rest as JSON.
+    Arrays are members of the archive under names like ``state/displacement``; ``structure`` holds the rest as JSON, and
+    digests by which damage is found.
 
     Parameters
     ----------
@@ -33,7 +40,7 @@ def write_checkpoint(checkpoint: Checkpoint, path: Path) -> None:
         arrays[name] = array
         return name
 
-    structure = json.dumps(to_plain(checkpoint, "end", keep))
+    structure = sealed(to_plain(checkpoint, "end", keep))
     with replacing(path) as aside, aside.open("wb") as file:
         np.savez_compressed(file, allow_pickle=False, format=_FORMAT, structure=structure, **arrays)
 
@@ -52,10 +59,10 @@ def read_checkpoint(path: Path) -> Checkpoint:
         with np.load(path, allow_pickle=False) as file:
             if str(file["format"]) != _FORMAT:
                 raise InputError(f"'{path}' is '{file['format']}'; expected '{_FORMAT}'")
-            found = from_plain(json.loads(str(file["structure"])), file.__getitem__)
+            found = from_plain(unsealed(str(file["structure"])), file.__getitem__)
     except InputError as error:
         raise error if str(path) in error.message else InputError(f"'{path}': {error.message}") from error
-    except (OSError, ValueError, KeyError, TypeError, zipfile.BadZipFile) as error:
+    except _UNREADABLE as error:
         raise InputError(f"'{path}' is no state that a run has written: {error}") from error
     assert isinstance(found, Checkpoint)
     return found

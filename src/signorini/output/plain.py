@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import importlib
+import json
 from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
 from functools import cache
@@ -38,6 +40,7 @@ _HOMES = (
     "signorini.solution.state",
 )
 _MARK = "$"
+_DIGEST = 16  # bytes: enough to find damage; who forges a file makes the digests anew
 _SMALL = 32  # entries: smaller arrays stay in the text
 
 
@@ -73,7 +76,7 @@ def to_plain(value: Any, path: str, keep: Callable[[str, AnyArray], str]) -> Any
         told = {_MARK: "array", "dtype": value.dtype.str}
         if value.size <= _SMALL:
             return told | {"shape": list(value.shape), "of": value.ravel().tolist()}
-        return told | {"path": keep(path, value)}
+        return told | {"digest": digest(value), "path": keep(path, value)}
     if isinstance(value, list | tuple | frozenset):
         members = sorted(value) if isinstance(value, frozenset) else value
         parts = [to_plain(part, f"{path}/{i}", keep) for i, part in enumerate(members)]
@@ -107,7 +110,7 @@ def from_plain(plain: Any, get: Callable[[str], AnyArray]) -> Any:
     Raises
     ------
     InputError
-        If it names a class that this version does not have, or with other fields.
+        If it names a class that this version does not have, or with other fields; if an array is not what was written.
     """
     if isinstance(plain, list):
         return [from_plain(part, get) for part in plain]
@@ -117,7 +120,10 @@ def from_plain(plain: Any, get: Callable[[str], AnyArray]) -> Any:
     if mark == "array":
         kind = np.dtype(plain["dtype"])
         if "path" in plain:
-            return frozen(get(plain["path"]), kind)
+            array = frozen(get(plain["path"]), kind)
+            if digest(array) != plain["digest"]:
+                raise InputError(f"is damaged: '{plain['path']}' is not what was written")
+            return array
         return frozen(np.array(plain["of"], kind).reshape(plain["shape"]), kind)
     if mark in ("tuple", "frozenset"):
         return {"tuple": tuple, "frozenset": frozenset}[mark](from_plain(part, get) for part in plain["of"])
@@ -132,6 +138,45 @@ def from_plain(plain: Any, get: Callable[[str], AnyArray]) -> Any:
     for key, part in plain["of"].items():
         object.__setattr__(made, key, from_plain(part, get))
     return made
+
+
+def digest(array: AnyArray) -> str:
+    """The same for two arrays only if type, shape and every bit are.
+
+    >>> digest(np.zeros(2)) == digest(np.zeros((2, 1)))
+    False
+    """
+    found = hashlib.blake2b(f"{array.dtype.str}{array.shape}".encode(), digest_size=_DIGEST)
+    found.update(np.ascontiguousarray(array).tobytes())
+    return found.hexdigest()
+
+
+def sealed(plain: Any) -> str:
+    """JSON behind a line by which damage to it is found.
+
+    >>> unsealed(sealed({"a": [1, None]}))
+    {'a': [1, None]}
+    """
+    text = json.dumps(plain)
+    return f"{_seal(text)}\n{text}"
+
+
+def unsealed(text: str) -> Any:
+    """What :func:`sealed` was given.
+
+    Raises
+    ------
+    InputError
+        If the text is not the one that was written.
+    """
+    seal, _, rest = text.partition("\n")
+    if seal != _seal(rest):
+        raise InputError("is damaged: its structure is not what was written")
+    return json.loads(rest)
+
+
+def _seal(text: str) -> str:
+    return hashlib.blake2b(text.encode("utf-8", "surrogatepass"), digest_size=_DIGEST).hexdigest()
 
 
 def _safe(key: Any) -> str:

@@ -6,6 +6,8 @@ from __future__ import annotations
 import csv
 import json
 import math
+from collections.abc import Collection, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -15,15 +17,20 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
-from signorini.formats import complete_meshio
+from signorini.formats import read_meshio
 from signorini.plot.curve import Curve, make_curve
 from signorini.plot.patch import Patch, padded_faces
 from signorini.plot.skin import Skin, make_skin
 from signorini.plot.style import PLAIN, STATUS_INK
 from signorini.plot.walls import Wall, read_walls
-from signorini.solution.results import SLIP
+from signorini.solution.results import OPEN, SLIP
 
 _TRACTIONS = ("traction_1", "traction_2")
+_OF_NODES = ("step", "contact", "node", "x", "y", "z", "gap", "pressure", *_TRACTIONS, "status")
+_OF_INSTANTS = (
+    *("step", "load_factor", "what", "contact", "dissipation"),
+    *(f"{what}_force_{axis}" for what in ("normal", "tangential") for axis in "xyz"),
+)
 
 # corners and nodes between them, in the order around a cell
 _AROUND = {
@@ -93,16 +100,19 @@ class ResultFolder:
     def summary(self) -> dict[str, Any]:
         """``summary.json``."""
         file = self._file("summary.json")
-        try:
-            return dict(json.loads(file.read_text(encoding="utf-8")))
-        except ValueError as error:
-            raise InputError(f"'{file}' is not a summary: {error}") from error
+        with _reading(file):
+            found = dict(json.loads(file.read_text(encoding="utf-8")))
+            names = [[contact["name"] for contact in step["contacts"]] for step in found["steps"]]
+            if any(not isinstance(name, str) for each in names for name in each) or any(n != names[0] for n in names):
+                raise ValueError("its steps have not the same contacts, each with a name")
+            if not all(isinstance(step["name"], str) for step in found["steps"]):
+                raise ValueError("its steps have no names")
+            return found
 
     @cached_property
     def rows(self) -> list[dict[str, str]]:
         """``contact.csv``."""
-        with self._file("contact.csv").open(newline="", encoding="utf-8") as file:
-            return list(csv.DictReader(file))
+        return self._table("contact.csv", _OF_NODES, words=("contact", "status"))
 
     @cached_property
     def last_rows(self) -> list[dict[str, str]]:
@@ -127,13 +137,13 @@ class ResultFolder:
     @cached_property
     def walls(self) -> list[Wall]:
         """Rigid obstacles of a plane model."""
-        return read_walls(self.summary)
+        with _reading(self._file("summary.json")):
+            return read_walls(self.summary)
 
     @cached_property
     def instants(self) -> list[dict[str, str]]:
         """``history.csv``."""
-        with self._file("history.csv").open(newline="", encoding="utf-8") as file:
-            return list(csv.DictReader(file))
+        return self._table("history.csv", _OF_INSTANTS, words=("what", "contact", "work"))
 
     @property
     def archive(self) -> Path:
@@ -143,22 +153,25 @@ class ResultFolder:
     @cached_property
     def grid(self) -> Grid:
         """``solution.vtu``."""
-        import meshio
-
-        complete_meshio()
         file = self._file("solution.vtu")
-        found = meshio.read(file)
+        found = read_meshio(file)
         d = 3 if self.solid else 2
-        cells = [block.data if self.solid else block.data[:, _AROUND[block.type]] for block in found.cells]
-        return Grid(
-            points=found.points[:, :d],
-            displacement=found.point_data["displacement"][:, :d],
-            von_mises=found.point_data["von_mises"],
-            node=found.point_data["node"],
-            families=tuple(block.type for block in found.cells),
-            cells=tuple(cells),
-            body=tuple(found.cell_data["body"]),
-        )
+        with _reading(file):
+            points, data = _numbers(found.points, (-1, 3)), found.point_data
+            cells = [block.data if self.solid else block.data[:, _AROUND[block.type]] for block in found.cells]
+            for block in cells:
+                points[block]  # where all nodes are there
+            return Grid(
+                points=points[:, :d],
+                displacement=_numbers(data["displacement"], (len(points), 3))[:, :d],
+                von_mises=_numbers(data["von_mises"], (len(points),)),
+                node=_numbers(data["node"], (len(points),)).astype(np.int64),
+                families=tuple(block.type for block in found.cells),
+                cells=tuple(cells),
+                body=tuple(
+                    _numbers(b, (len(c),)).astype(np.int64) for b, c in zip(found.cell_data["body"], cells, strict=True)
+                ),
+            )
 
     @cached_property
     def skin(self) -> Skin:
@@ -173,9 +186,12 @@ class ResultFolder:
     @cached_property
     def patches(self) -> list[Patch]:
         """``contact.vtu``: every contact in space after the last step."""
-        import meshio
+        file = self._file("contact.vtu")
+        found, last = read_meshio(file), self.summary["steps"][-1]
+        with _reading(file):
+            return self._patches(found, last)
 
-        found, last = meshio.read(self._file("contact.vtu")), self.summary["steps"][-1]
+    def _patches(self, found: Any, last: dict[str, Any]) -> list[Patch]:
         data, patches = found.point_data, []
         faces = padded_faces(*(block.data for block in found.cells))
         owner = np.concatenate(found.cell_data["contact"])
@@ -201,14 +217,19 @@ class ResultFolder:
 
     @cached_property
     def steps(self) -> list[list[Curve]]:
-        """For every step its contacts."""
+        """For every step, of which there is one at least, its contacts."""
+        if not self.summary["steps"]:
+            raise InputError(f"the results in '{self.path}' hold no step")
         numbers = range(1, len(self.summary["steps"]) + 1)
-        return [self._curves(number, step) for number, step in zip(numbers, self.summary["steps"], strict=True)]
+        with _reading(self._file("summary.json")):
+            return [self._curves(number, step) for number, step in zip(numbers, self.summary["steps"], strict=True)]
 
     def _curves(self, number: int, step: dict[str, Any]) -> list[Curve]:
         curves = []
         for contact in step["contacts"]:
             own = [row for row in self.rows if row["step"] == str(number) and row["contact"] == contact["name"]]
+            if not own:
+                raise ValueError(f"contact.csv has no row of '{contact['name']}' in step {number}")
             friction = contact.get("friction", 0.0)
             other = contact.get("adhesion") or contact.get("shear_limit")
             curves.append(
@@ -224,6 +245,32 @@ class ResultFolder:
             )
         return curves
 
+    def instants_of(self, contact: str) -> list[dict[str, str]]:
+        """Rows of ``history.csv`` of one contact.
+
+        Raises
+        ------
+        InputError
+            If there are none.
+        """
+        found = [row for row in self.instants if row["contact"] == contact]
+        if not found:
+            raise InputError(f"'{self._file('history.csv')}' has no row of '{contact}'")
+        return found
+
+    def _table(self, name: str, columns: Sequence[str], words: Collection[str]) -> list[dict[str, str]]:
+        """Rows of a file by column: numbers, but for columns of words; a status that is known."""
+        path = self._file(name)
+        with _reading(path), path.open(newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+            for number, row in enumerate(rows, start=2):
+                for column in columns:
+                    if not isinstance(row.get(column), str) or (column not in words and not _finite(row[column])):
+                        raise ValueError(f"line {number} has {row.get(column)!r} under {column}")
+                if row.get("status", OPEN) not in STATUS_INK:
+                    raise ValueError(f"line {number} has the status '{row['status']}'")
+            return rows
+
     def _file(self, name: str) -> Path:
         file = self.path / name
         if not self.path.is_dir():
@@ -237,6 +284,34 @@ class ResultFolder:
         """Words on a run that left no results."""
         status = self.summary.get("status")
         return "" if status == "solved" else f": the run ended with '{status}': {self.summary.get('message')}"
+
+
+@contextmanager
+def _reading(file: Path) -> Iterator[None]:
+    """What is said of a file whose contents are not those that a run writes."""
+    try:
+        yield
+    except InputError:
+        raise
+    except (ValueError, LookupError, TypeError, AttributeError, csv.Error) as error:
+        raise InputError(f"'{file}' is not what a run writes: {error}") from error
+
+
+def _finite(word: str) -> bool:
+    try:
+        return math.isfinite(float(word))
+    except ValueError:
+        return False
+
+
+def _numbers(values: Any, shape: tuple[int, ...]) -> Array:
+    """Finite numbers in a shape; -1: any length."""
+    found = np.asarray(values, float)
+    if found.ndim != len(shape) or any(n not in (-1, m) for n, m in zip(shape, found.shape, strict=True)):
+        raise ValueError(f"an array has shape {found.shape}, not {shape}")
+    if not np.isfinite(found).all():
+        raise ValueError("an array holds what is no finite number")
+    return found
 
 
 def _columns(rows: list[dict[str, str]], *names: str) -> Array:

@@ -64,7 +64,7 @@ def _forces(axes: Axes, folder: ResultFolder, i: int) -> None:
     """Normal force, friction force along the mean tangent with its sign, and dissipation, at every instant."""
     steps = folder.summary["steps"]
     name = steps[0]["contacts"][i]["name"]
-    rows = [row for row in folder.instants if row["contact"] == name]
+    rows = folder.instants_of(name)
     load, normal, friction = _column(rows, "load_factor"), _forces_of(rows, "normal"), _forces_of(rows, "tangential")
     pressed = normal[np.argmax(np.linalg.norm(normal, axis=1))]
     tangent = np.array([pressed[1], -pressed[0], 0.0]) / (np.linalg.norm(pressed) or 1.0)

@@ -24,6 +24,7 @@ from signorini.verify import (
 from signorini.verify.check import Check
 
 Case = Callable[[], Iterator[Check]]
+Begin = Callable[[str, int, int], None]
 
 QUICK: tuple[Case, ...] = (
     patches.patch_p1,
@@ -83,12 +84,20 @@ SLOW: tuple[Case, ...] = (
 )
 
 
-def run(slow: bool = False) -> list[dict[str, str | float | bool]]:
-    """Run the quick cases, or all of them, and return the rows of the table.
+def run(slow: bool = False, begin: Begin = lambda *_: None) -> Iterator[dict[str, str | float | bool]]:
+    """Run the quick cases, or all of them: the rows of the table, each as soon as it is computed.
 
-    Returns
-    -------
+    Parameters
+    ----------
+    begin : told before every case what it is, how many are done and how many there are
+
+    Yields
+    ------
     rows with case, quantity, computed, reference, error, tolerance, source, passed, and at_least: the reference is a
     lower bound
     """
-    return [check.row() for case in (QUICK + SLOW if slow else QUICK) for check in case()]
+    cases = QUICK + SLOW if slow else QUICK
+    for done, case in enumerate(cases):
+        begin(case.__name__.replace("_", " "), done, len(cases))
+        for check in case():
+            yield check.row()

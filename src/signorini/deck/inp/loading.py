@@ -157,8 +157,10 @@ def _cload(item: Placed, known: Known, courses: Courses) -> None:
         axis = row.whole(1, "a direction")
         value = row.number(2, "the force")
         slots, rest = rigid_slots(known.rigid, nodes, [axis])
-        if not 1 <= axis <= (known.dimension if len(rest) else 6):
-            raise row.error(f"*CLOAD: direction {axis}; expected 1 to {known.dimension}")
+        turns = () if len(rest) else (4, 5, 6) if known.dimension == 3 else (6,)
+        if axis not in (*range(1, known.dimension + 1), *turns):
+            either = f", or {' '.join(map(str, turns))} of a rigid body" if turns else ""
+            raise row.error(f"*CLOAD: direction {axis}; expected 1 to {known.dimension}{either}")
         slots = np.append(slots, STRIDE * rest + axis - 1)
         courses.force.put(slots, value, label, block.at(row), amplitude, adds=True)
 

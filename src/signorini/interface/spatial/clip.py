@@ -249,6 +249,8 @@ def _inside(flat: Array, c: int, x: float, y: float, places: Array, found: Array
         b_x = (1 - r) * (flat[3, 0] - flat[0, 0]) + r * (flat[2, 0] - flat[1, 0])
         b_y = (1 - r) * (flat[3, 1] - flat[0, 1]) + r * (flat[2, 1] - flat[1, 1])
         size = a_x * b_y - a_y * b_x
+        if size == 0.0:  # where an edge has collapsed every place along it is the same
+            break
         step_r, step_s = (b_y * off_x - b_x * off_y) / size, (a_x * off_y - a_y * off_x) / size
         r, s = r - step_r, s - step_s
         if abs(step_r) + abs(step_s) < 1e-15:
