@@ -31,16 +31,20 @@ def number(
     try:
         found = float(value)
     except OverflowError as error:
-        raise InputError(f"is a number of {len(str(value))} digits; expected {expected}", where=where) from error
+        raise InputError(f"is {_shown(value)}; expected {expected}", where=where) from error
     if not (math.isfinite(found) and above < found < below and found >= least):
         raise InputError(f"is {value!r}; expected {expected}", where=where)
     return found
 
 
-def whole(value: Any, where: Where, *, least: int = 1) -> int:
-    """A whole number of at least ``least``."""
+def whole(value: Any, where: Where, *, least: int = 1, most: int | None = None) -> int:
+    """A whole number of at least ``least`` and at most ``most``."""
+    expected = f"a whole number >= {least}" + (f" and <= {most}" if most is not None else "")
     if isinstance(value, bool) or not hasattr(value, "__index__") or int(value) < least:
-        raise InputError(f"is {value!r}; expected a whole number >= {least}", where=where)
+        shown = _shown(value) if hasattr(value, "__index__") else repr(value)
+        raise InputError(f"is {shown}; expected {expected}", where=where)
+    if most is not None and int(value) > most:
+        raise InputError(f"is {_shown(value)}; expected {expected}", where=where)
     return int(value)
 
 
@@ -86,6 +90,11 @@ def components(
         else:
             parts.append(number(part, (*where, i)))
     return tuple(parts)
+
+
+def _shown(value: Any) -> str:
+    """A number as it is, if that is short."""
+    return f"{value!r}" if -(10**30) < value < 10**30 else "a number of more than 30 digits"
 
 
 def rows(value: Any, where: Where, *, size: int) -> Array:

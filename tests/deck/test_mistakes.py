@@ -218,3 +218,45 @@ def test_meshes_are_joined_under_their_names(tmp_path: Path) -> None:
     path.write_text(wrong)
     with pytest.raises(DeckError, match=r"deck\.toml:8: mesh\[1\]\.origin: has 1 components"):
         read(path)
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("x = " + "[" * 5000 + "]" * 5000, "nested too deeply"),
+        ("x = 1" + "0" * 5000, "not valid TOML"),
+        ("thickness = 1" + "0" * 400, r":1: thickness: is a number of more than 30 digits; expected a number > 0"),
+        ("thickness = 0x" + "f" * 5000, r":1: thickness: is a number of more than 30 digits; expected a number > 0"),
+    ],
+)
+def test_numbers_and_nesting_without_end(tmp_path, line, said):
+    deck = tmp_path / "deck.toml"
+    deck.write_text(f"{line}\n{DECK}")
+    with pytest.raises(DeckError, match=said):
+        read(deck)
+
+
+LARGE = {
+    "rectangle": ("nx = 1000000000\nny = 1000000000", "a grid of 1e\\+09 points takes 350 GB|mesh.nx: a grid of"),
+    "quarter_disk": ("radius = 8.0\ncontact_length = 4.0\ncontact_spacing = 1e-320", "takes inf GB of memory"),
+    "annulus": ("inner = 1.0\nouter = 2.0\nn_radial = 1000000000\nn_angular = 1000000000", "1e\\+18 points takes"),
+    "box": (f"x = {list(range(3000))}\ny = {list(range(3000))}\nz = {list(range(3000))}", "2.7e\\+10 points takes"),
+}
+
+
+@pytest.mark.parametrize("generator", LARGE)
+def test_grids_that_no_memory_holds(tmp_path, generator):
+    keys, said = LARGE[generator]
+    deck = tmp_path / "deck.toml"
+    body = '[material.a]\nE = 1.0\nnu = 0.3\n[[body]]\nname = "a"\nmaterial = "a"\n'
+    deck.write_text(f'[mesh]\ngenerator = "{generator}"\n{keys}\n{body}')
+    with pytest.raises(DeckError, match=said):
+        read(deck)
+
+
+@pytest.mark.parametrize("key", ["repeat", "increments", "at"])
+def test_steps_without_end(tmp_path, key):
+    deck = tmp_path / "deck.toml"
+    deck.write_text(DECK + f"[[step]]\n{key} = 1000000000\n")
+    with pytest.raises(DeckError, match=rf"{key}: is 1000000000; expected a whole number >= 1 and <= 1000000"):
+        read(deck)

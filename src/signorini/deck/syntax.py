@@ -37,6 +37,10 @@ def parse(path: Path) -> tuple[dict[str, Any], dict[Where, int]]:
         return tomllib.loads(text), scan(text)
     except tomllib.TOMLDecodeError as error:
         raise _said(str(error), path, text) from error
+    except RecursionError as error:
+        raise DeckError("lists or tables are nested too deeply; expected a deck", path=path) from error
+    except ValueError as error:  # a whole number of thousands of digits
+        raise DeckError(f"not valid TOML: {error}", path=path) from error
 
 
 def _said(message: str, path: Path, text: str) -> DeckError:

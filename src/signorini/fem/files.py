@@ -20,8 +20,10 @@ from signorini.fem.unv import SUFFIX as UNV
 from signorini.fem.unv import read_unv
 from signorini.formats import read_meshio
 from signorini.hdf5 import check_hdf5
+from signorini.model.mesh import NODES_PER_CELL
 from signorini.sources import check_file
 
+_NODES_PER_CELL = NODES_PER_CELL | {"vertex": 1, "line": 2, "line3": 3}
 _XML = (".vtu", ".xdmf", ".xmf", ".xml", ".svg")
 _HDF5 = (".med", ".h5m", ".cgns", ".hmf")
 _INCLUDE = re.compile(rb"(?im)^\*[* ]*I\**N\**C\**L\**U\**D\**E")  # meshio takes all asterisks out
@@ -83,7 +85,8 @@ def _check(found: meshio.Mesh, path: Path) -> None:
         raise InputError(f"'{path}' holds no points; expected rows of two or three coordinates")
     for block in found.cells:
         nodes = np.asarray(block.data)
-        if nodes.ndim != 2 or nodes.dtype.kind not in "iu":
+        wide = _NODES_PER_CELL.get(block.type, nodes.shape[-1])
+        if nodes.ndim != 2 or nodes.dtype.kind not in "iu" or nodes.shape[1] != wide:
             raise InputError(f"'{path}' holds cells of the kind '{block.type}' that are no rows of nodes")
         if nodes.size and not 0 <= int(nodes.min()) <= int(nodes.max()) < len(points):
             wrong = int(nodes.min()) if nodes.min() < 0 else int(nodes.max())

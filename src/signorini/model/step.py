@@ -13,6 +13,9 @@ from signorini.checks import choice, number, text, whole
 from signorini.errors import InputError
 from signorini.model.contact import coefficient
 
+_MOST = 1_000_000
+"""Cycles, increments and times of a step: more of them have no meaning."""
+
 Factors = float | tuple[float, ...]
 
 
@@ -74,12 +77,12 @@ class Step:
     def __post_init__(self) -> None:
         if self.name:
             text(self.name, ("name",))
-        whole(self.repeat, ("repeat",))
+        whole(self.repeat, ("repeat",), most=_MOST)
         number(self.tolerance, ("tolerance",), above=0.0)
         if isinstance(self.increments, str):
             choice(self.increments, ("auto",), ("increments",), "number of increments")
         elif self.increments is not None:
-            whole(self.increments, ("increments",))
+            whole(self.increments, ("increments",), most=_MOST)
         if self.path is not None:
             choice(self.path, ("increments", "exact"), ("path",), "path")
         if self.jump is not None:
@@ -178,6 +181,7 @@ def _times(at: Any) -> tuple[float, ...] | str:
     if at == "events":
         return "events"
     if isinstance(at, int) and not isinstance(at, bool) and at > 0:
+        whole(at, ("at",), most=_MOST)
         return tuple(k / at for k in range(1, at + 1))
     if isinstance(at, str) or not isinstance(at, Sequence):
         expected = 'a list of parts of the step between 0 and 1, a number of equal parts, or "events"'

@@ -26,6 +26,7 @@ from signorini.plot.walls import Wall, read_walls
 from signorini.solution.results import OPEN, SLIP
 
 _TRACTIONS = ("traction_1", "traction_2")
+_COUNTED = ("step", "node")
 _OF_NODES = ("step", "contact", "node", "x", "y", "z", "gap", "pressure", *_TRACTIONS, "status")
 _OF_INSTANTS = (
     *("step", "load_factor", "what", "contact", "dissipation"),
@@ -265,7 +266,7 @@ class ResultFolder:
             rows = list(csv.DictReader(file))
             for number, row in enumerate(rows, start=2):
                 for column in columns:
-                    if not isinstance(row.get(column), str) or (column not in words and not _finite(row[column])):
+                    if not isinstance(row.get(column), str) or not (column in words or _is_number(row[column], column)):
                         raise ValueError(f"line {number} has {row.get(column)!r} under {column}")
                 if row.get("status", OPEN) not in STATUS_INK:
                     raise ValueError(f"line {number} has the status '{row['status']}'")
@@ -297,9 +298,10 @@ def _reading(file: Path) -> Iterator[None]:
         raise InputError(f"'{file}' is not what a run writes: {error}") from error
 
 
-def _finite(word: str) -> bool:
+def _is_number(word: str, column: str) -> bool:
+    """Whether a word is a finite number; a whole one where things are counted."""
     try:
-        return math.isfinite(float(word))
+        return math.isfinite(float(word)) and (column not in _COUNTED or int(word) >= 0)
     except ValueError:
         return False
 

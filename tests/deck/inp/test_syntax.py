@@ -86,6 +86,15 @@ def test_a_file_that_includes_itself_ends(tmp_path: Path) -> None:
         blocks_of(tmp_path, "*INCLUDE, INPUT=deck.inp\n")
 
 
+def test_files_that_include_each_other_many_times_end(tmp_path: Path) -> None:
+    """Seven files, ten million includes."""
+    for k in range(7):
+        (tmp_path / f"{k}.inc").write_text(f"*INCLUDE, INPUT={k + 1}.inc\n" * 10)
+    (tmp_path / "7.inc").write_text("*NODE\n")
+    with pytest.raises(DeckError, match="is the 1001th file that is included; expected at most 1000"):
+        blocks_of(tmp_path, "*INCLUDE, INPUT=0.inc\n")
+
+
 def test_records_go_on_over_lines(tmp_path: Path) -> None:
     (block,) = blocks_of(tmp_path, "*ELEMENT\n1, 11, 12,\n13\n2, 21,\n** in between\n22, 23\n")
     assert record_table(block, 4, "").tolist() == [[1, 11, 12, 13], [2, 21, 22, 23]]

@@ -19,6 +19,7 @@ from signorini.errors import InputError
 from signorini.sources import Reach
 
 _DEPTH = 10  # of files that include files
+_MOST = 1000  # includes of a deck: ten files that each include the next one ten times are ten thousand million
 _SHOWN = 60  # characters of a line in messages
 
 
@@ -36,7 +37,7 @@ def read_blocks(path: Path, reach: Reach | None = None) -> list[Block]:
         If a file is missing or unreadable, or a keyword line is malformed.
     """
     blocks: list[_Open] = []
-    _read(path, reach or Reach.of(path), blocks, 0, None)
+    _read(path, reach or Reach.of(path), blocks, [], 0, None)
     return [block.closed() for block in blocks]
 
 
@@ -57,7 +58,7 @@ class _Open:
         )
 
 
-def _read(path: Path, reach: Reach, blocks: list[_Open], depth: int, by: _Open | None) -> None:
+def _read(path: Path, reach: Reach, blocks: list[_Open], included: list[Path], depth: int, by: _Open | None) -> None:
     """Append the keywords of one file; data before its first keyword belong to the keyword before it, if any."""
     for line, starred, data in _pieces(_bytes(path, by)):
         if not starred:
@@ -68,7 +69,10 @@ def _read(path: Path, reach: Reach, blocks: list[_Open], depth: int, by: _Open |
         if opened.keyword == "INCLUDE":
             if depth == _DEPTH:
                 raise _error(opened, f"is the {_DEPTH + 1}th file inside another; does a file include itself?")
-            _read(_named(opened, reach), reach, blocks, depth + 1, opened)
+            included.append(_named(opened, reach))
+            if len(included) > _MOST:
+                raise _error(opened, f"is the {_MOST + 1}th file that is included; expected at most {_MOST}")
+            _read(included[-1], reach, blocks, included, depth + 1, opened)
             continue
         blocks.append(opened)
         if opened.keyword in ("NODE", "ELEMENT", "NSET", "ELSET", "AMPLITUDE") and "INPUT" in opened.parameters:
