@@ -8,6 +8,8 @@ from collections.abc import Iterable
 
 Where = tuple[str | int, ...]
 
+_BRIEF = 200  # characters
+
 
 class SignoriniError(Exception):
     """Base of every error that this package raises on purpose."""
@@ -99,3 +101,13 @@ def one_of(found: str, known: Iterable[str], what: str) -> str:
     near = difflib.get_close_matches(found, names, n=1)
     hint = f"; did you mean '{near[0]}'?" if near else "."
     return f"unknown {what} '{found}'{hint} Known: {', '.join(names) if names else 'none'}"
+
+
+def brief(error: BaseException) -> str:
+    """What another package says of a file, in one line of few words: some of them quote what they have found.
+
+    >>> brief(ValueError("no\\n" + "x" * 1000))[-6:]
+    'xxx...'
+    """
+    words = " ".join(str(error).split()) or type(error).__name__
+    return words if len(words) <= _BRIEF else words[:_BRIEF] + "..."

@@ -11,7 +11,7 @@ from typing import IO, Any
 
 import numpy as np
 
-from signorini.errors import InputError
+from signorini.errors import InputError, brief
 
 _SAVED_ALL = " (elements outside all physical groups? Save the groups alone, Mesh.SaveAll = 0)"
 _TEXT = {".off": "off", ".bdf": "nastran", ".fem": "nastran", ".nas": "nastran", ".dat": "tecplot", ".tec": "tecplot"}
@@ -92,8 +92,8 @@ def read_meshio(path: Path) -> Any:
         ):
             return meshio.read(source, file_format=kind)
     except (Exception, SystemExit) as error:
-        told = "" if isinstance(error, SystemExit) else str(error)
-        reason = told or " ".join(said.getvalue().split()) or type(error).__name__
+        told = "" if isinstance(error, SystemExit) or not str(error) else brief(error)
+        reason = told or " ".join(said.getvalue().split())[:500] or type(error).__name__
         if "gmsh:physical" in reason:
             reason += _SAVED_ALL
         raise InputError(f"meshio cannot read '{path}': {reason}") from error

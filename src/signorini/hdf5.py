@@ -6,7 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from signorini.errors import InputError
+from signorini.errors import InputError, brief
 from signorini.memory import check_memory
 
 
@@ -36,4 +36,4 @@ def check_hdf5(path: Path) -> None:
     except (OSError, RuntimeError, ValueError, KeyError) as error:
         if isinstance(error, InputError):
             raise
-        raise InputError(f"'{path}' is no HDF5 file that can be read: {error}") from error
+        raise InputError(f"'{path}' is no HDF5 file that can be read: {brief(error)}") from error

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import meshio
 import numpy as np
 
-from signorini.errors import InputError
+from signorini.errors import InputError, brief
 from signorini.fem.families import name_families
 from signorini.fem.geometry import SUFFIX as GEOMETRY
 from signorini.fem.geometry import mesh_geometry
@@ -75,7 +75,7 @@ def _data_items(path: Path) -> Iterator[ElementTree.Element]:
     try:
         yield from ElementTree.parse(path).iter("DataItem")
     except (ElementTree.ParseError, ValueError, LookupError) as error:
-        raise InputError(f"'{path}' is no XML that can be read: {error}") from error
+        raise InputError(f"'{path}' is no XML that can be read: {brief(error)}") from error
 
 
 def _check(found: meshio.Mesh, path: Path) -> None:

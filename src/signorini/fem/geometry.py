@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from signorini.errors import InputError
+from signorini.errors import InputError, brief
 
 SUFFIX = ".geo"
 
@@ -69,7 +69,7 @@ def mesh_geometry(path: Path, mesh: Path) -> None:
         import gmsh
     except (ImportError, OSError) as error:  # the wheel needs libraries of the system
         raise InputError(
-            f"'{path}' is a geometry, which Gmsh must mesh, and there is no Gmsh ({error}); expected "
+            f"'{path}' is a geometry, which Gmsh must mesh, and there is no Gmsh ({brief(error)}); expected "
             "pip install 'signorini[gmsh]', or a mesh (gmsh -2 or -3, saved as .msh)",
             where=("mesh", "file"),
         ) from error
@@ -81,7 +81,7 @@ def mesh_geometry(path: Path, mesh: Path) -> None:
         gmsh.model.mesh.generate(gmsh.model.getDimension())
         gmsh.write(str(mesh))
     except Exception as error:  # Gmsh knows no other
-        raise InputError(f"Gmsh cannot mesh '{path}': {error}", where=("mesh", "file")) from error
+        raise InputError(f"Gmsh cannot mesh '{path}': {brief(error)}", where=("mesh", "file")) from error
     finally:
         gmsh.finalize()
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import meshio
 import numpy as np
 
-from signorini.errors import InputError
+from signorini.errors import InputError, brief
 
 SUFFIX = ".unv"
 _NODES, _ELEMENTS, _GROUPS = (781, 2411), (2412,), (2429, 2430, 2432, 2435, 2452, 2467, 2477)
@@ -61,7 +61,9 @@ def read_unv(path: Path) -> meshio.Mesh:
                 groups += _groups(lines)
         return _mesh(numbers, points, cells, place, groups)
     except (ValueError, IndexError, KeyError, StopIteration, RuntimeError) as error:  # RuntimeError: a generator's end
-        raise InputError(f"'{path}' is no universal file that can be read: {error}", where=("mesh", "file")) from error
+        raise InputError(
+            f"'{path}' is no universal file that can be read: {brief(error)}", where=("mesh", "file")
+        ) from error
 
 
 def _datasets(path: Path) -> Iterator[tuple[int, list[str]]]:

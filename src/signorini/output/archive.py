@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
 from signorini._version import __version__
-from signorini.errors import InputError
+from signorini.errors import InputError, brief
 from signorini.hdf5 import check_hdf5
 from signorini.output.plain import AnyArray, digest, from_plain, sealed, to_plain, tuple_of, unsealed
 from signorini.output.replacing import replacing
@@ -147,4 +147,4 @@ def read_archive(path: Path) -> History:
     except InputError as error:
         raise InputError(f"'{path}': {error.message}") from error
     except (OSError, RuntimeError, LookupError, TypeError, ValueError, AttributeError) as error:
-        raise InputError(f"'{path}' is no archive that can be read: {error}") from error
+        raise InputError(f"'{path}' is no archive that can be read: {brief(error)}") from error

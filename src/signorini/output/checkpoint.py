@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from signorini.errors import InputError
+from signorini.errors import InputError, brief
 from signorini.output.plain import AnyArray, from_plain, sealed, to_plain, unsealed
 from signorini.output.replacing import replacing
 from signorini.solution.checkpoint import Checkpoint
@@ -63,6 +63,6 @@ def read_checkpoint(path: Path) -> Checkpoint:
     except InputError as error:
         raise error if str(path) in error.message else InputError(f"'{path}': {error.message}") from error
     except _UNREADABLE as error:
-        raise InputError(f"'{path}' is no state that a run has written: {error}") from error
+        raise InputError(f"'{path}' is no state that a run has written: {brief(error)}") from error
     assert isinstance(found, Checkpoint)
     return found

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.errors import InputError
+from signorini.errors import InputError, brief
 from signorini.formats import read_meshio
 from signorini.plot.curve import Curve, make_curve
 from signorini.plot.patch import Patch, padded_faces
@@ -295,7 +295,7 @@ def _reading(file: Path) -> Iterator[None]:
     except InputError:
         raise
     except (ValueError, LookupError, TypeError, AttributeError, csv.Error) as error:
-        raise InputError(f"'{file}' is not what a run writes: {error}") from error
+        raise InputError(f"'{file}' is not what a run writes: {brief(error)}") from error
 
 
 def _is_number(word: str, column: str) -> bool:
