@@ -34,7 +34,11 @@ def slipping():
     case = adversary.make(599)
     step = sg.solve(replace(case.model, steps=case.model.steps[:1])).last
     assert (step.contacts[0].count("slip"), step.contacts[0].count("stick")) == (1, 4)
-    return case.structure, adversary.increment(case, 0, np.zeros_like(step.displacement)), step.displacement
+    return (
+        case.structure,
+        adversary.increment(case, case.factors[0], np.zeros_like(step.displacement)),
+        step.displacement,
+    )
 
 
 def test_the_adversary_sees_what_is_wrong():
