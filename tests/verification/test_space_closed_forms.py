@@ -116,3 +116,20 @@ def test_in_space_increments_end_at_events_where_none_are_asked_for():
     assert f"{step.increments} increments to events, none needs to be shorter than" in step.notes[0]
     asked = replace(rubbing, steps=[sg.Step(increments=1)])
     assert solve(asked).last.increments == 1
+
+
+@pytest.mark.parametrize("modulus", [1.0, 0.05])
+def test_a_thin_plate_passes_on_what_presses_it(modulus):
+    """Held at three points, as it is while it is condensed, the plate would bend 10^5 times as far as it moves."""
+    lines = {"x": [0.0, 0.56, 1.0], "y": [0.0, 0.8]}
+    mesh = sg.join({"block": sg.box(**lines, z=[0.0, 0.5, 1.0]), "plate": sg.box(**lines, z=[1.0, 1.01])})
+    model = sg.Model(
+        mesh,
+        kind="3d",
+        bodies=[sg.Body("block", sg.Elastic(E=1.0, nu=0.0)), sg.Body("plate", sg.Elastic(E=modulus, nu=0.0))],
+        supports=[sg.Support("block.bottom", u=(0, 0, 0))],
+        loads=[sg.Load("plate.top", pressure=1e-3)],
+        contacts=[sg.Contact("plate.bottom", "block.top", friction="stick")],
+        steps=[sg.Step(increments=1)],
+    )
+    np.testing.assert_allclose(sg.solve(model).last.contacts[0].pressure, 1e-3, rtol=1e-9)

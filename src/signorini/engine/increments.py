@@ -245,26 +245,27 @@ def _balanced(
 ) -> tuple[CoulombResult | SpatialResult, Array, Array, Array]:
     """The contact problem under the load f on the free displacements: result, forces, motions, free displacements.
 
-    What equilibrium and the motions of the pairs lack in the end, on the problem as posed, is given to the condensed
-    problem as a further load and offset: it was condensed with rounding, which gaps far larger than what the loads
-    move (an arc that leaves its foundation) magnify.
+    What equilibrium and the motions of the pairs lack in the end, on the problem as posed, is added to the condensed
+    problem, and what that changes to the displacements: it was condensed with rounding, which gaps far larger than what
+    the loads move (an arc that leaves its foundation) and thin bodies magnify, whose loads alone would bend them far.
     """
     condensed, interface, scale, law = prepared.condensed, prepared.interface, prepared.scale, prepared.law
     rows, T, ties = condensed.active_rows, prepared.constraints.transform, condensed.ties
     forces, moved, free = np.zeros(len(offset)), np.zeros(len(offset)), np.zeros_like(f)
-    load, lacking = f, np.zeros(len(rows))
+    residual, misfit, b = f, offset[rows], np.zeros(len(rows))
     guided = np.concatenate([np.zeros(law.pairs, dtype=np.bool_), law.locked.T.ravel()])
     for _ in range(_REFINEMENTS + 1):
         with prepared.clock.phase("complementarity"):
-            reduced = condensed.reduce(load)
-            b = condensed.right_hand_side(reduced.load, offset[rows] + lacking)
+            reduced = condensed.reduce(residual)
+            b = b + condensed.right_hand_side(reduced.load, misfit)
             result = _solve(law, b, start)
         if not result.solved:
             break
         with prepared.clock.phase("recovery"):
+            before = moved[rows], forces[rows]
             forces[rows] = condensed.root * np.concatenate([result.normal_force, result.tangential_force.T.ravel()])
             moved[rows] = np.concatenate([result.gap, result.slip.T.ravel()]) / condensed.root
-            free = condensed.displacement(reduced, moved[rows], forces[rows], offset[rows])
+            free = free + condensed.displacement(reduced, moved[rows] - before[0], forces[rows] - before[1], misfit)
             u = T @ free
             forces[ties.rows] = 0.0
             residual = f + T.T @ (interface.B.T @ forces - prepared.K @ u)
@@ -275,7 +276,6 @@ def _balanced(
         size = max(np.abs(residual).max(initial=0.0) / scale.force, np.abs(misfit).max(initial=0.0) / scale.length)
         if size <= _BALANCED:
             break
-        load, lacking = load + residual, lacking + misfit
         start = result.y if isinstance(result, SpatialResult) else result.state
     return result, forces, moved, free
 
