@@ -19,6 +19,7 @@ from signorini.errors import InputError, SolveFailed, one_of
 from signorini.iterative.bodies import ITERATIVE
 from signorini.linalg.multifrontal import compiled
 from signorini.linalg.registry import BACKENDS
+from signorini.linalg.threads import one_thread
 from signorini.output.archive import read_archive
 from signorini.output.checkpoint import read_checkpoint
 from signorini.output.folder import Publisher, own_folder
@@ -27,6 +28,7 @@ from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.history import INTERRUPTED, History
 
 
+@one_thread()
 def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: float) -> int:
     """Solve, write, print.
 

@@ -33,6 +33,7 @@ from signorini.interface.candidates import candidates
 from signorini.interface.interface import Interface, anisotropy_of, friction_of, make_interface
 from signorini.iterative.bodies import ITERATIVE, Bodies, make_bodies
 from signorini.linalg.protocol import NotPositiveDefinite
+from signorini.linalg.threads import one_thread
 from signorini.model.conditions import Load, Temperature
 from signorini.model.model import Model
 from signorini.model.stage import Stage, Standing, stages
@@ -289,6 +290,7 @@ def _under(examined: Examined, constraints: Constraints) -> Examined:
     return Examined(**(known | {"constraints": constraints, "floating": floating}))
 
 
+@one_thread()
 def prepare(
     model: Model, *, start: Checkpoint | None = None, backend: str = "auto", clock: Clock | None = None
 ) -> Prepared:

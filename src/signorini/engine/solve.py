@@ -30,6 +30,7 @@ from signorini.errors import InputError, Interrupted, SolveFailed
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.friction.law import OPEN
 from signorini.interface.interface import pairs_of
+from signorini.linalg.threads import one_thread
 from signorini.model.model import Model
 from signorini.model.stage import Stage, Standing, stages
 from signorini.model.step import Step
@@ -64,6 +65,7 @@ def solve(
     )
 
 
+@one_thread()
 def solve_prepared(
     prepared: Prepared,
     *,

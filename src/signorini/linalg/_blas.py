@@ -9,7 +9,6 @@ of its own. Matrices are stored by columns.
 from __future__ import annotations
 
 import ctypes
-import itertools
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -22,6 +21,7 @@ from scipy.linalg import cython_blas
 
 from signorini.arrays import Array
 from signorini.linalg.system import Int32Array
+from signorini.linalg.threads import thread_functions
 
 
 def _external(module: str, name: str, arguments: int) -> Any:
@@ -41,12 +41,9 @@ def _thread_functions() -> tuple[Any, Callable[[], int]]:
 
     Another BLAS, or a system whose loader does not look into the libraries of a library, keeps its own counsel.
     """
-    library = ctypes.CDLL(cython_blas.__file__)
-    for prefix, suffix in itertools.product(("scipy_openblas", "openblas"), ("", "64_")):
-        setter = getattr(library, f"{prefix}_set_num_threads{suffix}", None)
-        getter = getattr(library, f"{prefix}_get_num_threads{suffix}", None)
-        if setter and getter:
-            return int(ctypes.cast(setter, ctypes.c_void_p).value or 0), getter
+    found = thread_functions(str(cython_blas.__file__))
+    if found is not None:
+        return int(ctypes.cast(found[0], ctypes.c_void_p).value or 0), found[1]
     ignore = cfunc(types.void(types.int32))(lambda _: None)
     _KEPT_ALIVE.append(ignore)
     return ignore.address, lambda: 1

@@ -18,7 +18,7 @@ from signorini.linalg.plan import Fronts
 from signorini.linalg.system import Int32Array
 
 LARGE = 1e9
-"""Operations of a front from which several threads share it: tens of milliseconds of one thread."""
+"""Operations from which several threads share what a front leaves: tens of milliseconds of one thread."""
 
 TILE = 64
 """Rows and columns that are mirrored at a time, so that they stay in the cache."""
@@ -53,14 +53,14 @@ def factorise_fronts(
     stacks : what waits for parents
     diagonal : overwritten by that of K inside, in order of elimination
     widest : unknowns below the largest front
-    threads : of BLAS in large fronts; in small ones they cost more than they give
+    threads : of BLAS where much is left of a front; in small ones they cost more than they give, and what eliminates
+        its own unknowns has other last digits with every number of threads
     """
     inside = len(order) - len(slot)
     local = np.empty(len(order), np.int32)
     target, runs = np.empty(widest, np.int32), np.empty(widest + 1, np.int32)
     waiting = np.empty((2, len(fronts.parent)), np.int32)
     count, top = np.zeros(2, np.int64), np.zeros(2, np.int64)
-    many = False
     for t in range(len(fronts.parent)):
         a = fronts.unknown[fronts.first[t]]
         k = fronts.unknown[fronts.first[t + 1]] - a
@@ -89,9 +89,6 @@ def factorise_fronts(
             _list_rows(fronts, child, local, target)
             number = _list_runs(target, size, runs)
             _extend_add(stacks[other][top[other] :], target, runs, number, size, k, panel, ld, left, r)
-        if (k * float(ld) * ld > LARGE) != many:
-            many = not many
-            set_threads(threads if many else 1)
         begin = panel.ctypes.data
         failed = potrf(k, begin, ld, s)
         if failed != 0:
@@ -99,7 +96,12 @@ def factorise_fronts(
         if r == 0:
             continue
         trsm(True, True, r, k, begin, ld, begin + 8 * k, ld, s)
+        many = threads > 1 and k * float(r) * r > LARGE
+        if many:
+            set_threads(threads)
         syrk(r, k, begin + 8 * k, ld, not leaf, left.ctypes.data, r, s)
+        if many:
+            set_threads(1)
         if fronts.parent[t] == -1:
             for u in range(len(slot)):
                 local[inside + u] = slot[u]

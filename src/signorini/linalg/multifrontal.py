@@ -12,8 +12,7 @@ Liu (1992), The multifrontal method for sparse matrix solution: theory and pract
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -21,27 +20,17 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.linalg import _fronts
-from signorini.linalg._blas import get_threads, scratch, set_threads
+from signorini.linalg._blas import scratch
 from signorini.linalg.definite import SUSPICIOUS, check_energy
 from signorini.linalg.plan import Plan, analyse
 from signorini.linalg.protocol import NotPositiveDefinite, Reduced
 from signorini.linalg.system import Int32Array, System, columns, like
+from signorini.linalg.threads import one_thread
 
 
 def compiled() -> bool:
     """Whether compiled loops are on disk, where the first factorisation after an installation leaves them."""
     return any(Path(_fronts.factorise_fronts.stats.cache_path or ".").glob("_fronts.factorise_fronts-*.nbi"))
-
-
-@contextmanager
-def one_thread() -> Iterator[int]:
-    """Hold BLAS to one thread inside; give the number outside."""
-    threads = get_threads()
-    set_threads(1)
-    try:
-        yield threads
-    finally:
-        set_threads(threads)
 
 
 @dataclass(frozen=True, kw_only=True)
