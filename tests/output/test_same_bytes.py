@@ -12,6 +12,7 @@ from scipy.linalg import blas
 
 from signorini.cli import main
 from signorini.linalg import threads
+from signorini.output.plain import unsealed
 
 SPACE = """\
 [mesh]
@@ -76,7 +77,8 @@ def _dataset(key: str, part: h5py.Dataset | h5py.Group) -> dict[str, object]:
     if not isinstance(part, h5py.Dataset):
         return {}
     if key == "structure":
-        return {key: {name: value for name, value in json.loads(part[()]).items() if name != "timings"}}
+        plain = unsealed(part.asstr()[()])
+        return {key: {name: value for name, value in plain.items() if name != "timings"}}
     return {key: list(part[()]) if part.dtype.kind == "O" else part[()].tobytes()}
 
 
