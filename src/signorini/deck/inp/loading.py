@@ -14,7 +14,7 @@ from signorini.deck.inp.block import Block
 from signorini.deck.inp.course import Course
 from signorini.deck.inp.distributed import read_dload, read_dsload
 from signorini.deck.inp.flatten import Placed
-from signorini.deck.inp.links import STRIDE, rigid_slots
+from signorini.deck.inp.links import STRIDE, component, rigid_slots
 from signorini.deck.inp.steps import DeckStep
 
 _HELD, _PULLED = "single nodes", "forces on single nodes"  # labels where the deck gives numbers, not a set
@@ -157,10 +157,10 @@ def _cload(item: Placed, known: Known, courses: Courses) -> None:
         axis = row.whole(1, "a direction")
         value = row.number(2, "the force")
         slots, rest = rigid_slots(known.rigid, nodes, [axis])
-        turns = () if len(rest) else (4, 5, 6) if known.dimension == 3 else (6,)
-        if axis not in (*range(1, known.dimension + 1), *turns):
-            either = f", or {' '.join(map(str, turns))} of a rigid body" if turns else ""
-            raise row.error(f"*CLOAD: direction {axis}; expected 1 to {known.dimension}{either}")
+        there = len(slots) > 0 and all(component(slot, known.dimension) is not None for slot in slots.tolist())
+        if not (1 <= axis <= known.dimension if len(rest) else there):
+            turns = "" if len(rest) else ", or a rotation of the rigid body"
+            raise row.error(f"*CLOAD: direction {axis}; expected 1 to {known.dimension}{turns}")
         slots = np.append(slots, STRIDE * rest + axis - 1)
         courses.force.put(slots, value, label, block.at(row), amplitude, adds=True)
 
