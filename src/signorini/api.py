@@ -36,6 +36,7 @@ from signorini.plot.animation import animate_path
 from signorini.plot.contact import plot_contact
 from signorini.plot.escape import plot_escape
 from signorini.plot.files import ResultFolder
+from signorini.plot.style import literal
 from signorini.plot.view import render_view
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.history import History
@@ -134,7 +135,7 @@ class Solution(History):
 
     def plot(self) -> Figure:
         """Draw pressure and friction of every contact at the end of the last step."""
-        return plot_contact(self)
+        return literal(plot_contact(self))
 
     def view(self, path: str | Path) -> None:
         """Write a picture of a model in space after the last step, ``*.png``, rendered off-screen.
@@ -160,7 +161,7 @@ class Solution(History):
         InputError
             If there is none.
         """
-        return plot_escape(self)
+        return literal(plot_escape(self))
 
     def animate(self, path: str | Path, *, contact: str | None = None, frames: int = 100) -> None:
         """Write a GIF of pressure, friction and slip of a contact (the first by default) along the whole history."""

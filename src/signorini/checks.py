@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Collection, Sequence
 from typing import Any
 
@@ -11,6 +12,9 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.errors import InputError, Where, one_of
+
+_CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069]")
+"""Line ends, what terminals obey, and what turns the direction of writing."""
 
 
 def number(
@@ -49,9 +53,11 @@ def whole(value: Any, where: Where, *, least: int = 1, most: int | None = None) 
 
 
 def text(value: Any, where: Where) -> str:
-    """A non-empty text."""
+    """A non-empty text in one line, which a terminal shows as it is."""
     if not isinstance(value, str) or not value:
         raise InputError(f"is {value!r}; expected a name (text)", where=where)
+    if _CONTROL.search(value):
+        raise InputError(f"is {value!r}; expected a name without line ends and control characters", where=where)
     return value
 
 

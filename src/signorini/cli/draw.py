@@ -18,6 +18,7 @@ from signorini.plot.files import ResultFolder
 from signorini.plot.history import draw_history
 from signorini.plot.patch import draw_patches
 from signorini.plot.solid import draw_solid_mesh, draw_solid_stress
+from signorini.plot.style import literal
 from signorini.plot.view import render_view
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ def plot(options: argparse.Namespace) -> int:
     if options.what == "view":
         write_pixels(render_view(folder), file)
     else:
-        figure = _draw(folder, options.what)
+        figure = literal(_draw(folder, options.what))
         with replacing(file) as aside:
             figure.savefig(aside, dpi=150)
     print(file)

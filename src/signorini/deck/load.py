@@ -9,6 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+from signorini.checks import text
 from signorini.deck.error import DeckError
 from signorini.deck.inp.block import Block
 from signorini.deck.inp.build import Built, located
@@ -153,6 +154,8 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int], reach
     for key in ("title", "units"):
         if not isinstance(data.get(key, ""), str):
             raise InputError(f"is {data[key]!r}; expected text", where=(key,))
+        if data.get(key):
+            text(data[key], (key,))
     if "mesh" not in data:
         raise InputError("there is no mesh; expected [mesh] with a generator or a file")
     materials = deck_materials(data)

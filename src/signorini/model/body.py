@@ -41,4 +41,4 @@ class Body:
             raise InputError(f"is {self.material!r}; expected an Elastic or Orthotropic material", where=("material",))
         choice(self.formulation, ("standard", "incompatible", "mean dilatation"), ("formulation",), "formulation")
         if self.thickness is not None:
-            number(self.thickness, ("thickness",), above=0.0)
+            object.__setattr__(self, "thickness", number(self.thickness, ("thickness",), above=0.0))

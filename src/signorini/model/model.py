@@ -85,7 +85,7 @@ class Model:
         choice(self.kind, KINDS, ("kind",), "kind")
         if (self.kind == "3d") != (self.dimension == 3):
             raise InputError(f"is '{self.kind}', but the mesh has {self.dimension} coordinates", where=("kind",))
-        number(self.thickness, ("thickness",), above=0.0)
+        object.__setattr__(self, "thickness", number(self.thickness, ("thickness",), above=0.0))
         if self.thickness != 1.0:
             self._refuse_thickness(self.thickness, ("thickness",))
         for part, kind in (

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from signorini.arrays import Array
 from signorini.errors import InputError, one_of
 from signorini.plot.curve import surface_coordinate
-from signorini.plot.style import BOUND, INK, PRESSURE, STATUS_COLOURS, TRACTION, dress
+from signorini.plot.style import BOUND, INK, PRESSURE, STATUS_COLOURS, TRACTION, dress, literal
 from signorini.solution.history import History
 from signorini.solution.results import OPEN, SLIP, STICK
 
@@ -132,6 +132,7 @@ def animate_path(
     figure, draw = _scene(way, history.model.title)
     loads = np.linspace(way.load[0], way.load[-1], frames)
     film = FuncAnimation(figure, lambda i: draw(float(loads[i])), frames=frames, blit=False)
+    literal(figure)
     film.save(str(path), writer=PillowWriter(fps=rate), dpi=72)
 
 
@@ -154,7 +155,7 @@ def _scene(way: Way, title: str) -> tuple[Figure, Callable[[float], list[Artist]
     bounds = []
     if 0.0 < way.friction < math.inf:
         bounds = [tractions.plot([], [], "--", color=BOUND, lw=0.9, alpha=0.7)[0] for _ in range(2)]
-        bounds[0].set_label(rf"$\pm\mu p$, $\mu$ = {way.friction:g}")
+        bounds[0].set_label(f"± μ p, μ = {way.friction:g}")
     (slip,) = slips.plot([], [], color=INK, lw=1.5)
     forces.plot(way.load, way.force[:, 0], color=TRACTION, lw=1.2)
     (here,) = forces.plot([], [], "o", color=INK, ms=6)

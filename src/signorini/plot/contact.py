@@ -62,10 +62,10 @@ def _draw(axes: Axes, curve: Curve) -> None:
     if curve.has_bound:
         bound = curve.friction * curve.pressure
         signs = [sign for sign in (1.0, -1.0) if (sign * curve.traction > 0.01 * bound.max()).any()] or [1.0]
-        name = {1: r"$\mu p$", 2: r"$\pm\mu p$"}[len(signs)] if signs[0] > 0 else r"$-\mu p$"
+        name = {1: "μ p", 2: "± μ p"}[len(signs)] if signs[0] > 0 else "- μ p"
         for sign in signs:
             line = axes.plot(curve.s, sign * bound, "--", color=BOUND, lw=1.0, alpha=0.8)
-        line[0].set_label(rf"{name}, $\mu$ = {curve.friction:g}")
+        line[0].set_label(f"{name}, μ = {curve.friction:g}")
         lines += line
     axes.axhline(0.0, color=INK, lw=0.8)
     if not single:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 PRESSURE, TRACTION, BOUND = "#1b4f8a", "#c4451c", "#c4451c"
 STATUS_COLOURS = {"open": "#f1f1ef", "stick": "#cfe3f5", "slip": "#fbe3c6"}
@@ -25,3 +26,12 @@ def dress(axes: Axes) -> None:
     axes.tick_params(colors=INK, labelsize=9)
     axes.grid(True, color="#dddddd", linewidth=0.6)
     axes.set_axisbelow(True)
+
+
+def literal(figure: Figure) -> Figure:
+    """Show every text of a figure as it is: dollars in the names of a deck enclose no formula."""
+    import matplotlib.text as mtext
+
+    for text in figure.findobj(mtext.Text):
+        text.set_parse_math(False)
+    return figure

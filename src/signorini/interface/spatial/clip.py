@@ -233,6 +233,9 @@ def _inside(flat: Array, c: int, x: float, y: float, places: Array, found: Array
         a_x, a_y = flat[1, 0] - flat[0, 0], flat[1, 1] - flat[0, 1]
         b_x, b_y = flat[2, 0] - flat[0, 0], flat[2, 1] - flat[0, 1]
         size = a_x * b_y - a_y * b_x
+        if size == 0.0:  # it is seen as a line
+            found[0], found[1] = places[0, 0], places[0, 1]
+            return 0.0
         r = ((x - flat[0, 0]) * b_y - (y - flat[0, 1]) * b_x) / size
         s = (a_x * (y - flat[0, 1]) - a_y * (x - flat[0, 0])) / size
         for e in range(2):
