@@ -21,7 +21,9 @@ def sound(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
-@settings(max_examples=300, deadline=5000)
+@settings(
+    max_examples=300, deadline=None
+)  # what is compiled once, and other processes, take their time; benchmarks.fuzz counts CPU seconds
 @given(seed=st.integers(0, 2**32), kind=st.sampled_from(KINDS))
 def test_damaged_inputs(sound: Any, tmp_path_factory: pytest.TempPathFactory, seed: int, kind: str) -> None:
     kind, path = damage(sound, random.Random(seed), tmp_path_factory.getbasetemp(), kind)

@@ -55,6 +55,8 @@ def read_checkpoint(path: Path) -> Checkpoint:
     """
     if not path.is_file():
         raise InputError(f"there is no file '{path}'; expected a state that a run has written")
+    if not zipfile.is_zipfile(path):
+        raise InputError(f"'{path}' is no state that a run has written")
     try:
         with np.load(path, allow_pickle=False) as file:
             if str(file["format"]) != _FORMAT:
