@@ -69,6 +69,92 @@ def grid(d: int, xs: np.ndarray, ys: np.ndarray, heights: np.ndarray) -> tuple[n
     return points, cells.reshape(-1, 8)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Stack:
+    """Boxes on one another, node on node, numbered as the package joins them.
+
+    Attributes
+    ----------
+    meshes : points and cells of every body
+    heights : of the grid lines of every body
+    """
+
+    d: int
+    length: float
+    names: str
+    sides: dict[str, np.ndarray]
+    heights: list[np.ndarray]
+    meshes: list[tuple[np.ndarray, np.ndarray]]
+
+    @staticmethod
+    def of(d: int, length: float, xs: np.ndarray, ys: np.ndarray, thick: list[float], layers: list[int]) -> Stack:
+        """Bodies as thick as asked, of so many layers of cells."""
+        bottom = np.append(0.0, np.cumsum(thick))
+        heights = [np.linspace(low, high, n + 1) for low, high, n in zip(bottom, bottom[1:], layers, strict=False)]
+        return Stack(
+            d=d, length=length, names="abc"[: len(thick)], sides={"x": xs} if d == 2 else {"x": xs, "y": ys},
+            heights=heights, meshes=[grid(d, xs, ys, lines) for lines in heights],
+        )  # fmt: skip
+
+    @property
+    def points(self) -> np.ndarray:
+        return np.vstack([points for points, _ in self.meshes])
+
+    @property
+    def offsets(self) -> np.ndarray:
+        """The first node of every body, and the number of all."""
+        return np.append(0, np.cumsum([len(points) for points, _ in self.meshes]))
+
+    def mesh(self) -> Any:
+        """The same for the package."""
+        build, up = (sg.rectangle, "y") if self.d == 2 else (sg.box, "z")
+        boxes = {name: build(**self.sides, **{up: lines}) for name, lines in zip(self.names, self.heights, strict=True)}
+        return sg.join(boxes) if len(boxes) > 1 else boxes["a"]
+
+    def side(self, body: int, which: Literal["bottom", "top"]) -> str:
+        """What the package calls a side."""
+        return f"{self.names[body]}.{which}" if len(self.names) > 1 else which
+
+    def nodes(self, body: int, which: Literal["bottom", "top"]) -> np.ndarray:
+        """Those of a side."""
+        height = self.heights[body][0 if which == "bottom" else -1]
+        on = np.isclose(self.meshes[body][0][:, -1], height, rtol=0, atol=1e-12 * self.length)
+        return self.offsets[body] + np.flatnonzero(on)
+
+    def tributary(self, body: int) -> np.ndarray:
+        """(N,) length or area of the top of a body that belongs to every node: half the edges beside it."""
+        shares, over = np.zeros(len(self.points)), self.nodes(body, "top")
+        for node in over:
+            shares[node] = 1.0
+            for x, axis in zip(self.points[node], self.sides.values(), strict=False):
+                k = int(np.searchsorted(axis, x))
+                shares[node] *= 0.5 * (axis[min(k + 1, len(axis) - 1)] - axis[max(k - 1, 0)])
+        return shares
+
+
+def interfaces(
+    stack: Stack, first: int, gaps: float, ties: bool, rng: np.random.Generator
+) -> tuple[list[sg.Contact], independent.Pairs]:
+    """Contacts from a body on, that below the first one on the floor: gaps up to half a size, ties where asked."""
+    contacts, columns = [], []
+    ground = sg.Plane((0.0,) * stack.d, (0.0,) * (stack.d - 1) + (1.0,))
+    for k in range(first, len(stack.names)):
+        mu: Any = "tied" if ties and k > 0 and rng.random() < 0.6 else "stick" if rng.random() < 0.1 else None
+        if mu is None:
+            mu = round(float(rng.choice([0.0, rng.uniform(0.05, 1)], p=[0.1, 0.9])), 3)
+        gap = 0.0 if rng.random() < 0.6 else float(gaps * rng.uniform(-0.2, 0.5))
+        below = ground if k == 0 else stack.side(k - 1, "top")
+        contacts.append(sg.Contact(stack.side(k, "bottom"), below, friction=mu, gap=gap, name=f"c{k}"))
+        upper = stack.nodes(k, "bottom")
+        lower = np.full(len(upper), -1) if k == 0 else stack.nodes(k - 1, "top")
+        every = np.ones(len(upper))
+        columns.append(
+            (upper, lower, gap * every, every * (np.inf if isinstance(mu, str) else mu), every * (mu == "tied"))
+        )
+    upper, lower, gap, friction, tied = (np.concatenate(column) for column in zip(*columns, strict=True))
+    return contacts, independent.Pairs(upper=upper, lower=lower, gap=gap, friction=friction, tied=tied > 0)
+
+
 def make(seed: int, wanted: frozenset[str] = frozenset()) -> Case:
     """The model of a seed; the same seed makes the same one."""
     rng = np.random.default_rng(seed)
@@ -81,132 +167,62 @@ def make(seed: int, wanted: frozenset[str] = frozenset()) -> Case:
     most = 6 // (bodies if floor else bodies - 1) if d == 2 else 3
     xs = length * np.sort(np.append([0.0, 1.0], rng.uniform(0.2, 0.8, int(rng.integers(0, max(most - 1, 1))))))
     ys = length * np.linspace(0, 0.8, int(rng.integers(2, 4)))
-    names = "abc"[:bodies]
-    flat = [rng.random() < 0.5 and "thin" in kinds for _ in names]
-    thick = [length * (0.01 if thin else rng.uniform(0.3, 1.2)) for thin in flat]
-    layers = [1 if thin else int(rng.integers(1, 3)) for thin in flat]
+    thin = [rng.random() < 0.5 and "thin" in kinds for _ in range(bodies)]
+    thick = [length * (0.01 if flat else rng.uniform(0.3, 1.2)) for flat in thin]
+    stack = Stack.of(d, length, xs, ys, thick, [1 if flat else int(rng.integers(1, 3)) for flat in thin])
     moduli = modulus * 10.0 ** rng.uniform(-1, 1, bodies)
     nu, kind = rng.uniform(0.0, 0.4), "3d" if d == 3 else str(rng.choice(["plane strain", "plane stress"]))
     rigid = int(rng.integers(1, bodies)) if "rigid" in kinds and bodies > 1 else None
-    bottom = np.append(0.0, np.cumsum(thick))
-    heights = [np.linspace(bottom[k], bottom[k + 1], layers[k] + 1) for k in range(bodies)]
-    meshes = [grid(d, xs, ys, heights[k]) for k in range(bodies)]
-    offsets = np.append(0, np.cumsum([len(points) for points, _ in meshes]))
-    points = np.vstack([points for points, _ in meshes])
-    build = sg.rectangle if d == 2 else sg.box
-    sides = {"x": xs} if d == 2 else {"x": xs, "y": ys}
-    boxes = {name: build(**sides, **{"y" if d == 2 else "z": heights[k]}) for k, name in enumerate(names)}
-    mesh = sg.join(boxes) if bodies > 1 else boxes["a"]
-    at = (lambda name, side: f"{name}.{side}") if bodies > 1 else (lambda _, side: side)
-
-    def on_side(k: int, height: float) -> np.ndarray:
-        return offsets[k] + np.flatnonzero(np.isclose(meshes[k][0][:, -1], height, rtol=0, atol=1e-12 * length))
-
-    face = length ** (d - 1) * (1.0 if d == 2 else 0.8)
     strain = 10.0 ** rng.uniform(-4, -2)
-    press = modulus * strain
-    contacts, upper, lower, gaps, mus, ties = [], [], [], [], [], []
-    ground = sg.Plane((0.0,) * d, (0.0,) * (d - 1) + (1.0,))
-    for k in range(0 if floor else 1, bodies):
-        tied = "tied" in kinds and k > 0 and rng.random() < 0.6 and not (len(contacts) == 0 and bodies == 1)
-        mu: Any = (
-            "tied"
-            if tied
-            else "stick"
-            if rng.random() < 0.1
-            else round(float(rng.choice([0.0, rng.uniform(0.05, 1)], p=[0.1, 0.9])), 3)
-        )
-        gap = 0.0 if rng.random() < 0.6 else float(strain * length * rng.uniform(-0.2, 0.5))
-        contacts.append(
-            sg.Contact(
-                at(names[k], "bottom"),
-                ground if k == 0 else at(names[k - 1], "top"),
-                friction=mu,
-                gap=gap,
-                name=f"c{k}",
-            )
-        )
-        nodes = on_side(k, bottom[k])
-        upper.append(nodes)
-        lower.append(np.full(len(nodes), -1) if k == 0 else on_side(k - 1, bottom[k]))
-        gaps.append(np.full(len(nodes), gap))
-        mus.append(np.full(len(nodes), np.inf if isinstance(mu, str) else mu))
-        ties.append(np.full(len(nodes), tied))
-    pairs = independent.Pairs(
-        upper=np.concatenate(upper), lower=np.concatenate(lower), gap=np.concatenate(gaps),
-        friction=np.concatenate(mus), tied=np.concatenate(ties),
-    )  # fmt: skip
+    contacts, pairs = interfaces(stack, 0 if floor else 1, strain * length, "tied" in kinds, rng)
+    points = stack.points
     held, supports = np.zeros(points.shape, bool), []
     if not floor:
-        held[on_side(0, 0.0)] = True
-        supports.append(sg.Support(at("a", "bottom"), u=(0.0,) * d, name="base"))
-    top, over = bodies - 1, on_side(bodies - 1, bottom[-1])
-    shear_way = np.append(rng.normal(size=d - 1), 0.0)
-    shear_way /= np.linalg.norm(shear_way)
-    down = np.append(np.zeros(d - 1), -1.0)
-    groups, loads, rigid_bodies = [], [], []
-    zero = np.zeros_like(points)
+        held[stack.nodes(0, "bottom")] = True
+        supports.append(sg.Support(stack.side(0, "bottom"), u=(0.0,) * d, name="base"))
+    groups, loads, rigid_bodies, unit = [], [], [], []
     if rigid is not None:
-        about = np.append(np.full(d - 1, 0.45 * length), 0.5 * (bottom[rigid] + bottom[rigid + 1]))
-        groups.append((np.arange(offsets[rigid], offsets[rigid + 1]), about))
-        rigid_bodies.append(sg.RigidBody("R", names[rigid], tuple(about)))
-    turns = 1 if d == 2 else 3
-    unit = []
-    driven = "driven" in kinds and rigid != top
-    for name, way in (("press", down), ("shear", shear_way)):
-        none = [np.zeros(d + turns) for _ in groups]
-        if driven:
-            moved = zero.copy()
-            moved[over] = strain * length * way
-            if name == "press":
-                supports.append(sg.Support(at(names[top], "top"), u=(None,) * (d - 1) + (-strain * length,), name=name))
-            else:
-                held[over] = True
-                supports.append(sg.Support(at(names[top], "top"), u=(*(strain * length * way[:-1]), None), name=name))
-            unit.append((zero, moved, none))
+        about = np.append(np.full(d - 1, 0.45 * length), stack.heights[rigid][[0, -1]].mean())
+        groups.append((np.arange(*stack.offsets[rigid : rigid + 2]), about))
+        rigid_bodies.append(sg.RigidBody("R", stack.names[rigid], tuple(about)))
+    turns, top, zero = 1 if d == 2 else 3, bodies - 1, np.zeros_like(points)
+    shear = np.append(rng.normal(size=d - 1), 0.0)
+    for name, way in (("press", -np.eye(d)[-1]), ("shear", shear / np.linalg.norm(shear))):
+        force, moved, on_rigid = zero.copy(), zero.copy(), [np.zeros(d + turns) for _ in groups]
+        if "driven" in kinds and rigid != top:
+            held[stack.nodes(top, "top")] = True
+            moved[stack.nodes(top, "top")] = strain * length * way
+            given = [None if (name == "press") is (k < d - 1) else float(strain * length * way[k]) for k in range(d)]
+            supports.append(sg.Support(stack.side(top, "top"), u=tuple(given), name=name))
         elif rigid == top:
-            force = np.append(press * face * way, np.zeros(turns))
-            unit.append((zero, zero, [force]))
-            loads.append(sg.Load("R", force=tuple(force), name=name))
+            on_rigid = [np.append(modulus * strain * length ** (d - 1) * way, np.zeros(turns))]
+            loads.append(sg.Load("R", force=tuple(on_rigid[0]), name=name))
         else:
-            force = zero.copy()
-            shares = np.zeros(len(points))
-            flat_top = meshes[top][0][over - offsets[top]][:, : d - 1]
-            axes = [np.unique(flat_top[:, k]) for k in range(d - 1)]
-            for node, place in zip(over, flat_top, strict=True):
-                shares[node] = np.prod([_tributary(axis, x) for axis, x in zip(axes, place, strict=True)])
-            force += press * shares[:, None] * way
-            unit.append((force, zero, none))
-            loads.append(sg.Load(at(names[top], "top"), traction=tuple(press * way), name=name))
+            force = modulus * strain * stack.tributary(top)[:, None] * way
+            loads.append(sg.Load(stack.side(top, "top"), traction=tuple(modulus * strain * way), name=name))
+        unit.append((force, moved, on_rigid))
     count = int(rng.integers(2, 6))
-    factors = np.column_stack(
-        [
-            rng.choice([1.0, 0.5, 1.5, 0.2, -0.3], count, p=[0.35, 0.25, 0.15, 0.1, 0.15]),
-            rng.uniform(-1, 1, count) * rng.choice([0.1, 0.4, 1.0]),
-        ]
-    )
+    press = rng.choice([1.0, 0.5, 1.5, 0.2, -0.3], count, p=[0.35, 0.25, 0.15, 0.1, 0.15])
+    factors = np.column_stack([press, rng.uniform(-1, 1, count) * rng.choice([0.1, 0.4, 1.0])])
     factors[0, 0] = 1.0
-    plain: dict[str, Any] = {"at": "events"} if "exact" in kinds and d == 2 else {"at": "events", "increments": 1}
-    steps = [sg.Step(scale={"press": float(a), "shear": float(b)}, **plain) for a, b in factors]
-    made = [sg.Body(name, sg.Elastic(E=E, nu=nu)) for name, E in zip(mesh.bodies, moduli, strict=True)]
+    parts: dict[str, Any] = {} if "exact" in kinds and d == 2 else {"increments": 1}
+    mesh, connected = stack.mesh(), zip(stack.offsets, stack.meshes, moduli, strict=False)
     model = sg.Model(
-        mesh, kind=kind, bodies=made,
-        supports=supports, loads=loads, rigid_bodies=rigid_bodies, contacts=contacts, steps=steps,
-    )  # fmt: skip
-    cells = [(offsets[k] + meshes[k][1], independent.elasticity(moduli[k], nu, kind)) for k in range(bodies)]
-    structure = independent.Structure(
-        points=points, K=independent.stiffness(points, cells), held=held, pairs=pairs, rigid=groups
+        mesh,
+        kind=kind,
+        bodies=[sg.Body(name, sg.Elastic(E=E, nu=nu)) for name, E in zip(mesh.bodies, moduli, strict=True)],
+        supports=supports,
+        loads=loads,
+        rigid_bodies=rigid_bodies,
+        contacts=contacts,
+        steps=[sg.Step(scale={"press": float(a), "shear": float(b)}, at="events", **parts) for a, b in factors],
     )
-    return Case(
-        seed=seed, kinds=frozenset(kinds - ({"rigid"} if rigid is None else set())), model=model, factors=factors,
-        structure=structure, unit=unit,
-    )  # fmt: skip
-
-
-def _tributary(axis: np.ndarray, x: float) -> float:
-    """Half the lengths of the edges beside a node."""
-    k = int(np.searchsorted(axis, x))
-    return 0.5 * (axis[min(k + 1, len(axis) - 1)] - axis[max(k - 1, 0)])
+    K = independent.stiffness(
+        points, [(n + cells, independent.elasticity(E, nu, kind)) for n, (_, cells), E in connected]
+    )
+    structure = independent.Structure(points=points, K=K, held=held, pairs=pairs, rigid=groups)
+    is_what = frozenset(kinds - ({"rigid"} if rigid is None else set()))
+    return Case(seed=seed, kinds=is_what, model=model, factors=factors, structure=structure, unit=unit)
 
 
 @dataclass(frozen=True, kw_only=True)
