@@ -265,16 +265,17 @@ def judge(case: Case) -> Verdict:
         return _refused(case, str(error))
     except Exception as error:  # whatever a solver may do is told, not raised
         return Verdict(outcome="ERROR", words=f"{type(error).__name__}: {str(error)[:300]}")
-    before, worst, energy = np.zeros_like(structure.points), 0.0, 1e-300
+    before, worst, energy, length = np.zeros_like(structure.points), 0.0, 1e-300, 0.0
     for k, step in enumerate(history.steps):
         for instant in step.instants:
             if instant.displacement is None and not step.finished:
                 break  # the bodies were not looked at
-            wrong, size = _at(case, instant, before)
+            wrong, size = _at(case, instant, before, length)
             if not size <= TOLERANCE:
                 where = f"step {k + 1} at {instant.load_factor - k:.4%}, {instant.what}"
                 return Verdict(outcome="WRONG", words=f"{where}: {wrong} {size:.1e}, {step.path} {step.methods}")
             worst, before = max(worst, size), instant.displacement
+            length = max(length, float(np.abs(before).max()))
         energy = max(energy, abs(step.work), step.strain_energy, step.dissipation, step.released)
         if step.path == "exact" and abs(step.energy_defect) > TOLERANCE * energy:
             return Verdict(outcome="WRONG", words=f"step {k + 1}: energy defect {step.energy_defect / energy:.1e}")
@@ -287,13 +288,13 @@ def judge(case: Case) -> Verdict:
     return _without_answer(case, history, sum(step.finished for step in history.steps), before)
 
 
-def _at(case: Case, instant: Any, before: np.ndarray) -> tuple[str, float]:
+def _at(case: Case, instant: Any, before: np.ndarray, length: float) -> tuple[str, float]:
     """What is most wrong at a load, and how much: between two events a path is an increment."""
     if instant.what == "approach":
         return "the approach", independent.carried(case.structure, before, instant.displacement)
     acts = increment(case, (instant.factors["press"], instant.factors["shear"]), before)
     gradual = instant.what != "landing"
-    found = independent.violations(case.structure, acts, instant.displacement, incremental=gradual)
+    found = independent.violations(case.structure, acts, instant.displacement, incremental=gradual, length=length)
     name = max(found, key=lambda key: found[key])
     return name, found[name]
 

@@ -151,8 +151,12 @@ def projected(q: Array, bound: Array) -> Array:
     return q * factor[:, None]
 
 
-def violations(structure: Structure, increment: Increment, u: Array, *, incremental: bool = True) -> dict[str, float]:
+def violations(
+    structure: Structure, increment: Increment, u: Array, *, incremental: bool = True, length: float = 0.0
+) -> dict[str, float]:
     """How far displacements (N, d) are from equilibrium and from the law, in units of the forces and motions at hand.
+
+    Or in those of a length, where motions were larger before.
 
     The forces of the pairs are what the elements of one side leave unbalanced; no force that a solver tells is used.
     ``incremental`` asks for the direction of slip, which is known where the increment is one.
@@ -174,7 +178,7 @@ def violations(structure: Structure, increment: Increment, u: Array, *, incremen
     elastic = np.where(s.held | in_rigid[:, None], 0.0, balance)
     force = max(np.abs(left).max(initial=0.0), np.abs(increment.force).max(initial=0.0), noise)
     length = max(
-        np.abs(u).max(initial=0.0), np.abs(pairs.gap).max(initial=0.0), np.abs(increment.moved).max(initial=0.0)
+        length, np.abs(u).max(initial=0.0), np.abs(pairs.gap).max(initial=0.0), np.abs(increment.moved).max(initial=0.0)
     )
     force, length = force or 1.0, length or 1.0
     found = {"equilibrium": np.abs(elastic).max(initial=0.0) / force}
