@@ -23,6 +23,7 @@ BASE = {
     "memory",
     "bound",
     "pairstate",
+    "short",
     "sources",
     "trace",
     "_version",

@@ -53,7 +53,7 @@ _WRITERS: Mapping[str, Callable[[History, Path], None]] = {
 }
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Solution(History):
     """A solved load history; see :class:`signorini.solution.history.History` for its fields.
 

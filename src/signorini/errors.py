@@ -41,8 +41,23 @@ class InputError(SignoriniError, ValueError):
         return InputError(self.message, where=outer + self.where, cell=self.cell)
 
 
+def told(sentence: str, *, remedy: str = "", evidence: str = "") -> str:
+    """What happened in a sentence; what to do about it and what it rests on on lines of their own.
+
+    >>> print(told("the body leaves", remedy="hold it", evidence="a third of the load is left"))
+    the body leaves
+      what to do: hold it
+      evidence: a third of the load is left
+    """
+    return "\n  ".join(
+        [sentence, *(f"what to do: {remedy}" for _ in remedy[:1]), *(f"evidence: {evidence}" for _ in evidence[:1])]
+    )
+
+
 class SolveFailed(SignoriniError):
     """No certified solution: carries the reason and whatever was found before.
+
+    Its words begin with one sentence; see :func:`told` for the lines that may follow.
 
     Attributes
     ----------
@@ -62,6 +77,16 @@ class SolveFailed(SignoriniError):
         self.reached: object | None = None
         self.hopeless = status == "no_equilibrium"
         super().__init__(message)
+
+    @property
+    def sentence(self) -> str:
+        """What happened."""
+        return str(self).partition("\n")[0]
+
+    @property
+    def details(self) -> str:
+        """What to do, and evidence: the lines behind the sentence, each after a break; empty where there are none."""
+        return str(self)[len(self.sentence) :]
 
 
 class Interrupted(KeyboardInterrupt):

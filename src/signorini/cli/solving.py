@@ -80,7 +80,7 @@ def _told(
         print((folder / "summary.json").read_text(encoding="utf-8"), end="")
     elif not options.quiet:
         if history.solved or history.steps:
-            print(history_table(history), end="\n\n")
+            print(history_table(history, failure=False), end="\n\n")
         for note in deck.notes:
             print(textwrap.fill(f"deck: {note}", 112), end="\n\n")
         if history.escape is not None:

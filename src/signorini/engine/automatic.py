@@ -20,7 +20,7 @@ from signorini.engine.increments import follow_increments, is_straight
 from signorini.engine.leg import Leg
 from signorini.engine.prepare import Prepared
 from signorini.engine.stretch import Stretch
-from signorini.errors import SolveFailed
+from signorini.errors import SolveFailed, told
 from signorini.iterative.bodies import Bodies
 
 MOST = 4096
@@ -81,7 +81,9 @@ def follow_automatically(
         coarse, number = fine, more * number
         why = f"once more, in up to {number} increments: whether the answer stays"
     raise SolveFailed(
-        f'{stretch.where}: {MOST} increments still change {changes}; expected a larger tolerance, or path = "exact"',
+        told(
+            f"{stretch.where}: {MOST} increments still change {changes}", remedy='a larger tolerance, or path = "exact"'
+        ),
         status="not_found",
     )
 
@@ -121,7 +123,7 @@ def _followed(stretch: Stretch, number: int, jump: Literal["stop", "follow"] | N
                 worse.reached = failure.reached
                 raise worse from failure
             if failure.status == "jump":
-                notes = (f"{failure}; followed in {number} increments to what is a candidate",)
+                notes = (f"{failure.sentence}; followed in {number} increments to what is a candidate",)
     leg = follow_increments(stretch, number)
     return replace(leg, notes=notes), _counted(number)
 

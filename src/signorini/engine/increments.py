@@ -12,7 +12,7 @@ from signorini.arrays import Array, IntArray, frozen
 from signorini.engine.leg import Leg, Snapshot, keep
 from signorini.engine.prepare import Prepared
 from signorini.engine.stretch import Stretch
-from signorini.errors import SolveFailed
+from signorini.errors import SolveFailed, told
 from signorini.fem.rigid import describe_motion
 from signorini.friction.law import OPEN, STICK
 from signorini.friction.problem import CoulombProblem
@@ -234,8 +234,11 @@ def certified(prepared: Prepared, state: State, before: Array, where: str) -> Ce
     if certificate.passed:
         return certificate
     raise SolveFailed(
-        f"{where}: the solver's answer did not pass the certificate ({certificate}); badly scaled data (extreme ratios "
-        "of moduli, sizes or compliances) are the usual cause",
+        told(
+            f"{where}: the solver's answer did not pass the certificate",
+            remedy="look for extreme ratios of moduli, sizes or compliances, which are the usual cause",
+            evidence=str(certificate),
+        ),
         status="not_found",
     )
 

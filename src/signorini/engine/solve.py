@@ -291,11 +291,13 @@ def _leg(stage: Stage, stretch: Stretch) -> Leg:
         try:
             leg = follow_increments(stretch, _BEHIND_A_JUMP)
         except SolveFailed as nothing:
-            words = f"{failure}; nor do increments go on: {nothing}"
+            words = f"{failure.sentence}; nor do increments go on: {nothing.sentence}{nothing.details}"
             worse = SolveFailed(words, status=nothing.status, motion=nothing.motion)
             worse.reached = failure.reached  # the exact path goes farther
             raise worse from failure
-        return replace(leg, notes=(f"{failure}; followed in {_BEHIND_A_JUMP} increments to what is a candidate",))
+        return replace(
+            leg, notes=(f"{failure.sentence}; followed in {_BEHIND_A_JUMP} increments to what is a candidate",)
+        )
 
 
 def _increments(step: Step, span: Span, stage: Stage) -> int:

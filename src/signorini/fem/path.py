@@ -14,6 +14,7 @@ from signorini.errors import InputError, one_of
 from signorini.fem.space import Block, Space, shape_functions
 from signorini.fem.stress import body_stresses
 from signorini.model.model import Model
+from signorini.short import Short
 
 _OUTSIDE = 1e-6  # of a cell: how far a point may lie beside its body, and is taken to its edge
 _NEWTON = 20
@@ -23,8 +24,8 @@ _OBLIQUE = {"triangle": 2, "tetra": 3, "wedge": 2}
 _BENT = 1.3  # of the distance of the farthest node: how far a bent edge may reach
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PathResult:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class PathResult(Short):
     """Displacement and stress at points of a body.
 
     Attributes

@@ -14,10 +14,11 @@ from signorini.fem.kinematics import Group, Kinematics, groups, kinematics, mean
 from signorini.fem.space import Space
 from signorini.fem.thermal import temperatures, thermal_strain
 from signorini.model.model import Model
+from signorini.short import Short
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class BodyStress:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class BodyStress(Short):
     """Nodal stresses of one body.
 
     Attributes

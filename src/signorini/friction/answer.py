@@ -7,6 +7,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
 from signorini.bound import STEEP, plain
+from signorini.errors import told
 from signorini.friction.candidate import Candidate
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, UNDECIDED, split, states
 from signorini.friction.problem import CoulombProblem
@@ -19,19 +20,33 @@ UNDETERMINED = (
 )
 SEVERAL = "; its index is -1: at least two more solutions exist, and the load history decides which one is taken"
 VERGE = "; pairs that hold friction without pressure slip on the verge of opening: {pairs}"
-PULLED_AWAY = (
-    "no equilibrium: the loads pull a body away along a rigid motion that contact cannot resist, whatever its state;"
-    " hold the body, or change the loads (nothing takes {margin:.2g} of the load on the body)"
+PULLED_AWAY = told(
+    "no equilibrium: the loads pull a body away along a rigid motion that contact cannot resist, whatever its state",
+    remedy="hold the body, or change the loads",
+    evidence="nothing takes {margin:.2g} of the load on the body",
 )
-TREE = (
+TREE = told(
     "no equilibrium: the forces can balance the resultants, but no state of the pairs (open, stick, slip) is in"
-    " equilibrium; every one is refused by a linear program (at the least {margin:.2g} of the load is not balanced)"
+    " equilibrium",
+    remedy="change loads, gaps or friction",
+    evidence="a linear program refuses every state, and at the least {margin:.2g} of the load is not balanced",
 )
-ESCAPES = (
-    "no certified equilibrium, and no proof that there is none: with ever weaker springs the bodies run away along the"
-    " motion given; hold them against it, or change loads, gaps or friction"
-)
-NOTHING = "no certified equilibrium, and no proof that there is none: every method ended without a solution"
+_LOST = "no certified equilibrium, and no proof that there is none"
+_RUNS = f"{_LOST}: with ever weaker springs the bodies run away along the motion given"
+
+
+def nothing_found(ends: str, *, escapes: bool) -> str:
+    """Words where there is neither solution nor proof.
+
+    Parameters
+    ----------
+    ends : how the methods ended
+    escapes : whether bodies run away where ever weaker springs hold them
+    """
+    if escapes:
+        return told(_RUNS, remedy="hold the bodies against it, or change loads, gaps or friction", evidence=ends)
+    remedy = "smaller increments, less friction, or moduli, sizes and compliances less far apart"
+    return told(f"{_LOST}: every method ended without a solution", remedy=remedy, evidence=ends)
 
 
 def solved(problem: CoulombProblem, found: Candidate, trace: tuple[Attempt, ...]) -> CoulombResult:
@@ -80,7 +95,7 @@ def impossible(problem: CoulombProblem, found: Candidate, trace: tuple[Attempt, 
 def not_found(problem: CoulombProblem, escape: Array | None, trace: tuple[Attempt, ...]) -> CoulombResult:
     """Neither solution nor proof."""
     ends = "; ".join(f"{a.method}: {a.end}" for a in trace)
-    return _unsolved(problem, "not_found", trace, escape, f"{NOTHING if escape is None else ESCAPES} ({ends})")
+    return _unsolved(problem, "not_found", trace, escape, nothing_found(ends, escapes=escape is not None))
 
 
 def _unsolved(

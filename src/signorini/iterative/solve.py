@@ -27,6 +27,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.bound import Bound
+from signorini.errors import told
 from signorini.iterative.bodies import Bodies
 from signorini.iterative.law import Slope, project, slope, states
 from signorini.iterative.multigrid import Cycle, conjugate_gradients
@@ -80,10 +81,10 @@ class Answer:
         rounds = self.trace[0].iterations
         if self.solved:
             return f"solved by {self.trace[0].method}, {rounds} rounds"
-        return (
-            f"no certified equilibrium, and no proof that there is none: multipliers did not settle in {rounds} rounds "
-            f"(residual {self.residual:.1e}); expected smaller increments or less friction, or a model small enough "
-            "to be condensed"
+        return told(
+            "no certified equilibrium, and no proof that there is none: multipliers did not settle",
+            remedy="smaller increments, less friction, or a model small enough to be condensed",
+            evidence=f"{rounds} rounds, residual {self.residual:.1e}",
         )
 
 

@@ -28,12 +28,13 @@ _NUMBERS = (6, 7, 8)
 _ROUNDING = 1e-12  # of the largest of its kind: what is smaller is rounding, and printed as 0
 
 
-def history_table(history: History) -> str:
+def history_table(history: History, *, failure: bool = True) -> str:
     """Forces, pressures, states, reactions and the certificate of every step.
 
     Parameters
     ----------
     history : its numbers are in the units of the model
+    failure : whether to say at the end why nothing more was solved
 
     Returns
     -------
@@ -51,8 +52,9 @@ def history_table(history: History) -> str:
         lines += ["", *textwrap.wrap(f"{_whose(note, history.steps)}: {note}", 112)]
     if history.wellposedness is not None:
         lines += ["", *textwrap.wrap(f"uniqueness: {history.wellposedness.words}", 112)]
-    if not history.solved:
-        lines += ["", *textwrap.wrap(f"{history.status}: {history.message}", 112)]
+    if failure and not history.solved:
+        told = f"{history.status}: {history.message}".splitlines()
+        lines += ["", *(part for line in told for part in textwrap.wrap(line, 112, subsequent_indent="    "))]
     return "\n".join(lines)
 
 

@@ -17,6 +17,7 @@ from signorini.interface.interface import Interface
 from signorini.model.mesh import Mesh
 from signorini.model.model import Model
 from signorini.model.stage import Standing
+from signorini.short import Short
 from signorini.solution.scale import Loading
 from signorini.solution.state import State
 
@@ -49,8 +50,8 @@ _SAME = 1e-9  # of a number: what compilers of other machines may change in it
 _NONE = 1e-12  # of the size of the mesh, or of 1: a gap, or part of a unit vector, that is none
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Checkpoint:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Checkpoint(Short):
     """A state, what the steps before it have set, and what it must fit.
 
     Attributes

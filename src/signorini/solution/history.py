@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from signorini.arrays import Array
 from signorini.errors import InputError, one_of
 from signorini.model.model import Model
+from signorini.short import Short
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.results import ContactResult, StepResult
 from signorini.solution.wellposedness import WellPosedness
@@ -23,8 +24,8 @@ RUNNING = "running"
 """Status of a history whose next step is being solved; of one that stays so, the process was killed."""
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class History:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class History(Short):
     """The end of every step, of one that could not be finished how far it was followed.
 
     Attributes

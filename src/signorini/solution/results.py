@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.short import Short
 from signorini.solution.certificate import Certificate
 from signorini.trace import Attempt
 
@@ -18,8 +19,8 @@ OPEN, STICK, SLIP = "open", "stick", "slip"
 Part = Literal["all", "pressure", "friction"]
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class ContactResult:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class ContactResult(Short):
     """One contact at the end of a step, on its nonmortar nodes.
 
     Attributes
@@ -130,8 +131,8 @@ class ContactResult:
         return int((self.status == status).sum())
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class ObstacleResult:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class ObstacleResult(Short):
     """A moving rigid obstacle, or a rigid body, at the end of a step.
 
     Attributes
@@ -166,8 +167,8 @@ class PairEvent:
     what: str
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Instant:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Instant(Short):
     """The contacts at one load on the way: at every event or increment, at kinks of the load, at times asked for.
 
     Attributes
@@ -215,8 +216,8 @@ class Cycle:
     drift: float
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class StepResult:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class StepResult(Short):
     """The end of a step, or how far it was followed.
 
     Attributes

@@ -14,10 +14,11 @@ from signorini.arrays import Array, IntArray
 from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface
 from signorini.pairstate import OPEN
+from signorini.short import Short
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class LoadPoint:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class LoadPoint(Short):
     """A point of the load history: everything that is imposed. Between two of them all of it changes linearly.
 
     Attributes
@@ -49,8 +50,8 @@ class LoadPoint:
         )
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class State:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class State(Short):
     """Displacements, forces and what friction remembers.
 
     Attributes

@@ -19,7 +19,7 @@ import numpy as np
 
 from signorini.arrays import Array, frozen
 from signorini.errors import InputError
-from signorini.friction.answer import ESCAPES, NOTHING, PULLED_AWAY, VERGE
+from signorini.friction.answer import PULLED_AWAY, VERGE, nothing_found
 from signorini.friction.result import Outcome
 from signorini.friction.spatial.equilibrium import Equilibrium
 from signorini.friction.spatial.escape import escape_motion
@@ -101,7 +101,7 @@ def solve_spatial(
         return _solved(problem, best.y, best.residual, tuple(trace))
     escape = escape_motion(problem, springs=settings.springs, steps=settings.newton_steps) if problem.floating else None
     ends = "; ".join(f"{attempt.method}: {attempt.end}" for attempt in trace[:3])
-    message = f"{NOTHING if escape is None else ESCAPES} ({ends}; least residual {best.residual:.1e})"
+    message = nothing_found(f"{ends}; least residual {best.residual:.1e}", escapes=escape is not None)
     return _unsolved(problem, "not_found", tuple(trace), best.residual, message, escape)
 
 
