@@ -1,16 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures from result folders."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import signorini as sg
+from signorini.arrays import Array
 from signorini.cli import main
 from signorini.gallery.cylinder import zhu_cylinder
+from signorini.output.folder import write_drawn
+from signorini.output.instants import write_history
 from signorini.plot.curve import curves_of, surface_coordinate
 from signorini.plot.files import ResultFolder
+from signorini.plot.history import draw_history
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -81,3 +86,35 @@ def test_the_film_of_a_path(tmp_path: Path) -> None:
         assert film.n_frames == 4
     with pytest.raises(sg.InputError, match="unknown contact 'floor'"):
         solution.animate(tmp_path / "path.gif", contact="floor")
+
+
+def lines_of(solution: sg.Solution, path: Path) -> dict[str, tuple[Array, Array]]:
+    """What the picture of a history draws of the forces: load factors and values by name."""
+    write_drawn(solution, path)
+    write_history(solution, path / "history.csv")
+    forces = draw_history(ResultFolder(path=path)).axes[2]
+    solid = [line for line in forces.get_lines() if line.get_marker() == "None" and len(line.get_xdata()) > 1]
+    values = [(np.array(line.get_xdata()), np.array(line.get_ydata())) for line in solid]
+    return dict(zip(("normal", "friction"), values, strict=False))
+
+
+def test_the_history_in_space_draws_friction_where_it_is(tmp_path: Path) -> None:
+    """From the unloaded beginning, along its own direction with its sign; a run that goes on begins where it begins."""
+    x = np.linspace(0.0, 2.0, 3)
+    model = sg.Model(
+        sg.box(x=x, y=x, z=np.linspace(0.0, 1.0, 2)),
+        bodies=[sg.Body("block", sg.Elastic(E=1e5, nu=0.3))],
+        loads=[
+            sg.Load("top", force=(0.0, 0.0, -8000.0), name="press"),
+            sg.Load("top", force=(-600.0, 800.0, 0.0), name="push"),
+        ],
+        contacts=[sg.Contact("bottom", sg.Plane((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)), friction=0.5)],
+        steps=[sg.Step(scale={"press": 1.0, "push": 0.0}), sg.Step(scale={"press": 1.0, "push": [1.0, -1.0]})],
+    )
+    load, friction = lines_of(sg.solve(model), tmp_path)["friction"]
+    for at, value in ((0.0, 0.0), (1.0, 0.0), (1.5, -1000.0), (2.0, 1000.0)):
+        assert friction[load == at] == pytest.approx(value, abs=1e-6)
+    first = sg.solve(replace(model, steps=model.steps[:1]))
+    again = sg.solve(replace(model, steps=model.steps[1:]), start=first)
+    load, normal = lines_of(again, tmp_path)["normal"]
+    assert (load[0], normal[0]) == (0.5, pytest.approx(8000.0))

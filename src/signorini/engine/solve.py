@@ -145,7 +145,7 @@ def _follow(
     steps: list[StepResult] = []
     before = replace(prepared, absent=pairs_of(model, interface, standing.inactive))
     before = replace(before, constraints=_constraints(prepared, standing.released))
-    end = begin
+    end, loaded = begin, bool(state.forces.any())
     try:
         for stage in schedule:
             prepared = prepared.upheld(stage.released)
@@ -168,7 +168,7 @@ def _follow(
             steps, end, before = [*steps, result], after, now  # at once, whenever an interruption comes
             if after_step is not None and len(steps) < len(schedule):
                 words = f"{len(steps)} of {len(schedule)} steps are finished"
-                after_step(_history(prepared, RUNNING, words, steps, end))
+                after_step(_history(prepared, RUNNING, words, steps, end, loaded))
     except (SolveFailed, KeyboardInterrupt) as stop:
         status = INTERRUPTED
         number = min(len(steps) + 1, len(schedule))
@@ -179,8 +179,8 @@ def _follow(
         part = reached(stop)
         if part is not None:
             steps.append(step_result(now, schedule[len(steps)], part, (), finished=False))
-        return replace(_history(prepared, status, words, steps, last), escape=_motion(stop))
-    history = _history(prepared, "solved", "", steps, end)
+        return replace(_history(prepared, status, words, steps, last, loaded), escape=_motion(stop))
+    history = _history(prepared, "solved", "", steps, end, loaded)
     return replace(history, wellposedness=assess(now, end.state)) if wellposed else history
 
 
@@ -306,7 +306,9 @@ def _increments(step: Step, span: Span, stage: Stage) -> int:
     return max(1, ceil(number * (span.high - span.low) * len(stage.ends) - 1e-9))
 
 
-def _history(prepared: Prepared, status: str, message: str, steps: list[StepResult], end: Checkpoint | None) -> History:
+def _history(
+    prepared: Prepared, status: str, message: str, steps: list[StepResult], end: Checkpoint | None, loaded: bool
+) -> History:
     return History(
         model=prepared.model,
         status=status,
@@ -316,4 +318,5 @@ def _history(prepared: Prepared, status: str, message: str, steps: list[StepResu
         timings=dict(prepared.clock.seconds),
         pairs=len(prepared.interface),
         end=end,
+        loaded=loaded,
     )

@@ -35,6 +35,7 @@ def summary(history: History, seconds: Mapping[str, float], deck: str = "") -> d
         "title": model.title,
         "status": history.status,
         "message": history.message,
+        "goes_on": history.loaded,
         "kind": model.kind,
         "thickness": model.thickness,
         "units": model.units,

@@ -39,6 +39,7 @@ class History(Short):
     pairs : contact pairs
     end : the state at the end of the last finished step, from which another history may go on; None before the first
     wellposedness : whether other solutions exist, where that was asked
+    loaded : whether it goes on from another whose end pressed on contacts
     escape : (nodes, d) rigid motion along which bodies run away where that was found, largest entry 1; otherwise None
     """
 
@@ -51,6 +52,7 @@ class History(Short):
     pairs: int
     end: Checkpoint | None = None
     wellposedness: WellPosedness | None = None
+    loaded: bool = False
     escape: Array | None = None
 
     @property
