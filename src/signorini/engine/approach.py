@@ -102,7 +102,8 @@ def standing(prepared: Prepared, state: State) -> tuple[BoolArray, BoolArray, fl
 
 def unfelt(felt: Array) -> Array:
     """(k, m) Orthonormal combinations of k motions that nothing feels; ``felt`` (rows, k) is what is felt of each."""
-    _, values, vectors = np.linalg.svd(np.concatenate([felt, np.zeros((1, felt.shape[1]))]))
+    k = felt.shape[1]
+    _, values, vectors = np.linalg.svd(np.concatenate([felt, np.zeros((k, k))]), full_matrices=False)
     rank = int((values > _STIFF * values[0]).sum())
     return np.asarray(vectors[rank:].T)
 
