@@ -69,10 +69,11 @@ def test_a_history_goes_on_from_an_archive(solution: sg.Solution, tmp_path: Path
 def test_a_model_survives_its_deck(name: str, tmp_path: Path) -> None:
     model = zhu_cylinder(friction=0.4) if name == "cylinder" else sg.read(DECKS / name)
     write_deck(model, tmp_path / "deck.toml")
-    assert plain(vars(sg.read(tmp_path / "deck.toml"))) == plain(vars(model))
+    expected = replace(model, mesh=replace(model.mesh, cell_word="cell"))  # in TOML nobody calls cells elements
+    assert plain(vars(sg.read(tmp_path / "deck.toml"))) == plain(vars(expected))
 
 
-NAMES = st.text(st.characters(codec="utf-8", exclude_categories=["Cs", "Cc"]), min_size=1, max_size=6)
+NAMES = st.text(st.characters(codec="utf-8", exclude_categories=["Cs", "Cc", "Cf", "Zl", "Zp"]), min_size=1, max_size=6)
 
 
 @settings(max_examples=25, deadline=None)
