@@ -51,12 +51,12 @@ def test_a_quarter_a_half_and_a_whole_ball_are_one():
 
 @pytest.mark.parametrize("counts", [(8, 8), (8, 11), (11, 8)])
 def test_a_slab_of_rings_is_the_plane_strain_model(counts):
-    """Also where the meshes do not match, down to the gaps that their chords feign."""
+    """Also where the meshes do not match: gaps between the circles are integrated by other rules."""
     flat = solve(press_fit(kind="plane strain", n_radial=2, n_angular=counts, friction=0.2)).contact("fit")
     deep = solve(press_fit_in_space(n_radial=2, n_angular=counts, friction=0.2)).contact("fit")
     for point, pressure in zip(deep.points, deep.pressure, strict=True):
         same = np.linalg.norm(flat.points - point[:2], axis=1).argmin()
-        assert pressure == pytest.approx(flat.pressure[same], rel=1e-8)
+        assert pressure == pytest.approx(flat.pressure[same], rel=1e-6)
 
 
 def test_boundaries_may_leave_out_middle_nodes():

@@ -21,6 +21,7 @@ CASES = (
     punches.corner_exponents,
     rings.shrink_fits,
     rings.hollow_bodies,
+    rings.drawn_press_fits,
     scalar.scalar_signorini,
     solids.hollow,
 )

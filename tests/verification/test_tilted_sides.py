@@ -40,7 +40,7 @@ def test_two_spheres_in_space_are_one_on_its_plane_of_symmetry(other, error):
 
 def ball(stiffness=None, *, swap=False):
     """Axisymmetric: on a rigid plane, or on a block that is so many times as stiff."""
-    disk = quarter_disk(radius=RADIUS, contact_length=15.0, contact_spacing=1.5, order=2)
+    disk = quarter_disk(radius=RADIUS, contact_length=15.0, contact_spacing=1.25, order=2)
     pressed = Support("ball.cut", u=(None, -2.0))
     if stiffness is None:
         contact = Contact("ball.arc", Plane((0, 0), (0, 1)), name="contact")

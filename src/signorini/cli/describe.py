@@ -9,7 +9,7 @@ from signorini.arrays import Array
 from signorini.cli.suspicion import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
 from signorini.deck import Deck
 from signorini.engine.prepare import Examined
-from signorini.engine.report import chord_notes, finer_notes
+from signorini.engine.report import finer_notes
 from signorini.engine.twice import same_loads
 from signorini.fem.locking import stiffened_bodies, thin_bodies
 from signorini.fem.rigid import describe_motions
@@ -62,7 +62,6 @@ def all_notes(deck: Deck, examined: Examined) -> list[str]:
         *_stiffness_notes(examined),
         *_contact_notes(examined),
         *finer_notes(examined),
-        *chord_notes(examined),
         *far_notes(examined),
         *held_notes(examined),
         *idle_notes(examined),

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray, extent, frozen
+from signorini.arrays import Array, IntArray, frozen
 from signorini.engine.cycles import judge, make_cycles
 from signorini.engine.exact import interface_energy, stored_energy
 from signorini.engine.heat import heat_of
@@ -87,7 +87,6 @@ def step_result(
             *_notes(prepared, leg),
             *_facet_notes(prepared),
             *finer_notes(prepared),
-            *chord_notes(prepared),
             *_open_notes(prepared, leg),
             *large_notes(prepared, state),
             *((words,) if words else ()),
@@ -123,17 +122,6 @@ def finer_notes(examined: Examined) -> tuple[str, ...]:
         "the other way round, or take side = 'coarser'"
         for contact, sides in zip(examined.model.contacts, examined.interface.sides, strict=True)
         if sides.finer and not contact.tied
-    )
-
-
-def chord_notes(examined: Examined) -> tuple[str, ...]:
-    """Contacts whose gaps from the geometry count as none."""
-    size = float(extent(examined.space.mesh.points).max())
-    return tuple(
-        f"contact '{contact.label}': gaps of the geometry, up to {sides.chords:.3g}, count as 0, for facets of one "
-        "curve leave as much between them; finer or quadratic facets keep a clearance, 'interference' below 0 gives one"
-        for contact, sides in zip(examined.model.contacts, examined.interface.sides, strict=True)
-        if sides.chords > _SEEN * size and contact.interference == 0.0
     )
 
 

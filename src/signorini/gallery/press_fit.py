@@ -21,6 +21,7 @@ def press_fit(
     n_angular: int | tuple[int, int] = 12,
     kind: Kind = "plane stress",
     interference: float = 0.01,
+    drawn: float = 0.0,
     friction: float = 0.0,
     cells: Cells = "quad",
 ) -> Model:
@@ -29,12 +30,13 @@ def press_fit(
     Parameters
     ----------
     n_radial, n_angular : cells in each ring; along the fit one number, or those of shaft and hub
+    drawn : by how much the shaft that is meshed is larger than the bore, length
     """
     along = (n_angular, n_angular) if isinstance(n_angular, int) else n_angular
     mesh = join(
         {
             name: annulus(inner=a, outer=b, n_radial=n_radial, n_angular=n, angle=90.0, cells=cells)
-            for name, a, b, n in (("shaft", 1.0, 2.0, along[0]), ("hub", 2.0, 3.0, along[1]))
+            for name, a, b, n in (("shaft", 1.0, 2.0 + drawn, along[0]), ("hub", 2.0, 3.0, along[1]))
         }
     )
     return Model(

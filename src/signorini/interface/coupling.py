@@ -12,6 +12,8 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
 
+_KNOWN = 1e-7  # of what facets are beside the surface that they stand for: it is not known better
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FacetGaps:
@@ -46,6 +48,8 @@ class Coupling:
     forces : d sparse arrays (k, nodes of the mesh), one a direction; every row sums to 0 (to ``normal_areas`` where a
         rigid obstacle is the other side)
     facets : gaps at points of the facets that pairs take means over; None where a pair sees one point
+    smoothing : (k,) ``int psi_k (g - g_facets) dA``, g the gap between the smooth surfaces that facets stand for, see
+        :mod:`signorini.interface.smooth`; None where they stand for themselves
 
     References
     ----------
@@ -56,6 +60,7 @@ class Coupling:
     normal_areas: Array
     forces: tuple[sp.csr_array, ...]
     facets: FacetGaps | None = None
+    smoothing: Array | None = None
 
     @cached_property
     def area(self) -> Array:
@@ -76,6 +81,20 @@ class Coupling:
         return sp.csr_array(sp.diags_array(1.0 / self.area) @ along(self.forces, self.normals))
 
 
+def geometric_gap(coupling: Coupling, points: Array) -> Array:
+    """(k,) Gaps between the smooth surfaces at pairs, length.
+
+    Parameters
+    ----------
+    points : (n, d) of all nodes
+    """
+    seen = np.asarray(sum(force @ x for force, x in zip(coupling.forces, points.T, strict=True)))
+    if coupling.smoothing is not None:
+        total = seen + coupling.smoothing
+        seen = np.where(np.abs(total) > _KNOWN * np.abs(coupling.smoothing), total, 0.0)
+    return np.asarray(seen / coupling.area)
+
+
 def joined_gaps(parts: Sequence[FacetGaps]) -> FacetGaps:
     """Of facets of all kinds; one with fewer corners than others names its first ones twice."""
     width = max(part.corners.shape[1] for part in parts)
@@ -94,7 +113,9 @@ def along(forces: tuple[sp.csr_array, ...], directions: Array) -> sp.csr_array:
     return sp.csr_array(sum(others, first))
 
 
-def point_coupling(nodes: IntArray, normal_areas: Array, relative: sp.csr_array) -> Coupling:
+def point_coupling(
+    nodes: IntArray, normal_areas: Array, relative: sp.csr_array, *, fallen: Array | None = None
+) -> Coupling:
     """Of pairs with one normal each.
 
     Parameters
@@ -102,9 +123,11 @@ def point_coupling(nodes: IntArray, normal_areas: Array, relative: sp.csr_array)
     nodes : (k,) nonmortar nodes
     normal_areas : (k, d) normal into the nonmortar body times area
     relative : (k, nodes of the mesh) weights of the nonmortar side minus those of the mortar side
+    fallen : (k,) how far the facets opposite lie behind the surfaces that they stand for, length; None: nowhere
     """
     forces = tuple(sp.csr_array(sp.diags_array(part) @ relative) for part in normal_areas.T)
-    return Coupling(nodes=nodes, normal_areas=normal_areas, forces=forces)
+    smoothing = None if fallen is None else -fallen * np.linalg.norm(normal_areas, axis=1)
+    return Coupling(nodes=nodes, normal_areas=normal_areas, forces=forces, smoothing=smoothing)
 
 
 def picked(nodes: IntArray, count: int) -> sp.csr_array:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
@@ -15,10 +16,11 @@ from signorini.fem.line import line_shapes
 from signorini.interface.coupling import Coupling, FacetGaps
 from signorini.interface.dual import dual_functions
 from signorini.interface.overlap import Overlaps, interpolate, parameter
+from signorini.interface.smooth import Facets, Smooth, bows, rises, smooth_surfaces
 from signorini.interface.tilt import turned
 
 _COVERED = 1e-8  # of the full weight of a node: with less it carries no pair
-_POINTS = {2: 2, 3: 8}  # of Gauss on every piece, by nodes of the facets; two suffice for straight linear facets
+_POINTS = {2: 3, 3: 8}  # of Gauss on every piece, by nodes of the facets: exact for parabolas over linear facets
 
 
 def mortar_coupling(
@@ -69,16 +71,67 @@ def mortar_coupling(
     other = _spread(corners[overlaps.first], mortar.facets[overlaps.second], multiplier, _shapes(overlaps.other, at), n)
     own = _own_forces(nonmortar, overlaps, at, vectors, multiplier)
     forces = tuple(sp.csr_array((keeps - gives)[nodes]) for keeps, gives in zip(own, other, strict=True))
-    facets = _facet_gaps(points, nonmortar, mortar, overlaps)
-    return Coupling(nodes=nodes, normal_areas=vectors[nodes], forces=forces, facets=facets)
+    own, other = (smooth_surfaces([Facets(side.facets, side.points, 2)])[0] for side in (nonmortar, mortar))
+    opposite = _Opposite(own, other, points[nonmortar.facets], points[mortar.facets], overlaps)
+    smoothing = None
+    if own.curved or other.curved:
+        over = -np.einsum("pqad,pd->pqa", multiplier, overlaps.outward) * opposite.added(at)[..., None]
+        smoothing = np.zeros(n)
+        np.add.at(smoothing, corners[overlaps.first], over.sum(axis=1))
+        smoothing = smoothing[nodes]
+    facets = _facet_gaps(nonmortar, opposite)
+    return Coupling(nodes=nodes, normal_areas=vectors[nodes], forces=forces, facets=facets, smoothing=smoothing)
 
 
-def _facet_gaps(points: Array, nonmortar: FacetBlock, mortar: FacetBlock, overlaps: Overlaps) -> FacetGaps:
+@dataclass(frozen=True, eq=False)
+class _Opposite:
+    """Facets opposite each other, and the smooth curves that they stand for.
+
+    Attributes
+    ----------
+    own, other : the curves of both sides
+    first, second : (m, 2 or 3, 2) points of the facets of both sides
+    overlaps : pieces of both
+    """
+
+    own: Smooth
+    other: Smooth
+    first: Array
+    second: Array
+    overlaps: Overlaps
+
+    def gap(self, at: Array) -> Array:
+        """(p, q) Gaps between the curves at places (p, q) of the pieces, length."""
+        one, two, shapes, others = self._points(at)
+        pieces, sight = self.overlaps, self.overlaps.outward
+        ahead = rises(self.own, pieces.first, one, shapes, sight)
+        return self._facets(one, two) - ahead - rises(self.other, pieces.second, two, others, -sight)
+
+    def added(self, at: Array) -> Array:
+        """(p, q) What the gap between curves, interpolated as displacements are, is larger than that of the facets."""
+        one, two, shapes, others = self._points(at)
+        first, second = self.overlaps.first, self.overlaps.second
+        ahead = bows(self.own, self.other, first, second, self.first, one, shapes)
+        across = bows(self.other, self.own, second, first, self.second, two, others)
+        lean = np.einsum("pqa,pa->pq", shapes, self.own.lean[first])
+        return np.asarray(lean * (self.gap(at) + ahead + across) - self._facets(one, two))
+
+    def _facets(self, one: Array, two: Array) -> Array:
+        """(p, q) Gaps between points of the facets."""
+        return np.asarray(np.einsum("pqd,pd->pq", two - one, self.overlaps.outward))
+
+    def _points(self, at: Array) -> tuple[Array, Array, Array, Array]:
+        """Points (p, q, 2) of both facets, and their shape functions there."""
+        shapes, others = _shapes(self.overlaps.own, at), _shapes(self.overlaps.other, at)
+        one = np.einsum("pqa,pad->pqd", shapes, self.first[self.overlaps.first])
+        two = np.einsum("pqa,pad->pqd", others, self.second[self.overlaps.second])
+        return one, two, shapes, others
+
+
+def _facet_gaps(nonmortar: FacetBlock, opposite: _Opposite) -> FacetGaps:
     """Gaps on the facets that anything is opposite, at the ends and in the middle of every piece."""
-    at = np.column_stack([overlaps.low, 0.5 * (overlaps.low + overlaps.high), overlaps.high])
-    one = interpolate(points[nonmortar.facets[overlaps.first]], parameter(overlaps.own, at))
-    two = interpolate(points[mortar.facets[overlaps.second]], parameter(overlaps.other, at))
-    gap = np.einsum("pqd,pd->pq", two - one, overlaps.outward)
+    overlaps = opposite.overlaps
+    gap = opposite.gap(np.column_stack([overlaps.low, 0.5 * (overlaps.low + overlaps.high), overlaps.high]))
     order = np.lexsort([overlaps.low, overlaps.first])
     gap, (facet, start) = gap[order], np.unique(overlaps.first[order], return_index=True)
     end = np.append(start[1:], len(order)) - 1

@@ -18,9 +18,9 @@ from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface import spatial
 from signorini.interface.corners import corner_coupling
-from signorini.interface.coupling import Coupling, FacetGaps, joined_gaps, picked, point_coupling
+from signorini.interface.coupling import Coupling, FacetGaps, geometric_gap, joined_gaps, picked, point_coupling
 from signorini.interface.frames import in_symmetry_planes, symmetric_partners
-from signorini.interface.gaps import initial_gaps, normal_gap, refuse_deep_overlap, resolved, without_chords
+from signorini.interface.gaps import initial_gaps, normal_gap, refuse_deep_overlap, resolved
 from signorini.interface.matching import facing_cells, match_nodes
 from signorini.interface.mortar import mortar_coupling
 from signorini.interface.overlap import find_overlaps
@@ -43,14 +43,12 @@ class Sides:
     nonmortar, mortar : the sides as they were taken; an obstacle in words
     coupling : "nodes", "mortar", "node-to-segment" or "obstacle"
     finer : whether the nonmortar side has clearly the shorter facets: its pressures can oscillate
-    chords : largest gap or overlap of the geometry that counts as 0 because facets of a curve leave as much, length
     """
 
     nonmortar: str
     mortar: str
     coupling: str
     finer: bool = False
-    chords: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -125,7 +123,7 @@ def _on_obstacle(
         coupling = point_coupling(side.nodes, areas, picked(side.nodes, len(points)))
     _refuse_no_normal(space, coupling, where)
     one = normal_gap(coupling, side.nodes, normals, np.ones(len(distance)))
-    gap = resolved(normal_gap(coupling, side.nodes, normals, distance), coupling)
+    gap = resolved(normal_gap(coupling, side.nodes, normals, distance), coupling, one)
     return Pairs(
         own=side.nodes,
         coupling=coupling,
@@ -178,14 +176,9 @@ def _on_side(
     coupling, how = _couple(space, model, side, mortar, contact, where)
     _refuse_no_normal(space, coupling, where)
     seen, coupling = coupling, replace(coupling, normal_areas=in_symmetry_planes(space, constraints, coupling))
-    gap = sum(force @ x for force, x in zip(seen.forces, points.T, strict=True)) / coupling.area
-    gap = found = resolved(gap, seen)
     plane = side.dimension == 2
-    if how != "nodes" and plane:
-        gap = without_chords(gap, seen, *side.blocks, *mortar.blocks)  # one of edges each
-    elif how != "nodes":
-        gap = spatial.without_chords(gap, seen, *(_surface(points, one) for one in (side, mortar)))
     one = normal_gap(coupling, side.nodes, -side.nodal_normals, np.ones(len(side.nodes)))
+    gap = resolved(geometric_gap(coupling, points), seen, one)
     partner = symmetric_partners(space, constraints, coupling.nodes, coupling.normals, mortar.nodes)
     coupling = replace(coupling, forces=_without_removed(seen, coupling.normal_areas, partner))
     return Pairs(
@@ -199,9 +192,6 @@ def _on_side(
             mortar=names[1],
             coupling=how,
             finer=how == "mortar" and float(side.lengths.mean()) < _FINER * float(mortar.lengths.mean()),
-            chords=float(np.abs(found - gap).max(initial=0.0))
-            if contact.gap == "geometry" and not contact.tied
-            else 0.0,
         ),
     )
 

@@ -13,6 +13,7 @@ from signorini.fem.line import line_shapes
 from signorini.interface.coupling import Coupling, point_coupling
 from signorini.interface.near import near
 from signorini.interface.overlap import FACING, interpolate, parameter, search_distance
+from signorini.interface.smooth import Facets, rises, smooth_surfaces
 
 _BESIDE = 1e-9  # of half a facet: how far beyond its end a node still lies on it
 
@@ -59,8 +60,11 @@ def node_to_segment(
     own, best = np.unique(node[order], return_index=True)
     best = order[best]
     values = line_shapes(mortar.facets.shape[1], np.clip(s[best, 0], -1.0, 1.0))[0]
-    nodes = nonmortar.nodes[own]
-    return point_coupling(nodes, areas[own], _rows(nodes, mortar.facets[facet[best]], values, len(points)))
+    nodes, met = nonmortar.nodes[own], facet[best]
+    (smooth,) = smooth_surfaces([Facets(mortar.facets, mortar.points, 2)])
+    at = np.einsum("ka,kad->kd", values, mortar.points[met])
+    fallen = rises(smooth, met, at[:, None], values[:, None], -normals[best])[:, 0]
+    return point_coupling(nodes, areas[own], _rows(nodes, mortar.facets[met], values, len(points)), fallen=fallen)
 
 
 def _near(points: Array, nonmortar: FacetBlock, mortar: FacetBlock, search: float) -> tuple[IntArray, IntArray]:

@@ -46,6 +46,16 @@ def _press_fit(kind: Kind) -> Iterator[Check]:
     yield _farthest(f"B09 press fit of two rings, {kind}", pressure, _fit(kind, 0.01), _SOURCE, tolerance=1e-3)
 
 
+def drawn_press_fits() -> Iterator[Check]:
+    """The shaft is meshed larger than the bore, by less than facets lie beside the circle; meshes do not match."""
+    cases: tuple[tuple[Cells, tuple[int, int]], ...] = (("quad", (24, 36)), ("quad8", (8, 12)))
+    for cells, along in cases:
+        model = press_fit(kind="plane strain", n_radial=12, n_angular=along, cells=cells, interference=0.0, drawn=5e-4)
+        pressure = solve(model).contact("fit").pressure
+        case = f"B09 press fit drawn with its overlap, {_say(cells, along)}"
+        yield _farthest(case, pressure, _fit("plane strain", 5e-4), _SOURCE, tolerance=2e-3)
+
+
 def shrink_fits() -> Iterator[Check]:
     """The hub is cooled instead of overlapping: on meshes that match or not."""
     cases: tuple[tuple[Kind, Cells, int | tuple[int, int]], ...] = (

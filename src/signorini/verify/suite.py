@@ -45,6 +45,7 @@ QUICK: tuple[Case, ...] = (
     rings.press_fit_plane_strain,
     rings.shrink_fits,
     rings.hollow_bodies,
+    rings.drawn_press_fits,
     scalar.scalar_signorini,
     one_node.one_node,
     one_node.one_node_path,

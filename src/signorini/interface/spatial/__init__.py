@@ -2,11 +2,9 @@
 """Surfaces in space: mortar coupling of faces that need not match, node pairs, nodes on faces, frames.
 
 `make_surface` makes a side from node arrays; `mortar_coupling`, `node_to_face` and `node_pairs` give a
-`interface.coupling.Coupling` of two of them; `frames` gives the axes of its pairs, `without_chords` their gaps where
-curved surfaces are meant to match.
+`interface.coupling.Coupling` of two of them; `frames` gives the axes of its pairs.
 """
 
-from signorini.interface.spatial.chords import without_chords
 from signorini.interface.spatial.frames import frames
 from signorini.interface.spatial.mortar import mortar_coupling
 from signorini.interface.spatial.node_to_face import node_pairs, node_to_face
@@ -19,5 +17,4 @@ __all__ = [
     "mortar_coupling",
     "node_pairs",
     "node_to_face",
-    "without_chords",
 ]

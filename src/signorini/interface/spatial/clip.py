@@ -15,11 +15,11 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.interface.smooth import Smooth
 from signorini.interface.spatial.faces import shapes, slopes
 from signorini.interface.spatial.projection import land
 
-_EMPTY = 1e-14
-_AT = 1e-9  # below 1 a hat is at the corner that it belongs to
+EMPTY = 1e-14  # of the area of a piece: a common part that is none
 _STEPS = 30
 
 
@@ -31,11 +31,13 @@ class Side(NamedTuple):
     corners : (p, 3 or 4, 3) of the pieces, piece after piece of every face
     nodes : (m, c, 3) of the faces
     places : (s, 3 or 4, 2) reference coordinates of the pieces of a face
+    smooth : the surfaces that the faces stand for
     """
 
     corners: Array
     nodes: Array
     places: Array
+    smooth: Smooth
 
 
 class _Sight(NamedTuple):
@@ -58,7 +60,8 @@ class _Sight(NamedTuple):
 
 
 @njit(cache=True)
-def _sight() -> _Sight:
+def make_sight() -> _Sight:
+    """Room for what one pair after the other is written into."""
     return _Sight(
         np.empty((3, 3)), np.empty(3), np.empty((4, 2)), np.empty((4, 2)), np.empty((16, 2)), np.empty((16, 2))
     )
@@ -74,7 +77,7 @@ def _cross(a: Array, b: Array, out: Array) -> float:
 
 
 @njit(cache=True)
-def _upright(piece: Array, normal: Array) -> None:
+def upright_of(piece: Array, normal: Array) -> None:
     """Unit normal of a piece, from its diagonals."""
     along, across = np.empty(3), np.empty(3)
     for e in range(3):
@@ -126,7 +129,8 @@ def _area(polygon: Array, count: int) -> float:
 
 
 @njit(cache=True)
-def _middle(polygon: Array, count: int) -> tuple[float, float]:
+def middle_of(polygon: Array, count: int) -> tuple[float, float]:
+    """Mean of the corners of a polygon."""
     x, y = 0.0, 0.0
     for a in range(count):
         x += polygon[a, 0] / count
@@ -174,7 +178,7 @@ def _common(flat: Array, c: int, other: Array, o: int, polygon: Array, spare: Ar
 
 
 @njit(cache=True)
-def _seen(piece: Array, opposite: Array, normal: Array, sight: _Sight) -> tuple[float, int]:
+def look(piece: Array, opposite: Array, normal: Array, sight: _Sight) -> tuple[float, int]:
     """Look from a piece along a normal at one of the other side: its area, and the corners of the common part."""
     whole = _plane(piece, normal, sight.axes, sight.centre, sight.flat)
     _flatten(opposite, sight.axes, sight.centre, sight.projected)
@@ -184,7 +188,7 @@ def _seen(piece: Array, opposite: Array, normal: Array, sight: _Sight) -> tuple[
 @njit(cache=True)
 def _height(piece: Array, at: Array, direction: Array, normal: Array) -> float:
     """How far along a direction from a point the plane of a piece is."""
-    _upright(piece, normal)
+    upright_of(piece, normal)
     c, cosine, height = len(piece), 0.0, 0.0
     for e in range(3):
         middle = 0.0
@@ -205,18 +209,18 @@ def overlap_areas(first: Array, second: Array, normals: Array, i: IntArray, j: I
     normals : (p, 3) unit normals along which the first pieces see the second
     i, j : (k,) the pairs
     """
-    sight, at, normal = _sight(), np.empty(3), np.empty(3)
+    sight, at, normal = make_sight(), np.empty(3), np.empty(3)
     axes, centre, polygon = sight.axes, sight.centre, sight.polygon
     area, distance = np.zeros(len(i)), np.zeros(len(i))
     for k in range(len(i)):
-        whole, count = _seen(first[i[k]], second[j[k]], normals[i[k]], sight)
+        whole, count = look(first[i[k]], second[j[k]], normals[i[k]], sight)
         if count < 3:
             continue
         common = _area(polygon, count)
-        if common <= _EMPTY * whole:
+        if common <= EMPTY * whole:
             continue
         area[k] = common
-        x, y = _middle(polygon, count)
+        x, y = middle_of(polygon, count)
         for e in range(3):
             at[e] = centre[e] + x * axes[0, e] + y * axes[1, e]
         distance[k] = _height(second[j[k]], at, axes[2], normal) - _height(first[i[k]], at, axes[2], normal)
@@ -224,7 +228,7 @@ def overlap_areas(first: Array, second: Array, normals: Array, i: IntArray, j: I
 
 
 @njit(cache=True)
-def _inside(flat: Array, c: int, x: float, y: float, places: Array, found: Array) -> float:
+def place_in(flat: Array, c: int, x: float, y: float, places: Array, found: Array) -> float:
     """Reference place of the point (x, y) of a piece whose corners are at ``flat``, and the area per reference area.
 
     ``places`` are the reference coordinates of its corners: the piece is part of a larger face.
@@ -267,7 +271,7 @@ def _inside(flat: Array, c: int, x: float, y: float, places: Array, found: Array
 
 
 @njit(cache=True)
-def _true_area(nodes: Array, place: Array, D: Array, normal: Array) -> float:
+def true_area(nodes: Array, place: Array, D: Array, normal: Array) -> float:
     """Area of a face per reference area at a reference place; times its outward normal there, into ``normal``."""
     c = len(nodes)
     slopes(c, place[0], place[1], D)
@@ -280,7 +284,7 @@ def _true_area(nodes: Array, place: Array, D: Array, normal: Array) -> float:
 
 
 @njit(cache=True)
-def _point(nodes: Array, N: Array, point: Array) -> None:
+def point_at(nodes: Array, N: Array, point: Array) -> None:
     """Where a face is that has shape functions N, into ``point``."""
     for e in range(3):
         point[e] = 0.0
@@ -289,7 +293,7 @@ def _point(nodes: Array, N: Array, point: Array) -> None:
 
 
 @njit(cache=True)
-def _turn(vector: Array, before: Array, after: Array) -> None:
+def turn(vector: Array, before: Array, after: Array) -> None:
     """Turn a vector, in place, by what turns one unit vector into another; see `signorini.interface.tilt.turned`."""
     both, same, own = 0.0, 1.0, 0.0
     for e in range(3):
@@ -298,55 +302,6 @@ def _turn(vector: Array, before: Array, after: Array) -> None:
         own += before[e] * vector[e]
     for e in range(3):
         vector[e] += 2.0 * own * after[e] - both / same * (before[e] + after[e])
-
-
-@njit(cache=True)
-def spread_gaps(
-    first: Side,
-    second: Side,
-    normals: Array,
-    i: IntArray,
-    j: IntArray,
-    chosen: BoolArray,
-    ends: Array,
-    low: Array,
-    high: Array,
-) -> None:
-    """Distances to the other side at the corners of faces, and the smallest and largest on each of them.
-
-    Measured at the corners and in the middle of the common part of every pair of pieces, along the normal of the pair.
-
-    Parameters
-    ----------
-    first, second, normals, i, j, chosen : see :func:`integrate`
-    ends : (m, corners), lowered where a corner of the face is opposite the other side, length
-    low, high : (m,), lowered and raised
-    """
-    c, o, nodes, corners = first.corners.shape[1], second.corners.shape[1], first.nodes.shape[1], ends.shape[1]
-    s_1, s_2 = len(first.places), len(second.places)
-    sight = _sight()
-    axes, flat, projected, polygon = sight.axes, sight.flat, sight.projected, sight.polygon
-    hats, N, here, there, point = np.empty(4), np.empty(9), np.empty(2), np.empty(2), np.empty(3)
-    for k in range(len(i)):
-        if not chosen[k]:
-            continue
-        face = i[k] // s_1
-        _, count = _seen(first.corners[i[k]], second.corners[j[k]], normals[i[k]], sight)
-        polygon[count, 0], polygon[count, 1] = _middle(polygon, count)
-        for a in range(count + 1):
-            x, y = polygon[a, 0], polygon[a, 1]
-            _inside(flat, c, x, y, first.places[i[k] % s_1], here)
-            _inside(projected, o, x, y, second.places[j[k] % s_2], there)
-            shapes(nodes, here[0], here[1], N)
-            _point(first.nodes[face], N, point)
-            distance = land(point, axes[2], second.nodes[j[k] // s_2], there)
-            if math.isnan(distance):
-                continue
-            low[face], high[face] = min(low[face], distance), max(high[face], distance)
-            shapes(corners, here[0], here[1], hats)
-            for e in range(corners):
-                if hats[e] > 1.0 - _AT:
-                    ends[face, e] = min(ends[face, e], distance)
 
 
 @njit(cache=True)
@@ -382,7 +337,7 @@ def integrate(
     c, o, nodes, count_2 = first.corners.shape[1], second.corners.shape[1], first.nodes.shape[1], second.nodes.shape[1]
     s_1, s_2 = len(first.places), len(second.places)
     curved = nodes > c or count_2 > o
-    sight = _sight()
+    sight = make_sight()
     axes, flat, projected, polygon = sight.axes, sight.flat, sight.projected, sight.polygon
     hats, N, M, D = np.empty(4), np.empty(9), np.empty(9), np.empty((2, 9))
     here, there, normal, upright, point = np.empty(2), np.empty(2), np.empty(3), np.empty(3), np.empty(3)
@@ -390,27 +345,27 @@ def integrate(
         if not chosen[k]:
             continue
         face = i[k] // s_1
-        _upright(first.corners[i[k]], upright)
-        whole, count = _seen(first.corners[i[k]], second.corners[j[k]], normals[i[k]], sight)
-        m_x, m_y = _middle(polygon, count)
+        upright_of(first.corners[i[k]], upright)
+        whole, count = look(first.corners[i[k]], second.corners[j[k]], normals[i[k]], sight)
+        m_x, m_y = middle_of(polygon, count)
         for a in range(count):
             b = (a + 1) % count
             p_x, p_y, q_x, q_y = polygon[a, 0], polygon[a, 1], polygon[b, 0], polygon[b, 1]
             triangle = 0.5 * ((p_x - m_x) * (q_y - m_y) - (p_y - m_y) * (q_x - m_x))
-            if triangle <= _EMPTY * whole:
+            if triangle <= EMPTY * whole:
                 continue
             for g in range(len(weights)):
                 x = rule[g, 0] * m_x + rule[g, 1] * p_x + rule[g, 2] * q_x
                 y = rule[g, 0] * m_y + rule[g, 1] * p_y + rule[g, 2] * q_y
-                stretch = _inside(flat, c, x, y, first.places[i[k] % s_1], here)
-                _inside(projected, o, x, y, second.places[j[k] % s_2], there)
+                stretch = place_in(flat, c, x, y, first.places[i[k] % s_1], here)
+                place_in(projected, o, x, y, second.places[j[k] % s_2], there)
                 share = weights[g] * triangle / stretch
-                w = share * _true_area(first.nodes[face], here, D, normal)
-                _turn(normal, upright, axes[2])
+                w = share * true_area(first.nodes[face], here, D, normal)
+                turn(normal, upright, axes[2])
                 shapes(c, here[0], here[1], hats)
                 shapes(nodes, here[0], here[1], N)
                 if curved:
-                    _point(first.nodes[face], N, point)
+                    point_at(first.nodes[face], N, point)
                     land(point, axes[2], second.nodes[j[k] // s_2], there)
                 shapes(count_2, there[0], there[1], M)
                 for e in range(c):

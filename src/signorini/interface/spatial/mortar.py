@@ -12,22 +12,26 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
 from signorini.interface.coupling import Coupling, FacetGaps, joined_gaps
 from signorini.interface.dual import dual_functions
+from signorini.interface.smooth import Smooth
 from signorini.interface.spatial.candidates import near_pairs, nearest_layers
-from signorini.interface.spatial.clip import Side, integrate, overlap_areas, spread_gaps
+from signorini.interface.spatial.clip import Side, integrate, overlap_areas
 from signorini.interface.spatial.faces import pieces
+from signorini.interface.spatial.gaps import spread_gaps, widen
 from signorini.interface.spatial.surface import Block, Surface, reference_rule, search_distance
 from signorini.interface.tilt import normals_between
 
 _COVERED = 1e-8  # of the full weight of a node: with less it carries no pair
 _DEGREE = {3: 1, 4: 2, 6: 2, 8: 3, 9: 4}  # of the shape functions, by nodes of a face
+_FEW = 3  # Gauss points a direction for gaps between surfaces: exact for hats times parabolas
 _MANY = 8  # Gauss points a direction where functions are no polynomials: exact to 1e-13
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Overlaps:
-    """Pairs of pieces of one nonmortar and one mortar block, and how large their common parts are."""
+    """Pairs of pieces of one nonmortar and one mortar block, what the latter stands for, and their common parts."""
 
     mortar: Block
+    smooth: Smooth
     i: IntArray
     j: IntArray
     area: Array
@@ -82,13 +86,15 @@ def mortar_coupling(
     full[nonmortar.nodes] = nonmortar.nodal_areas
     keeps, gives = ([sp.csr_array((n, n)) for _ in range(3)] for _ in range(2))
     gaps: list[FacetGaps] = []
-    for block in nonmortar.blocks:
+    smoothing = np.zeros(n)
+    for block, smooth in zip(nonmortar.blocks, nonmortar.smooth, strict=True):
         seen = _overlaps(block, mortar, reach, _normals(block))
         normals = _between(nonmortar, mortar, block, seen, share)
         if (normals != _normals(block)).any():
             seen = _overlaps(block, mortar, reach, normals)
-        gaps.append(_facet_gaps(block, seen, normals))
-        own, other = _block_integrals(block, seen, normals, n)
+        gaps.append(_facet_gaps(block, smooth, seen, normals))
+        own, other, over = _block_integrals(block, smooth, seen, normals, n)
+        np.add.at(smoothing, block.corners, over)
         keeps = [one + two for one, two in zip(keeps, own, strict=True)]
         gives = [one + two for one, two in zip(gives, other, strict=True)]
     vectors = np.column_stack([part.sum(axis=1) for part in keeps])
@@ -100,7 +106,9 @@ def mortar_coupling(
             where=where,
         )
     forces = tuple(sp.csr_array((one - two)[nodes]) for one, two in zip(keeps, gives, strict=True))
-    return Coupling(nodes=nodes, normal_areas=vectors[nodes], forces=forces, facets=joined_gaps(gaps))
+    return Coupling(
+        nodes=nodes, normal_areas=vectors[nodes], forces=forces, facets=joined_gaps(gaps), smoothing=smoothing[nodes]
+    )
 
 
 def _corners(block: Block) -> Array:
@@ -109,9 +117,9 @@ def _corners(block: Block) -> Array:
     return np.ascontiguousarray(corners.reshape(-1, *corners.shape[2:]))
 
 
-def _side(block: Block) -> Side:
+def _side(block: Block, smooth: Smooth) -> Side:
     """A block as the integrals over common parts see it."""
-    return Side(corners=_corners(block), nodes=block.points, places=pieces(block.nodes_a_face))
+    return Side(corners=_corners(block), nodes=block.points, places=pieces(block.nodes_a_face), smooth=smooth)
 
 
 def _normals(block: Block) -> Array:
@@ -125,8 +133,8 @@ def _overlaps(block: Block, mortar: Surface, search: float, normals: Array) -> l
     """Pairs of pieces that are opposite each other along normals (p, 3), by blocks of the mortar side."""
     first = _corners(block)
     found = []
-    for other in mortar.blocks:
-        second = _corners(other)
+    for other in zip(mortar.blocks, mortar.smooth, strict=True):
+        second = _corners(other[0])
         i, j = near_pairs(first, second, search)
         found.append((other, i, j, *overlap_areas(first, second, normals, i, j)))
     i, area, distance = (np.concatenate([part[k] for part in found]) for k in (1, 3, 4))
@@ -137,8 +145,9 @@ def _overlaps(block: Block, mortar: Surface, search: float, normals: Array) -> l
     whole = 0.5 * np.abs(np.sum(spans * normals, axis=1))
     chosen[order] = nearest_layers(area[order], distance[order], i[order], whole, search)
     result, start = [], 0
-    for other, i, j, area, _ in found:
-        result.append(_Overlaps(mortar=other, i=i, j=j, area=area, chosen=chosen[start : start + len(i)]))
+    for (other_block, smooth), i, j, area, _ in found:
+        part = _Overlaps(mortar=other_block, smooth=smooth, i=i, j=j, area=area, chosen=chosen[start : start + len(i)])
+        result.append(part)
         start += len(i)
     return result
 
@@ -155,43 +164,36 @@ def _between(nonmortar: Surface, mortar: Surface, block: Block, seen: list[_Over
     return normals_between(own, opposite, turn, share)
 
 
-def _facet_gaps(block: Block, overlaps: list[_Overlaps], normals: Array) -> FacetGaps:
+def _facet_gaps(block: Block, smooth: Smooth, overlaps: list[_Overlaps], normals: Array) -> FacetGaps:
     """Gaps on the faces of a block that anything is opposite; infinite at corners that nothing is."""
     corners = block.corners
     ends, low, high = np.full(corners.shape, np.inf), np.full(len(corners), np.inf), np.full(len(corners), -np.inf)
     for part in overlaps:
-        spread_gaps(_side(block), _side(part.mortar), normals, part.i, part.j, part.chosen, ends, low, high)
+        own, other = _side(block, smooth), _side(part.mortar, part.smooth)
+        spread_gaps(own, other, normals, part.i, part.j, part.chosen, ends, low, high)
     seen = low <= high
     return FacetGaps(corners=corners[seen], ends=ends[seen], low=low[seen], high=high[seen])
 
 
 def _block_integrals(
-    block: Block, overlaps: list[_Overlaps], normals: Array, n: int
-) -> tuple[list[sp.csr_array], list[sp.csr_array]]:
-    """``int psi_k N_j n`` of the block itself and ``int psi_k N_l n`` of the other side, three of (n, n) each.
+    block: Block, smooth: Smooth, overlaps: list[_Overlaps], normals: Array, n: int
+) -> tuple[list[sp.csr_array], list[sp.csr_array], Array]:
+    """``int psi_k N_j n`` of the block itself and ``int psi_k N_l n`` of the other side, three of (n, n) each, and
+    ``int psi_k`` of what the gap between the surfaces is larger than that of the faces at the corners, (m, c).
 
     The normals n of the faces point outward, psi_k is negative here: together they point into the body.
     """
     m, c = block.corners.shape
-    mass, own = np.zeros((m, c, c)), np.zeros((m, c, block.nodes_a_face, 3))
+    mass, own, over = np.zeros((m, c, c)), np.zeros((m, c, block.nodes_a_face, 3)), np.zeros((m, c))
     others = []
     for part in overlaps:
         count = part.mortar.nodes_a_face
         other = np.zeros((len(part.i), c, count, 3))
-        places, weights = reference_rule(3, _points(block, part.mortar))
-        integrate(
-            _side(block),
-            _side(part.mortar),
-            normals,
-            part.i,
-            part.j,
-            part.chosen,
-            np.column_stack([1.0 - places.sum(axis=1), places]),
-            2.0 * weights,
-            mass,
-            own,
-            other,
-        )
+        sides = _side(block, smooth), _side(part.mortar, part.smooth)
+        i, j, chosen = part.i, part.j, part.chosen
+        integrate(*sides, normals, i, j, chosen, *_rule(_points(block, part.mortar)), mass, own, other)
+        if smooth.curved or part.smooth.curved:
+            widen(*sides, normals, i, j, chosen, *_rule(_FEW), over)
         others.append(other)
     dual = -dual_functions(mass)
     keeps = _spread(block.corners, block.faces, np.einsum("mab,mbjd->dmaj", dual, own), n)
@@ -203,7 +205,13 @@ def _block_integrals(
         values = np.einsum("kab,kbld->dkal", dual[face], other[k])
         seen = _spread(block.corners[face], part.mortar.faces[opposite], values, n)
         gives = [one + two for one, two in zip(gives, seen, strict=True)]
-    return keeps, gives
+    return keeps, gives, -np.einsum("mab,mb->ma", dual, over)
+
+
+def _rule(points: int) -> tuple[Array, Array]:
+    """Barycentric coordinates and weights, which sum to 1, of a quadrature of the triangle."""
+    places, weights = reference_rule(3, points)
+    return np.column_stack([1.0 - places.sum(axis=1), places]), 2.0 * weights
 
 
 def _points(block: Block, mortar: Block) -> int:

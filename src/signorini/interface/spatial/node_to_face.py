@@ -14,6 +14,7 @@ from signorini.fem.faces import CORNERS
 from signorini.interface.coupling import Coupling, picked, point_coupling
 from signorini.interface.matching import match_nodes
 from signorini.interface.near import near
+from signorini.interface.smooth import Smooth, rises
 from signorini.interface.spatial.candidates import FACING
 from signorini.interface.spatial.faces import shapes_at
 from signorini.interface.spatial.projection import meet
@@ -43,11 +44,12 @@ def node_to_face(nonmortar: Surface, mortar: Surface, *, search: float | None = 
     reach = search_distance(nonmortar, mortar) if search is None else search
     n, nodes = len(nonmortar.points), nonmortar.corners
     own = np.searchsorted(nonmortar.nodes, nodes)
-    best, gives = np.full(len(nodes), np.inf), sp.csr_array((len(nodes), n))
-    for block in mortar.blocks:
-        distance, weights = _nearest(nonmortar.points[nodes], nonmortar.nodal_normals[own], block, reach, n)
+    best, fallen, gives = np.full(len(nodes), np.inf), np.zeros(len(nodes)), sp.csr_array((len(nodes), n))
+    for block, smooth in zip(mortar.blocks, mortar.smooth, strict=True):
+        normals = nonmortar.nodal_normals[own]
+        distance, weights, behind = _nearest(nonmortar.points[nodes], normals, block, smooth, reach, n)
         nearer = distance < best
-        best = np.minimum(best, distance)
+        best, fallen = np.minimum(best, distance), np.where(nearer, behind, fallen)
         keep, take = sp.diags_array(np.where(nearer, 0.0, 1.0)), sp.diags_array(np.where(nearer, 1.0, 0.0))
         gives = sp.csr_array(keep @ gives + take @ weights)
     met = np.nonzero(np.isfinite(best))[0]
@@ -58,7 +60,7 @@ def node_to_face(nonmortar: Surface, mortar: Surface, *, search: float | None = 
             where=where,
         )
     areas = -nonmortar.nodal_normal_areas[own[met]]
-    return point_coupling(nodes[met], areas, sp.csr_array((picked(nodes, n) - gives)[met]))
+    return point_coupling(nodes[met], areas, sp.csr_array((picked(nodes, n) - gives)[met]), fallen=fallen[met])
 
 
 def node_pairs(
@@ -104,9 +106,11 @@ def _ordered(faces: Sequence[IntArray]) -> IntArray:
     return rows[np.lexsort(rows.T)]
 
 
-def _nearest(points: Array, normals: Array, block: Block, search: float, n: int) -> tuple[Array, sp.csr_array]:
-    """Distance (p,) of points to the nearest face of a block along their normals, infinite where there is none, and the
-    weights (p, n) of its nodes.
+def _nearest(
+    points: Array, normals: Array, block: Block, smooth: Smooth, search: float, n: int
+) -> tuple[Array, sp.csr_array, Array]:
+    """Distance (p,) of points to the nearest face of a block along their normals, infinite where there is none, the
+    weights (p, n) of its nodes, and how far it lies behind the surface that it stands for, (p,).
     """
     i, j = _near(points, block, search)
     places, distance = meet(points, normals, block.points, i, j)
@@ -122,7 +126,10 @@ def _nearest(points: Array, normals: Array, block: Block, search: float, n: int)
     values = shapes_at(block.nodes_a_face, places[chosen])
     rows = np.repeat(found, block.nodes_a_face)
     entries = (values.ravel(), (rows, block.faces[j[chosen]].ravel()))
-    return result, sp.csr_array(entries, shape=(len(points), n))
+    at = np.einsum("pa,pad->pd", values, block.points[j[chosen]])
+    fallen = np.zeros(len(points))
+    fallen[found] = rises(smooth, j[chosen], at[:, None], values[:, None], -normals[found])[:, 0]
+    return result, sp.csr_array(entries, shape=(len(points), n)), fallen
 
 
 def _near(points: Array, block: Block, search: float) -> tuple[IntArray, IntArray]:

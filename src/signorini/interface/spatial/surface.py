@@ -13,6 +13,7 @@ from signorini.arrays import Array, IntArray, frozen
 from signorini.errors import InputError
 from signorini.fem.faces import CORNERS
 from signorini.fem.facet_block import FacetBlock
+from signorini.interface.smooth import Facets, Smooth, smooth_surfaces
 from signorini.interface.spatial.faces import node_places, pieces, shapes_at, slopes_at
 from signorini.interface.tilt import turns
 
@@ -102,6 +103,12 @@ class Surface:
         length = np.linalg.norm(total, axis=1, keepdims=True)
         normals: Array = total / np.where(length > 0, length, 1.0)
         return normals
+
+    @cached_property
+    def smooth(self) -> tuple[Smooth, ...]:
+        """What the faces stand for, block by block."""
+        kinds = [Facets(block.faces, block.points, block.corners.shape[1]) for block in self.blocks]
+        return smooth_surfaces(kinds)
 
     def turns(self, block: Block) -> Array:
         """(m,) Angle by which the side turns from every face of a block to the next, see `interface.tilt.turns`."""

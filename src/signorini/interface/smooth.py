@@ -1,0 +1,410 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The smooth curves and surfaces that facets stand for: how far a facet is off the one that its nodes were put on.
+
+Facets of a curve lie beside it between their nodes, straight ones by up to ``h^2 kappa / 8``, parabolas by up to
+``h^4 kappa^3 / 512``: more than many a fit or clearance. Where nodes of neighbouring facets bend away from a facet in
+one way, a surface of constant curvature is laid through them all,
+
+    z + k z^2 / 2 + (level + slope . x + x . bend x / 2) = 0,
+
+z along the facet's outward normal, k the largest principal curvature: exactly a circle, a sphere, a cylinder where the
+nodes lie on one. Corners of the body end it, and so do facets that lie in a plane with others.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import scipy.sparse as sp
+from numba import njit
+
+from signorini.arrays import Array, BoolArray, IntArray
+
+_CORNER = 2.0 * np.sin(np.radians(35.0) / 2)  # between normals of neighbours: from here on they meet in a corner
+_FLAT = 0.1  # of the largest turn at a facet's corners: one that turns less at a corner belongs to what is flat there
+_STRAIGHT = 1e-9  # a turn, or a bulge of a length of one, below this is rounding
+_BETWEEN = 1.25  # quadrilaterals at a node of a strip: with more it is between two, with less at the end
+_KNOWN = 1e-6  # of the largest entry: a curvature that the nodes say less about is none
+_ROUNDS = 8  # of correcting for z^2 and for the limit above: each gains a digit and more
+_SIDE = 0.5  # least 1 - 2 k b: beyond it a surface has turned too far from its facet to be one over it
+_MANY = 10_000  # facets at once: 30 nodes each take 100 MB
+
+
+class Facets(NamedTuple):
+    """Facets of one kind.
+
+    Attributes
+    ----------
+    nodes : (m, k), corners first
+    points : (m, k, d) their places
+    corners : 2 of an edge, 3 or 4 of a face
+    """
+
+    nodes: IntArray
+    points: Array
+    corners: int
+
+
+class Smooth(NamedTuple):
+    """The surfaces that facets of one kind stand for, each in terms of r from a point of its own.
+
+    Attributes
+    ----------
+    origin, normal : (m, d) that point, and the facet's outward unit normal
+    level, slope, bend : (m,), (m, d), (m, d, d) of the module's formula; positive where the surface bulges
+    arch : (m,) k of that formula
+    curvature : (m, d, d) of the surface over the origin
+    nodal : (m, k) height of the surface over the nodes of the facet
+    lean : (m, k) what the pressure of the facet sees there of a gap along its normal, through the surface's own: the
+        squared cosine of both where a facet is straight, 1 where it bends with its surface
+    bent : (m,) whether the facet itself bends
+    curved : whether any of the surfaces does
+    """
+
+    origin: Array
+    normal: Array
+    level: Array
+    slope: Array
+    bend: Array
+    arch: Array
+    curvature: Array
+    nodal: Array
+    lean: Array
+    bent: BoolArray
+    curved: bool
+
+
+@njit(cache=True, inline="always")
+def _height(surface: Smooth, i: int, point: Array, gradient: Array) -> float:
+    """Height of surface i over a point, along the facet's normal; its slopes into ``gradient``."""
+    d, b = len(point), surface.level[i]
+    for e in range(d):
+        gradient[e] = surface.slope[i, e]
+        for f in range(d):
+            gradient[e] += surface.bend[i, e, f] * (point[f] - surface.origin[i, f])
+        b += 0.5 * (gradient[e] + surface.slope[i, e]) * (point[e] - surface.origin[i, e])
+    z = -2.0 * b / (1.0 + math.sqrt(max(1.0 - 2.0 * surface.arch[i] * b, _SIDE)))
+    for e in range(d):
+        gradient[e] /= -(1.0 + surface.arch[i] * z)
+    return z
+
+
+@njit(cache=True, inline="always")
+def rise(surface: Smooth, i: int, point: Array, shapes: Array, sight: Array, gradient: Array) -> float:
+    """How far the smooth surface is in front of facet i, from a point of it along a unit vector.
+
+    Parameters
+    ----------
+    point : (d,) on the facet
+    shapes : (k,) values of its shape functions there; more are ignored
+    sight : (d,) unit vector that leaves the body there
+    gradient : (d,) is written over
+    """
+    up = _height(surface, i, point, gradient)
+    for a in range(surface.nodal.shape[1]):
+        up -= shapes[a] * surface.nodal[i, a]
+    cosine = 0.0
+    for e in range(len(point)):
+        cosine += (surface.normal[i, e] - gradient[e]) * sight[e]
+    return up / max(cosine, _SIDE)
+
+
+@njit(cache=True, inline="always")
+def bow(one: Smooth, i: int, two: Smooth, j: int, nodes: Array, point: Array, shapes: Array, way: Array) -> float:
+    """What interpolation on facet i adds to a gap, so far as its surface bends more than that of facet j opposite.
+
+    As far as both bend alike, one hollow where the other bulges, they close on one surface and facets of both fall
+    short of it; beyond that a facet meets the other side where its nodes do. Nothing where facet i bends itself.
+
+    Parameters
+    ----------
+    nodes : (k, d) of facet i
+    point, shapes : (d,) on it, and the values of its shape functions there
+    way : (2, d) is written over
+    """
+    total, d, same = 0.0, len(point), 1.0
+    if not one.bent[i]:
+        for e in range(d):
+            same -= one.normal[i, e] * two.normal[j, e]
+        for a in range(len(nodes)):
+            both, own = 0.0, 0.0
+            for e in range(d):
+                way[0, e] = nodes[a, e] - point[e]
+                both += (one.normal[i, e] - two.normal[j, e]) * way[0, e] / same
+                own += 2.0 * one.normal[i, e] * way[0, e]
+            for e in range(d):  # turned as the other facet would have to be to lie against this one, see `tilt.turned`
+                way[1, e] = way[0, e] - both * (one.normal[i, e] - two.normal[j, e]) - own * two.normal[j, e]
+            bend, other = 0.0, 0.0
+            for e in range(d):
+                for f in range(d):
+                    bend += one.curvature[i, e, f] * way[0, e] * way[0, f]
+                    other += two.curvature[j, e, f] * way[1, e] * way[1, f]
+            if bend * other < 0.0:
+                bend = bend + other if abs(bend) > abs(other) else 0.0
+            total += 0.5 * shapes[a] * bend
+    return total
+
+
+@njit(cache=True)
+def rises(surface: Smooth, facets: IntArray, points: Array, shapes: Array, sights: Array) -> Array:
+    """:func:`rise` of facets (p,) at points (p, q, d) with shape functions (p, q, k), along (p, d); (p, q)."""
+    result, gradient = np.zeros(points.shape[:2]), np.empty(points.shape[2])
+    for p in range(len(facets)):
+        for q in range(points.shape[1]):
+            result[p, q] = rise(surface, facets[p], points[p, q], shapes[p, q], sights[p], gradient)
+    return result
+
+
+@njit(cache=True)
+def bows(one: Smooth, two: Smooth, i: IntArray, j: IntArray, nodes: Array, points: Array, shapes: Array) -> Array:
+    """:func:`bow` on facets i (p,) with nodes (m, k, d) at points (p, q, d) with shape functions (p, q, k); (p, q)."""
+    result, way = np.zeros(points.shape[:2]), np.empty((2, points.shape[2]))
+    for p in range(len(i)):
+        for q in range(points.shape[1]):
+            result[p, q] = bow(one, i[p], two, j[p], nodes[i[p]], points[p, q], shapes[p, q], way)
+    return result
+
+
+def smooth_surfaces(kinds: Sequence[Facets]) -> tuple[Smooth, ...]:
+    """What facets of all kinds of one side stand for.
+
+    Examples
+    --------
+    >>> angle = np.linspace(0.0, 1.0, 4)
+    >>> points = 2.0 * np.stack([np.sin(angle), np.cos(angle)], axis=1)[::-1]
+    >>> nodes = np.array([[0, 1], [1, 2], [2, 3]])
+    >>> (circle,) = smooth_surfaces([Facets(nodes, points[nodes], 2)])
+    >>> middle = points[nodes].mean(axis=1)[:, None]
+    >>> up = rises(circle, np.arange(3), middle, np.full((3, 1, 2), 0.5), circle.normal)
+    >>> np.linalg.norm(middle[:, 0] + up * circle.normal, axis=1).round(9).tolist()
+    [2.0, 2.0, 2.0]
+    """
+    normals = np.concatenate([_normals(kind) for kind in kinds])
+    bent = np.concatenate([_bent(kind).any(axis=1) for kind in kinds])
+    one, two = _neighbours(kinds, normals, bent)
+    if not (bent.any() or (_apart(normals, one, two) > _STRAIGHT).any()):
+        return tuple(_flat(kind) for kind in kinds)
+    points = _all_points(kinds)
+    stencil = _stencil(kinds, one, two, len(points))
+    origin = np.concatenate([kind.points[:, : kind.corners].mean(axis=1) for kind in kinds])
+    parts = [
+        _fitted(points, stencil[start : start + _MANY], origin[start : start + _MANY], normals[start : start + _MANY])
+        for start in range(0, len(normals), _MANY)
+    ]
+    level, slope, bend, arch = (np.concatenate(part) for part in zip(*parts, strict=True))
+    result, start, none = [], 0, np.zeros((0, 0))
+    for kind in kinds:
+        own = slice(start, start + len(kind.nodes))
+        # length of the gradient of the module's formula over the origin
+        size = np.sqrt(1.0 - 2.0 * arch[own] * level[own] + np.sum(slope[own] ** 2, axis=1))[:, None, None]
+        surface = Smooth(
+            origin[own],
+            normals[own],
+            level[own],
+            slope[own],
+            bend[own],
+            arch[own],
+            bend[own] / size,
+            none,
+            none,
+            bent[own],
+            curved=True,
+        )
+        nodal, lean = _at_nodes(kind, surface)
+        result.append(surface._replace(nodal=nodal, lean=lean))
+        start += len(kind.nodes)
+    return tuple(result)
+
+
+def _flat(kind: Facets) -> Smooth:
+    """Facets that stand for themselves."""
+    m, k, d = kind.points.shape
+    none, vector, tensor, nodal = np.zeros(m), np.zeros((m, d)), np.zeros((m, d, d)), np.zeros((m, k))
+    straight = np.zeros(m, np.bool_)
+    return Smooth(
+        vector, _normals(kind), none, vector, tensor, none, tensor, nodal, np.ones_like(nodal), straight, curved=False
+    )
+
+
+def _normals(kind: Facets) -> Array:
+    """Outward unit normals of the corners of facets, (m, d)."""
+    x = kind.points[:, : kind.corners]
+    if x.shape[2] == 2:
+        along = x[:, 1] - x[:, 0]
+        normal = np.stack([along[:, 1], -along[:, 0]], axis=1)
+    else:
+        normal = np.cross(x[:, 2] - x[:, 0], x[:, -1] - x[:, 1])
+    return np.asarray(normal / np.linalg.norm(normal, axis=1, keepdims=True))
+
+
+def _edges(kind: Facets) -> IntArray:
+    """First and second end of every edge of a facet, (e, 2) places among its nodes."""
+    if kind.points.shape[2] == 2:
+        return np.array([[0, 1]])
+    first = np.arange(kind.corners)
+    return np.stack([first, np.roll(first, -1)], axis=1)
+
+
+def _bent(kind: Facets) -> BoolArray:
+    """Which edges of quadratic facets have their middle node beside the straight line, (m, e)."""
+    ends = kind.points[:, _edges(kind)]
+    count = ends.shape[1]
+    if kind.nodes.shape[1] == kind.corners:
+        return np.zeros((len(ends), count), np.bool_)
+    along = ends[:, :, 1] - ends[:, :, 0]
+    off = kind.points[:, kind.corners : kind.corners + count] - ends[:, :, 0]
+    square = np.sum(along**2, axis=2, keepdims=True)
+    off -= np.sum(off * along, axis=2, keepdims=True) / square * along
+    return np.asarray(np.sum(off**2, axis=2) > _STRAIGHT**2 * square[..., 0])
+
+
+def _apart(normals: Array, one: IntArray, two: IntArray) -> Array:
+    return np.asarray(np.linalg.norm(normals[one] - normals[two], axis=1))
+
+
+def _neighbours(kinds: Sequence[Facets], normals: Array, bent: BoolArray) -> tuple[IntArray, IntArray]:
+    """Facets and those that share a corner and go on smoothly there, themselves too; none that go on into a plane."""
+    facet, node = _incidence(kinds)
+    entry, other = _sharing(node)
+    apart = _apart(normals, facet[entry], facet[other])
+    smooth = apart < _CORNER
+    turn = np.zeros(len(node))
+    np.maximum.at(turn, entry[smooth], apart[smooth])
+    inside = ~_rim(kinds, int(node.max()) + 1)[node]
+    if not inside.any():  # a strip one facet wide: what goes on beside a facet is all that is known
+        inside = np.bincount(node, _quadrilaterals(kinds))[node] > _BETWEEN
+    inside[entry[~smooth]] = False
+    most = np.zeros(len(normals))
+    np.maximum.at(most, facet, turn)
+    flat = most <= _STRAIGHT
+    flat[facet[inside & (turn < _FLAT * most[facet])]] = True
+    flat[facet[entry[smooth & bent[facet[other]]]]] = True  # straight beside facets that bend
+    flat &= ~bent
+    one, two = facet[entry[smooth]], facet[other[smooth]]
+    kept = (one == two) | ~(flat[one] | flat[two])
+    return one[kept], two[kept]
+
+
+def _incidence(kinds: Sequence[Facets]) -> tuple[IntArray, IntArray]:
+    """Every corner of every facet: number of the facet, and node."""
+    facet, node, start = [], [], 0
+    for kind in kinds:
+        facet.append(np.repeat(start + np.arange(len(kind.nodes)), kind.corners))
+        node.append(kind.nodes[:, : kind.corners].ravel())
+        start += len(kind.nodes)
+    return np.concatenate(facet), np.concatenate(node)
+
+
+def _quadrilaterals(kinds: Sequence[Facets]) -> Array:
+    """Of every corner of every facet what it counts: a triangle half a quadrilateral."""
+    counts = [np.full(kind.nodes[:, : kind.corners].size, 0.5 if kind.corners == 3 else 1.0) for kind in kinds]
+    return np.concatenate(counts)
+
+
+def _sharing(node: IntArray) -> tuple[IntArray, IntArray]:
+    """All pairs of entries that have one node."""
+    order = np.argsort(node, kind="stable")
+    _, start, count = np.unique(node[order], return_index=True, return_counts=True)
+    each = np.repeat(count, count)
+    within = np.arange(each.sum()) - np.repeat(np.cumsum(each) - each, each)
+    return np.repeat(order, each), order[np.repeat(np.repeat(start, count), each) + within]
+
+
+def _rim(kinds: Sequence[Facets], size: int) -> BoolArray:
+    """Nodes at the end of the side, (size,)."""
+    rim = np.zeros(size, np.bool_)
+    if kinds[0].points.shape[2] == 2:
+        rim[np.bincount(_incidence(kinds)[1], minlength=size) == 1] = True
+        return rim
+    edges = np.sort(np.concatenate([kind.nodes[:, _edges(kind)].reshape(-1, 2) for kind in kinds]), axis=1)
+    once, times = np.unique(edges, axis=0, return_counts=True)
+    rim[once[times == 1]] = True
+    return rim
+
+
+def _all_points(kinds: Sequence[Facets]) -> Array:
+    points = np.zeros((max(int(kind.nodes.max()) for kind in kinds) + 1, kinds[0].points.shape[2]))
+    for kind in kinds:
+        points[kind.nodes] = kind.points
+    return points
+
+
+def _stencil(kinds: Sequence[Facets], one: IntArray, two: IntArray, size: int) -> sp.csr_array:
+    """(m, size) The nodes that say how a facet's surface bends: corners, and middles of edges that bend."""
+    facet, node = _incidence(kinds)
+    rows, columns, start = [facet], [node], 0
+    for kind in kinds:
+        i, edge = np.nonzero(_bent(kind))
+        rows.append(start + i)
+        columns.append(kind.nodes[i, kind.corners + edge])
+        start += len(kind.nodes)
+    count = start
+    i, j = np.concatenate(rows), np.concatenate(columns)
+    lie = sp.csr_array((np.ones(len(i)), (i, j)), shape=(count, size))
+    near = sp.csr_array((np.ones(len(one)), (one, two)), shape=(count, count))
+    return sp.csr_array(near @ lie)
+
+
+def _fitted(points: Array, stencil: sp.csr_array, origin: Array, normal: Array) -> tuple[Array, Array, Array, Array]:
+    """Level, slope, bend and arch of the surfaces through the nodes of stencils, by least squares."""
+    m, d = normal.shape
+    count = np.diff(stencil.indptr)
+    facet = np.repeat(np.arange(m), count)
+    r = points[stencil.indices] - origin[facet]
+    size = np.sqrt(np.maximum.reduceat(np.sum(r**2, axis=1), stencil.indptr[:-1]))
+    r /= size[facet, None]
+    axes = _axes(normal)
+    x, z = np.einsum("pe,pke->pk", r, axes[facet]), np.sum(r * normal[facet], axis=1)
+    i, j = np.triu_indices(d - 1)
+    rows = np.column_stack([np.ones(len(x)), x, np.where(i == j, 0.5, 1.0) * x[:, i] * x[:, j]])
+    mass = np.add.reduceat(rows[:, :, None] * rows[:, None], stencil.indptr[:-1])
+    known = np.arange(d, rows.shape[1])
+    mass[:, known, known] += _KNOWN * mass[:, :1, 0]
+    inverse = np.linalg.inv(mass)
+    found, arch = np.zeros((m, rows.shape[1])), np.zeros(m)
+    for _ in range(_ROUNDS):
+        left = -z - 0.5 * arch[facet] * z**2 - np.sum(rows * found[facet], axis=1)
+        found += np.einsum("mab,mb->ma", inverse, np.add.reduceat(rows * left[:, None], stencil.indptr[:-1]))
+        form = np.zeros((m, d - 1, d - 1))
+        form[:, i, j] = form[:, j, i] = found[:, d:]
+        curvatures = np.linalg.eigvalsh(form)
+        arch = np.where(-curvatures[:, 0] > curvatures[:, -1], curvatures[:, 0], curvatures[:, -1])
+    bend = np.einsum("mae,mab,mbf->mef", axes, form, axes) / size[:, None, None]
+    return found[:, 0] * size, np.einsum("ma,mae->me", found[:, 1:d], axes), bend, arch / size
+
+
+def _axes(normal: Array) -> Array:
+    """Unit vectors across normals, (m, d - 1, d)."""
+    if normal.shape[1] == 2:
+        return np.stack([-normal[:, 1], normal[:, 0]], axis=1)[:, None]
+    least = np.eye(3)[np.argmin(np.abs(normal), axis=1)]
+    first = np.cross(normal, least)
+    first /= np.linalg.norm(first, axis=1, keepdims=True)
+    return np.stack([first, np.cross(normal, first)], axis=1)
+
+
+def _at_nodes(kind: Facets, surface: Smooth) -> tuple[Array, Array]:
+    """``nodal`` and ``lean``; over middle nodes of facets without a bent edge means of those at the corners."""
+    m, k, d = kind.points.shape
+    each = np.repeat(np.arange(m), k)
+    found = _heights(surface, each, kind.points.reshape(-1, d)).reshape(m, k, 2)
+    bent = surface.bent
+    if k > kind.corners:
+        edges = _edges(kind)
+        found[~bent, kind.corners : kind.corners + len(edges)] = found[:, edges].mean(axis=2)[~bent]
+        found[~bent, kind.corners + len(edges) :] = found[:, : kind.corners].mean(axis=1, keepdims=True)[~bent]
+    found[bent, :, 1] = 1.0
+    return np.ascontiguousarray(found[..., 0]), np.ascontiguousarray(found[..., 1])
+
+
+@njit(cache=True)
+def _heights(surface: Smooth, facets: IntArray, points: Array) -> Array:
+    """Heights over points (p, d), and squared cosines between the normals of facet and surface there, (p, 2)."""
+    result, gradient = np.empty((len(points), 2)), np.empty(points.shape[1])
+    for p in range(len(points)):
+        result[p, 0] = _height(surface, facets[p], points[p], gradient)
+        result[p, 1] = 1.0 / (1.0 + np.sum(gradient**2))
+    return result
