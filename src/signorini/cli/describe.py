@@ -8,6 +8,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.cli.suspicion import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
 from signorini.deck import Deck
+from signorini.engine.patches import overlap_notes
 from signorini.engine.prepare import Examined
 from signorini.engine.report import finer_notes
 from signorini.engine.twice import same_loads
@@ -61,6 +62,7 @@ def all_notes(deck: Deck, examined: Examined) -> list[str]:
         *unit_notes(deck.model),
         *_stiffness_notes(examined),
         *_contact_notes(examined),
+        *overlap_notes(examined),
         *finer_notes(examined),
         *far_notes(examined),
         *held_notes(examined),
@@ -236,10 +238,6 @@ def _contact_notes(examined: Examined) -> list[str]:
         gap = interface.gap[own]
         if gap.min() > 1e-9 * size:
             notes.append(f"contact '{contact.label}' is open everywhere at the start, by at least {gap.min():.4g}")
-        if gap.min() < -1e-9 * size and contact.interference == 0.0 and contact.gap == "geometry":
-            notes.append(
-                f"contact '{contact.label}' overlaps by up to {-gap.min():.4g} at the start; it will be pressed"
-            )
         coulomb = bool((interface.rubs & ~interface.sticks)[own].any())
         if contact.shear_limit is not None and not interface.rubs[own].any():
             notes.append(f"contact '{contact.label}' has a shear limit, but no friction that it could limit")

@@ -15,6 +15,7 @@ from signorini.engine.exact import interface_energy, stored_energy
 from signorini.engine.heat import heat_of
 from signorini.engine.increments import applied
 from signorini.engine.leg import Leg
+from signorini.engine.patches import overlap_notes, patch_notes
 from signorini.engine.prepare import Examined, Prepared
 from signorini.engine.smallness import large_notes
 from signorini.engine.upheld import support_forces
@@ -32,8 +33,6 @@ ONE_INCREMENT = "one increment: assumes that the final state was reached from ze
 
 GROWN = "the contact grew under friction: in one increment tractions can be off by tens of percent, take more"
 """What it says further where pairs closed that were open before."""
-
-_SEEN = 1e-5  # of the size of the model: smaller gaps are nothing that anyone would have meant
 
 
 def step_result(
@@ -88,6 +87,8 @@ def step_result(
             *_facet_notes(prepared),
             *finer_notes(prepared),
             *_open_notes(prepared, leg),
+            *(() if before.forces.any() or before.displacement.any() else overlap_notes(prepared)),
+            *patch_notes(prepared, state),
             *large_notes(prepared, state),
             *((words,) if words else ()),
         ),

@@ -91,10 +91,10 @@ class Contact:
                 )
             object.__setattr__(self, "friction", coefficient(self.friction, ("friction",)))
         self._check_cone()
-        if self.gap not in ("geometry", "zero"):
-            if isinstance(self.gap, str):
-                raise InputError(f"is '{self.gap}'; expected 'geometry', 'zero' or a number", where=("gap",))
+        if not isinstance(self.gap, str):
             object.__setattr__(self, "gap", number(self.gap, ("gap",)))
+        elif self.gap not in ("geometry", "zero"):
+            raise InputError(f"is '{self.gap}'; expected 'geometry', 'zero' or a number", where=("gap",))
         if self.shear_limit is not None:
             object.__setattr__(self, "shear_limit", number(self.shear_limit, ("shear_limit",), above=0.0))
         for key in ("adhesion", "normal_compliance", "tangential_compliance"):

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What of a solution the mesh or the geometry does not bear out: patches of a few pairs, overlaps that nobody gave."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.csgraph import connected_components
+
+from signorini.arrays import BoolArray, IntArray
+from signorini.engine.prepare import Examined, Prepared
+from signorini.fem.boundary import boundary
+from signorini.pairstate import OPEN
+from signorini.solution.state import State
+
+_ACROSS = 4  # closed pairs: with fewer the pressure is a matter of the mesh
+_NONE = 1e-9  # of the size of the model: less is no overlap
+
+
+def overlap_notes(examined: Examined) -> Iterator[str]:
+    """Contacts whose sides overlap to begin with, as they are meshed."""
+    interface, model = examined.interface, examined.model
+    size = float(np.ptp(model.mesh.points, axis=0).max())
+    for i, contact in enumerate(model.contacts):
+        gap = interface.gap[interface.contact == i]
+        if gap.min(initial=0.0) < -_NONE * size and contact.interference == 0.0 and contact.gap == "geometry":
+            yield f"contact '{contact.label}' overlaps by up to {-gap.min():.4g} at the start; it will be pressed"
+
+
+def patch_notes(prepared: Prepared, state: State) -> Iterator[str]:
+    """Contacts that end between open pairs and hold fewer than four closed ones across.
+
+    In the plane they are counted, twice where the patch begins at an end of its side, an axis or a plane of symmetry;
+    in space a patch is noted if all of its pairs are next to open ones. What ends where a side does has its edges
+    there, whatever the mesh.
+    """
+    interface = prepared.interface
+    for i, contact in enumerate(prepared.model.contacts):
+        own = np.flatnonzero(interface.contact == i)
+        if contact.tied or not len(own):
+            continue
+        closed = state.status[own] != OPEN
+        few = _fewest(prepared, i, interface.node[own], closed) if closed.any() and not closed.all() else _ACROSS
+        if few < _ACROSS:
+            yield (
+                f"contact '{contact.label}' touches with {few} pair{'s' if few > 1 else ''} across, between open ones: "
+                "too few to tell its size and largest pressure; a finer mesh there would, if units and loads are right"
+            )
+
+
+def _fewest(prepared: Prepared, i: int, nodes: IntArray, closed: BoolArray) -> int:
+    """Pairs across the smallest patch of a contact that ends between open pairs; four where there are enough."""
+    space = prepared.space
+    blocks = boundary(space, prepared.interface.sides[i].nonmortar, ("contact", i)).blocks
+    place = np.full(len(space.mesh.points), -1)
+    place[nodes] = np.arange(len(nodes))
+    edges = []
+    for block in blocks:
+        corners = np.arange(block.corners)
+        edges.append(
+            np.stack([block.facets[:, corners], block.facets[:, np.roll(corners, -1)]], axis=-1).reshape(-1, 2)
+        )
+    one, two = place[np.concatenate(edges)].T
+    both = (one >= 0) & (two >= 0)
+    one, two = np.concatenate([one[both], two[both]]), np.concatenate([two[both], one[both]])
+    within = closed[one] & closed[two]
+    graph = sp.coo_array((np.ones(within.sum()), (one[within], two[within])), shape=(len(nodes), len(nodes)))
+    _, patch = connected_components(graph, directed=False)
+    ends = np.unique(np.column_stack([one, two])[closed[one] & ~closed[two]], axis=0)
+    ended = np.unique(patch[ends[:, 0]])
+    size = np.bincount(patch[closed], minlength=len(nodes))[ended]
+    if space.dimension == 3:
+        beside = np.bincount(patch[np.unique(ends[:, 0])], minlength=len(nodes))[ended]
+        return 2 if (beside == size).any() else _ACROSS
+    half = np.bincount(patch[ends[:, 0]], minlength=len(nodes))[ended] == 1
+    return int(np.where(half, 2 * size - 1, size).min(initial=_ACROSS))

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Notes on patches of too few pairs, and on overlaps that a mesh has."""
+
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.engine.patches import overlap_notes
+from signorini.gallery.blocks import block_on_foundation
+from signorini.gallery.press_fit import press_fit
+
+STEEL = sg.Elastic(E=1000.0, nu=0.3)
+
+
+def disk(load, *, kind="plane strain", order=1):
+    mesh = sg.quarter_disk(radius=8.0, contact_length=2.0, contact_spacing=0.25, order=order)
+    return sg.Model(
+        mesh,
+        kind=kind,
+        bodies=[sg.Body("disk", STEEL)],
+        supports=[sg.Support("axis", u=(0, None))],
+        loads=[sg.Load("cut", traction=(0, -load))],
+        contacts=[sg.Contact("arc", sg.Plane((0, 0), (0, 1)), name="floor")],
+    )
+
+
+def few(model):
+    return [note for note in sg.solve(model).last.notes if "across" in note]
+
+
+@pytest.mark.parametrize(("load", "pairs"), [(0.05, 1), (1.0, 3), (20.0, None)])
+def test_a_patch_of_few_pairs_is_noted(load, pairs):
+    """Half a patch at the plane of symmetry: two pairs are three across."""
+    notes = few(disk(load))
+    assert bool(notes) == (pairs is not None)
+    assert all(f"with {pairs} pair" in note for note in notes)
+
+
+@pytest.mark.parametrize(("depth", "said"), [(0.002, True), (0.08, False)])
+def test_in_space_all_pairs_of_a_small_patch_are_next_to_open_ones(depth, said):
+    x = np.linspace(0.0, 2.0, 9)
+    ball = sg.Sphere((1.0, 1.0, 3.0 - depth), 1.0)
+    model = sg.Model(
+        sg.box(x=x, y=x, z=x),
+        bodies=[sg.Body("block", STEEL)],
+        supports=[sg.Support("bottom", u=(0, 0, 0))],
+        contacts=[sg.Contact("top", ball, name="ball")],
+    )
+    assert bool(few(model)) == said
+
+
+def test_patches_that_end_with_their_side_are_not():
+    assert not few(block_on_foundation(across=(2, 1)))
+    assert not few(press_fit(n_radial=1, n_angular=2))
+
+
+def test_an_overlap_of_the_mesh_is_noted_by_a_solution_too():
+    model = press_fit(n_radial=1, n_angular=(3, 2), interference=0.0, drawn=0.01)
+    notes = [note for note in sg.solve(model).last.notes if "overlaps" in note]
+    assert notes == list(overlap_notes(sg.engine.prepare.examine(model)))
+    assert len(notes) == 1
+    assert not [n for n in sg.solve(press_fit(n_radial=1, n_angular=3)).last.notes if "overlaps" in n]
+
+
+@pytest.mark.parametrize("gap", [np.zeros(3), [0.0, 1.0], np.array([])])
+def test_one_gap_for_all_pairs(gap):
+    with pytest.raises(sg.InputError, match=r"gap: is .*; expected a number"):
+        sg.Contact("a", "b", gap=gap)
