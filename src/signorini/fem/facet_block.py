@@ -62,7 +62,7 @@ class FacetBlock:
     @cached_property
     def outward(self) -> Array:
         """Outward normal at every quadrature point times its share of the length or area, (m, q, d)."""
-        return _outward(self.points, self.shapes[1]) * self._rule[1][:, None]
+        return outward_normals(self.points, self.shapes[1]) * self._rule[1][:, None]
 
     @cached_property
     def weights(self) -> Array:
@@ -110,7 +110,7 @@ class FacetBlock:
     def nodal_spans(self) -> Array:
         """Outward unit normals of the facets at the nodes times their sizes, summed, (n, d)."""
         count = self.facets.shape[1]
-        own = _outward(self.points, facet_shapes(self.dimension, count, facet_nodes(self.dimension, count))[1])
+        own = outward_normals(self.points, facet_shapes(self.dimension, count, facet_nodes(self.dimension, count))[1])
         length = np.linalg.norm(own, axis=-1)  # 0 where a side of the facet is, at its ends
         own *= (self.weights.sum(axis=1)[:, None] / np.where(length > 0.0, length, 1.0))[..., None]
         total = np.zeros((len(self.nodes), self.dimension))
@@ -127,7 +127,7 @@ class FacetBlock:
         return facet_rule(self.dimension, self.facets.shape[1])
 
 
-def _outward(points: Array, slopes: Array) -> Array:
+def outward_normals(points: Array, slopes: Array) -> Array:
     """Outward normals of facets (m, k, d) from the derivatives (q, k, d - 1) of their shape functions, (m, q, d)."""
     along = np.einsum("qas,mai->mqsi", slopes, points)
     if points.shape[-1] == 2:

@@ -22,10 +22,13 @@ import scipy.sparse as sp
 from numba import njit
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.fem.facet_block import outward_normals
+from signorini.fem.facets import facet_nodes, facet_shapes
 
 _CORNER = 2.0 * np.sin(np.radians(35.0) / 2)  # between normals of neighbours: from here on they meet in a corner
 _FLAT = 0.1  # of the largest turn at a facet's corners: one that turns less at a corner belongs to what is flat there
 _STRAIGHT = 1e-9  # a turn, or a bulge of a length of one, below this is rounding
+_KINK = 0.1  # of that between parabolas of a circle: with less there is nothing to smooth
 _BETWEEN = 1.25  # quadrilaterals at a node of a strip: with more it is between two, with less at the end
 _KNOWN = 1e-6  # of the largest entry: a curvature that the nodes say less about is none
 _ROUNDS = 8  # of correcting for z^2 and for the limit above: each gains a digit and more
@@ -195,18 +198,20 @@ def smooth_surfaces(kinds: Sequence[Facets]) -> tuple[Smooth, ...]:
         for start in range(0, len(normals), _MANY)
     ]
     level, slope, bend, arch = (np.concatenate(part) for part in zip(*parts, strict=True))
+    smooth = _smooth_already(kinds, bend, one, two) & bent
     result, start, none = [], 0, np.zeros((0, 0))
     for kind in kinds:
         own = slice(start, start + len(kind.nodes))
         # length of the gradient of the module's formula over the origin
         size = np.sqrt(1.0 - 2.0 * arch[own] * level[own] + np.sum(slope[own] ** 2, axis=1))[:, None, None]
+        itself = np.where(smooth[own], 0.0, 1.0)
         surface = Smooth(
             origin[own],
             normals[own],
-            level[own],
-            slope[own],
-            bend[own],
-            arch[own],
+            level[own] * itself,
+            slope[own] * itself[:, None],
+            bend[own] * itself[:, None, None],
+            arch[own] * itself,
             bend[own] / size,
             none,
             none,
@@ -217,6 +222,33 @@ def smooth_surfaces(kinds: Sequence[Facets]) -> tuple[Smooth, ...]:
         result.append(surface._replace(nodal=nodal, lean=lean))
         start += len(kind.nodes)
     return tuple(result)
+
+
+def _smooth_already(kinds: Sequence[Facets], bend: Array, one: IntArray, two: IntArray) -> BoolArray:
+    """Facets that meet their neighbours nearly without a kink, (m,): they stand for themselves, as parabolas may.
+
+    Parabolas of a circle meet at an angle of a twelfth of the cubed angle that each turns by.
+    """
+    facet, node = _incidence(kinds)
+    normals, turn, start = [], [], 0
+    for kind in kinds:
+        d, k = kind.points.shape[2], kind.nodes.shape[1]
+        own = outward_normals(kind.points, facet_shapes(d, k, facet_nodes(d, k)[: kind.corners])[1])
+        size = np.linalg.norm(own, axis=2, keepdims=True)
+        normals.append((own / np.where(size > 0.0, size, 1.0)).reshape(-1, d))
+        ends = kind.points[:, _edges(kind)]
+        along = ends[:, :, 1] - ends[:, :, 0]
+        bends = np.abs(np.einsum("mei,mij,mej->me", along, bend[start : start + len(along)], along))
+        start += len(along)
+        turn.append((bends / np.linalg.norm(along, axis=2)).max(axis=1))
+    at = np.concatenate(normals)
+    entry, other = _sharing(node)
+    count = len(bend)
+    beside = sp.csr_array((np.ones(len(one)), (one, two)), shape=(count, count))
+    near = np.asarray(beside[facet[entry], facet[other]]).ravel() > 0.0
+    kink = np.zeros(count)
+    np.maximum.at(kink, facet[entry[near]], _apart(at, entry[near], other[near]))
+    return np.asarray(kink < _KINK * np.concatenate(turn) ** 3 / 12.0, dtype=np.bool_)
 
 
 def _flat(kind: Facets) -> Smooth:
