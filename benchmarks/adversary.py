@@ -232,7 +232,7 @@ class Verdict:
     Attributes
     ----------
     outcome : "right", "proved" (no equilibrium, and the adversary finds none either), "not found" (nor by the
-        adversary), "refused" (before solving); and the failures: "WRONG", "FALSE PROOF", "MISSED", "RESTART", "ERROR"
+        adversary), "jump", "refused" (before solving); and the failures, in capitals
     words : numbers and messages
     """
 
@@ -307,6 +307,8 @@ def _refused(case: Case, words: str) -> Verdict:
 def _without_answer(case: Case, history: Any, done: int, before: np.ndarray) -> Verdict:
     """Where the package found no equilibrium, the adversary looks for one."""
     words = f"step {done + 1}: {history.message[:300]}"
+    if history.status == "jump":  # an equilibrium at the end of the step says nothing of the way there
+        return Verdict(outcome="jump", words=words)
     acts, rng = increment(case, case.factors[done], before), np.random.default_rng(case.seed)
     loose = int((~case.structure.pairs.tied).sum())
     if case.structure.d == 2 and loose <= 6:
