@@ -30,7 +30,7 @@ KEYS = {
 
 
 def test_rows_of_the_contract() -> None:
-    rows = run(["cylinder"], 600)
+    rows = list(run(["cylinder"], 600))
     assert [row["friction"] for row in rows] == [0.0, 0.4]
     for row in rows:
         assert set(row) == KEYS
@@ -42,7 +42,7 @@ def test_rows_of_the_contract() -> None:
 
 
 def test_cubes_in_space() -> None:
-    rows = run(["cubes"], 1500)
+    rows = list(run(["cubes"], 1500))
     assert [row["name"] for row in rows] == 2 * ["cubes"] + 2 * ["cubes, not matching"]
     assert [row["default"] for row in rows] == [True, False, True, False]
     for row in rows:
