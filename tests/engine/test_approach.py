@@ -152,7 +152,9 @@ def test_a_body_that_nothing_touches_or_loads_rests_until_a_step_loads_it(kind):
     np.testing.assert_allclose(first.displacement[high], 0.0, atol=1e-12)
     small = (1e-9 if second.path == "exact" else 1e-6) * second.work
     np.testing.assert_allclose([first.energy_defect, second.energy_defect], 0.0, atol=small)
-    expected = steps(touching)[1]
+    unloaded, expected = steps(touching)
+    assert (unloaded.contacts[1].status == "open").all()
+    assert not unloaded.contacts[1].slip.any()
     for contact, reference in zip(second.contacts, expected.contacts, strict=True):
         np.testing.assert_allclose(contact.normal_force, reference.normal_force, atol=1e-8 * abs(down[-1]))
         np.testing.assert_allclose(contact.pressure, reference.pressure, atol=1e-2 * reference.pressure.max())

@@ -48,6 +48,7 @@ _PATIENCE = 4  # tries
 _ROUNDING = 1e-9  # part of an increment: what comes so late does not happen in it
 _LOST = 1e-7  # part of the segment: where not even that has a solution nothing goes on gradually
 _TRIES = 60  # at one increment
+_IDLE = 1e-12  # of the data: a normal force that rounding leaves, under which nothing slips
 _NEAR = 1e-6  # of the data: width of zero at an event that smooth sections make uncertain
 _QUICK = SpatialSettings(swept_rounds=2, proximal_rounds=0, springs=())
 
@@ -377,7 +378,8 @@ class Walk(Way):
         closed, sticks = state != OPEN, np.tile(state == STICK, 2)
         h = np.concatenate([np.where(closed, 0.0, end.h[:n]), np.where(sticks, now.h[n:], end.h[n:])])
         r = np.where(np.tile(closed, 3), end.r, 0.0)
-        moved = np.where(np.tile(closed, 2), h[n:] - now.h[n:], 0.0)
+        pressed = closed & (np.maximum(r[:n], now.r[:n]) > _IDLE * (self.problem.scale or 1.0))
+        moved = np.where(np.tile(pressed, 2), h[n:] - now.h[n:], 0.0)
         late = (trial.each < 1.0 - _ROUNDING) & (now.state != OPEN)
         rubbing = np.where(np.tile(late, 2), r[n:], 0.5 * (r[n:] + now.r[n:]))
         lost = -(columns(rubbing) * columns(moved)).sum(axis=1)
