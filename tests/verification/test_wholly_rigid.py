@@ -102,3 +102,23 @@ def test_parts_that_are_held_are_at_rest_in_motions_of_the_others():
     assert examined.floating.shape[1] == 3
     assert not examined.floating[~top].any()
     assert sg.solve(model).last.certificate.worst < 1e-12
+
+
+def test_a_body_that_equations_make_rigid_does_not_feel_its_modulus():
+    """All its nodes move alike: rounding of its stiffness gave another answer, and a length that excused it."""
+    mesh = boxes(2, a=([0.0, 0.75, 1.5, 2.25, 3.0], [-1.0, -0.5, 0.0]), b=([0.6, 1.1, 1.7, 2.3], [0.0, 0.5, 1.0]))
+    first, *others = mesh.labels[15:].tolist()
+    alike = [sg.Equation([(node, axis, 1.0), (first, axis, -1.0)]) for node in others for axis in "xy"]
+    found = []
+    for modulus in (1.0, 1e3, 1e7):
+        model = sg.Model(
+            mesh,
+            bodies=[sg.Body("a", ELASTIC), sg.Body("b", sg.Elastic(E=modulus, nu=0.3))],
+            supports=[sg.Support("a.bottom", u=(0, 0))],
+            equations=alike,
+            loads=[sg.Load("b.top", force=(0.5, -5.0))],
+            contacts=[sg.Contact("b.bottom", "a.top", friction=0.3)],
+            steps=[sg.Step(increments=1)],
+        )
+        found.append(sg.solve(model).last.contacts[0].pressure)
+    np.testing.assert_allclose(found, [found[2]] * 3, rtol=1e-6, atol=1e-6)

@@ -25,7 +25,7 @@ from signorini.fem.loads import nodal_loads
 from signorini.fem.locking import refuse_locking
 from signorini.fem.rigid import Part, free_motions, make_parts, rigid_motions
 from signorini.fem.space import Space, make_space
-from signorini.fem.stiffness import stiffness
+from signorini.fem.stiffness import reduced_stiffness, stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.spatial import SpatialProblem
@@ -335,7 +335,7 @@ def _made(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, cl
     """Factorise the bodies with the nodes of the candidates last and put the law on them, or leave them as they are."""
     interface, T, nodes = examined.interface, examined.constraints.transform, examined.constraints.nodes
     with clock.phase("assembly"):
-        reduced, relative = sp.csr_array(T.T @ K @ T), sp.csr_array(interface.B @ T)
+        reduced, relative = reduced_stiffness(K, T), sp.csr_array(interface.B @ T)
         whole = iterates(reduced, relative, interface, nodes, examined.space.places, candidates=near, backend=backend)
         law: CoulombProblem | SpatialProblem | None = None
         bodies: Condensed | Bodies

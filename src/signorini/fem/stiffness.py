@@ -14,6 +14,8 @@ from signorini.fem.measure import measure
 from signorini.fem.space import Space
 from signorini.model.model import Model
 
+_ROUNDED = 64.0 * float(np.finfo(np.float64).eps)  # of the products that an entry is summed from: what is rounding
+
 
 def stiffness(space: Space, model: Model) -> sp.csr_array:
     """``K_ij = int eps(phi_i) : C : eps(phi_j) dx``, (dofs, dofs).
@@ -45,3 +47,30 @@ def stiffness(space: Space, model: Model) -> sp.csr_array:
     K = assemble(space.mesh.points, blocks, axisymmetric=model.axisymmetric)
     K.resize((space.number_of_dofs, space.number_of_dofs))  # rigid obstacles have no stiffness
     return K
+
+
+def reduced_stiffness(K: sp.csr_array, T: sp.csr_array) -> sp.csr_array:
+    """``T^T K T``, (z, z), without what is left by rounding where dofs that move together move rigidly.
+
+    Equations may make a body rigid as a rigid body is; its stiffness cancels then, and rounding must be no spring.
+
+    Examples
+    --------
+    Two nodes on a spring that move together feel nothing of it:
+
+    >>> K, T = sp.csr_array(np.array([[0.3, -0.3], [-0.3, 0.1 + 0.2]])), sp.csr_array(np.ones((2, 1)))
+    >>> (T.T @ K @ T).toarray().tolist(), reduced_stiffness(K, T).toarray().tolist()
+    ([[5.551115123125783e-17]], [[0.0]])
+    """
+    reduced = sp.csr_array(T.T @ K @ T)
+    together = np.flatnonzero(np.bincount(T.indices, minlength=T.shape[1]) > 1)
+    if not len(together):
+        return reduced
+    size = abs(T[:, together]).T @ abs(K) @ abs(T)
+    rows = reduced[together]
+    noise = sp.csr_array(rows - rows.multiply(abs(rows) > _ROUNDED * size))
+    put = sp.csr_array((np.ones(len(together)), (together, np.arange(len(together)))), (T.shape[1], len(together)))
+    spread = put @ noise
+    result = sp.csr_array(reduced - spread - spread.T + put @ (noise[:, together] @ put.T))
+    result.eliminate_zeros()
+    return result

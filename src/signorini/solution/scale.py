@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from signorini.arrays import Array
+from signorini.arrays import Array, extent
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface
@@ -29,6 +29,7 @@ class Scale:
     imposed : the largest displacement that is imposed, and overlap
     squeezed : in space, the largest load over the smallest modulus, area
     loaded : the largest load of the history
+    size : of the mesh, length: displacements beyond it excuse nothing
     """
 
     force: float
@@ -37,6 +38,7 @@ class Scale:
     imposed: float = 0.0
     squeezed: float = 0.0
     loaded: float = 0.0
+    size: float = 0.0
 
     def bent(self, softness: float) -> Scale:
         """The same for bodies that loads move farther than they compress them: slender ones.
@@ -45,7 +47,7 @@ class Scale:
         ----------
         softness : displacement per load, length per force
         """
-        return replace(self, length=max(self.length, self.loaded * softness))
+        return replace(self, length=max(self.length, min(self.loaded * softness, self.size)))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,7 +98,15 @@ def data_scale(space: Space, model: Model, loading: Loading, interface: Interfac
     squeezed = loaded / min(body.material.smallest_modulus for body in model.bodies) if model.dimension == 3 else 0.0
     force = max(loaded, stiffness * imposed) or stiffness
     length = force / stiffness
-    return Scale(force=force, length=length, compressed=length, imposed=imposed, squeezed=squeezed, loaded=loaded)
+    return Scale(
+        force=force,
+        length=length,
+        compressed=length,
+        imposed=imposed,
+        squeezed=squeezed,
+        loaded=loaded,
+        size=float(extent(space.mesh.points).max()),
+    )
 
 
 def _across(space: Space, model: Model) -> list[float]:
