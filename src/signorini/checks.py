@@ -13,6 +13,9 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.errors import InputError, Where, one_of
 
+LARGEST = 1e100
+"""Of a number that is given: what is larger leaves no room to compute, its square least of all."""
+
 _CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069]")
 """Line ends, what terminals obey, and what turns the direction of writing."""
 
@@ -36,6 +39,8 @@ def number(
         found = float(value)
     except OverflowError as error:
         raise InputError(f"is {_shown(value)}; expected {expected}", where=where) from error
+    if math.isfinite(found) and abs(found) > LARGEST:
+        raise InputError(f"is {found!r}; expected {expected} of at most {LARGEST:g}", where=where)
     if not (math.isfinite(found) and above < found < below and found >= least):
         raise InputError(f"is {value!r}; expected {expected}", where=where)
     return found

@@ -82,6 +82,11 @@ MISTAKES = {
     ),
     "wrong type": ("E = 200.0", 'E = "200"', ":11: material.soft.E: is '200'; expected a number > 0"),
     "E zero": ("E = 200.0", "E = 0.0", ":11: material.soft.E: is 0.0; expected a number > 0"),
+    "E too large": (
+        "E = 200.0",
+        "E = 1e200",
+        ":11: material.soft.E: is 1e+200; expected a number > 0 of at most 1e+100",
+    ),
     "nu too large": ("nu = 0.3", "nu = 0.5", ":12: material.soft.nu: is 0.5; expected a number > -1 and < 0.5"),
     "friction negative": (
         "friction = 0.4",

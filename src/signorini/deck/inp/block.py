@@ -10,15 +10,13 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
+from signorini.checks import LARGEST
 from signorini.deck.error import DeckError
 from signorini.errors import one_of
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([EeDd][+-]?\d+)?")
 MOST = 10**10
 """Numbers of nodes and elements are smaller: they have at most ten digits."""
-
-LARGEST = 1e100
-"""Of a number in a deck: what is larger leaves no room to compute."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -9,7 +9,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.deck.inp.block import LARGEST, MOST, Block
+from signorini.checks import LARGEST
+from signorini.deck.inp.block import MOST, Block
 
 _EXPONENT = bytes.maketrans(b"Dd", b"ee")
 _LETTERS = b"abcdfghijklmnopqrstuvwxyzABCDFGHIJKLMNOPQRSTUVWXYZ"  # but not e: 1e5
