@@ -109,23 +109,32 @@ def _defect(prepared: Prepared, leg: Leg) -> float:
 
 
 def _followed(stretch: Stretch, number: int, jump: Literal["stop", "follow"] | None) -> tuple[Leg, str]:
-    """A way in at most so many increments, and their number in words."""
-    notes: tuple[str, ...] = ()
-    if stretch.prepared.interface.directions == 3 and not isinstance(stretch.prepared.bodies, Bodies):
+    """A way in at most so many increments, and their number in words; equal ones where those to events are lost."""
+    if stretch.prepared.interface.directions == 2 or isinstance(stretch.prepared.bodies, Bodies):
+        return follow_increments(stretch, number), _counted(number)
+    try:
+        leg = follow_to_events(stretch, number, jumps=jump == "follow")
+        return leg, f"{_counted(len(leg.trace))} to events, none needs to be shorter than 1/{number}"
+    except SolveFailed as failure:
+        if failure.status == "jump" and jump == "stop":
+            raise
+        if failure.hopeless:
+            raise _told(failure, str(failure), "no_equilibrium") from failure
         try:
-            leg = follow_to_events(stretch, number, jumps=jump == "follow")
-            return leg, f"{_counted(len(leg.trace))} to events, none needs to be shorter than 1/{number}"
-        except SolveFailed as failure:
-            if failure.status == "jump" and jump == "stop":
-                raise
-            if failure.hopeless:
-                worse = SolveFailed(str(failure), status="no_equilibrium", motion=failure.motion)
-                worse.reached = failure.reached
-                raise worse from failure
-            if failure.status == "jump":
-                notes = (f"{failure.sentence}; followed in {number} increments to what is a candidate",)
-    leg = follow_increments(stretch, number)
-    return replace(leg, notes=notes), _counted(number)
+            leg = follow_increments(stretch, number)
+        except SolveFailed as nothing:
+            words = f"{failure.sentence}; nor do {_counted(number)} go on: {nothing.sentence}"
+            words = f"{words}{failure.details}{nothing.details}"
+            raise _told(failure, words, nothing.status, nothing) from failure
+        note = f"{failure.sentence}; followed in {number} increments to what is a candidate"
+        return replace(leg, notes=(note,) if failure.status == "jump" else ()), _counted(number)
+
+
+def _told(failure: SolveFailed, words: str, status: str, last: SolveFailed | None = None) -> SolveFailed:
+    """A failure in other words, with the part of the way that increments to events have reached, or the last ones."""
+    said = SolveFailed(words, status=status, motion=failure.motion if last is None else last.motion)
+    said.reached = failure.reached or (last and last.reached)
+    return said
 
 
 def _counted(number: int) -> str:

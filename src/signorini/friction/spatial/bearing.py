@@ -8,12 +8,13 @@ met something else, which no history does gradually.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from signorini.arrays import Array, BoolArray
-from signorini.friction.exact.segment import Jump
+from signorini.friction.exact.segment import Breakpoint, Jump
 from signorini.friction.exact.state import PathState
 from signorini.friction.spatial.overload import Overload, along_contact, overload
 from signorini.friction.spatial.pieces import spare
@@ -92,12 +93,31 @@ class Bearing:
         assert self._least is not None
         problem, over = replace(self.problem, b=now.b), self._least
         every = overload(problem, now.r, self.b_end)
-        most = problem.bound.at(np.maximum(now.r[: problem.pairs], 0.0))
         return Jump(
             factor=over.factor,
             pairs=tuple(np.flatnonzero(pressed).tolist()),
             proof=proof,
-            gross_sliding=bool(spare(problem, now.r)[pressed].sum() <= _SPENT * most[pressed].sum()),
+            gross_sliding=_spent(problem, now.r, pressed),
             escape=along_contact(problem, over.motion, pressed),
             hopeless=None if every is None else factor + every.factor * (1.0 - factor),
         )
+
+
+def sliding(problem: SpatialProblem, ends: Sequence[Breakpoint], pressed: BoolArray) -> Array | None:
+    """The rigid motion (3n,) of an increment in which a floating body slides on pressed pairs (n,) that hold no more.
+
+    Parameters
+    ----------
+    ends : of the increment
+    """
+    one, two = ends
+    if not problem.floating or not pressed.any() or not _spent(problem, two.r, pressed):
+        return None
+    R = problem.image.R
+    return along_contact(problem, R @ (R.T @ (two.h - one.h)), pressed)
+
+
+def _spent(problem: SpatialProblem, r: Array, pressed: BoolArray) -> bool:
+    """Whether next to nothing is left of the friction of pressed pairs, all of them together."""
+    most = problem.bound.at(np.maximum(r[: problem.pairs], 0.0))
+    return bool(spare(problem, r)[pressed].sum() <= _SPENT * most[pressed].sum())

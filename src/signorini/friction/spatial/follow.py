@@ -24,13 +24,14 @@ from signorini.friction.exact.segment import Breakpoint, Jump, Segment
 from signorini.friction.exact.state import PathState
 from signorini.friction.exact.way import Way, check_loads
 from signorini.friction.spatial.balance import passed_over
-from signorini.friction.spatial.bearing import OVERLOADED, Bearing
+from signorini.friction.spatial.bearing import OVERLOADED, Bearing, sliding
 from signorini.friction.spatial.law import OPEN, SLIP, STICK
 from signorini.friction.spatial.pieces import columns, held_until, lasts, spare, turned
 from signorini.friction.spatial.problem import SpatialProblem
 from signorini.friction.spatial.rates import SpatialRates, acting_pairs, find_rates
 from signorini.friction.spatial.result import SpatialResult
 from signorini.friction.spatial.solve import SpatialSettings, solve_spatial
+from signorini.friction.spatial.standstill import standstill
 
 SHORTEST = 1e-12
 """Part of the segment below which an increment counts as none."""
@@ -41,6 +42,7 @@ _LEAST = 2.0**-10  # part of the segment that does
 _GROWTH, _FINER = 0.5, 2.0**-4  # of what is behind, and of the shortest: what increments at the beginning may be
 _SHRINK = 0.9  # of the estimated part up to an event: short of it
 _SAME, _LATE = 1e-12, 1e-3  # part of an increment by which it may miss an event; the latter after some tries
+_REFUSED = 0.25  # part of an increment, beyond which none was found: not looked into, the next one begins nearer to it
 _COARSER = 4.0  # times what friction may turn elsewhere: where one longer increment is gone again event by event
 _ACROSS = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)  # times the last increment: where to look for the other side of a fold
 _FOLD, _TURNED = 1e-9, 0.3  # part of the way in which it is looked for, and what friction may turn in it
@@ -50,7 +52,7 @@ _LOST = 1e-7  # part of the segment: where not even that has a solution nothing 
 _TRIES = 60  # at one increment
 _IDLE = 1e-12  # of the data: a normal force that rounding leaves, under which nothing slips
 _NEAR = 1e-6  # of the data: width of zero at an event that smooth sections make uncertain
-_QUICK = SpatialSettings(swept_rounds=2, proximal_rounds=0, springs=())
+_QUICK = SpatialSettings(newton_steps=12, swept_rounds=1, proximal_rounds=0, springs=())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -119,7 +121,7 @@ def follow_stopping(
             lost = walk.go_on()
             if tell is not None:
                 tell(walk.factor)
-        if not walk.again():
+        if walk.limited or not walk.again():  # close to a limit of the load increments miss energy however short
             break
     if lost is not None:
         return walk.ended(lost)
@@ -191,6 +193,8 @@ class Walk(Way):
         self.careful, self.trusting, self.balanced = 0.0, False, 0.0
         self.smooth = bool(((problem.mu > 0).any(axis=1) & (problem.sides == 0)).any())
         self.refused: SpatialResult | None = None
+        self.limited = False  # whether the load has a limit where motions run away
+        self._searched = False  # long, once in vain: shorter increments are near where they begin, or there are none
         self.bearing = Bearing(problem, self.b_end)
         # the load as rates see it; what smooth sections know of an event is less sharp
         self.rate_problem = replace(problem, b=frozen(b_end - start.b))
@@ -201,6 +205,10 @@ class Walk(Way):
         if self.factor >= self.reach and not self._crosses():
             self._to_the_brink()
             return NoRates(proof=OVERLOADED, proved=True)
+        stop = standstill(self.pieces, self.problem.scale or 1.0)
+        if stop is not None and (stop.proved or self.settings.shortest):  # events may be as many as they like
+            self.limited = stop.proved
+            return stop
         words = self.advance(patience=_PATIENCE)
         if not words:
             return None
@@ -330,7 +338,7 @@ class Walk(Way):
                 words, longest = trial.message, step
                 if not self._leaves:
                     self.refused = trial
-                if step <= _LOST or (best is not None and step <= best.step * (1.0 + _LATE)):
+                if step <= _LOST or (best is not None and step <= best.step * (1.0 + _REFUSED)):
                     break
                 step = step / 16.0 if best is None else 0.5 * (best.step + step)
             elif trial.until >= 1.0 - late and trial.turn <= self._turn:
@@ -422,8 +430,10 @@ class Walk(Way):
         increment = replace(problem, b=frozen(problem.misfit(origin, np.zeros(3 * n), b)))
         self.tried += 1
         y = None if not now.r.any() else now.r - np.concatenate([now.h[:n], np.zeros(2 * n)])
-        result = solve_spatial(increment, y if ahead is None else ahead, settings=_QUICK if step > shortest else None)
+        long = step <= shortest and not self._searched
+        result = solve_spatial(increment, y if ahead is None else ahead, settings=None if long else _QUICK)
         if not result.solved:
+            self._searched |= long
             return result
         h, r = _split(result)
         slip = result.slip
@@ -466,11 +476,13 @@ class Walk(Way):
         acting = np.flatnonzero(spent) if leaves else acting_pairs(self.rate_problem, self.now, self.near)
         if self.factor >= self.reach:
             return self.segment("jump", self.bearing.jump(self.now, self.factor, pressed, lost.proof), lost.proof)
+        slide = sliding(self.problem, self.pieces[-2:], pressed) if self.limited else None
         jump = Jump(
             factor=self.factor,
             pairs=tuple(int(k) for k in (acting if len(acting) else np.flatnonzero(spent))),
             proof=refused.message if refused is not None and leaves else lost.proof,
-            gross_sliding=bool(leaves and pressed.any() and spent[pressed].all()),
+            gross_sliding=bool(leaves and pressed.any() and spent[pressed].all()) or slide is not None,
+            escape=slide,
         )
         return self.segment("jump", jump, lost.proof)
 

@@ -1,0 +1,275 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Random models in space that loads carry away, tip, roll or let jump: what each ends in, and what it costs.
+
+    python -m benchmarks.overloaded [--number N] [--seed S] [--limit SECONDS]
+
+Boxes of hexahedra and tetrahedra, on planes, blocks and stacks of blocks, between walls, clamped and lifted; pressed,
+then pulled, tipped and turned by less or more than friction holds; on exact cones, ellipses and facets; one or several
+steps; matching or not; paths as they come, exact, in a few increments, jumps followed or not.
+
+Every model ends certified, proved (no equilibrium), named (a jump or gross sliding, with its load), or in nothing. Its
+price is the work on the law of contact in factorisations: operations of Newton's systems, their iterations, sweeps,
+held interfaces and linear programmes over those of one factorisation, the sparse one or a dense one of all rows of the
+pairs, whichever takes more. CPU seconds of models so small count how often Python is asked.
+"""
+
+from __future__ import annotations
+
+import signal
+import statistics
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from types import FrameType
+from typing import Any
+from unittest.mock import patch
+
+import numpy as np
+
+import signorini as sg
+from benchmarks import command, page
+from signorini.engine.prepare import prepare
+from signorini.engine.solve import solve_prepared
+from signorini.errors import InputError, SolveFailed
+from signorini.fem.solids import box
+from signorini.friction import iterated
+from signorini.friction.spatial import held, newton, overload, proximal, rates, sectors
+from signorini.linalg import multifrontal
+from signorini.model.mesh import join
+
+FAMILIES = ("block on plane", "block on block", "stack", "slab", "wedge", "tall block")
+SEED = 1993
+FRICTION = (0.05, 0.1, 0.3, 0.6, 1.0, 2.0, 4.0)
+
+
+@dataclass
+class Work:
+    """Operations so far.
+
+    Attributes
+    ----------
+    law : of the law of contact
+    sparse : of the largest sparse factorisation
+    counts : how often each was done
+    """
+
+    law: float = 0.0
+    sparse: float = 0.0
+    counts: Counter[str] = field(default_factory=Counter)
+
+    def add(self, what: str, operations: float) -> None:
+        """One more of them."""
+        self.counts[what] += 1
+        self.law += operations
+
+
+class OutOfTime(Exception):
+    """The limit of seconds is over."""
+
+
+def random_model(seed: int, number: int) -> sg.Model:
+    """One of the models."""
+    rng = np.random.default_rng([seed, number])
+    family = FAMILIES[number % len(FAMILIES)]
+    friction: Any = float(rng.choice(FRICTION[3:] if family == "slab" else FRICTION))
+    law: dict[str, Any] = {"friction": friction}
+    kind = rng.random()
+    if kind < 0.15:
+        law |= {"friction": (friction, 0.5 * friction), "friction_axis": (1, 0, 0)}
+    elif kind < 0.4:
+        law |= {"facets": int(rng.choice([4, 8, 12])), "friction_axis": (1, 0, 0)}
+    n = int(rng.integers(1, 7))
+    size = np.array([1.0, rng.uniform(0.5, 1.5), rng.uniform(0.3, 1.0) * (4.0 if family == "tall block" else 1.0)])
+    cells = str(rng.choice(["hexahedron", "hexahedron", "tetra"]))
+    parts = {"top": _box(n, size, 0.0, cells)}
+    supports: list[sg.Support] = []
+    contacts: list[sg.Contact] = []
+    floor = sg.Plane((0, 0, 0), (0, 0, 1))
+    if family in ("block on block", "stack"):
+        wide = np.array([size[0] + 0.5, size[1] + 0.5, 0.5])
+        m = n + int(rng.integers(0, 2))
+        parts["base"] = _box(m, wide, -0.5, cells, shift=0.25 * float(rng.random() < 0.8))
+        supports.append(sg.Support("base.bottom", u=(0.0, 0.0, 0.0)))
+        contacts.append(sg.Contact("top.bottom", "base.top", name="joint", **law))
+        if family == "stack":
+            parts["cap"] = _box(n, size * (1.0, 1.0, 0.5), size[2], cells)
+            contacts.append(sg.Contact("cap.bottom", "top.top", name="upper", **law))
+    else:
+        contacts.append(sg.Contact("top.bottom", floor, name="floor", **law))
+    if family == "wedge":
+        tilt = float(np.deg2rad(rng.choice([5.0, 20.0, 45.0, 70.0])))
+        wall = sg.Plane((1.0, 0, 0), (-np.cos(tilt), 0, np.sin(tilt)))
+        contacts.append(sg.Contact("top.right", wall, name="wall", **law))
+    if family == "slab":
+        supports.append(sg.Support("top.left", u=(0.0, 0.0, 0.0)))
+    loaded = "cap" if family == "stack" else "top"
+    pull = rng.normal(size=3) * (1.0, 1.0, 0.3) * 10.0 ** rng.uniform(-1.5, 1.0)
+    loads = [
+        sg.Load(f"{loaded}.{'bottom' if family == 'slab' else 'top'}", force=(0.0, 0.0, -1.0), name="press"),
+        sg.Load(f"{loaded}.{rng.choice(['right', 'top', 'front'])}", force=tuple(pull.tolist()), name="pull"),
+    ]
+    way: dict[str, Any] = {}
+    choice = rng.random()
+    if choice < 0.15:
+        way = {"increments": int(rng.integers(1, 12))}
+    elif choice < 0.3:
+        way = {"jump": str(rng.choice(["stop", "follow"])), "increments": "auto"}
+    elif choice < 0.45 and "facets" in law:
+        way = {"path": "exact", "jump": str(rng.choice(["stop", "follow"]))}
+    steps = [sg.Step(name="press", scale={"press": 1.0}), sg.Step(name="pull", scale={"pull": 1.0}, **way)]
+    if rng.random() < 0.3:
+        steps.append(sg.Step(name="back", scale={"pull": float(rng.uniform(-1.0, 0.5))}, **way))
+    E = float(10.0 ** rng.uniform(0.5, 4.0))
+    several = len(parts) > 1
+    return sg.Model(
+        join(parts) if several else join({"top": parts["top"]}),
+        title=", ".join([family, f"n {n}", cells, *(f"{key} {value}" for key, value in (law | way).items())]),
+        bodies=[sg.Body(name, sg.Elastic(E=E * float(rng.choice([1.0, 1.0, 30.0])), nu=0.3)) for name in parts],
+        supports=supports,
+        loads=loads,
+        contacts=contacts,
+        steps=steps,
+    )
+
+
+def _box(n: int, size: np.ndarray, low: float, cells: str, *, shift: float = 0.0) -> sg.Mesh:
+    """n cells along x and about as long ones along the others."""
+    counts = [max(1, round(n * length / size[0])) for length in size]
+    x, y, z = (np.linspace(0.0, length, min(count, 8) + 1) for length, count in zip(size, counts, strict=True))
+    return box(x=x - shift, y=y - shift, z=z + low, cells=cells)  # type: ignore[arg-type]
+
+
+@contextmanager
+def counted() -> Iterator[Work]:
+    """Count what the law of contact takes."""
+    work = Work()
+
+    def wrapped(module: Any, name: str, cost: Callable[[tuple[Any, ...], dict[str, Any], Any], float]) -> Any:
+        original = getattr(module, name)
+
+        def call(*arguments: Any, **keywords: Any) -> Any:
+            found = original(*arguments, **keywords)
+            work.add(name, cost(arguments, keywords, found))
+            return found
+
+        return patch.object(module, name, call)
+
+    def programme(_: tuple[Any, ...], keywords: dict[str, Any], found: Any) -> float:
+        rows = keywords["A_ub"] if "A_ub" in keywords else keywords["A_eq"]
+        return 2.0 * rows.shape[0] * rows.shape[1] * max(int(found.nit), 1)
+
+    def held_form(arguments: tuple[Any, ...], _: dict[str, Any], found: Any) -> float:
+        size = 3 * arguments[0].pairs
+        return size**3 / 3.0 if found is None else len(found.rows) ** 3 + (size - len(found.rows)) ** 3
+
+    def planned(_a: tuple[Any, ...], _k: dict[str, Any], found: Any) -> float:
+        work.sparse = max(work.sparse, found.flops)
+        return 0.0
+
+    with (
+        wrapped(newton, "linear_system", lambda _a, _k, found: 2.0 / 3.0 * len(found.matrix) ** 3),
+        wrapped(iterated, "gmres", lambda a, _k, _f: 2.0 * 30 * 4.0 * len(a[2]) ** 2),
+        wrapped(proximal, "gauss_seidel", lambda a, k, _f: 2.0 * k["count"] * (3 * a[0].pairs) ** 2),
+        wrapped(sectors, "linprog", programme),
+        wrapped(overload, "linprog", programme),
+        wrapped(held.Held, "of", held_form),
+        wrapped(rates, "_complementary", lambda a, _k, _f: 2.0 / 3.0 * len(a[1]) ** 3),
+        wrapped(multifrontal, "analyse", planned),
+    ):
+        yield work
+
+
+@contextmanager
+def at_most(seconds: float) -> Iterator[None]:
+    """Stop what takes more CPU seconds."""
+
+    def over(_number: int, _frame: FrameType | None) -> None:
+        raise OutOfTime
+
+    before = signal.signal(signal.SIGPROF, over)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)
+
+
+def solved(seed: int, number: int, limit: float) -> dict[str, Any]:
+    """A row of the table."""
+    model = random_model(seed, number)
+    row: dict[str, Any] = {
+        "number": number,
+        "model": model.title,
+        "pairs": 0,
+        "price": 0.0,
+        "seconds": 0.0,
+        "ratio": 0.0,
+    }
+    start, ended = time.process_time(), "nothing"
+    with counted() as work:
+        try:
+            with at_most(limit):
+                prepared = prepare(model)
+                row["pairs"] = len(prepared.interface)
+                history = solve_prepared(prepared, raise_on_failure=False)
+                row["message"] = history.message
+                notes = " ".join(note for step in history.steps for note in step.notes)
+                ended = {"solved": "certified", "no_equilibrium": "proved", "jump": "named"}.get(
+                    history.status, "nothing"
+                )
+                if ended == "certified" and ("a jump" in notes or "gross sliding" in notes):
+                    ended = "certified, jump named"
+                if any(not step.certificate.passed for step in history.steps):
+                    ended = "WRONG: not certified"
+        except InputError as error:
+            ended, row["message"] = "refused", str(error)
+        except SolveFailed as failure:
+            ended, row["message"] = failure.status, str(failure)
+        except OutOfTime:
+            ended, row["message"] = "out of time", f"more than {limit:g} s"
+    row["seconds"] = time.process_time() - start
+    dense = 2.0 / 3.0 * (3.0 * row["pairs"]) ** 3
+    row["price"] = work.law / max(work.sparse, dense, 1.0)
+    row["ended"], row["counts"] = ended, dict(work.counts)
+    return row
+
+
+def main() -> None:
+    """Print the table as it comes, and what it comes to."""
+    made = command.parser(__doc__)
+    made.add_argument("--number", type=int, default=120, help="of models")
+    made.add_argument("--first", type=int, default=0, help="number of the first")
+    made.add_argument("--seed", type=int, default=SEED)
+    made.add_argument("--limit", type=float, default=60.0, help="CPU seconds that a model may take")
+    options = made.parse_args()
+    rows = []
+    print("number | pairs | price | CPU s | ended | model")
+    for number in range(options.first, options.first + options.number):
+        row = solved(options.seed, number, options.limit)
+        rows.append(row)
+        numbers = f"{number:4d} | {row['pairs']:4d} | {row['price']:8.1f} | {row['seconds']:7.2f}"
+        print(numbers, row["ended"], row["model"], row["message"][:200], sep=" | ", flush=True)
+    print()
+    print(
+        page.table(["ended", "models", "median price", "largest price", "median CPU s", "largest CPU s"], summary(rows))
+    )
+
+
+def summary(rows: list[dict[str, Any]]) -> list[list[str]]:
+    """By how models ended."""
+    lines = []
+    for ended in sorted({row["ended"] for row in rows}):
+        own = [row for row in rows if row["ended"] == ended]
+        price, seconds = [row["price"] for row in own], [row["seconds"] for row in own]
+        lines.append(
+            [ended, str(len(own)), f"{statistics.median(price):.1f}", f"{max(price):.1f}"]
+            + [f"{statistics.median(seconds):.2f}", f"{max(seconds):.2f}"]
+        )
+    return lines
+
+
+if __name__ == "__main__":
+    main()
