@@ -195,6 +195,21 @@ def test_quadratic_faces_on_one_sphere_leave_no_gap(kinds, jiggle):
     np.testing.assert_allclose(gap, 0.0, atol=1e-7)
 
 
+@pytest.mark.parametrize("kinds", [(3, 4), (8, 6)])
+@pytest.mark.parametrize("clearance", [0.02, -0.001])
+def test_a_ball_in_a_socket_has_its_clearance(kinds, clearance):
+    """Faces of the two spheres, as far as they overlap, leave up to 0.01; measured along faces it is a per cent off."""
+    x = np.linspace(-1, 1, 5)
+    points, side, other = two_sides(grid(x, x, kinds[0], 0.3), grid(1.1 * x, 1.1 * x, kinds[1], 0.3, 1))
+    below = np.column_stack([points[:, :2], np.full(len(points), -2.6)])
+    radius = np.where(np.isin(np.arange(len(points)), side.nodes), 3.0, 3.0 + clearance)
+    points = below / np.linalg.norm(below, axis=1, keepdims=True) * radius[:, None]
+    side, other = (make_surface(points, *(block.faces for block in part.blocks)) for part in (side, other))
+    faces, gap = gaps(side, mortar_coupling(side, other))
+    assert np.abs(faces - clearance).max() > 3e-4
+    np.testing.assert_allclose(gap, clearance, rtol=0.01)
+
+
 @pytest.mark.parametrize("kind", [8, 9])
 def test_points_of_curved_faces_are_opposite_each_other_on_the_faces(kind):
     """On a parabolic cylinder, which every mesh holds: what is left is where straight cuts miss curved edges."""
