@@ -259,6 +259,7 @@ def _quarter(
     rest = edge + (np.pi / 2 - edge) * _growing(last, np.pi / 2 - edge, refine, growth=4.0, largest=np.pi / 4)
     depth = 0.35 * radius  # of the core, from the centre
     layers = _growing(0.5 * spacing, radius - depth, refine, growth=1.4, largest=radius / 4)
+    check_grid((len(fine) + len(rest)) * len(layers) + len(fine) * len(rest))
     centre = np.array([0.0, radius])
 
     def on_arc(angles: Array) -> Array:
