@@ -135,8 +135,9 @@ def _one(sound: Corpus, number: int, seed: int, kind: str, folder: Path) -> Foun
             shutil.rmtree(path)
 
 
-def _worker(sound: Corpus, numbers: range, seed: int, kind: str, pipe: Connection) -> None:
-    """Read inputs one after the other, and tell what became of each."""
+def _worker(sound: Corpus, numbers: range, seed: int, kind: str, pipe: Connection, listener: Connection) -> None:
+    """Read inputs one after the other, and tell what became of each; ends when nobody listens any more."""
+    listener.close()
     mpl.use("Agg")
     used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
     resource.setrlimit(resource.RLIMIT_AS, (used + MEMORY, used + MEMORY))
@@ -152,7 +153,7 @@ def outcomes(sound: Corpus, number: int, seed: int, kind: str = "") -> Iterator[
     fork, at = multiprocessing.get_context("fork"), 0
     while at < number:
         mine, other = fork.Pipe(duplex=False)
-        process = fork.Process(target=_worker, args=(sound, range(at, number), seed, kind, other), daemon=True)
+        process = fork.Process(target=_worker, args=(sound, range(at, number), seed, kind, other, mine), daemon=True)
         process.start()
         other.close()
         try:
