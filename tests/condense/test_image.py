@@ -37,6 +37,18 @@ def test_the_compliance_gives_the_image_form_back(floats):
     np.testing.assert_allclose(soft.A @ posed.R, 0.0, atol=1e-12)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_what_is_applied_does_not_know_what_was_made_before(seed):
+    """A tree or a path forms the image; a history that is cut behind it and gone on with has not, and is the same."""
+    W, motions = interface(seed)
+    x, given = np.random.default_rng(1).normal(size=len(W)), Image.of_form(W, motions)
+    for make in (lambda: Image.of_form(W, motions), lambda: Image.of_compliance(given.A, motions, given.R)):
+        used = make()
+        _ = used.W, used.A, used.factor, used.single
+        assert np.array_equal(used.applied(x), make().applied(x))
+        assert np.array_equal(used.still, make().still)
+
+
 @pytest.mark.parametrize("locked", [(0,), (2,), (1, 5)])
 @pytest.mark.parametrize("seed", range(4))
 def test_locked_rows_stay_exactly_zero(seed, locked):

@@ -42,6 +42,7 @@ class Image:
     ----------
     motions : (m, k) rigid motions seen by the pairs, W R = R
     R : (m, k) orthonormal basis of them
+    by_form : whether W was given, not A; what is made of either later changes no digit of what is applied
 
     Examples
     --------
@@ -54,6 +55,7 @@ class Image:
 
     motions: Array
     R: Array
+    by_form: bool = False
 
     @classmethod
     def of_form(cls, W: Array, motions: Array) -> Image:
@@ -94,7 +96,7 @@ class Image:
             elastic = W - R @ (R.T @ W)
             elastic -= (elastic @ R) @ R.T
             W = frozen((elastic + elastic.T) / 2 + R @ R.T)
-        return cls(motions=motions, R=R)._knowing(W=W)
+        return cls(motions=motions, R=R, by_form=True)._knowing(W=W)
 
     @classmethod
     def of_compliance(cls, A: Array, motions: Array, R: Array) -> Image:
@@ -147,14 +149,14 @@ class Image:
 
     def applied(self, x: Array) -> Array:
         """``W x``, (m,)."""
-        if "W" in self.__dict__:
+        if self.by_form:
             return np.asarray(self.W @ x)
         return x + self.R @ (self.R.T @ x) - softened(self.factor, x)
 
     @cached_property
     def still(self) -> BoolArray:
         """(m,) Motions that supports lock: exactly zero rows of W."""
-        if "W" in self.__dict__:
+        if self.by_form:
             return np.asarray(~self.W.any(axis=1), dtype=np.bool_)
         return np.asarray(~(self.A.any(axis=1) | self.R.any(axis=1)), dtype=np.bool_)
 
