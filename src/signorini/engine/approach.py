@@ -79,7 +79,7 @@ def approached(stretch: Stretch) -> Leg | None:
 def _pulled_away(stretch: Stretch, motion: Array, share: float) -> SolveFailed:
     """Loads pull bodies away along a motion of the parts, with a share of what they do on rigid motions."""
     said, moved = moving_away(stretch.prepared, motion)
-    words = f"{stretch.where} at {stretch.span.low:.6%}: {said}: {PULLED_AWAY.format(margin=share)}"
+    words = f"{stretch.where} at {100.0 * stretch.span.low:.6g}%: {said}: {PULLED_AWAY.format(margin=share)}"
     return SolveFailed(words, status="no_equilibrium", motion=moved)
 
 
@@ -147,7 +147,7 @@ def _leg(stretch: Stretch, apart: BoolArray, motion: Array, loose: Array, relati
     )
     notes = []
     if np.abs(motion).max() > _SEEN * float(extent(prepared.space.mesh.points).max()):
-        where = f"{stretch.where} at {stretch.span.low:.6%}" if stretch.span.low else stretch.where
+        where = f"{stretch.where} at {100.0 * stretch.span.low:.6g}%" if stretch.span.low else stretch.where
         notes = [f"{where}: {words}" for words in describe_approach(prepared.parts, motion, loose)]
     return Leg(
         path="exact",
