@@ -3,9 +3,11 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import signorini as sg
+from signorini import lcp
 from signorini.cli.main import main
 from signorini.gallery.cylinder import zhu_cylinder
 
@@ -17,6 +19,14 @@ def test_data_are_said_in_a_few_words():
         assert len(repr(data)) < 1500
     assert "pressure=array(11)" in repr(contact)
     assert "contacts=(foundation)" in repr(solution.model)
+
+
+def test_the_answer_to_a_complementarity_problem_is_said_in_a_few_words():
+    solution = lcp.solve(np.eye(500), -np.ones(500))
+    assert len(repr(solution)) < 600
+    assert "z=array(500)" in repr(solution)
+    ray = lcp.solve(-np.eye(200), -np.ones(200), method="lemke")
+    assert len(repr(ray)) < 1200
 
 
 @pytest.fixture

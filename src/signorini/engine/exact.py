@@ -25,7 +25,7 @@ from signorini.engine.leg import Leg, Snapshot, joined, keep
 from signorini.engine.prepare import Prepared
 from signorini.engine.resting import resting, undisturbed
 from signorini.engine.stretch import Stretch
-from signorini.errors import SolveFailed
+from signorini.errors import SolveFailed, told
 from signorini.friction.exact import Landing, PathState, Segment, follow, initial_state, land
 from signorini.friction.law import OPEN, STICK
 from signorini.friction.problem import CoulombProblem
@@ -37,6 +37,9 @@ from signorini.trace import Attempt
 _NAMED = 12  # nodes that a message lists
 _JUMPS = 100  # most that one part of a step may hold
 _TURN = 0.04  # radians over the root of the number: what friction may turn in an increment that could be shorter
+_HOLD = "hold the bodies that slide, press them more, or prescribe their motion in place of the load"
+_LESS = "less friction, or a prescribed motion in place of the load"
+_FOLLOW = f'{_LESS}; jump = "follow" looks for the equilibrium behind the jump'
 _NO_LANDING = "no equilibrium that it could land on was found"
 _SPENT = 1e-9  # of the friction bound: what a slipping pair may lack of it
 
@@ -116,7 +119,7 @@ def _beyond_jumps(stretch: Stretch, how: str, *, jumps: bool, stops: StopSetting
             legs += found
             stretch = resting(stretch.woken.rest(followed.cut.stretch, found[0].after if found else stretch.before))
             continue
-        lost = _lost(followed)
+        lost = _lost(followed, follows=jumps)
         begun = _anew(followed, legs) if len(legs) < _JUMPS else []
         if begun:
             legs += begun
@@ -125,7 +128,7 @@ def _beyond_jumps(stretch: Stretch, how: str, *, jumps: bool, stops: StopSetting
         landing = _landing(followed) if jumps and len(legs) < _JUMPS else None
         if jump is None or landing is None:
             if jumps and jump is not None and not lost.hopeless:
-                lost = SolveFailed(f"{lost}; {_NO_LANDING}", status="jump", motion=lost.motion)
+                lost = SolveFailed(f"{lost.sentence}; {_NO_LANDING}{lost.details}", status="jump", motion=lost.motion)
             raise keep(lost, [*legs, *_so_far(followed)])
         cut = followed.cut
         leg = _leg(cut)
@@ -448,19 +451,20 @@ def _events(followed: _Followed) -> tuple[PairEvent, ...]:
     return tuple(found)
 
 
-def _lost(followed: _Followed) -> SolveFailed:
-    """Why the path does not go on, with the load and the acting nodes."""
+def _lost(followed: _Followed, *, follows: bool) -> SolveFailed:
+    """Why the path does not go on, with the load and the acting nodes; ``follows``: jumps are followed anyway."""
     stretch, segment = followed.stretch, followed.segment
     prepared, where = stretch.prepared, stretch.where
     if segment.jump is None:
-        return SolveFailed(
-            f"{where}: the exact path was lost: {segment.message}; follow the step in increments", status="not_found"
+        lost = told(
+            f"{where}: the exact path was lost", remedy="follow the step in increments", evidence=segment.message
         )
+        return SolveFailed(lost, status="not_found")
     pairs = np.nonzero(prepared.condensed.active)[0][list(segment.jump.pairs)]
     nodes = ", ".join(str(node) for node in prepared.model.mesh.labels[prepared.interface.node[pairs[:_NAMED]]])
     if len(pairs) > _NAMED:
         nodes += f" and {len(pairs) - _NAMED} more"
-    what = "gross sliding" if segment.jump.gross_sliding else "a jump"
+    what, remedy = ("gross sliding", _HOLD) if segment.jump.gross_sliding else ("a jump", _LESS if follows else _FOLLOW)
     where = f"{where} at {stretch.span.part(segment.jump.factor):.6%}"
     motion = None
     if segment.jump.escape is not None:
@@ -469,6 +473,7 @@ def _lost(followed: _Followed) -> SolveFailed:
     words = f"{where}: {what}: no equilibrium continues the history gradually"
     if segment.jump.hopeless is not None:
         words += f", and beyond {stretch.span.part(segment.jump.hopeless):.6%} there is none at all"
-    failure = SolveFailed(f"{words} (acting nodes {nodes}; {segment.jump.proof})", status="jump", motion=motion)
+    evidence = f"acting nodes {nodes}; {segment.jump.proof}"
+    failure = SolveFailed(told(words, remedy=remedy, evidence=evidence), status="jump", motion=motion)
     failure.hopeless = segment.jump.hopeless is not None
     return failure

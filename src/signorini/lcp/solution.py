@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from signorini.arrays import Array
 from signorini.lcp.residual import Residual
 from signorini.lcp.status import Status
+from signorini.short import Short
 
 
-@dataclass(frozen=True, kw_only=True)
-class Ray:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Ray(Short):
     """The ray of Lemke's path: for every t >= 0, ``point + t direction`` solves ``LCP(M, q + (theta + t slope) d)``.
 
     Attributes
@@ -48,8 +49,8 @@ class Attempt:
     ray: Ray | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
-class LCPSolution:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class LCPSolution(Short):
     """The answer to ``0 <= z  _|_  w = M z + q >= 0``.
 
     Attributes
