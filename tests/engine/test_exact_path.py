@@ -162,7 +162,9 @@ def test_gross_sliding_is_not_followed():
         sg.Step(name="press", scale={"press": 1.0}),
         sg.Step(name="pull", scale={"push": 2.0}, jump="follow", path="exact"),
     ]
-    with pytest.raises(sg.SolveFailed, match=r"gross sliding.*; no equilibrium that it could land on was found\n  what to do: hold"):
+    with pytest.raises(
+        sg.SolveFailed, match=r"gross sliding.*; no equilibrium that it could land on was found\n  what to do: hold"
+    ):
         sg.solve(replace(dragged_block(friction=0.2), steps=steps))
 
 

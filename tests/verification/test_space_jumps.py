@@ -70,7 +70,9 @@ def test_a_slab_jumps_and_lands_as_plane_strain_does(facets, lift):
 
 @pytest.mark.parametrize(("facets", "lift"), [(8, {"path": "exact"}), (0, {"jump": "stop"})])
 def test_a_jump_stops_a_step_that_does_not_follow_it(facets, lift):
-    words = r"at 75.811089%: a jump: no equilibrium .*\n  what to do: .*\n  evidence: .*combinations of states has rates"
+    words = (
+        r"at 75.811089%: a jump: no equilibrium .*\n  what to do: .*\n  evidence: .*combinations of states has rates"
+    )
     with pytest.raises(SolveFailed, match=words) as caught:
         solve(rough_slab(facets, **lift))
     assert caught.value.status == "jump"

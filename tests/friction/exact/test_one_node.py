@@ -52,9 +52,36 @@ def test_a_jump_is_named_and_proved():
     assert path.jump.pairs == (0,)
     assert not path.jump.gross_sliding
     assert "none of the 2 combinations" in path.jump.proof
+    assert "lacks 0.33 of the data" in path.jump.proof  # sticking 4/3 of a pull of 4, slip 4 of a force of 12
     assert path.end.state.tolist() == [STICK]
     np.testing.assert_allclose(path.end.h, [0.0, 0.0], atol=1e-14)
     np.testing.assert_allclose(path.end.r, [1.0, -3.0], atol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("beyond", "outcome"), [(0.0, "followed"), (1e-8, "not_found"), (1e-7, "not_found"), (1e-5, "jump"), (0.1, "jump")]
+)
+def test_what_lies_within_rounding_is_no_proof(beyond, outcome):
+    """Loads along the edge of friction 3 hold a node there; beyond it, sticking lacks what the pull has too much."""
+    problem, load = one_node(3.0)
+    pressed = follow(problem, initial_state(problem, np.zeros(2)), load(-1.0, 0.0)).end
+    edge = follow(problem, pressed, load(-1.0, 3.0)).end
+    path = follow(problem, edge, load(-2.0, 6.0 + beyond))
+    assert path.outcome == outcome
+    assert (path.jump is not None) == (outcome == "jump")
+    if path.jump is not None:
+        # (f_t - mu p) over the larger of 1 and mu, of the larger rate, the friction: 3
+        assert path.jump.margin == pytest.approx(beyond / 9.0, rel=0.04)
+        assert f"lacks {path.jump.margin:.2g} of the data" in path.jump.proof
+    if outcome == "not_found":
+        assert "no proof" in path.message
+
+
+def test_a_slip_that_nothing_determines_is_refused_by_a_program():
+    """At friction 2 slip has no stiffness: the node moves at one load, and no rates obey the law whatever they are."""
+    path = pull(2.0)
+    assert path.outcome == "jump"
+    assert 0.1 < path.jump.margin < 1.0
 
 
 @pytest.mark.parametrize(("mu", "factor"), [(2.0, 2.0 / 4), (2.5, 2.5 / 4)])

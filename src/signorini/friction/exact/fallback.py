@@ -7,6 +7,7 @@ import itertools
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import linprog
 
 from signorini import lcp
 from signorini.arrays import Array, IntArray
@@ -18,6 +19,12 @@ from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 COMBINATIONS = 4096
 """Most combinations of states that are tried one by one."""
+
+MARGIN = 1e-7
+"""Of the data: what every state must lack for a proof that there are no rates; rates that are accepted lack 1e-9."""
+
+FAR = 1e6
+"""Of the load: rates larger than that are none that equilibrium goes on with."""
 
 RAY = "ray termination"
 
@@ -33,10 +40,12 @@ class NoRates:
     ----------
     proof : in words
     proved : False where the search ended without an answer
+    margin : of a proof: what rates lack at least, of the data; 0 where it is strong evidence alone
     """
 
     proof: str
     proved: bool
+    margin: float = 0.0
 
 
 def find_rates(
@@ -156,17 +165,89 @@ def _enumerate(responses: Responses, law: RateLaw, load: Array, state: IntArray,
     choices = [_choices(law, k) for k in undecided]
     count = int(np.prod([float(len(choice)) for choice in choices]).clip(max=1e9))
     if count > COMBINATIONS:
-        words = f"{ending}; {count} combinations of states are too many to try"
-        return NoRates(proof=words, proved=ending.endswith(RAY))
+        return evidence(ending, f"{count} combinations of states")
+    margin = np.inf
     for combination in itertools.product(*choices):
         tried = state.copy()
         tried[undecided] = combination
-        found = certified(responses, law, load, tried)
-        if found is not None:
-            return found
-    return NoRates(
-        proof=f"{ending}; none of the {count} combinations of states has rates that obey the law", proved=True
+        lacking = _lacking(responses, law, load, tried, margin)
+        if isinstance(lacking, Rates):
+            return lacking
+        margin = min(margin, lacking)
+    return refused(f"{ending}; none of the {count} combinations of states has rates that obey the law", margin)
+
+
+def refused(words: str, margin: float) -> NoRates:
+    """No rates were found and every state lacks at least the margin: a proof where that is more than rounding.
+
+    >>> refused("nothing moves", 0.25)
+    NoRates(proof='nothing moves: what comes nearest lacks 0.25 of the data', proved=True, margin=0.25)
+    >>> refused("nothing moves", 1e-9).proved
+    False
+    """
+    if margin <= MARGIN:
+        return NoRates(proof=f"{words}, but what comes nearest lacks {margin:.1g} of the data: no proof", proved=False)
+    return NoRates(proof=f"{words}: what comes nearest lacks {margin:.2g} of the data", proved=True, margin=margin)
+
+
+def evidence(ending: str, combinations: str) -> NoRates:
+    """Too many combinations to try: a ray of Lemke's method stands alone.
+
+    >>> evidence("Lemke's method: ray termination", "2^40 combinations").proved
+    True
+    """
+    words = f"{ending}; {combinations} are too many to try"
+    ray = ending.endswith(RAY)
+    return NoRates(proof=f"{words}: strong evidence, no proof" if ray else words, proved=ray)
+
+
+def _lacking(responses: Responses, law: RateLaw, load: Array, state: IntArray, least: float) -> Rates | float:
+    """Rates of a state that obey the law, or what they lack of it, relative to them.
+
+    Rates that are not unique, or so large that rounding has a part in them, are asked for by a linear program: the
+    least that is lacking, of the load, up to `FAR` times the load. Not where nothing is left to prove.
+    """
+    try:
+        rates = responding(responses, state, load)
+    except SingularState:
+        rates = None
+    if rates is not None:
+        lacking = law.violation(rates)
+        if lacking <= 10.0 * RATE:
+            return rates
+        if rates.size <= FAR * np.abs(load).max(initial=0.0):
+            return lacking
+    return _by_program(responses, law, load, state) if least > MARGIN else 0.0
+
+
+def _by_program(responses: Responses, law: RateLaw, load: Array, state: IntArray) -> float:
+    """The least t for which rates of a state are within t of equilibrium and of the law, relative to the load."""
+    problem, n = responses.problem, len(state)
+    closed, sticks, slips = state != OPEN, state == STICK, state > STICK
+    free, presses = np.concatenate([~closed, ~sticks]), np.flatnonzero(closed)
+    unit = float(np.abs(load).max(initial=0.0)) or 1.0
+    forces = np.zeros((2 * n, 2 * n))  # of the normal ones, and of the tangential ones that are free
+    forces[presses, presses] = 1.0
+    forces[n + presses, presses] = np.where(slips, problem.bound.slope(state), 0.0)[presses]
+    forces[n + np.flatnonzero(sticks), n + np.flatnonzero(sticks)] = 1.0
+    motions = np.diag(free.astype(np.float64))
+    at_rest, nothing = law.conditions(state, np.zeros(2 * n), np.zeros(2 * n)), np.zeros(2 * n)
+    asked = np.isfinite(at_rest)
+    columns = [law.conditions(state, motion, nothing)[asked] for motion in motions.T]
+    columns += [law.conditions(state, nothing, force)[asked] for force in forces.T]
+    needs = -np.array(columns).T
+    balance = np.hstack([motions - problem.W @ motions, -problem.W @ forces])
+    rows = np.concatenate([balance, -balance, needs])
+    right = np.concatenate([load, -load, np.zeros(len(needs))]) / unit
+    answer = linprog(
+        np.append(np.zeros(4 * n), 1.0),
+        A_ub=np.hstack([rows, -np.ones((len(rows), 1))]),
+        b_ub=right,
+        bounds=[(-FAR, FAR)] * (4 * n) + [(0.0, None)],
+        method="highs",
+        options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
     )
+    return float(answer.fun) if answer.status == 0 else 0.0
 
 
 def _choices(law: RateLaw, k: int) -> tuple[int, ...]:

@@ -18,7 +18,7 @@ from signorini.bound import SIGN, plain
 from signorini.errors import InputError
 from signorini.friction.certificate import certify
 from signorini.friction.exact.driven import drive
-from signorini.friction.exact.fallback import NoRates, find_rates
+from signorini.friction.exact.fallback import MARGIN, NoRates, find_rates
 from signorini.friction.exact.inverse import SingularState
 from signorini.friction.exact.jump import explain
 from signorini.friction.exact.rates import CORNER, RateLaw, Rates, weight
@@ -253,7 +253,8 @@ class Walk(Way):
         self.pieces.append(Breakpoint(factor=factor, h=after.h, r=after.r))
         if len(lost):
             self.acting = lost
-            return NoRates(proof=LET_GO, proved=True)
+            held = float(np.abs(after.r[after.pairs + lost]).max()) / (self.problem.scale or 1.0)
+            return NoRates(proof=f"{LET_GO}: {held:.2g} of the data", proved=held > MARGIN, margin=held)
         self.residual = max(self.residual, residual)
         return None
 
@@ -341,7 +342,7 @@ class Walk(Way):
         if not failure.proved:
             message = f"at factor {self.factor:.12g}: {failure.proof}"
             return self.segment("not_found", None, message)
-        jump = explain(self.problem, self.now, self.b_end, self.factor, self.acting, failure.proof, self.width)
+        jump = explain(self.problem, self.now, self.b_end, self.factor, self.acting, failure, self.width)
         return self.segment("jump", jump, f"no gradual continuation at factor {self.factor:.12g}: {jump.proof}")
 
     @property

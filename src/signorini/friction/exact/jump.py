@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
+from signorini.friction.exact.fallback import NoRates
 from signorini.friction.exact.rates import weight
 from signorini.friction.exact.segment import Jump
 from signorini.friction.exact.state import PathState
@@ -23,7 +24,7 @@ LIMITED = "gross sliding: every closed pair has used up its friction, which more
 
 
 def explain(
-    problem: CoulombProblem, now: PathState, b_end: Array, factor: float, acting: IntArray, proof: str, width: Array
+    problem: CoulombProblem, now: PathState, b_end: Array, factor: float, acting: IntArray, lost: NoRates, width: Array
 ) -> Jump:
     """The jump at a state that no rates continue.
 
@@ -34,23 +35,27 @@ def explain(
     b_end : (2n,) load at the end of the segment
     factor : part of the segment behind
     acting : pairs whose event it is; all at their limit where there is none
-    proof : what the search for rates found
+    lost : what the search for rates found
     width : (n,) of zero for a force
     """
     n = now.pairs
     spent = (problem.bound.at(now.r[:n]) - np.abs(now.r[n:])) / weight(problem.mu) <= width
     beyond = now.b + BEYOND * (b_end - now.b)
     further = replace(problem, b=frozen(beyond))
-    leaves = problem.floating and pulled_away(further) is not None
+    pull = pulled_away(further) if problem.floating else None
+    leaves = pull is not None
     pressed = now.r[:n] > width
     slides = problem.floating and bool(pressed.any() and spent[pressed].all())
     # friction that is not in proportion to the pressures depends on how they are shared
     limited = slides and not leaves and pulled_away(further, problem.bound.frozen(now.r[:n])) is not None
     pairs = acting if len(acting) else np.flatnonzero(spent)
     reason = (SLIDING if slides else LEAVING) if leaves else LIMITED if limited else ""
+    if pull is not None:
+        reason += f": {BEYOND:g} of the way further nothing takes {pull.share:.2g} of the load on the bodies"
     return Jump(
         factor=factor,
         pairs=tuple(int(k) for k in pairs),
-        proof=f"{proof}; {reason}" if reason else proof,
+        proof=f"{lost.proof}; {reason}" if reason else lost.proof,
+        margin=lost.margin,
         gross_sliding=(leaves and slides) or limited,
     )

@@ -61,6 +61,7 @@ class Jump:
     pairs : those whose event has no continuation
     proof : what shows it: that no combination of states has rates, or a rigid motion; a ray of Lemke's method alone
         (too many combinations to try) is strong evidence, no proof
+    margin : of that proof, what rates lack at least, of the data; 0 where there is strong evidence alone
     gross_sliding : whether bodies slide as a whole: every closed pair has used up its friction and the loads go on
     escape : rows of pairs, rigid motion along which bodies leave, largest entry 1, where it is known
     hopeless : part of the segment beyond which it is proved that no load has any equilibrium, where it is known
@@ -72,6 +73,7 @@ class Jump:
     gross_sliding: bool
     escape: Array | None = None
     hopeless: float | None = None
+    margin: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
