@@ -20,7 +20,7 @@ from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 COMBINATIONS = 4096
 """Most combinations of states that are tried one by one."""
 
-MARGIN = 1e-7
+MARGIN = 1e-6
 """Of the data: what every state must lack for a proof that there are no rates; rates that are accepted lack 1e-9."""
 
 FAR = 1e6
