@@ -7,8 +7,9 @@ solution at infinity, weights e > 0 on the normals::
     open    d = G (e, 0)     all pairs open by theta e: bring the bodies together from far; G must be regular
     press   d = -W (e, 0)    all pairs stick under theta e: press every pair together, then release
 
-Where the bound of friction has further branches (adhesion, a shear limit), "press" lets them begin at ``1 + theta``
-times their forces, so that at infinity every pair sticks whatever the bound; there the law itself depends on theta.
+theta is a force, in the units of b, so that what is flat along a path is so in any units. Where the bound of friction
+has further branches (adhesion, a shear limit), "press" lets them begin at ``1 + theta / scale`` times their forces, so
+that at infinity every pair sticks whatever the bound; there the law itself depends on theta.
 
 Where supports hold every body (G > 0) all motions of solutions are bounded by their loads, so that neither path can run
 off at a finite theta nor return: in exact arithmetic and without ties, *either ends in a solution, for any friction*.
@@ -55,7 +56,7 @@ class PathEnd:
     end : ``"solution"`` (theta = 0), ``"ray"``, ``"budget spent"`` or ``"singular"``
     state : (n,) the last states
     y : (2n,) the last point
-    theta : what is left of the covering load there, 0 at a solution
+    theta : what is left of the covering load there, 0 at a solution; in the units of b
     pivots : walls crossed
     """
 
@@ -119,10 +120,10 @@ def follow(problem: CoulombProblem, covering: Covering, *, budget: int, seed: in
     >>> [(end.end, end.state.tolist()) for end in (follow(problem, way, budget=9) for way in ("open", "press"))]
     [('solution', [3]), ('solution', [3])]
     """
-    n, W = problem.pairs, np.asfortranarray(problem.W)
+    n, W, unit = problem.pairs, np.asfortranarray(problem.W), problem.scale or 1.0
     G = np.eye(2 * n, order="F") - (1.0 - springs) * W
     rng = np.random.default_rng(seed)
-    e = np.concatenate([rng.uniform(1.0, 2.0, n), np.zeros(n)]) * (problem.scale or 1.0)
+    e = np.concatenate([rng.uniform(1.0, 2.0, n), np.zeros(n)])
     shift = rng.normal(size=2 * n) * 1e-9 * problem.scale
     shift[n:][problem.locked] = 0.0
     open_start = covering == "open"
@@ -134,10 +135,10 @@ def follow(problem: CoulombProblem, covering: Covering, *, budget: int, seed: in
         problem=problem,
         budget=budget,
         far=np.inf if springs else FAR * problem.scale,
-        loosened=0.0 if open_start else 1.0,
+        loosened=0.0 if open_start else 1.0 / unit,
     )
     state = admissible(problem, np.full(n, OPEN) if open_start else None)
-    return _walk(course, problem.bound.coded(state, e[:n]))
+    return _walk(course, problem.bound.coded(state, unit * e[:n]))
 
 
 def _walk(course: _Course, state: IntArray) -> PathEnd:
