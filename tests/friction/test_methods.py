@@ -1,16 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The order of the methods, their budgets, and what each says."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from coulomb_samples import answer, block_on_floor, random_problem
+from coulomb_samples import answer, block_on_floor, for_all, random_problem
+from hypothesis import strategies as st
 
 from signorini.bench.hard import hard_set
-from signorini.friction import CoulombSettings, certify, solve_coulomb
+from signorini.friction import CoulombProblem, CoulombSettings, certify, solve_coulomb
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED, split, states
 from signorini.friction.newton import newton
 from signorini.friction.path import follow
 from signorini.friction.release import released
+from signorini.friction.tree import search
 from signorini.friction.walls import beyond, columns, jacobian, walls
 
 
@@ -50,6 +54,33 @@ def test_long_paths_survive_their_refactorisations(cycling):
     path = follow(cycling, "press", budget=10**4)
     assert path.end == "solution"
     assert certify(cycling, path.y) < 1e-6
+
+
+@for_all(seed=st.integers(0, 10**6), factor=st.sampled_from([1e-15, 1e-9, 1e15]))
+@pytest.mark.parametrize("covering", ["open", "press"])
+def test_paths_are_the_same_in_any_units(covering, seed, factor):
+    """With a load of 1e-13 to come from, no wall seemed to come nearer: every path ended where it began."""
+    problem = random_problem(seed, 4)
+    scaled = replace(problem, b=factor * problem.b, scale=factor)
+    one, two = (follow(posed, covering, budget=100) for posed in (problem, scaled))
+    assert (one.end, one.pivots, one.state.tolist()) == (two.end, two.pivots, two.state.tolist())
+    np.testing.assert_allclose(two.y / factor, one.y, atol=1e-9 * np.abs(one.y).max())
+
+
+@for_all(seed=st.integers(0, 10**6))
+def test_the_tree_finds_an_equilibrium_of_bodies_nearly_rigid(seed):
+    """What rounding leaves of the normal rows of I - W moves nothing, however far a body goes."""
+    pairs, rng = 4, np.random.default_rng(seed)
+    Q = np.zeros((2 * pairs, 2 * pairs))
+    Q[:pairs, :pairs], Q[pairs:, pairs:] = (np.linalg.qr(rng.normal(size=(pairs, pairs)))[0] for _ in range(2))
+    rigid = np.r_[:pairs, pairs : pairs + 2]
+    W = (Q * np.append(np.ones(pairs + 2), [0.3, 0.4])) @ Q.T
+    problem = CoulombProblem.of(
+        W=(W + W.T) / 2, b=np.zeros(2 * pairs), friction=np.full(pairs, 0.5), motions=Q[:, rigid], scale=1.0
+    )
+    h, r = split(rng.normal(size=2 * pairs), problem.bound)
+    posed = replace(problem, b=h - problem.W @ (h + r))
+    assert search(posed).end == "solution"
 
 
 def wedged_out():

@@ -109,12 +109,14 @@ class _Program:
     Attributes
     ----------
     matrix, rhs : equations, of equilibrium and of the shares
+    summed : magnitude of what the entries of the matrix are summed from: I - W leaves but rounding of a rigid motion
     forces : (2n, size) the forces r of the unknowns
     lasts : (n,) number of the last branch of every pair
     """
 
     problem: CoulombProblem
     matrix: Array
+    summed: Array
     rhs: Array
     forces: Array
     lasts: IntArray
@@ -136,14 +138,16 @@ def _program(problem: CoulombProblem) -> _Program:
     forces = np.concatenate([np.zeros((2 * n, 2 * n)), *blocks], axis=1)
     matrix = -problem.W @ forces
     matrix[:, : 2 * n] = np.eye(2 * n) - problem.W
+    summed = np.abs(problem.W) @ np.abs(forces)
+    summed[:, : 2 * n] = np.eye(2 * n) + np.abs(problem.W)
     rhs = problem.b / unit
     if corners:
         whole = np.concatenate(
             [np.zeros((n, 2 * n)), *[np.eye(n)] * (2 * len(corners)), np.zeros((n, 2 * n)), np.eye(n)], axis=1
         )
-        matrix = np.vstack([np.pad(matrix, ((0, 0), (0, n))), whole])
+        matrix, summed = (np.vstack([np.pad(part, ((0, 0), (0, n))), whole]) for part in (matrix, summed))
         rhs, forces = np.concatenate([rhs, np.ones(n)]), np.pad(forces, ((0, 0), (0, n)))
-    return _Program(problem=problem, matrix=matrix, rhs=rhs, forces=forces, lasts=lasts)
+    return _Program(problem=problem, matrix=matrix, summed=summed, rhs=rhs, forces=forces, lasts=lasts)
 
 
 def _relaxed(program: _Program, node: IntArray) -> tuple[float, float, Array, Array] | None:
@@ -178,12 +182,12 @@ def _proved(program: _Program, z: Array, low: Array, high: Array) -> float:
     Polished first, so that columns that they should not see, but for the accuracy of the program, vanish to rounding.
     """
     matrix = program.matrix
-    size = np.linalg.norm(matrix, axis=0)
+    size = np.linalg.norm(program.summed, axis=0)
     seen = matrix.T @ z
     unseen = ~np.isfinite(np.where(seen > 0, high, low)) & (np.abs(seen) <= _NEARLY * size)
     z = z - np.linalg.lstsq(matrix[:, unseen].T, seen[unseen], rcond=_NEARLY)[0]
     reduced = matrix.T @ z
-    reduced[np.abs(reduced) <= _ROUNDED * (np.abs(matrix).T @ np.abs(z))] = 0.0
+    reduced[np.abs(reduced) <= _ROUNDED * (program.summed.T @ np.abs(z))] = 0.0
     most = np.where(reduced > 0, high, low)
     endless = np.isinf(most) & (reduced != 0.0)
     most = np.where(endless | (reduced == 0.0), 0.0, most)
