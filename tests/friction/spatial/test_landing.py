@@ -10,6 +10,7 @@ from exact.path_samples import Springs, stiff
 from signorini.friction import OPEN, STICK
 from signorini.friction.exact import follow, initial_state, land
 from signorini.friction.spatial import SpatialProblem, StopSettings, at_rest, certify, follow_stopping, land_spatial
+from signorini.friction.spatial.rates import SpatialRates, find_rates
 
 
 def turned_node(mu, facets, angle, **bounds):
@@ -58,6 +59,22 @@ def test_one_node_jumps_and_lands_by_hand(f_t, facets, angle, share):
     assert on.followed
     assert not on.events
     np.testing.assert_allclose(turn.T @ on.end.h, [2.0, 5.0, 0.0], atol=1e-11)
+
+
+@pytest.mark.parametrize(("facets", "angle"), [(4, np.pi / 2), (8, np.pi / 4), (0, 0.3)])
+def test_what_lies_within_rounding_is_no_proof(facets, angle):
+    """As in the plane: along the edge of friction there are rates, beyond it none, by what the pull has too much."""
+    problem, load, _ = turned_node(3.0, facets, angle)
+    pressed = follow_stopping(problem, at_rest(problem, np.zeros(3)), load(-1.0, 0.0)).end
+    edge = follow_stopping(problem, pressed, load(-1.0, 3.0)).end
+    assert isinstance(find_rates(replace(problem, b=load(-1.0, 3.0)), edge, 1e-7), SpatialRates)
+    for beyond in (1e-8, 1e-7, 1e-4, 0.1):
+        none = find_rates(replace(problem, b=load(-1.0, 3.0 + beyond)), edge, 1e-7)
+        assert none.proved == (beyond > 1e-5)
+        assert none.proved == ("no proof" not in none.proof)
+        if none.proved:
+            assert none.margin == pytest.approx(beyond / 7.5, rel=0.3)
+            assert f"lacks {none.margin:.2g} of the data" in none.proof
 
 
 @pytest.mark.parametrize("f_t", [2.02, 3.0, 5.0])

@@ -109,6 +109,7 @@ class Choice:
     friction : (m, 2) half-axes of the sections of the m pairs in Coulomb's law, for a normal force of 1
     motion : (c, N) of the held rows
     M, q : (N, N) and (N,)
+    size : of the terms that q is the sum of: what is left where they cancel is as sure as they are
     acting : pairs that may not go on as they are: at a corner, sticking without friction to spare, slipping at a corner
         of their section or into a kink
     """
@@ -122,6 +123,7 @@ class Choice:
     motion: Array
     M: Array
     q: Array
+    size: float
     acting: tuple[int, ...]
 
     @classmethod
@@ -173,6 +175,7 @@ class Choice:
             motion=motion,
             M=M,
             q=q,
+            size=float(terms.max(initial=0.0)),
             acting=tuple(int(k) for k in np.flatnonzero(acting)),
         )
 

@@ -481,6 +481,7 @@ class Walk(Way):
             factor=self.factor,
             pairs=tuple(int(k) for k in (acting if len(acting) else np.flatnonzero(spent))),
             proof=refused.message if refused is not None and leaves else lost.proof,
+            margin=0.0 if leaves else lost.margin,
             gross_sliding=bool(leaves and pressed.any() and spent[pressed].all()) or slide is not None,
             escape=slide,
         )

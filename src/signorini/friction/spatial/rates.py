@@ -12,7 +12,7 @@ import numpy as np
 
 from signorini import lcp
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.friction.exact.fallback import RAY, NoRates
+from signorini.friction.exact.fallback import NoRates, evidence, refused
 from signorini.friction.exact.state import PathState
 from signorini.friction.spatial.choice import CONE, FACET, GAP, KINK, Choice
 from signorini.friction.spatial.cones import ConeProblem
@@ -163,9 +163,9 @@ def _solved(
     if len(choice.friction):
         cones = choice.pair[choice.kind == CONE][: len(choice.friction)]
         stay = np.zeros(len(cones), dtype=np.bool_) if closed is None else closed[cones]
-        found = _with_cones(ConeProblem(M=reduced, q=rest, friction=choice.friction, closed=stay))
+        found = _with_cones(ConeProblem(M=reduced, q=rest, friction=choice.friction, closed=stay), choice.size)
     else:
-        found = _complementary(reduced, rest)
+        found = _complementary(reduced, rest, choice.size)
     if isinstance(found, NoRates):
         return found
     z[free], z[given] = found, -(answer[:, :-1] @ found + answer[:, -1])
@@ -181,23 +181,24 @@ def _solved(
     return SpatialRates(state=_states(choice, h, r, _NONE * size), h=h, r=r)
 
 
-def _with_cones(problem: ConeProblem) -> Array | NoRates:
-    """Numbers, and motions of pairs in Coulomb's law, or why there are none."""
+def _with_cones(problem: ConeProblem, size: float) -> Array | NoRates:
+    """Numbers, and motions of pairs in Coulomb's law, or why there are none; ``size`` of the terms of q."""
     found = problem.found()
     answer = search(problem) if found is None else found
     if not isinstance(answer, Exhausted):
         return answer
-    if answer.proved:
-        words = f"{answer.programmes} linear programmes show that no states and directions of slip have rates"
-        return NoRates(proof=f"{words} that obey the law", proved=True)
-    words = (
-        f"{answer.programmes} linear programmes of states and directions of slip, as many as are tried, did not tell"
-    )
-    return NoRates(proof=words, proved=False)
+    if answer.undecided:
+        words = f"{answer.programmes} linear programmes of states and directions of slip, as many as are tried"
+        return NoRates(proof=f"{words}, did not tell", proved=False)
+    words = f"{answer.programmes} linear programmes show that no states and directions of slip have rates"
+    return refused(f"{words} that obey the law", _margin(answer, problem.unit, size))
 
 
-def _complementary(M: Array, q: Array) -> Array | NoRates:
-    """z of ``0 <= z  _|_  M z + q >= 0``, or why there is none."""
+def _complementary(M: Array, q: Array, size: float) -> Array | NoRates:
+    """z of ``0 <= z  _|_  M z + q >= 0``, or why there is none; ``size`` of the terms of q.
+
+    That no combination of states is a solution is enumeration's word; how sure that is linear programmes tell.
+    """
     if not len(q) or (q >= 0).all():
         return np.zeros(len(q))
     unit = float(np.abs(q).max())
@@ -207,13 +208,21 @@ def _complementary(M: Array, q: Array) -> Array | NoRates:
         found = lcp.solve(M, q / unit, method="enumeration" if len(q) <= ENUMERATED else "auto")
     if found.z is not None:
         return np.asarray(found.z * unit)
-    if found.status is lcp.Status.NO_SOLUTION and len(q) <= ENUMERATED:
-        words = f"none of the {2 ** len(q)} combinations of states has rates that obey the law"
-        return NoRates(proof=f"{ending}; {words}", proved=True)
-    if found.status is lcp.Status.NO_SOLUTION:
-        return NoRates(proof="a linear program shows that no rates obey the law", proved=True)
-    words = f"{ending}; 2^{len(q)} combinations of states are too many to try"
-    return NoRates(proof=words, proved=ending.endswith(RAY))
+    combinations = f"2^{len(q)} combinations of states"
+    if found.status is not lcp.Status.NO_SOLUTION:
+        return evidence(ending, combinations)
+    answer = search(ConeProblem(M=M, q=q, friction=np.zeros((0, 2)), closed=np.zeros(0, dtype=np.bool_)))
+    if not isinstance(answer, Exhausted):
+        return answer
+    if answer.undecided:
+        return evidence(ending, combinations)
+    words = f"{ending}; none of the {combinations} has rates that obey the law"
+    return refused(words, _margin(answer, unit, size))
+
+
+def _margin(answer: Exhausted, unit: float, size: float) -> float:
+    """What is lacking of the terms that the right-hand side is the sum of."""
+    return answer.margin * min(1.0, unit / (size or unit))
 
 
 def _states(choice: Choice, h: Array, r: Array, none: float) -> IntArray:

@@ -17,6 +17,7 @@ import numpy as np
 from scipy.optimize import linprog
 
 from signorini.arrays import Array
+from signorini.friction.exact.fallback import MARGIN
 from signorini.friction.spatial.cones import ConeProblem
 
 _MOST = 400  # linear programmes
@@ -24,7 +25,6 @@ _WORK, _FACTORISATIONS = 2e9, 20.0  # operations, and factorisations of a system
 _FAR = 1e6  # of the data: motions larger than that are none that equilibrium goes on with
 _SHARP = 1e-10  # of the data, that linear programmes are solved to
 _SLACK = 1e-8  # of the data: what an answer may lack to be looked at further
-_MARGIN = 1e-6  # of the data: what every answer must lack for a proof that there is none
 _PIVOTS = 10  # of a linear programme, per row and column; a half is usual
 _TANGENTS = 8
 
@@ -47,11 +47,18 @@ class Exhausted:
     Attributes
     ----------
     programmes : linear programmes solved
-    proved : whether they cover all states and directions
+    undecided : whether some states and directions are left that none of them tells of
+    margin : what all others lack at least, of the data
     """
 
     programmes: int
-    proved: bool
+    undecided: bool
+    margin: float
+
+    @property
+    def proved(self) -> bool:
+        """Whether there is no solution, by more than rounding."""
+        return not self.undecided and self.margin > MARGIN
 
 
 def search(problem: ConeProblem) -> Array | Exhausted:
@@ -72,23 +79,22 @@ def search(problem: ConeProblem) -> Array | Exhausted:
     posed = replace(problem, q=problem.q / unit)
     nodes = [_Node(numbers=(None,) * N, pairs=(None,) * m)]
     tangents = [[2.0 * np.pi * j / _TANGENTS for j in range(_TANGENTS)] for _ in range(m)]
-    count, open_ends = 0, False
+    count, margin, untold = 0, np.inf, False
     work = max(_WORK, _FACTORISATIONS * 2.0 / 3.0 * len(posed.q) ** 3)
     while nodes and count < _MOST and work > 0.0:
         node = nodes.pop()
         count += 1
         lacks, x, took = _relaxed(posed, node, tangents, work)
         work -= took
-        if lacks > _MARGIN:
-            continue
         if not lacks <= _SLACK:
-            open_ends = True
+            untold |= bool(np.isnan(lacks))
+            margin = min(margin, lacks)
             continue
         near = posed.newton(posed.w(x) - x)
         if near is not None:
             return near * unit
         nodes.extend(_branches(posed, node, x, tangents))
-    return Exhausted(programmes=count, proved=not nodes and not open_ends)
+    return Exhausted(programmes=count, undecided=untold or bool(nodes), margin=margin)
 
 
 def _branches(problem: ConeProblem, node: _Node, x: Array, tangents: list[list[float]]) -> Iterator[_Node]:
