@@ -39,7 +39,7 @@ ALLOWED = {
     "fem": {"model"},
     "interface": {"fem", "model"},
     "condense": {"linalg", "interface"},
-    "iterative": {"interface"},
+    "iterative": {"linalg", "interface"},
     "friction": {"lcp", "condense"},
     "solution": {"model", "fem", "interface"},
     "engine": CORE,

@@ -341,7 +341,7 @@ def _made(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, cl
         bodies: Condensed | Bodies
         softness = 0.0
         if whole:
-            bodies = _whole(examined, reduced, relative, near)
+            bodies = as_they_are(examined, reduced, relative, near)
     if not whole:
         bodies = _condensed(examined, reduced, relative, near, backend, clock)
         softness = _softness(examined, bodies)
@@ -370,7 +370,7 @@ def _softness(examined: Examined, condensed: Condensed) -> float:
     return max(found)
 
 
-def _whole(examined: Examined, K: sp.csr_array, B: sp.csr_array, near: BoolArray) -> Bodies:
+def as_they_are(examined: Examined, K: sp.csr_array, B: sp.csr_array, near: BoolArray) -> Bodies:
     """The bodies as they are."""
     T, d, interface = examined.constraints.transform, examined.space.dimension, examined.interface
     if interface.facets.any() or (interface.anisotropy != 1.0).any():

@@ -16,6 +16,7 @@ from signorini.engine.automatic import follow_automatically
 from signorini.engine.enter import relaxed, switched
 from signorini.engine.exact import follow_exactly
 from signorini.engine.fields import refuse_fields
+from signorini.engine.giving_way import GIVEN_WAY, given_way, gives_way
 from signorini.engine.increments import follow_increments, measured
 from signorini.engine.leg import Leg, Snapshot, joined, keep, lightened, reached
 from signorini.engine.prepare import Prepared, prepare
@@ -30,6 +31,7 @@ from signorini.errors import InputError, Interrupted, SolveFailed
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.friction.law import OPEN
 from signorini.interface.interface import pairs_of
+from signorini.linalg import NotPositiveDefinite
 from signorini.linalg.threads import one_thread
 from signorini.model.model import Model
 from signorini.model.stage import Stage, Standing, stages
@@ -245,7 +247,7 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
             first = approached(stretch)
             begun = [] if first is None else [first]
             stretch = stretch if first is None else replace(stretch, before=first.after)
-            leg = joined([*begun, _calmly(stage, stretch)])
+            leg = joined([*begun, _somehow(stage, stretch)])
         except (SolveFailed, KeyboardInterrupt) as stop:
             raise keep(stop, [*legs, *(begun if reached(stop) is not None else [])]) from None
         leg = lightened(leg, every=at_events, end=span.asked, heated=heated)
@@ -254,6 +256,23 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
         if span.cycle:
             cycle_ends.append(span.factor(1.0))
     return legs[0], cycle_ends
+
+
+def _somehow(stage: Stage, stretch: Stretch) -> Leg:
+    """Follow a straight part of a step on the condensed interface; where that is lost, on the bodies as they are."""
+    try:
+        return _calmly(stage, stretch)
+    except SolveFailed as failure:
+        if failure.status != "not_found" or failure.hopeless or not gives_way(stretch.prepared, stage.step):
+            raise
+        lost = failure
+    clock = stretch.prepared.clock
+    try:
+        with clock.again("once more, on the bodies as they are"):
+            leg = _iterated(stage, replace(stretch, prepared=given_way(stretch.prepared)))
+    except (SolveFailed, NotPositiveDefinite):
+        raise lost from None
+    return replace(leg, notes=(*leg.notes, GIVEN_WAY))
 
 
 def _calmly(stage: Stage, stretch: Stretch) -> Leg:
@@ -298,6 +317,14 @@ def _leg(stage: Stage, stretch: Stretch) -> Leg:
         return replace(
             leg, notes=(f"{failure.sentence}; followed in {_BEHIND_A_JUMP} increments to what is a candidate",)
         )
+
+
+def _iterated(stage: Stage, stretch: Stretch) -> Leg:
+    """Follow a straight part of a step in increments; in more and more where friction has them matter."""
+    step, rubbing = stage.step, bool((stretch.prepared.interface.rubs & ~stretch.prepared.interface.sticks).any())
+    if step.path is None and step.increments is None and rubbing:
+        return follow_automatically(stretch, step.tolerance, enough=_ENOUGH)
+    return _leg(stage, stretch)
 
 
 def _increments(step: Step, span: Span, stage: Stage) -> int:

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 import scipy.sparse as sp
@@ -11,13 +13,23 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.interface.interface import Interface
 from signorini.iterative.blocks import Blocks, make_blocks
+from signorini.iterative.direct import Direct
 from signorini.iterative.multigrid import Multigrid
 
 ITERATIVE = "iterative"
 """The name of this way among the back ends."""
 
 _HELD = 1e-12  # of the size of a row of B: below it supports hold what the row sees
+_ROUNDS = 200
+_FACTORED = 60  # rounds, where each may take several factorisations: what converges takes some 20
 _STIFF = 4.0  # springs of closed pairs, of what their nodes feel: multipliers then converge by as much a round
+
+
+class Preconditioner(Protocol):
+    """What makes conjugate gradients fast: multigrid, or factors."""
+
+    def under(self, springs: sp.csr_array) -> Callable[[Array], Array]:
+        """An approximate solution x of ``(K + springs) x = b``, symmetric in b, for springs (b, b) of contacts."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -35,7 +47,8 @@ class Bodies:
     compliance : (d a,) of the interface, length per force
     rigid : (b, k) rigid motions of all parts
     blocks : of the unknowns
-    multigrid : shared by all loads
+    preconditioner : shared by all loads
+    rounds : the most that an increment may take
     name : for reports
     """
 
@@ -49,7 +62,8 @@ class Bodies:
     compliance: Array
     rigid: sp.csr_array
     blocks: Blocks
-    multigrid: Multigrid
+    preconditioner: Preconditioner
+    rounds: int = _ROUNDS
     name: str = ITERATIVE
 
     @property
@@ -68,6 +82,18 @@ class Bodies:
         settled = self.held.copy()
         settled[self.pairs[self.tied]] = True
         return settled
+
+    def factored(self, nodes: IntArray, points: Array) -> Bodies:
+        """The same with factors in place of multigrid: thin bodies and flat cells cost those nothing.
+
+        Parameters
+        ----------
+        nodes : (z,) node of each free displacement
+        points : (nodes, d) where they are
+        """
+        known = np.unique(nodes)
+        direct = Direct(self.K, np.repeat(known, self.blocks.size), points)
+        return replace(self, preconditioner=direct, rounds=_FACTORED)
 
     def among(self, kept: BoolArray) -> Bodies:
         """The same bodies with fewer pairs.
@@ -138,7 +164,7 @@ def make_bodies(
         compliance=(interface.compliance / interface.areas)[rows],
         rigid=sp.csr_array(blocks.columns(sp.csr_array(rigid.T)).T),
         blocks=blocks,
-        multigrid=Multigrid(matrix, near_null),
+        preconditioner=Multigrid(matrix, near_null),
     )
 
 

@@ -30,7 +30,7 @@ from signorini.bound import Bound
 from signorini.errors import told
 from signorini.iterative.bodies import Bodies
 from signorini.iterative.law import Slope, project, slope, states
-from signorini.iterative.multigrid import Cycle, conjugate_gradients
+from signorini.iterative.multigrid import conjugate_gradients
 from signorini.pairstate import OPEN, STICK
 from signorini.trace import Attempt
 
@@ -39,7 +39,6 @@ TOLERANCE = 1e-10
 
 Outcome = Literal["solved", "not_found"]
 
-_ROUNDS = 200
 _NEWTON = 20  # steps a round
 _ENOUGH = 0.1  # of what the multipliers change by: equilibrium a round is solved to
 _INEXACT = 0.1  # residual of a Newton step, of the one before it
@@ -119,7 +118,7 @@ def solve_iteratively(bodies: Bodies, load: Load, z: Array, forces: Array) -> An
     """
     rounds = _Rounds(bodies, load, z, forces)
     worst = np.inf
-    for _ in range(_ROUNDS):
+    for _ in range(bodies.rounds):
         rounds.newton()
         worst = rounds.update()
         if worst <= TOLERANCE or not np.isfinite(worst):
@@ -146,7 +145,7 @@ class _Rounds:
         self.y = self._trial()
         touching = self.y[0] >= 0
         self.bound = self._bound(forces[0]) if forces.any() else np.where(self.rubs & touching, np.inf, 0.0)
-        self.cycle: tuple[Slope, Cycle] | None = None
+        self.cycle: tuple[Slope, Callable[[Array], Array]] | None = None
         self.iterations: list[int] = []
         self.changes: list[int] = []
 
@@ -226,7 +225,7 @@ class _Rounds:
     def _step(self, law: Slope, g: Array) -> tuple[Array, int]:
         bodies, springs = self.bodies, self.transposed @ law.matrix() @ self.bodies.B
         if self.cycle is None or law.change(self.cycle[0]) > _CHANGED * float(self.softened.max()):
-            self.cycle = law, bodies.multigrid.under(springs)
+            self.cycle = law, bodies.preconditioner.under(springs)
         return conjugate_gradients(lambda v: bodies.K @ v + springs @ v, self.cycle[1], g, tolerance=_INEXACT)
 
     def _go(self, step: Array, forces: Array) -> None:

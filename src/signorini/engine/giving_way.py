@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where the condensed interface loses its digits, contact is solved on the bodies as they are.
+
+What a thin body yields to a force is many orders of magnitude more than what it is compressed by; a dense compliance
+keeps the digits of the large one. The stiffness of the bodies has both. So where the condensed way finds nothing, and
+nothing is proved either, multipliers are iterated with factors of the bodies and the springs of their contacts.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import scipy.sparse as sp
+
+from signorini.engine.prepare import Prepared, as_they_are
+from signorini.fem.stiffness import reduced_stiffness
+from signorini.iterative.bodies import Bodies
+from signorini.model.step import Step
+
+GIVEN_WAY = "the condensed interface gave no certified answer; contact was solved on the bodies as they are"
+"""What a step says that was solved so."""
+
+_MOST = 3_000_000  # entries of K: what factors some hundred times within minutes
+
+
+def gives_way(prepared: Prepared, step: Step) -> bool:
+    """Whether there is another way than the condensed interface, and nobody has asked for this one alone."""
+    interface = prepared.interface
+    return (
+        prepared.backend == "auto"
+        and not isinstance(prepared.bodies, Bodies)
+        and not prepared.limited  # pairs that were left out come first
+        and step.path != "exact"
+        and 0 < prepared.K.nnz <= _MOST
+        and not interface.facets.any()
+        and not (interface.anisotropy != 1.0).any()
+    )
+
+
+def given_way(prepared: Prepared) -> Prepared:
+    """The same model, its bodies as they are and factored with the springs of their contacts."""
+    T, nodes = prepared.constraints.transform, prepared.constraints.nodes
+    K, B = reduced_stiffness(prepared.K, T), sp.csr_array(prepared.interface.B @ T)
+    bodies = as_they_are(prepared, K, B, ~prepared.absent).among(~prepared.absent)
+    bodies = bodies.factored(nodes, prepared.space.places)
+    return replace(prepared, bodies=bodies, law_or_none=None)
