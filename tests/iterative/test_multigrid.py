@@ -44,7 +44,7 @@ def springs(bodies, normal, tangential):
 
 
 def test_a_cycle_is_symmetric_and_positive(bodies):
-    cycle = bodies.multigrid.under(springs(bodies, 1.0, 0.1))
+    cycle = bodies.preconditioner.under(springs(bodies, 1.0, 0.1))
     x, y = np.random.default_rng(1).standard_normal((2, bodies.K.shape[0]))
     assert x @ cycle(y) == pytest.approx(y @ cycle(x), rel=1e-10)
     assert x @ cycle(x) > 0
@@ -54,5 +54,5 @@ def test_a_cycle_is_symmetric_and_positive(bodies):
 def test_every_state_of_contact_takes_the_same_few_iterations(bodies, parts):
     own = springs(bodies, *parts)
     force = bodies.B.T @ np.random.default_rng(2).standard_normal(bodies.B.shape[0])
-    _, count = conjugate_gradients(lambda v: bodies.K @ v + own @ v, bodies.multigrid.under(own), force, tolerance=1e-8)
+    _, count = conjugate_gradients(lambda v: bodies.K @ v + own @ v, bodies.preconditioner.under(own), force, tolerance=1e-8)
     assert count <= 32

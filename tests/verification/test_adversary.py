@@ -27,6 +27,15 @@ def test_answers_proofs_and_restarts(seed):
     assert not verdict.failed, (sorted(case.kinds), verdict)
 
 
+@pytest.mark.parametrize(
+    ("seed", "kinds"), [(76, ("thin", "space")), (40057, ("thin", "space")), (132, ("thin", "space")), (20235, ())]
+)
+def test_thin_bodies_in_space_lose_no_digits(seed, kinds):
+    """Two that the condensed interface does not find, and two where forces and displacements differ by rounding."""
+    verdict = adversary.judge(adversary.make(seed, frozenset(kinds)))
+    assert verdict.outcome == "right", verdict
+
+
 def slipping():
     """An increment where one pair of five slips, and its answer."""
     case = adversary.make(599)

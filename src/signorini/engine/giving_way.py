@@ -24,13 +24,16 @@ _MOST = 3_000_000  # entries of K: what factors some hundred times within minute
 
 
 def gives_way(prepared: Prepared, step: Step) -> bool:
+    """Whether a step that is lost may go the other way: pairs that were left out come first, exact paths have none."""
+    return step.path != "exact" and not prepared.limited and has_another_way(prepared)
+
+
+def has_another_way(prepared: Prepared) -> bool:
     """Whether there is another way than the condensed interface, and nobody has asked for this one alone."""
     interface = prepared.interface
     return (
         prepared.backend == "auto"
         and not isinstance(prepared.bodies, Bodies)
-        and not prepared.limited  # pairs that were left out come first
-        and step.path != "exact"
         and 0 < prepared.K.nnz <= _MOST
         and not interface.facets.any()
         and not (interface.anisotropy != 1.0).any()
@@ -41,6 +44,6 @@ def given_way(prepared: Prepared) -> Prepared:
     """The same model, its bodies as they are and factored with the springs of their contacts."""
     T, nodes = prepared.constraints.transform, prepared.constraints.nodes
     K, B = reduced_stiffness(prepared.K, T), sp.csr_array(prepared.interface.B @ T)
-    bodies = as_they_are(prepared, K, B, ~prepared.absent).among(~prepared.absent)
+    bodies = as_they_are(prepared, K, B, prepared.bodies.active).among(~prepared.absent)
     bodies = bodies.factored(nodes, prepared.space.places)
     return replace(prepared, bodies=bodies, law_or_none=None)

@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
+from signorini.engine.giving_way import given_way, has_another_way
 from signorini.engine.leg import Leg, Snapshot, keep
 from signorini.engine.prepare import Prepared
 from signorini.engine.stretch import Stretch
@@ -21,6 +22,7 @@ from signorini.friction.solve import solve_coulomb
 from signorini.friction.spatial import SpatialProblem, SpatialResult, solve_spatial
 from signorini.iterative.bodies import Bodies
 from signorini.iterative.solve import Answer, Load, solve_iteratively
+from signorini.linalg import NotPositiveDefinite
 from signorini.solution.certificate import Certificate, certify
 from signorini.solution.state import LoadPoint, State, next_state
 from signorini.trace import Attempt
@@ -104,11 +106,22 @@ def advance(
     f = free_load(prepared, point)
     result: CoulombResult | SpatialResult | Answer
     if isinstance(prepared.bodies, Bodies):
-        result, forces, moved, free = _iterated(prepared, prepared.bodies, f, offset, state, last)
+        u, r = state.displacement, state.forces
+        if last is not None:
+            u, r = 2.0 * u - last.displacement, 2.0 * r - last.forces
+        free, length = u[constraints.leaders], prepared.scale.length
+        result, forces, moved, free = _iterated(prepared, prepared.bodies, f, offset, free, r, length)
     else:
-        result, forces, moved, free = _balanced(
-            prepared, f, offset, _start(prepared, state) if start is None else start
-        )
+        begin = _start(prepared, state) if start is None else start
+        result, forces, moved, free, lost = _balanced(prepared, f, offset, begin)
+        if result.solved:
+            sizes = (constraints.transform @ free + imposed, imposed, state.displacement, point.gap)
+            farthest = max(float(np.abs(size).max(initial=0.0)) for size in sizes)
+            if lost > _BALANCED * farthest and has_another_way(prepared):
+                better = _polished(prepared, f, offset, free, forces, farthest)
+                if better is not None:
+                    polished, forces, moved, free = better
+                    result = replace(result, state=polished.state)
     if not result.solved:
         raise _failure(prepared, result, where)
     with prepared.clock.phase("recovery"):
@@ -245,8 +258,10 @@ def certified(prepared: Prepared, state: State, before: Array, where: str) -> Ce
 
 def _balanced(
     prepared: Prepared, f: Array, offset: Array, start: Array | IntArray | None
-) -> tuple[CoulombResult | SpatialResult, Array, Array, Array]:
+) -> tuple[CoulombResult | SpatialResult, Array, Array, Array, float]:
     """The contact problem under the load f on the free displacements: result, forces, motions, free displacements.
+
+    And by how much the motions differ in the end from those of the bodies.
 
     What equilibrium and the motions of the pairs lack in the end, on the problem as posed, is added to the condensed
     problem, and what that changes to the displacements: it was condensed with rounding, which gaps far larger than what
@@ -255,7 +270,7 @@ def _balanced(
     condensed, interface, scale, law = prepared.condensed, prepared.interface, prepared.scale, prepared.law
     rows, T, ties = condensed.active_rows, prepared.constraints.transform, condensed.ties
     forces, moved, free = np.zeros(len(offset)), np.zeros(len(offset)), np.zeros_like(f)
-    residual, misfit, b = f, offset[rows], np.zeros(len(rows))
+    residual, misfit, b, lost = f, offset[rows], np.zeros(len(rows)), 0.0
     guided = np.concatenate([np.zeros(law.pairs, dtype=np.bool_), law.locked.T.ravel()])
     for _ in range(_REFINEMENTS + 1):
         with prepared.clock.phase("complementarity"):
@@ -277,29 +292,49 @@ def _balanced(
             misfit = (offset + interface.B @ u - moved)[rows] + condensed.compliance * forces[rows]
             misfit[guided] = 0.0
         size = max(np.abs(residual).max(initial=0.0) / scale.force, np.abs(misfit).max(initial=0.0) / scale.length)
+        lost = float(np.abs(misfit).max(initial=0.0))
         if size <= _BALANCED:
             break
         start = result.y if isinstance(result, SpatialResult) else result.state
-    return result, forces, moved, free
+    return result, forces, moved, free, lost
+
+
+def _polished(
+    prepared: Prepared, f: Array, offset: Array, free: Array, forces: Array, farthest: float
+) -> tuple[Answer, Array, Array, Array] | None:
+    """The same with the digits that the condensed interface has lost; None where that does not settle.
+
+    Rounding of forces moves slender bodies by many roundings of their displacements. Equilibrium between both has
+    digits to spare, so the motions of the pairs are made right and it takes what that changes.
+
+    Parameters
+    ----------
+    free, forces : what was found
+    farthest : displacement, gap or imposed motion
+    """
+    other, length = given_way(prepared), min(prepared.scale.length, farthest)
+    assert isinstance(other.bodies, Bodies)
+    try:
+        better = _iterated(other, other.bodies, f, offset, free, forces, length)
+    except NotPositiveDefinite:
+        return None
+    return better if better[0].solved else None
 
 
 def _iterated(
-    prepared: Prepared, bodies: Bodies, f: Array, offset: Array, state: State, last: State | None
+    prepared: Prepared, bodies: Bodies, f: Array, offset: Array, free: Array, r: Array, length: float
 ) -> tuple[Answer, Array, Array, Array]:
-    """The same on the bodies as they are, from where the state is or where it leads."""
+    """The same on the bodies as they are, from displacements and forces near which it may be, to digits of a length."""
     d, rows = bodies.directions, bodies.rows
     load = Load(
         f=bodies.blocks.spread(f),
         offset=offset[rows].reshape(d, -1),
         bound=prepared.interface.bound(bodies.pairs),
         force=prepared.scale.force,
-        length=prepared.scale.length,
+        length=length,
         floating=bool(prepared.floating.shape[1]),
     )
-    u, r = state.displacement, state.forces
-    if last is not None:
-        u, r = 2.0 * u - last.displacement, 2.0 * r - last.forces
-    start = bodies.blocks.spread(u[prepared.constraints.leaders])
+    start = bodies.blocks.spread(free)
     with prepared.clock.phase("complementarity"):
         result = solve_iteratively(bodies, load, start, r[rows].reshape(d, -1))
     forces, moved = np.zeros(len(offset)), np.zeros(len(offset))
