@@ -97,3 +97,15 @@ def test_what_does_not_fit_is_iterated(monkeypatch):
     monkeypatch.setattr(room, "available_memory", lambda: 1_000)
     with pytest.raises(sg.InputError, match=r"the stiffness of \d+ unknowns takes at least"):
         sg.solve(model)
+
+
+def test_bodies_without_contact_are_iterated_too():
+    block = sg.rectangle(width=2.0, height=1.0, nx=4, ny=2)
+    model = sg.Model(
+        block,
+        bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.3))],
+        supports=[sg.Support("left", u=(0, 0))],
+        loads=[sg.Load("top", pressure=1.0)],
+    )
+    one, other = (sg.solve(model, backend=way).last.displacement for way in ("auto", "iterative"))
+    np.testing.assert_allclose(one, other, rtol=0, atol=1e-8 * np.abs(one).max())

@@ -20,7 +20,8 @@ from signorini.model.step import Step
 GIVEN_WAY = "the condensed interface gave no certified answer; contact was solved on the bodies as they are"
 """What a step says that was solved so."""
 
-_MOST = 3_000_000  # entries of K: what factors some hundred times within minutes
+_MOST = 3_000_000  # entries of K: what factors some dozen times within minutes
+_PATIENCE = 30  # rounds: what converges takes some 20 in all
 
 
 def gives_way(prepared: Prepared, step: Step) -> bool:
@@ -34,16 +35,22 @@ def has_another_way(prepared: Prepared) -> bool:
     return (
         prepared.backend == "auto"
         and not isinstance(prepared.bodies, Bodies)
+        and bool(prepared.bodies.active.any())
         and 0 < prepared.K.nnz <= _MOST
         and not interface.facets.any()
         and not (interface.anisotropy != 1.0).any()
     )
 
 
-def given_way(prepared: Prepared) -> Prepared:
-    """The same model, its bodies as they are and factored with the springs of their contacts."""
+def given_way(prepared: Prepared, *, patience: int = _PATIENCE) -> Prepared:
+    """The same model, its bodies as they are and factored with the springs of their contacts.
+
+    Parameters
+    ----------
+    patience : rounds without progress after which an increment is given up
+    """
     T, nodes = prepared.constraints.transform, prepared.constraints.nodes
     K, B = reduced_stiffness(prepared.K, T), sp.csr_array(prepared.interface.B @ T)
     bodies = as_they_are(prepared, K, B, prepared.bodies.active).among(~prepared.absent)
-    bodies = bodies.factored(nodes, prepared.space.places)
+    bodies = bodies.factored(nodes, prepared.space.places, patience=patience)
     return replace(prepared, bodies=bodies, law_or_none=None)

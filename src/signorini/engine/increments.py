@@ -29,6 +29,7 @@ from signorini.trace import Attempt
 
 _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
 _REFINEMENTS = 2
+_NEAR = 3  # rounds without progress from what is right but for rounding: one round is the rule
 _SLIGHT = 1e-3  # of a rigid motion: what words leave out of it
 _UNLOADED = 1e-12  # of the size of forces: a normal force that rounding leaves where nothing presses
 _CANCELLED = 1e-14  # of the largest displacement that supports impose: less between two sides is rounding
@@ -312,11 +313,11 @@ def _polished(
     free, forces : what was found
     farthest : displacement, gap or imposed motion
     """
-    other, length = given_way(prepared), min(prepared.scale.length, farthest)
+    other, length = given_way(prepared, patience=_NEAR), min(prepared.scale.length, farthest)
     assert isinstance(other.bodies, Bodies)
     try:
         better = _iterated(other, other.bodies, f, offset, free, forces, length)
-    except NotPositiveDefinite:
+    except (NotPositiveDefinite, SolveFailed):
         return None
     return better if better[0].solved else None
 

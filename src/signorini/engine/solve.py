@@ -320,10 +320,11 @@ def _leg(stage: Stage, stretch: Stretch) -> Leg:
 
 
 def _iterated(stage: Stage, stretch: Stretch) -> Leg:
-    """Follow a straight part of a step in increments; in more and more where friction has them matter."""
-    step, rubbing = stage.step, bool((stretch.prepared.interface.rubs & ~stretch.prepared.interface.sticks).any())
-    if step.path is None and step.increments is None and rubbing:
-        return follow_automatically(stretch, step.tolerance, enough=_ENOUGH)
+    """Follow a straight part of a step in increments: as many as asked for; as behind a jump where a path was lost."""
+    interface = stretch.prepared.interface
+    rubbing = bool((interface.rubs & ~interface.sticks).any())
+    if interface.directions == 2 and stage.step.path is None and stage.step.increments is None and rubbing:
+        return follow_increments(stretch, _BEHIND_A_JUMP)
     return _leg(stage, stretch)
 
 

@@ -20,8 +20,7 @@ ITERATIVE = "iterative"
 """The name of this way among the back ends."""
 
 _HELD = 1e-12  # of the size of a row of B: below it supports hold what the row sees
-_ROUNDS = 200
-_FACTORED = 60  # rounds, where each may take several factorisations: what converges takes some 20
+_NEVER = 10**6  # rounds
 _STIFF = 4.0  # springs of closed pairs, of what their nodes feel: multipliers then converge by as much a round
 
 
@@ -48,7 +47,7 @@ class Bodies:
     rigid : (b, k) rigid motions of all parts
     blocks : of the unknowns
     preconditioner : shared by all loads
-    rounds : the most that an increment may take
+    patience : rounds after which an increment is given up whose residual has not halved
     name : for reports
     """
 
@@ -63,7 +62,7 @@ class Bodies:
     rigid: sp.csr_array
     blocks: Blocks
     preconditioner: Preconditioner
-    rounds: int = _ROUNDS
+    patience: int = _NEVER
     name: str = ITERATIVE
 
     @property
@@ -83,17 +82,18 @@ class Bodies:
         settled[self.pairs[self.tied]] = True
         return settled
 
-    def factored(self, nodes: IntArray, points: Array) -> Bodies:
+    def factored(self, nodes: IntArray, points: Array, *, patience: int) -> Bodies:
         """The same with factors in place of multigrid: thin bodies and flat cells cost those nothing.
 
         Parameters
         ----------
         nodes : (z,) node of each free displacement
         points : (nodes, d) where they are
+        patience : see `Bodies`; rounds take several factorisations each
         """
         known = np.unique(nodes)
         direct = Direct(self.K, np.repeat(known, self.blocks.size), points)
-        return replace(self, preconditioner=direct, rounds=_FACTORED)
+        return replace(self, preconditioner=direct, patience=patience)
 
     def among(self, kept: BoolArray) -> Bodies:
         """The same bodies with fewer pairs.

@@ -9,8 +9,11 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
+from signorini.errors import SolveFailed
 from signorini.linalg import NotPositiveDefinite, factorise
 
+_MOST = 1e8  # entries in all factorisations together: a minute or two
+_FEWEST = 3000  # entries: what a factorisation of less costs
 _WEAK = 1e-10  # of the mean stiffness: springs to everything where the springs of contacts leave something free
 
 
@@ -29,6 +32,7 @@ class Direct:
     def __init__(self, K: sp.bsr_array, nodes: IntArray, points: Array) -> None:
         self._K, self._nodes, self._points = sp.csr_array(K), nodes, points
         self._none = np.zeros(0, dtype=np.int64)
+        self._left = _MOST
 
     def under(self, springs: sp.csr_array) -> Callable[[Array], Array]:
         """A solution x of ``(K + springs) x = b``, as a function of b.
@@ -36,8 +40,16 @@ class Direct:
         Parameters
         ----------
         springs : (n, n) symmetric, never negative
+
+        Raises
+        ------
+        SolveFailed
+            After a fixed amount of work: what does not converge until then is not worth more.
         """
         A = sp.csr_array(self._K + springs)
+        self._left -= max(A.nnz, _FEWEST)
+        if self._left < 0:
+            raise SolveFailed("multipliers did not settle within the work that they may take", status="not_found")
         try:
             factor = factorise(A, self._none, nodes=self._nodes, points=self._points)
         except NotPositiveDefinite:

@@ -39,6 +39,7 @@ TOLERANCE = 1e-10
 
 Outcome = Literal["solved", "not_found"]
 
+_ROUNDS = 200
 _NEWTON = 20  # steps a round
 _ENOUGH = 0.1  # of what the multipliers change by: equilibrium a round is solved to
 _INEXACT = 0.1  # residual of a Newton step, of the one before it
@@ -117,11 +118,14 @@ def solve_iteratively(bodies: Bodies, load: Load, z: Array, forces: Array) -> An
     forces : (d, a) of the pairs, to start from
     """
     rounds = _Rounds(bodies, load, z, forces)
-    worst = np.inf
-    for _ in range(bodies.rounds):
+    worst, best = np.inf, [np.inf]
+    for _ in range(_ROUNDS):
         rounds.newton()
         worst = rounds.update()
+        best.append(min(worst, best[-1]))
         if worst <= TOLERANCE or not np.isfinite(worst):
+            break
+        if len(best) > bodies.patience and best[-1] > 0.5 * best[-1 - bodies.patience]:
             break
     return rounds.answer(worst)
 
@@ -224,7 +228,7 @@ class _Rounds:
 
     def _step(self, law: Slope, g: Array) -> tuple[Array, int]:
         bodies, springs = self.bodies, self.transposed @ law.matrix() @ self.bodies.B
-        if self.cycle is None or law.change(self.cycle[0]) > _CHANGED * float(self.softened.max()):
+        if self.cycle is None or law.change(self.cycle[0]) > _CHANGED * float(self.softened.max(initial=0.0)):
             self.cycle = law, bodies.preconditioner.under(springs)
         return conjugate_gradients(lambda v: bodies.K @ v + springs @ v, self.cycle[1], g, tolerance=_INEXACT)
 
