@@ -62,7 +62,7 @@ def follow_automatically(
             with prepared.clock.again(why):
                 fine, words = _followed(stretch, number, jump)
         except SolveFailed as failure:
-            certain = failure.hopeless or (failure.status == "jump" and number >= _CERTAIN)
+            certain = failure.hopeless or (jump == "stop" and failure.status == "jump" and number >= _CERTAIN)
             if certain or more * number > most:
                 raise
             coarse, number = None, more * number
@@ -125,7 +125,8 @@ def _followed(stretch: Stretch, number: int, jump: Literal["stop", "follow"] | N
         except SolveFailed as nothing:
             words = f"{failure.sentence}; nor do {_counted(number)} go on: {nothing.sentence}"
             words = f"{words}{failure.details}{nothing.details}"
-            raise _told(failure, words, nothing.status, nothing) from failure
+            status = failure.status if nothing.status == "not_found" else nothing.status  # a jump is one all the same
+            raise _told(failure, words, status, nothing) from failure
         note = f"{failure.sentence}; followed in {number} increments to what is a candidate"
         return replace(leg, notes=(note,) if failure.status == "jump" else ()), _counted(number)
 

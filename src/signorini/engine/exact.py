@@ -170,7 +170,7 @@ def _follow(stretch: Stretch, stops: StopSettings | None) -> _Followed:
     """The history up to a load, in the plane or in space."""
     prepared = stretch.prepared
     with prepared.clock.phase("complementarity"):
-        start, b = _start(prepared, stretch.before), _right_hand_side(prepared, stretch.end)
+        start, b = _start(prepared, stretch.before), right_hand_side(prepared, stretch.end)
         if isinstance(prepared.law, SpatialProblem):
 
             def tell(part: float) -> None:
@@ -288,7 +288,7 @@ def _offset(prepared: Prepared, point: LoadPoint) -> Array:
     return offset
 
 
-def _right_hand_side(prepared: Prepared, point: LoadPoint) -> Array:
+def right_hand_side(prepared: Prepared, point: LoadPoint) -> Array:
     """b of the law at a point of the load history."""
     condensed = prepared.condensed
     reduced = condensed.reduce(free_load(prepared, point))
@@ -303,7 +303,7 @@ def _start(prepared: Prepared, state: State) -> PathState:
         prepared.condensed.active,
         prepared.law,
     )
-    b, n = _right_hand_side(prepared, state.point), law.pairs
+    b, n = right_hand_side(prepared, state.point), law.pairs
     h = condensed.root * np.concatenate([state.gap, state.tangential])[rows]
     slip, dissipation = condensed.root[n:] * state.slip[_along(prepared)], state.dissipation[active]
     if not state.forces.any() and not state.displacement.any() and (h[:n] < 0.0).any():

@@ -17,6 +17,7 @@ from signorini.engine.enter import relaxed, switched
 from signorini.engine.exact import follow_exactly
 from signorini.engine.fields import refuse_fields
 from signorini.engine.giving_way import GIVEN_WAY, given_way, gives_way
+from signorini.engine.footing import known
 from signorini.engine.increments import follow_increments, measured
 from signorini.engine.leg import Leg, Snapshot, joined, keep, lightened, reached
 from signorini.engine.prepare import Prepared, prepare
@@ -263,9 +264,9 @@ def _somehow(stage: Stage, stretch: Stretch) -> Leg:
     try:
         return _calmly(stage, stretch)
     except SolveFailed as failure:
-        if failure.status != "not_found" or failure.hopeless or not gives_way(stretch.prepared, stage.step):
-            raise
-        lost = failure
+        lost = known(failure, stretch)
+        if lost.status != "not_found" or lost.hopeless or not gives_way(stretch.prepared, stage.step):
+            raise lost from None
     clock = stretch.prepared.clock
     try:
         with clock.again("once more, on the bodies as they are"):

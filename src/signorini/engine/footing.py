@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where nothing was found in space: the load, if there is one, beyond which floating bodies have no equilibrium."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from signorini.arrays import frozen
+from signorini.engine.exact import right_hand_side
+from signorini.engine.increments import leaving
+from signorini.engine.leg import reached
+from signorini.engine.stretch import Stretch
+from signorini.errors import SolveFailed, told
+from signorini.friction.spatial import SpatialProblem
+from signorini.friction.spatial.overload import overload
+from signorini.iterative.bodies import Bodies
+
+_WORDS = "forces in the friction cones of all pairs cannot balance more load, however they are shared"
+
+
+def known(stop: SolveFailed, stretch: Stretch) -> SolveFailed:
+    """What stopped a stretch, as the proof that its end has no equilibrium where nothing was found and there is one.
+
+    Methods end without a solution where increments step beyond what contact can hold, and where the path is lost
+    before; the load from which on there is none is a fact of the loads and the friction alone (see `overload`).
+
+    Parameters
+    ----------
+    stretch : to which it came; what was followed of it is in ``stop.reached``
+    """
+    prepared, law, span = stretch.prepared, stretch.prepared.law, stretch.span
+    if stop.status != "not_found" or not isinstance(law, SpatialProblem) or isinstance(prepared.bodies, Bodies):
+        return stop
+    leg = reached(stop)
+    state = stretch.before if leg is None else leg.after
+    low = span.low if leg is None else leg.snapshots[-1].load_factor - span.factor(0.0) + span.low
+    held = state.forces[prepared.condensed.active_rows] / prepared.condensed.root
+    problem = replace(law, b=frozen(right_hand_side(prepared, state.point)))
+    found = overload(problem, held, right_hand_side(prepared, stretch.end))
+    if found is None:
+        return stop
+    words, motion = leaving(prepared, found.motion)
+    limit = low + found.factor * (span.high - low)
+    proof = SolveFailed(
+        told(
+            f"{stretch.where}: no equilibrium beyond {limit:.6%}, up to {low:.6%} it was followed: {words}: {_WORDS}",
+            remedy="hold the bodies against it, or change loads or friction",
+            evidence=stop.sentence,
+        ),
+        status="no_equilibrium",
+        motion=motion,
+    )
+    proof.reached = stop.reached
+    return proof
