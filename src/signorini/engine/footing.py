@@ -41,9 +41,10 @@ def known(stop: SolveFailed, stretch: Stretch) -> SolveFailed:
         return stop
     words, motion = leaving(prepared, found.motion)
     limit = low + found.factor * (span.high - low)
+    where = f"{stretch.where}: no equilibrium beyond {100.0 * limit:.6g}%, up to {100.0 * low:.6g}% it was followed"
     proof = SolveFailed(
         told(
-            f"{stretch.where}: no equilibrium beyond {limit:.6%}, up to {low:.6%} it was followed: {words}: {_WORDS}",
+            f"{where}: {words}: {_WORDS}",
             remedy="hold the bodies against it, or change loads or friction",
             evidence=stop.sentence,
         ),

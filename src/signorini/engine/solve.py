@@ -16,8 +16,8 @@ from signorini.engine.automatic import follow_automatically
 from signorini.engine.enter import relaxed, switched
 from signorini.engine.exact import follow_exactly
 from signorini.engine.fields import refuse_fields
-from signorini.engine.giving_way import GIVEN_WAY, given_way, gives_way
 from signorini.engine.footing import known
+from signorini.engine.giving_way import GIVEN_WAY, given_way, gives_way
 from signorini.engine.increments import follow_increments, measured
 from signorini.engine.leg import Leg, Snapshot, joined, keep, lightened, reached
 from signorini.engine.prepare import Prepared, prepare
