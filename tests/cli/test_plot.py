@@ -118,3 +118,19 @@ def test_the_history_in_space_draws_friction_where_it_is(tmp_path: Path) -> None
     again = sg.solve(replace(model, steps=model.steps[1:]), start=first)
     load, normal = lines_of(again, tmp_path)["normal"]
     assert (load[0], normal[0]) == (0.5, pytest.approx(8000.0))
+
+
+def test_a_damaged_history_is_told_or_drawn(tmp_path: Path) -> None:
+    solution = sg.solve(zhu_cylinder(steps=[sg.Step(name="press")]))
+    lines_of(solution, tmp_path)
+    table = [line.split(",") for line in (tmp_path / "history.csv").read_text().splitlines()]
+    told = {}
+    for k, column in enumerate(table[0]):
+        damaged = [row[:k] + ["?"] + row[k + 1 :] if i == 2 else row for i, row in enumerate(table)]
+        (tmp_path / "history.csv").write_text("\n".join(map(",".join, damaged)))
+        try:
+            draw_history(ResultFolder(path=tmp_path))
+        except sg.InputError as error:
+            told[column] = error.message
+    assert told.keys() >= {"load_factor", "max_pressure", "open", "stick", "slip", "dissipation", "normal_force_y"}
+    assert all(f"line 3 has '?' under {column}" in message for column, message in told.items())

@@ -23,13 +23,13 @@ from signorini.plot.patch import Patch, padded_faces
 from signorini.plot.skin import Skin, make_skin
 from signorini.plot.style import PLAIN, STATUS_INK
 from signorini.plot.walls import Wall, read_walls
-from signorini.solution.results import OPEN, SLIP
+from signorini.solution.results import OPEN, SLIP, STICK
 
 _TRACTIONS = ("traction_1", "traction_2")
 _COUNTED = ("step", "node")
 _OF_NODES = ("step", "contact", "node", "x", "y", "z", "gap", "pressure", *_TRACTIONS, "status")
 _OF_INSTANTS = (
-    *("step", "load_factor", "what", "contact", "dissipation"),
+    *("step", "load_factor", "what", "contact", "max_pressure", OPEN, STICK, SLIP, "dissipation"),
     *(f"{what}_force_{axis}" for what in ("normal", "tangential") for axis in "xyz"),
 )
 
