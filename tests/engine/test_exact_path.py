@@ -157,6 +157,24 @@ def test_a_jump_is_followed_by_choice_and_called_a_candidate():
     assert step.certificate.passed
 
 
+def test_a_pair_that_never_slips_and_can_neither_stick_nor_open_is_named():
+    """Where the law has no solution; the usual cause of a failed certificate, extreme ratios, is not to blame."""
+    model = sg.Model(
+        sg.rectangle(width=1.0, height=0.3, nx=3, ny=1),
+        bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.3))],
+        loads=[
+            sg.Load("top", traction=(0.0, -1.0), name="press"),
+            sg.Load("top", traction=(-1.7, -0.4), name="push"),
+        ],
+        contacts=[sg.Contact("bottom", sg.Plane(point=(0, 0), normal=(0, 1)), friction="stick", name="floor")],
+        steps=[sg.Step(scale={"press": 1.0}), sg.Step(name="push", scale={"push": 1.0}, increments=4)],
+    )
+    solution = sg.solve(model, raise_on_failure=False)
+    assert solution.status == "not_found"
+    assert "node 4 of contact 'floor', which never slips, can neither stick nor open" in solution.message
+    assert "what to do: finite friction of 'floor'" in solution.message
+
+
 def test_gross_sliding_is_not_followed():
     steps = [
         sg.Step(name="press", scale={"press": 1.0}),

@@ -36,6 +36,19 @@ def test_thin_bodies_in_space_lose_no_digits(seed, kinds):
     assert verdict.outcome == "right", verdict
 
 
+@pytest.mark.parametrize(
+    ("seed", "kinds", "outcome"),
+    [
+        (59, ("exact",), "right"),  # gone on with to the last bit behind a search of all states
+        (70026, (), "proved"),  # near gross sliding, in units in which the data are 1e-13
+        (50199, ("rigid", "stack", "restart", "exact"), "jump"),  # a pair that never slips lets go at once
+    ],
+)
+def test_what_was_missed_once(seed, kinds, outcome):
+    verdict = adversary.judge(adversary.make(seed, frozenset(kinds)))
+    assert verdict.outcome == outcome, verdict.words
+
+
 def slipping():
     """An increment where one pair of five slips, and its answer."""
     case = adversary.make(599)

@@ -247,14 +247,19 @@ def certified(prepared: Prepared, state: State, before: Array, where: str) -> Ce
     certificate = measured(prepared, state, before)
     if certificate.passed:
         return certificate
-    raise SolveFailed(
-        told(
-            f"{where}: the solver's answer did not pass the certificate",
-            remedy="look for extreme ratios of moduli, sizes or compliances, which are the usual cause",
-            evidence=str(certificate),
-        ),
-        status="not_found",
-    )
+    words = f"{where}: the solver's answer did not pass the certificate"
+    remedy = "look for extreme ratios of moduli, sizes or compliances, which are the usual cause"
+    verge = np.flatnonzero(prepared.interface.sticks & ~prepared.absent & (state.status > STICK))
+    if len(verge):
+        pair = int(verge[0])
+        contact = prepared.model.contacts[prepared.interface.contact[pair]]
+        number = prepared.model.mesh.labels[prepared.interface.node[pair]]
+        words = (
+            f"{where}: no equilibrium was found: node {number} of contact '{contact.label}', which never slips, can "
+            "neither stick nor open: it holds back a tangential force that nothing presses"
+        )
+        remedy = f"finite friction of '{contact.label}', or a 'shear_limit'"
+    raise SolveFailed(told(words, remedy=remedy, evidence=str(certificate)), status="not_found")
 
 
 def _balanced(

@@ -312,7 +312,8 @@ def _leg(stage: Stage, stretch: Stretch) -> Leg:
             leg = follow_increments(stretch, _BEHIND_A_JUMP)
         except SolveFailed as nothing:
             words = f"{failure.sentence}; nor do increments go on: {nothing.sentence}{nothing.details}"
-            worse = SolveFailed(words, status=nothing.status, motion=nothing.motion)
+            status = failure.status if nothing.status == "not_found" else nothing.status  # a jump is proved
+            worse = SolveFailed(words, status=status, motion=nothing.motion)
             worse.reached = failure.reached  # the exact path goes farther
             raise worse from failure
         return replace(

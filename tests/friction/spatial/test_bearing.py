@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from signorini import deck
@@ -40,6 +40,7 @@ def floating(rng, pairs, friction):
 
 @settings(max_examples=30, deadline=None)
 @given(st.integers(0, 10_000), st.integers(3, 12), st.sampled_from([0.1, 0.4, 1.0]))
+@example(1782, 3, 0.1)  # a motion 15 times the load: what resists it by 1e-9 of its size is too much for a proof
 def test_beyond_an_overload_a_rigid_motion_proves_that_nothing_holds_and_none_does_before(seed, pairs, friction):
     rng = np.random.default_rng(seed)
     problem = floating(rng, pairs, friction)

@@ -99,7 +99,7 @@ def overload(problem: SpatialProblem, held: Array, b_end: Array, *, near: BoolAr
         rho = R @ a
         strongest = np.einsum("ni,ink->nk", strongest_edges(problem.mu, problem.sides, rho), rows)
         works = np.where(may, strongest @ a, 0.0)
-        resisted = works < -GAIN * float(np.linalg.norm(a))
+        resisted = STRONGEST * works < -0.5 * _LOOSE  # the work of the loads that grow is 1
         if not resisted.any():
             left = float(a @ (load + answer.x[0] * growth)) / unit + STRONGEST * float(works.min(initial=0.0))
             proved = float(a @ growth) / unit > 0.5 and left > -_LOOSE
