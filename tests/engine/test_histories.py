@@ -195,6 +195,15 @@ def test_increments_until_the_answer_stays(monkeypatch):
         sg.solve(zhu_cylinder(refine=1, steps=steps))
 
 
+def test_increments_that_do_not_settle_are_given_up(monkeypatch):
+    monkeypatch.setattr("signorini.engine.automatic._CERTAIN", 1)
+    monkeypatch.setattr("signorini.engine.automatic._change", lambda _coarse, _fine: (0.5, "the answer by a half"))
+    with pytest.raises(
+        sg.SolveFailed, match=r"32 increments still change the answer by a half(.|\n)*\n.*: 2 changed it"
+    ):
+        sg.solve(zhu_cylinder(refine=1, steps=[sg.Step(increments="auto", tolerance=0.01)]))
+
+
 @pytest.mark.parametrize(
     ("make", "message"),
     [

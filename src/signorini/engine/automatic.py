@@ -26,6 +26,7 @@ from signorini.iterative.bodies import Bodies
 MOST = 4096
 """Increments of one straight part of a step; in space the part of it that they need not undercut."""
 _CERTAIN = 16  # increments on a way in space of which it is believed that it jumps, or that it does not
+_VAIN = 16  # times as many increments, that change the answer no less: it does not settle
 _LOST = 4  # times the number that is enough: the most that are tried where a way in space is lost
 _MORE = 'expected less? Give the step increments = "auto" or their number'
 
@@ -49,12 +50,13 @@ def follow_automatically(
     Raises
     ------
     SolveFailed
-        If an increment has no certified solution however short, or 4096 are not enough; in space 4 times ``enough``
-        are tried where fewer are lost.
+        If an increment has no certified solution however short, 4096 are not enough, or 16 times as many change the
+        answer no less; in space 4 times ``enough`` are tried where fewer are lost.
     """
     coarse: Leg | None = None
     prepared = stretch.prepared
     changes, number, why = "the answer, where one is found", 1, ""
+    seen: dict[int, float] = {}
     more, fewer = (2, "half as many") if prepared.interface.directions == 2 else (4, "a quarter as many")
     most = MOST if enough is None or prepared.interface.directions == 2 else _LOST * enough
     while number <= MOST:
@@ -78,11 +80,18 @@ def follow_automatically(
                 return replace(fine, path="increments", notes=(*fine.notes, note))
             if enough is not None and number >= enough:
                 return replace(fine, path="increments", notes=(*fine.notes, f"{note}; {_MORE}"))
+            seen[number] = change
+            if number >= _VAIN * _CERTAIN and change >= seen.get(number // _VAIN, np.inf):
+                break
         coarse, number = fine, more * number
         why = f"once more, in up to {number} increments: whether the answer stays"
     raise SolveFailed(
         told(
-            f"{stretch.where}: {MOST} increments still change {changes}", remedy='a larger tolerance, or path = "exact"'
+            f"{stretch.where}: {min(number, MOST)} increments still change {changes}",
+            remedy='a larger tolerance, or path = "exact" where sections are polygons or the model is plane',
+            evidence=""
+            if number > MOST
+            else f"{number // _VAIN} changed it by no more, they lead to different answers",
         ),
         status="not_found",
     )
