@@ -56,6 +56,9 @@ class Boundary:
     def nodal_normals(self) -> Array:
         """(n, d) Outward unit normals at the nodes, averaged with the sizes of the facets there."""
         total = self._gathered(block.nodal_spans for block in self.blocks)
+        collapsed = np.linalg.norm(total, axis=1) == 0.0  # at the ends of a side without length, in all facets there
+        if collapsed.any():
+            total[collapsed] = self._gathered(block.level_spans for block in self.blocks)[collapsed]
         normals: Array = total / np.linalg.norm(total, axis=1, keepdims=True)
         return normals
 

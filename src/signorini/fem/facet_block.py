@@ -118,6 +118,14 @@ class FacetBlock:
         return total
 
     @property
+    def level_spans(self) -> Array:
+        """Mean normals of the facets times their sizes, summed at the nodes, (n, d)."""
+        total = np.zeros((len(self.nodes), self.dimension))
+        every = np.repeat(self.outward.sum(axis=1)[:, None], self.facets.shape[1], axis=1)
+        np.add.at(total, np.searchsorted(self.nodes, self.facets), every)
+        return total
+
+    @property
     def places(self) -> Array:
         """Reference coordinates of the quadrature points, (q, d - 1)."""
         return self._rule[0]
