@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How much of the load contact can hold on floating bodies, and searches that end."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from signorini import deck
 from signorini.api import solve
 from signorini.arrays import frozen
 from signorini.clock import Clock
+from signorini.friction.rigid import GAIN
 from signorini.friction.spatial.cones import ConeProblem
 from signorini.friction.spatial.overload import overload
 from signorini.friction.spatial.problem import SpatialProblem
@@ -56,6 +58,11 @@ def test_beyond_an_overload_a_rigid_motion_proves_that_nothing_holds_and_none_do
     assert 0.0 < found.factor < 1.0
     assert pulled_away(at(found.factor * (1.0 - 1e-5))) is None
     assert pulled_away(at(found.factor * (1.0 + 1e-2))) is not None
+    assert found.factor <= found.proved < found.factor + 1e-2
+    assert 0.0 < found.share <= pulled_away(at(1.0)).share + 1e-9
+    edge, beyond = (overload(problem, -problem.b, at(found.factor * (1.0 + part)).b) for part in (1e-11, 1e-2))
+    assert edge is None or edge.share <= GAIN
+    assert beyond.share > GAIN
 
 
 def test_linear_programmes_end_where_bodies_nearly_roll():
@@ -75,6 +82,7 @@ def test_an_overloaded_joint_slides_at_the_load_that_friction_holds_and_what_was
     assert solution.status == "no_equilibrium"
     assert "at 12.500000%: gross sliding: body 'bracket' can move along x: " in solution.message
     assert "beyond 99.64" in solution.message
+    assert re.search(r"nothing takes 0\.\d+ of the load at the end", solution.message)
     finished, cut = solution.steps
     assert finished.finished
     assert not cut.finished

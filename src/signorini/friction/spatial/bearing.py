@@ -16,6 +16,7 @@ import numpy as np
 from signorini.arrays import Array, BoolArray
 from signorini.friction.exact.segment import Breakpoint, Jump
 from signorini.friction.exact.state import PathState
+from signorini.friction.rigid import GAIN
 from signorini.friction.spatial.overload import Overload, along_contact, overload
 from signorini.friction.spatial.pieces import spare
 from signorini.friction.spatial.problem import SpatialProblem
@@ -55,7 +56,7 @@ class Bearing:
         if not self._known(near):
             found = overload(replace(problem, b=now.b), now.r, self.b_end, near=near)
             self._near = near
-            self._found = found and replace(found, factor=factor + found.factor * (1.0 - factor))
+            self._found = found and replace(found, factor=_along(factor, found.factor))
         ahead = self._found
         if ahead is not None and ahead.factor > self._crossed:
             self._least = ahead if self._least is None else min(self._least, ahead, key=lambda one: one.factor)
@@ -93,14 +94,21 @@ class Bearing:
         assert self._least is not None
         problem, over = replace(self.problem, b=now.b), self._least
         every = overload(problem, now.r, self.b_end)
+        sure = every is not None and every.share > GAIN
+        who, share = ("nothing", every.share) if every is not None and sure else ("none of them", over.share)
         return Jump(
             factor=over.factor,
             pairs=tuple(np.flatnonzero(pressed).tolist()),
-            proof=proof,
+            proof=f"{proof}: {who} takes {share:.2g} of the load at the end, or more" if share > GAIN else proof,
             gross_sliding=_spent(problem, now.r, pressed),
             escape=along_contact(problem, over.motion, pressed),
-            hopeless=None if every is None else factor + every.factor * (1.0 - factor),
+            hopeless=_along(factor, every.proved) if every is not None and sure else None,
         )
+
+
+def _along(behind: float, part: float) -> float:
+    """Part of the whole way, of a part of what is left of it."""
+    return behind + part * (1.0 - behind)
 
 
 def sliding(problem: SpatialProblem, ends: Sequence[Breakpoint], pressed: BoolArray) -> Array | None:

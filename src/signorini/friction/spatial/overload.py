@@ -28,12 +28,18 @@ class Overload:
 
     Attributes
     ----------
-    factor : part of the way between two loads; beyond it none is in equilibrium
+    factor : part of the way between two loads, to the last digit
     motion : (3n,) rigid motion that proves it, largest entry 1
+    proved : part of the way beyond which none is in equilibrium even under forces of 1e6 times the loads, which work
+        against the motion by its rounding; not less than the factor
+    share : of the load at the end of the way on rigid motions what no force takes, at least; not positive where nothing
+        is proved of it
     """
 
     factor: float
     motion: Array
+    proved: float
+    share: float
 
 
 def overload(problem: SpatialProblem, held: Array, b_end: Array, *, near: BoolArray | None = None) -> Overload | None:
@@ -65,6 +71,11 @@ def overload(problem: SpatialProblem, held: Array, b_end: Array, *, near: BoolAr
     >>> found = overload(problem, np.array([1.0, 0.0, 0.0]), np.array([-1.0, 1.2, 0.0]))
     >>> round(found.factor, 9), found.motion.round(9).tolist()
     (0.25, [0.3, 1.0, 0.0])
+
+    Of the pull of 1.2 at the end, with the pressure 1, this leaves 0.9 along (0.3, 1):
+
+    >>> round(float(found.share * np.hypot(1.0, 1.2) * np.hypot(0.3, 1.0)), 9), found.proved - found.factor < 1e-9
+    (0.9, True)
     """
     R, n = problem.image.R, problem.pairs
     may = np.ones(n, dtype=np.bool_) if near is None else near
@@ -101,11 +112,25 @@ def overload(problem: SpatialProblem, held: Array, b_end: Array, *, near: BoolAr
         works = np.where(may, strongest @ a, 0.0)
         resisted = STRONGEST * works < -0.5 * _LOOSE  # the work of the loads that grow is 1
         if not resisted.any():
-            left = float(a @ (load + answer.x[0] * growth)) / unit + STRONGEST * float(works.min(initial=0.0))
-            proved = float(a @ growth) / unit > 0.5 and left > -_LOOSE
-            return Overload(factor=float(answer.x[0]), motion=rho / np.abs(rho).max()) if proved else None
+            return _proved(float(answer.x[0]), a, rho, load / unit, growth / unit, float(works.min(initial=0.0)))
         edges.append(strongest[resisted])
     return None
+
+
+def _proved(factor: float, a: Array, rho: Array, load: Array, growth: Array, works: float) -> Overload | None:
+    """What a dual motion a, of rows rho, proves: ``a.(load + s growth)`` beyond what the largest forces do against it.
+
+    Parameters
+    ----------
+    factor : where the first programme ends
+    works : the least work of forces of size 1 along the motion, below 0 by rounding
+    """
+    left, grows = float(a @ (load + factor * growth)) + STRONGEST * works, float(a @ growth)
+    if grows <= 0.5 or left <= -_LOOSE:
+        return None
+    end = load + growth
+    share = (left + (1.0 - factor) * grows) / (float(np.linalg.norm(a) * np.linalg.norm(end)) or 1.0)
+    return Overload(factor=factor, motion=rho / np.abs(rho).max(), proved=factor + max(0.0, -left / grows), share=share)
 
 
 def along_contact(problem: SpatialProblem, motion: Array, pressed: BoolArray) -> Array:

@@ -38,6 +38,7 @@ def standstill(pieces: Sequence[Breakpoint], scale: float) -> NoRates | None:
     if load <= _STILL and moved > _FAST * scale * load:
         fast = moved / (scale * load)
         words = f"within the last {load:.1e} of the way pairs move {fast:.1e} times as fast as the loads deform bodies"
+        words = f"{words}: strong evidence, no proof"
         return NoRates(proof=f"the load has a limit here: {words}", proved=True)
     load, _ = _got_on(pieces, _MANY)
     if load <= _STILL:
