@@ -251,7 +251,7 @@ def main() -> None:
         row = solved(options.seed, number, options.limit)
         rows.append(row)
         numbers = f"{number:4d} | {row['pairs']:4d} | {row['price']:8.1f} | {row['seconds']:7.2f}"
-        print(numbers, row["ended"], row["model"], row["message"][:200], sep=" | ", flush=True)
+        print(numbers, row["ended"], row["model"], row["message"].partition("\n")[0][:200], sep=" | ", flush=True)
     print()
     print(
         page.table(["ended", "models", "median price", "largest price", "median CPU s", "largest CPU s"], summary(rows))
