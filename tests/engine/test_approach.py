@@ -123,7 +123,7 @@ def test_a_load_that_turns_carries_a_block_from_wall_to_wall():
     )
     step = sg.solve(model).last
     ways = [note for note in step.notes if "approaches" in note]
-    assert [note.split(": ")[0] for note in ways] == ["step 1", *(f"step 1 at {at}.500000%" for at in (37, 62, 87))]
+    assert [note.split(": ")[0] for note in ways] == ["step 1", *(f"step 1 at {at}.5%" for at in (37, 62, 87))]
     assert ways[0].endswith("approaches by 0.25 along -y before contact can hold it")
     assert all("approaches by 0.75 along" in note for note in ways[1:])
     assert step.cycles[0].dissipation > 0.0

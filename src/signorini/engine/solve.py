@@ -248,7 +248,7 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
             first = approached(stretch)
             begun = [] if first is None else [first]
             stretch = stretch if first is None else replace(stretch, before=first.after)
-            leg = joined([*begun, _somehow(stage, stretch)])
+            leg = joined([*begun, _on_interface_or_bodies(stage, stretch)])
         except (SolveFailed, KeyboardInterrupt) as stop:
             raise keep(stop, [*legs, *(begun if reached(stop) is not None else [])]) from None
         leg = lightened(leg, every=at_events, end=span.asked, heated=heated)
@@ -259,10 +259,10 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
     return legs[0], cycle_ends
 
 
-def _somehow(stage: Stage, stretch: Stretch) -> Leg:
+def _on_interface_or_bodies(stage: Stage, stretch: Stretch) -> Leg:
     """Follow a straight part of a step on the condensed interface; where that is lost, on the bodies as they are."""
     try:
-        return _calmly(stage, stretch)
+        return _with_bodies_at_rest(stage, stretch)
     except SolveFailed as failure:
         lost = known(failure, stretch)
         if lost.status != "not_found" or lost.hopeless or not gives_way(stretch.prepared, stage.step):
@@ -276,7 +276,7 @@ def _somehow(stage: Stage, stretch: Stretch) -> Leg:
     return replace(leg, notes=(*leg.notes, GIVEN_WAY))
 
 
-def _calmly(stage: Stage, stretch: Stretch) -> Leg:
+def _with_bodies_at_rest(stage: Stage, stretch: Stretch) -> Leg:
     """Follow a straight part of a step while bodies that nothing touches rest; if something does, wherever they go."""
     calm = resting(stretch)
     try:
