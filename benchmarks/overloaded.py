@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Random models in space that loads carry away, tip, roll or let jump: what each ends in, and what it costs.
 
-    python -m benchmarks.overloaded [--number N] [--seed S] [--limit SECONDS]
+    python -m benchmarks.overloaded [--number N] [--seed S] [--limit SECONDS] [--page]
 
 Boxes of hexahedra and tetrahedra, on planes, blocks and stacks of blocks, between walls, clamped and lifted; pressed,
 then pulled, tipped and turned by less or more than friction holds; on exact cones, ellipses and facets; one or several
@@ -10,7 +10,8 @@ steps; matching or not; paths as they come, exact, in a few increments, jumps fo
 Every model ends certified, proved (no equilibrium), named (a jump or gross sliding, with its load), or in nothing. Its
 price is the work on the law of contact in factorisations: operations of Newton's systems, their iterations, sweeps,
 held interfaces and linear programmes over those of one factorisation, the sparse one or a dense one of all rows of the
-pairs, whichever takes more. CPU seconds of models so small count how often Python is asked.
+pairs, whichever takes more. CPU seconds of models so small count how often Python is asked. With --page the table of
+how they ended goes into docs/three_dimensions.md.
 """
 
 from __future__ import annotations
@@ -244,6 +245,7 @@ def main() -> None:
     made.add_argument("--first", type=int, default=0, help="number of the first")
     made.add_argument("--seed", type=int, default=SEED)
     made.add_argument("--limit", type=float, default=60.0, help="CPU seconds that a model may take")
+    made.add_argument("--page", action="store_true", help="write how the models ended into docs/three_dimensions.md")
     options = made.parse_args()
     rows = []
     print("number | pairs | price | CPU s | ended | model")
@@ -252,10 +254,12 @@ def main() -> None:
         rows.append(row)
         numbers = f"{number:4d} | {row['pairs']:4d} | {row['price']:8.1f} | {row['seconds']:7.2f}"
         print(numbers, row["ended"], row["model"], row["message"].partition("\n")[0][:200], sep=" | ", flush=True)
-    print()
-    print(
-        page.table(["ended", "models", "median price", "largest price", "median CPU s", "largest CPU s"], summary(rows))
+    ended = page.table(
+        ["ended", "models", "median price", "largest price", "median CPU s", "largest CPU s"], summary(rows)
     )
+    print(f"\n{ended}")
+    if options.page:
+        page.write("overloaded", ended, page.PAGE.parent / "three_dimensions.md")
 
 
 def summary(rows: list[dict[str, Any]]) -> list[list[str]]:
