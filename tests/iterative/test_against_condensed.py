@@ -109,3 +109,21 @@ def test_bodies_without_contact_are_iterated_too():
     )
     one, other = (sg.solve(model, backend=way).last.displacement for way in ("auto", "iterative"))
     np.testing.assert_allclose(one, other, rtol=0, atol=1e-8 * np.abs(one).max())
+
+
+def test_what_is_not_found_by_iterating_in_space_says_so():
+    """No condensed interface is asked why: a block pushed beyond its friction is a failure, not a wrong input."""
+    x = np.linspace(0.0, 2.0, 3)
+    model = sg.Model(
+        box(x=x, y=x, z=np.linspace(0.0, 1.0, 2)),
+        bodies=[sg.Body("block", sg.Elastic(E=1e5, nu=0.3))],
+        loads=[
+            sg.Load("top", force=(0.0, 0.0, -100.0), name="press"),
+            sg.Load("top", force=(80.0, 0.0, 0.0), name="push"),
+        ],
+        contacts=[sg.Contact("bottom", sg.Plane((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)), friction=0.5)],
+        steps=[sg.Step(scale={"press": 1.0, "push": 0.0}), sg.Step(scale={"press": 1.0, "push": 1.0}, increments=2)],
+    )
+    with pytest.raises(sg.SolveFailed, match=r"multipliers did not settle") as caught:
+        sg.solve(model, backend="iterative")
+    assert caught.value.status == "not_found"

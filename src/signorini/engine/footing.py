@@ -13,7 +13,6 @@ from signorini.engine.stretch import Stretch
 from signorini.errors import SolveFailed, told
 from signorini.friction.spatial import SpatialProblem
 from signorini.friction.spatial.overload import overload
-from signorini.iterative.bodies import Bodies
 
 _WORDS = "forces in the friction cones of all pairs cannot balance more load, however they are shared"
 
@@ -28,8 +27,8 @@ def known(stop: SolveFailed, stretch: Stretch) -> SolveFailed:
     ----------
     stretch : to which it came; what was followed of it is in ``stop.reached``
     """
-    prepared, law, span = stretch.prepared, stretch.prepared.law, stretch.span
-    if stop.status != "not_found" or not isinstance(law, SpatialProblem) or isinstance(prepared.bodies, Bodies):
+    prepared, law, span = stretch.prepared, stretch.prepared.law_or_none, stretch.span
+    if stop.status != "not_found" or not isinstance(law, SpatialProblem):
         return stop
     leg = reached(stop)
     state = stretch.before if leg is None else leg.after
