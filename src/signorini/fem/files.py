@@ -18,8 +18,8 @@ from signorini.fem.geometry import SUFFIX as GEOMETRY
 from signorini.fem.geometry import mesh_geometry
 from signorini.fem.unv import SUFFIX as UNV
 from signorini.fem.unv import read_unv
-from signorini.formats import read_meshio
 from signorini.hdf5 import check_hdf5
+from signorini.meshio_fixes import read_meshio
 from signorini.model.mesh import NODES_PER_CELL
 from signorini.sources import check_file
 

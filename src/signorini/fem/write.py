@@ -9,7 +9,7 @@ import numpy as np
 
 from signorini.arrays import IntArray
 from signorini.fem.read import NAMED, NODE_NUMBER
-from signorini.formats import complete_meshio
+from signorini.meshio_fixes import complete_meshio
 from signorini.model.mesh import Mesh
 
 _FACETS = {

@@ -26,8 +26,8 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.condense.image import softened, symmetric_product
-from signorini.friction.gmres import gmres
 from signorini.friction.posed import PosedContact
+from signorini.linalg.gmres import gmres
 
 LARGE = 500
 """Unknowns from which a factorisation costs more."""

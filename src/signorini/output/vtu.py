@@ -11,7 +11,7 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.fem.space import Space, make_space
 from signorini.fem.stress import BodyStress, body_stresses
-from signorini.formats import complete_meshio
+from signorini.meshio_fixes import complete_meshio
 from signorini.model.model import Model
 from signorini.output.replacing import replacing
 from signorini.solution.history import History

@@ -17,7 +17,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, brief
-from signorini.formats import read_meshio
+from signorini.meshio_fixes import read_meshio
 from signorini.plot.curve import Curve, make_curve
 from signorini.plot.patch import Patch, padded_faces
 from signorini.plot.skin import Skin, make_skin
