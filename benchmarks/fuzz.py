@@ -33,7 +33,7 @@ import matplotlib as mpl
 from benchmarks import command
 from benchmarks.mutations import KINDS, Corpus, corpus, damage, small_model
 from signorini.api import solve
-from signorini.cli.describe import describe
+from signorini.cli.check_text import describe
 from signorini.deck import load
 from signorini.engine.prepare import examine
 from signorini.errors import InputError, SolveFailed
@@ -45,8 +45,8 @@ from signorini.output.checkpoint import read_checkpoint
 from signorini.output.compare import compare
 from signorini.plot.contact import draw_contacts
 from signorini.plot.field import draw_stress
-from signorini.plot.files import ResultFolder
 from signorini.plot.history import draw_history
+from signorini.plot.result_folder import ResultFolder
 
 SECONDS, MEMORY = 5, 2**30
 STUCK = 60  # seconds by the clock: what not even a signal ends

@@ -24,8 +24,8 @@ from signorini.arrays import padded
 from signorini.deck import load
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
+from signorini.output.ccx_contact import slave_values
 from signorini.output.frd import write_frd
-from signorini.output.slave import slave_values
 from signorini.solution.results import StepResult
 
 Values = NDArray[np.float64]

@@ -24,18 +24,18 @@ from signorini.fem.space import Space, make_space
 from signorini.fem.stress import BodyStress, body_stresses
 from signorini.model.model import Model
 from signorini.output.archive import read_archive, write_archive
+from signorini.output.atomic_write import atomic_write
 from signorini.output.checkpoint import read_checkpoint, write_checkpoint
 from signorini.output.folder import ARCHIVE, write_drawn
 from signorini.output.frd import write_frd
 from signorini.output.picture import check_png, write_pixels
-from signorini.output.replacing import replacing
 from signorini.output.series import write_pvd
 from signorini.output.table import history_table
 from signorini.output.vtu import write_vtu
 from signorini.plot.animation import animate_path
 from signorini.plot.contact import plot_contact
 from signorini.plot.escape import plot_escape
-from signorini.plot.files import ResultFolder
+from signorini.plot.result_folder import ResultFolder
 from signorini.plot.style import literal
 from signorini.plot.view import render_view
 from signorini.solution.checkpoint import Checkpoint
@@ -165,7 +165,7 @@ class Solution(History):
 
     def animate(self, path: str | Path, *, contact: str | None = None, frames: int = 100) -> None:
         """Write a GIF of pressure, friction and slip of a contact (the first by default) along the whole history."""
-        with replacing(Path(path)) as aside:
+        with atomic_write(Path(path)) as aside:
             animate_path(self, aside, contact=contact, frames=frames)
 
 

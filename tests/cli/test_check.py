@@ -12,7 +12,7 @@ import pytest
 
 import signorini as sg
 from signorini.cli import main
-from signorini.cli.suspicion import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
+from signorini.cli.check_notes import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
 from signorini.engine import solve as engine
 from signorini.engine.prepare import examine
 from signorini.engine.twice import same_loads

@@ -12,10 +12,10 @@ from signorini.arrays import Array
 from signorini.cli import main
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.output.folder import write_drawn
-from signorini.output.instants import write_history
+from signorini.output.history_csv import write_history
 from signorini.plot.curve import curves_of, surface_coordinate
-from signorini.plot.files import ResultFolder
 from signorini.plot.history import draw_history
+from signorini.plot.result_folder import ResultFolder
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

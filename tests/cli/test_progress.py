@@ -17,7 +17,7 @@ DECK = Path(__file__).parents[2] / "examples" / "zhu_cylinder_frictionless.toml"
 @pytest.mark.parametrize("known", [True, False])
 def test_the_first_solve_says_once_that_it_compiles(known, monkeypatch, capsys, tmp_path):
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
-    monkeypatch.setattr("signorini.cli.solving.compiled", lambda: known)
+    monkeypatch.setattr("signorini.cli.run_deck.compiled", lambda: known)
     assert main(["run", str(DECK), "-o", str(tmp_path / "out")]) == 0
     assert capsys.readouterr().err.count("compiling takes half a minute, once") == (not known)
 

@@ -16,7 +16,7 @@ from signorini.deck.write import write_deck
 from signorini.errors import InputError
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.output.compare import compare
-from signorini.output.plain import from_plain, to_plain
+from signorini.output.dataclasses_json import from_plain, to_plain
 
 DECKS = Path(__file__).parents[1] / "deck" / "inp" / "decks"
 

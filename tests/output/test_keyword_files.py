@@ -11,8 +11,8 @@ from signorini.cli import main
 from signorini.deck import load
 from signorini.fem.space import make_space
 from signorini.fem.stress import point_stresses
+from signorini.output.ccx_contact import tangents
 from signorini.output.dat import write_dat
-from signorini.output.slave import tangents
 
 DECKS = Path(__file__).parents[1] / "deck" / "inp" / "decks"
 

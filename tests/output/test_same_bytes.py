@@ -12,7 +12,7 @@ from scipy.linalg import blas
 
 from signorini.cli import main
 from signorini.linalg import threads
-from signorini.output.plain import unsealed
+from signorini.output.dataclasses_json import unsealed
 
 SPACE = """\
 [mesh]

@@ -9,7 +9,7 @@ import pytest
 
 import signorini as sg
 from signorini.cli import main
-from signorini.plot.files import ResultFolder
+from signorini.plot.result_folder import ResultFolder
 
 DECK = """
 title = "Ball on a block"

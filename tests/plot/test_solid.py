@@ -157,7 +157,7 @@ def solution():
 
 def test_a_hidden_contact_is_shown_on_its_body_alone(solution, tmp_path):
     from signorini.output.folder import write_drawn
-    from signorini.plot.files import ResultFolder
+    from signorini.plot.result_folder import ResultFolder
     from signorini.plot.shots import make_shots
     from signorini.plot.solid import draw_solid_mesh, draw_solid_stress
 

@@ -7,7 +7,7 @@ import pytest
 import signorini as sg
 from signorini.output.folder import write_drawn
 from signorini.plot.field import draw_mesh, draw_stress
-from signorini.plot.files import ResultFolder
+from signorini.plot.result_folder import ResultFolder
 
 PUNCH = sg.Profile([(3.0, 3.0), (3.0, 1.0), (1.0, 1.0), (1.0, 3.0)], fillet=0.2)
 

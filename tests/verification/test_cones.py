@@ -17,7 +17,7 @@ from signorini.errors import InputError
 from signorini.fem.solids import box
 from signorini.gallery.cubes import cube_on_block, cubes
 from signorini.model.mesh import join
-from signorini.output.plain import from_plain, to_plain
+from signorini.output.dataclasses_json import from_plain, to_plain
 
 AXIS = (0.8, 0.6, 0.0)
 

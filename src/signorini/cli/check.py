@@ -13,8 +13,8 @@ from signorini.errors import InputError
 def check(options: argparse.Namespace) -> int:
     """Print a deck as it was understood, and notes on it; 0 unless something is wrong."""
     deck = load_deck(options)
-    from signorini.cli.describe import all_notes, describe  # everything heavy: a wrong deck never waits for it
-    from signorini.cli.described import described
+    from signorini.cli.check_json import described
+    from signorini.cli.check_text import all_notes, describe  # everything heavy: a wrong deck never waits for it
     from signorini.engine.prepare import examine
 
     try:

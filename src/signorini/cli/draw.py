@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 
 from signorini.errors import InputError
 from signorini.output.archive import read_archive
+from signorini.output.atomic_write import atomic_write
 from signorini.output.picture import write_pixels
-from signorini.output.replacing import replacing
 from signorini.plot.contact import draw_contacts
 from signorini.plot.escape import plot_escape
 from signorini.plot.field import draw_mesh, draw_stress
-from signorini.plot.files import ResultFolder
 from signorini.plot.history import draw_history
 from signorini.plot.patch import draw_patches
+from signorini.plot.result_folder import ResultFolder
 from signorini.plot.solid import draw_solid_mesh, draw_solid_stress
 from signorini.plot.style import literal
 from signorini.plot.view import render_view
@@ -40,7 +40,7 @@ def plot(options: argparse.Namespace) -> int:
         write_pixels(render_view(folder), file)
     else:
         figure = literal(_draw(folder, options.what))
-        with replacing(file) as aside:
+        with atomic_write(file) as aside:
             figure.savefig(aside, dpi=150)
     print(file)
     return 0

@@ -15,6 +15,6 @@ def run(options: argparse.Namespace) -> int:
     started = time.perf_counter()
     with progress(quiet=options.quiet) as clock, clock.phase("read"):
         deck = load_deck(options)
-    from signorini.cli.solving import solve_deck  # everything heavy: a wrong deck never waits for it
+    from signorini.cli.run_deck import solve_deck  # everything heavy: a wrong deck never waits for it
 
     return solve_deck(deck, options, clock, started)

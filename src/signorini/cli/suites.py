@@ -12,7 +12,7 @@ from typing import Any
 from signorini.cli.progress import progress_bar
 from signorini.clock import Listener
 from signorini.errors import InputError
-from signorini.output.replacing import replacing
+from signorini.output.atomic_write import atomic_write
 
 _HEAD = ("passed", "computed", "reference", "error", "tolerance", "case, quantity; source")
 _WIDTH = 12
@@ -96,7 +96,7 @@ def _json_file(name: str | None) -> Path | None:
 
 def _write(results: Sequence[Mapping[str, Any]], file: Path | None) -> None:
     if file is not None:
-        with replacing(file) as aside:
+        with atomic_write(file) as aside:
             aside.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
 
 

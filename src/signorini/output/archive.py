@@ -14,8 +14,8 @@ from typing import IO, TYPE_CHECKING, Any
 from signorini._version import __version__
 from signorini.errors import InputError, brief
 from signorini.hdf5 import check_hdf5
-from signorini.output.plain import AnyArray, digest, from_plain, sealed, to_plain, tuple_of, unsealed
-from signorini.output.replacing import replacing
+from signorini.output.atomic_write import atomic_write
+from signorini.output.dataclasses_json import AnyArray, digest, from_plain, sealed, to_plain, tuple_of, unsealed
 from signorini.solution.history import History
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ class GrowingArchive:
         """
         import h5py
 
-        with replacing(path) as aside:
+        with atomic_write(path) as aside:
             if last is not None:
                 shutil.copyfile(last, aside)
             new: dict[str, Any] = {"mode": "w", "userblock_size": _SEAL} if last is None else {"mode": "a"}

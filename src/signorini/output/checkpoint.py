@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from signorini.errors import InputError, brief
-from signorini.output.plain import AnyArray, from_plain, sealed, to_plain, unsealed
-from signorini.output.replacing import replacing
+from signorini.output.atomic_write import atomic_write
+from signorini.output.dataclasses_json import AnyArray, from_plain, sealed, to_plain, unsealed
 from signorini.solution.checkpoint import Checkpoint
 
 _FORMAT = "signorini state 4"
@@ -41,7 +41,7 @@ def write_checkpoint(checkpoint: Checkpoint, path: Path) -> None:
         return name
 
     structure = sealed(to_plain(checkpoint, "end", keep))
-    with replacing(path) as aside, aside.open("wb") as file:
+    with atomic_write(path) as aside, aside.open("wb") as file:
         np.savez_compressed(file, allow_pickle=False, format=_FORMAT, structure=structure, **arrays)
 
 

@@ -14,8 +14,8 @@ from signorini.fem.space import make_space
 from signorini.fem.stress import point_stresses
 from signorini.model.model import Model
 from signorini.model.prints import Prints, Table
-from signorini.output.replacing import replacing
-from signorini.output.slave import slave_energies, slave_values
+from signorini.output.atomic_write import atomic_write
+from signorini.output.ccx_contact import slave_energies, slave_values
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult, ObstacleResult, Part, StepResult
 
@@ -26,10 +26,10 @@ def write_dat(history: History, prints: Prints, path: Path) -> None:
     """Write the tables of all steps; nodes and elements bear their numbers in the deck.
 
     Values of elements are at the quadrature points of this package, not of CalculiX; those of contact are at the nodes
-    of the slave surfaces, as CalculiX has them for node-to-surface contact, see :mod:`signorini.output.slave`. Nodes
-    of rotation have the rotation of their rigid body as displacement and its moment as force.
+    of the slave surfaces, as CalculiX has them for node-to-surface contact, see :mod:`signorini.output.ccx_contact`.
+    Nodes of rotation have the rotation of their rigid body as displacement and its moment as force.
     """
-    with replacing(path) as aside, aside.open("w", encoding="utf-8", newline="\n") as file:
+    with atomic_write(path) as aside, aside.open("w", encoding="utf-8", newline="\n") as file:
         for number, step in enumerate(history.steps):
             own = [table for table in prints.tables if table.step == number]
             if own:

@@ -18,12 +18,12 @@ from signorini.clock import Clock
 from signorini.errors import InputError
 from signorini.model.prints import Prints
 from signorini.output.archive import GrowingArchive, write_archive
+from signorini.output.atomic_write import atomic_write
 from signorini.output.checkpoint import write_checkpoint
+from signorini.output.contact_csv import write_rows
 from signorini.output.dat import write_dat
 from signorini.output.frd import write_frd
-from signorini.output.instants import write_history
-from signorini.output.replacing import replacing
-from signorini.output.rows import write_rows
+from signorini.output.history_csv import write_history
 from signorini.output.series import FIELDS, frames, write_series
 from signorini.output.summary import summary
 from signorini.output.surface import write_surfaces
@@ -243,7 +243,7 @@ def write_drawn(history: History, folder: Path) -> None:
 def write_summary(history: History, path: Path, seconds: Mapping[str, float], deck: str = "") -> None:
     """Write ``summary.json``; see :func:`signorini.output.summary.summary`."""
     words = json.dumps(summary(history, seconds, deck), indent=2, allow_nan=False, ensure_ascii=False)
-    with replacing(path) as aside:
+    with atomic_write(path) as aside:
         aside.write_text(words + "\n", encoding="utf-8")
 
 

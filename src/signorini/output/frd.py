@@ -13,8 +13,8 @@ from signorini.arrays import Array, IntArray, padded
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
 from signorini.model.model import Model
-from signorini.output.replacing import replacing
-from signorini.output.slave import slave_values
+from signorini.output.atomic_write import atomic_write
+from signorini.output.ccx_contact import slave_values
 from signorini.solution.history import History
 from signorini.solution.results import StepResult
 
@@ -46,7 +46,7 @@ def write_frd(history: History, path: Path, times: Sequence[float] = ()) -> None
         If nothing was solved.
     """
     _ = history.last
-    with replacing(path) as aside, aside.open("w", encoding="ascii", errors="replace", newline="\n") as file:
+    with atomic_write(path) as aside, aside.open("w", encoding="ascii", errors="replace", newline="\n") as file:
         for lines in _document(history, times or range(1, len(history.steps) + 1)):
             file.write(lines)
 

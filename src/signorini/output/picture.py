@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signorini.errors import InputError
-from signorini.output.replacing import replacing
+from signorini.output.atomic_write import atomic_write
 
 
 def check_png(path: Path) -> Path:
@@ -35,5 +35,5 @@ def write_pixels(pixels: NDArray[np.uint8], path: Path) -> None:
     """
     from matplotlib.image import imsave
 
-    with replacing(check_png(path)) as aside:
+    with atomic_write(check_png(path)) as aside:
         imsave(aside, pixels)

@@ -12,7 +12,7 @@ from signorini.arrays import Array
 from signorini.errors import InputError
 from signorini.fem.space import make_space
 from signorini.model.model import Model
-from signorini.output.replacing import replacing
+from signorini.output.atomic_write import atomic_write
 from signorini.output.surface import write_surfaces
 from signorini.output.vtu import write_fields
 from signorini.solution.history import History
@@ -111,7 +111,7 @@ def write_series(
                 write_surfaces(model, state.contacts, folder / name)
             lists[surfaces].append((state.time, name))
     for name, entries in lists.items():
-        with replacing(folder / f"{name}.pvd") as aside:
+        with atomic_write(folder / f"{name}.pvd") as aside:
             aside.write_text(listed(entries) + "\n", encoding="utf-8")
     return [*(name for entries in lists.values() for _, name in entries), *(f"{name}.pvd" for name in lists)]
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from signorini.model.model import Model
-from signorini.output.replacing import replacing
+from signorini.output.atomic_write import atomic_write
 from signorini.solution.results import ContactResult
 from signorini.solution.surface import contact_faces, status_codes
 
@@ -52,5 +52,5 @@ def write_surfaces(model: Model, results: Sequence[ContactResult], path: Path) -
         },
         cell_data={"contact": owner},
     )
-    with replacing(path) as aside:
+    with atomic_write(path) as aside:
         meshio.write(aside, grid, file_format="vtu")

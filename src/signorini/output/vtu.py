@@ -13,7 +13,7 @@ from signorini.fem.space import Space, make_space
 from signorini.fem.stress import BodyStress, body_stresses
 from signorini.meshio_fixes import complete_meshio
 from signorini.model.model import Model
-from signorini.output.replacing import replacing
+from signorini.output.atomic_write import atomic_write
 from signorini.solution.history import History
 from signorini.solution.results import StepResult
 
@@ -68,7 +68,7 @@ def write_fields(space: Space, model: Model, displacement: Array, factors: Mappi
         },
         cell_data={"body": body},
     )
-    with replacing(path) as aside:
+    with atomic_write(path) as aside:
         meshio.write(aside, grid, file_format="vtu")
 
 

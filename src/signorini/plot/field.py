@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from signorini.arrays import Array, BoolArray
-from signorini.plot.files import Grid, ResultFolder
+from signorini.plot.result_folder import Grid, ResultFolder
 from signorini.plot.style import INK
 from signorini.plot.walls import Wall, draw_walls
 from signorini.solution.results import OPEN

@@ -10,7 +10,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.plot.curve import Curve, closed_range
-from signorini.plot.files import ResultFolder
+from signorini.plot.result_folder import ResultFolder
 from signorini.plot.style import INK, PRESSURE, STATUS_INK, TRACTION, dress
 from signorini.solution.results import OPEN, SLIP, STICK
 

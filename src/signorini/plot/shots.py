@@ -9,7 +9,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.plot.camera import Camera, best_view
-from signorini.plot.files import ResultFolder
+from signorini.plot.result_folder import ResultFolder
 from signorini.plot.skin import Skin
 from signorini.solution.results import OPEN
 

@@ -11,8 +11,8 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.plot.camera import Camera
 from signorini.plot.field import BODIES, drawn_factor
-from signorini.plot.files import ResultFolder
 from signorini.plot.paint import Paint, paint_skin
+from signorini.plot.result_folder import ResultFolder
 from signorini.plot.shots import Shot, make_shots
 from signorini.plot.style import INK
 

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.plot.field import drawn_factor
-from signorini.plot.files import ResultFolder
 from signorini.plot.patch import Patch
+from signorini.plot.result_folder import ResultFolder
 from signorini.plot.shots import Shot, contact_shot, whole_shot
 from signorini.plot.style import INK
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.output.replacing import replacing
+from signorini.output.atomic_write import atomic_write
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult
 
@@ -34,7 +34,7 @@ COLUMNS = (
 
 def write_rows(history: History, path: Path) -> None:
     """Write the end of every step, one row a nonmortar node with area."""
-    with replacing(path) as aside, aside.open("w", newline="", encoding="utf-8") as file:
+    with atomic_write(path) as aside, aside.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)
         for number, step in enumerate(history.steps, start=1):

@@ -7,7 +7,7 @@ import csv
 import math
 from pathlib import Path
 
-from signorini.output.replacing import replacing
+from signorini.output.atomic_write import atomic_write
 from signorini.solution.history import History
 from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, Instant
 
@@ -36,7 +36,7 @@ COLUMNS = (
 
 def write_history(history: History, path: Path) -> None:
     """Write every instant of every step: events, increments, kinks of the loads, times asked for, ends."""
-    with replacing(path) as aside, aside.open("w", newline="", encoding="utf-8") as file:
+    with atomic_write(path) as aside, aside.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)
         for number, step in enumerate(history.steps, start=1):

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.cli.suspicion import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
+from signorini.cli.check_notes import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
 from signorini.deck import Deck
 from signorini.engine.patches import overlap_notes
 from signorini.engine.prepare import Examined

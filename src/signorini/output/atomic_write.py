@@ -11,7 +11,7 @@ from pathlib import Path
 
 
 @contextmanager
-def replacing(path: Path) -> Iterator[Path]:
+def atomic_write(path: Path) -> Iterator[Path]:
     """Give a path beside ``path`` to write to; at the end of the block it replaces ``path``.
 
     If the block fails, nothing bears the final name and nothing is left aside.
@@ -19,7 +19,7 @@ def replacing(path: Path) -> Iterator[Path]:
     Examples
     --------
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     with replacing(Path(folder, "a.txt")) as aside:
+    ...     with atomic_write(Path(folder, "a.txt")) as aside:
     ...         _ = aside.write_text("whole")
     ...     [(file.name, file.read_text()) for file in Path(folder).iterdir()]
     [('a.txt', 'whole')]
