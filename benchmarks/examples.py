@@ -30,7 +30,7 @@ from benchmarks import command, page
 from benchmarks.deck_text import deck_text
 from benchmarks.decks import Values, by_calculix, plain, spelled
 from signorini.deck import load
-from signorini.deck.inp.syntax import read_blocks
+from signorini.deck.inp.syntax import read_cards
 
 _SECONDS = 60  # for what makes a mesh, and for each run of CalculiX
 _DRAWN = re.compile(
@@ -159,12 +159,12 @@ def apart(solution: sg.Solution, values: Values) -> float | None:
 def compared(deck: Path, folder: Path) -> list[str]:
     """Nodes and the three differences."""
     solution = sg.solve(load(deck, small_strain=True).model)
-    blocks = read_blocks(deck)
-    text = deck_text(blocks)
+    cards = read_cards(deck)
+    text = deck_text(cards)
     found = [str(len(solution.model.mesh.points))]
     found.append(spelled(apart(solution, by_calculix(text, folder, _SECONDS)) if "NLGEOM" in text.upper() else None))
     for share in (1.0, 0.01):
-        small = plain(deck_text(blocks, share=share))
+        small = plain(deck_text(cards, share=share))
         own = folder / "own.inp"
         own.write_text(small)
         values = by_calculix(small, folder, _SECONDS)

@@ -27,8 +27,8 @@ import signorini as sg
 from benchmarks import command, page
 from benchmarks.deck_text import data_lines, keyword_line, scaled_lines
 from benchmarks.decks import by_calculix, plain
-from signorini.deck.inp.block import Block
-from signorini.deck.inp.syntax import read_blocks
+from signorini.deck.inp.card import Card
+from signorini.deck.inp.syntax import read_cards
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -61,11 +61,11 @@ class Cut:
     """A deck of hexahedra cut into n x n x n each."""
 
     def __init__(self, deck: Path, n: int) -> None:
-        self.blocks, self.n = read_blocks(deck), n
-        nodes = [row for block in self.blocks if block.keyword == "NODE" for row in block.rows()]
+        self.cards, self.n = read_cards(deck), n
+        nodes = [row for card in self.cards if card.keyword == "NODE" for row in card.rows()]
         self.numbers = np.array([row.whole(0, "a number") for row in nodes])
         self.points = np.array([[row.number(i, "a coordinate") for i in (1, 2, 3)] for row in nodes])
-        self.elements = {block: list(_records(block)) for block in self.blocks if block.keyword == "ELEMENT"}
+        self.elements = {card: list(_records(card)) for card in self.cards if card.keyword == "ELEMENT"}
         self.first = {}
         for record in (record for records in self.elements.values() for record in records):
             self.first[record[0]] = 1 + n**3 * len(self.first)  # the number of its first piece
@@ -104,43 +104,43 @@ class Cut:
     def text(self, share: float) -> str:
         """The deck with a share of its loads."""
         lines: list[str] = []
-        for block in self.blocks:
-            lines.append(keyword_line(block))
-            match block.keyword:
+        for card in self.cards:
+            lines.append(keyword_line(card))
+            match card.keyword:
                 case "NODE":
                     lines += self._nodes()
                 case "ELEMENT":
-                    lines += self._elements(block)
+                    lines += self._elements(card)
                 case "NSET":
-                    lines += self._set(block)
+                    lines += self._set(card)
                 case "SURFACE":
-                    lines += self._faces(data_lines(block))
+                    lines += self._faces(data_lines(card))
                 case "DLOAD":
-                    lines += self._faces(scaled_lines(block, share))
+                    lines += self._faces(scaled_lines(card, share))
                 case _:
-                    lines += scaled_lines(block, share)
+                    lines += scaled_lines(card, share)
         return "\n".join([*lines, ""])
 
     def _nodes(self) -> Iterator[str]:
         for number, point in zip(self.number_of.tolist(), self.places.tolist(), strict=True):
             yield f"{number}, {', '.join(f'{x:.15g}' for x in point)}"
 
-    def _elements(self, block: Block) -> Iterator[str]:
+    def _elements(self, card: Card) -> Iterator[str]:
         skipped = 0
         for other, records in self.elements.items():
-            if other is block:
+            if other is card:
                 break
             skipped += len(records)
-        for record, which in zip(self.elements[block], self.which[skipped:], strict=False):
+        for record, which in zip(self.elements[card], self.which[skipped:], strict=False):
             for piece, nodes in enumerate(self.number_of[which].reshape(len(self.pieces), -1).tolist()):
                 words = [str(word) for word in (self.first[record[0]] + piece, *nodes)]
                 yield from (
                     ", ".join(words[i : i + 11]) + ("," if i + 11 < len(words) else "") for i in (0, 11) if words[i:]
                 )
 
-    def _set(self, block: Block) -> Iterator[str]:
+    def _set(self, card: Card) -> Iterator[str]:
         """A new node belongs to it if all old nodes do on which its place depends."""
-        members = np.isin(self.numbers, [int(word) for row in block.rows() for word in row.fields])
+        members = np.isin(self.numbers, [int(word) for row in card.rows() for word in row.fields])
         inside = np.zeros(len(self.number_of), bool)
         for (whole, weights), which in zip(self.weights, self.which, strict=True):
             away = (abs(weights) > 1e-9) @ ~members[whole]
@@ -157,10 +157,10 @@ class Cut:
                     yield ", ".join([str(self.first[int(element)] + piece), face, *rest])
 
 
-def _records(block: Block) -> Iterator[list[int]]:
+def _records(card: Card) -> Iterator[list[int]]:
     """Number and nodes of every element, which may go on in the next line."""
-    size, found = 1 + int(block.value("TYPE")[3:].rstrip("R")), []
-    for row in block.rows():
+    size, found = 1 + int(card.value("TYPE")[3:].rstrip("R")), []
+    for row in card.rows():
         found += [int(word) for word in row.fields]
         if len(found) >= size:
             yield found

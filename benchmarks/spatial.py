@@ -15,8 +15,8 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.page import seconds, table, write
+from benchmarks.spatial_problems import hard_random, punch
 from signorini.arrays import Array
-from signorini.bench.spatial import hard_random, punch
 from signorini.friction.exact import PathState
 from signorini.friction.spatial import (
     SpatialProblem,

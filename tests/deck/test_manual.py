@@ -11,7 +11,7 @@ import pytest
 from signorini.deck import DeckError, read
 from signorini.deck.load import _KEYS
 from signorini.deck.meshes import GENERATORS
-from signorini.deck.parts import _CONTACT_KEYS, _OBSTACLE_KEYS
+from signorini.deck.tables import _CONTACT_KEYS, _OBSTACLE_KEYS
 from signorini.model.body import Body
 from signorini.model.conditions import Foundation, Load, Support
 from signorini.model.material import Elastic, Orthotropic

@@ -8,7 +8,7 @@ import pytest
 
 from signorini.cli import main
 from signorini.deck import DeckError, load
-from signorini.deck.inp.syntax import read_blocks
+from signorini.deck.inp.syntax import read_cards
 from signorini.errors import InputError
 from signorini.sources import Reach
 
@@ -36,7 +36,7 @@ def deck(tmp_path: Path) -> Path:
 def test_near_files_are_read(deck: Path, name: str) -> None:
     path = str((deck.parent / "more" / "nodes.inc").resolve()) if name == "absolute" else name
     deck.write_text(f"*INCLUDE, INPUT={path}\n")
-    assert [block.keyword for block in read_blocks(deck)] == ["NODE"]
+    assert [card.keyword for card in read_cards(deck)] == ["NODE"]
 
 
 FAR = {
@@ -59,7 +59,7 @@ def test_others_are_refused(deck: Path, name: str) -> None:
     """In every place where a deck names a file."""
     deck.write_text(f"*NODE\n1, 0., 0.\n*INCLUDE, INPUT={name}\n")
     with pytest.raises(DeckError, match=rf"deck\.inp:3: \*INCLUDE: .*{FAR[name]}"):
-        read_blocks(deck)
+        read_cards(deck)
     toml = deck.with_name("deck.toml")
     toml.write_text(f"[mesh]\nfile = '{name}'\n[material.a]\nE = 1.0\nnu = 0.0\n[[body]]\nname = 'b'\nmaterial = 'a'\n")
     with pytest.raises(DeckError, match=rf"deck\.toml:2: mesh\.file: .*{FAR[name]}"):
@@ -75,7 +75,7 @@ def test_others_are_refused(deck: Path, name: str) -> None:
 def test_the_user_can_allow_more(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
     deck.write_text("*INCLUDE, INPUT=../../../nodes.inc\n")
     home = deck.parents[3]
-    assert len(read_blocks(deck, Reach.of(deck, [home]))) == 1
+    assert len(read_cards(deck, Reach.of(deck, [home]))) == 1
     assert main(["check", str(deck)]) == 2
     assert f"--allow {home}" in capsys.readouterr().err
     assert main(["check", str(deck), "--allow", str(home)]) == 2
@@ -84,7 +84,7 @@ def test_the_user_can_allow_more(deck: Path, capsys: pytest.CaptureFixture[str])
     assert capsys.readouterr().err == f"signorini: --allow: there is no folder '{deck}'\n"
     deck.write_text("*INCLUDE, INPUT=../../../../home/project/cases/.ssh/id\n")
     with pytest.raises(InputError, match="hidden"):  # what is hidden stays so in what is allowed
-        read_blocks(deck, Reach.of(deck, [home]))
+        read_cards(deck, Reach.of(deck, [home]))
 
 
 def test_the_root_of_the_file_system_is_near_to_nothing() -> None:
@@ -97,4 +97,4 @@ def test_a_file_that_does_not_fit_into_memory(deck: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr("signorini.memory.available_memory", lambda: 10)
     deck.write_text("*INCLUDE, INPUT=more/nodes.inc\n")
     with pytest.raises(DeckError, match=r"nodes\.inc' takes 1\.6e-08 GB of memory; there are 1e-08 GB"):
-        read_blocks(deck)
+        read_cards(deck)

@@ -11,11 +11,14 @@ from typing import Any
 
 from signorini.checks import text
 from signorini.deck.error import DeckError
-from signorini.deck.inp.block import Block
 from signorini.deck.inp.build import Built, located
+from signorini.deck.inp.card import Card
 from signorini.deck.inp.load import element_place, load_inp
 from signorini.deck.meshes import deck_mesh
-from signorini.deck.parts import (
+from signorini.deck.scan import line_of
+from signorini.deck.syntax import parse
+from signorini.deck.table import check_keys
+from signorini.deck.tables import (
     deck_bodies,
     deck_contacts,
     deck_equations,
@@ -27,9 +30,6 @@ from signorini.deck.parts import (
     deck_steps,
     deck_supports,
 )
-from signorini.deck.scan import line_of
-from signorini.deck.syntax import parse
-from signorini.deck.table import check_keys
 from signorini.errors import InputError, Where
 from signorini.model.model import Model
 from signorini.model.prints import Prints
@@ -90,7 +90,7 @@ class KeywordDeck(Deck):
     reach : files that it may include
     """
 
-    places: Mapping[Where, Block]
+    places: Mapping[Where, Card]
     reach: Reach
 
     def locate(self, error: InputError) -> DeckError:

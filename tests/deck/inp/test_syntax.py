@@ -9,15 +9,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from signorini.deck.error import DeckError
-from signorini.deck.inp.block import Block
+from signorini.deck.inp.card import Card
 from signorini.deck.inp.numbers import number_table, record_table
-from signorini.deck.inp.syntax import read_blocks
+from signorini.deck.inp.syntax import read_cards
 
 
-def blocks_of(folder: Path, text: str | bytes) -> list[Block]:
+def cards_of(folder: Path, text: str | bytes) -> list[Card]:
     deck = folder / "deck.inp"
     deck.write_bytes(text if isinstance(text, bytes) else text.encode())
-    return read_blocks(deck)
+    return read_cards(deck)
 
 
 PLAIN = "*NODE, NSET=All\n1, 0.5, 2000\n2, 1.5, 3\n*SOLID SECTION, ELSET=E, MATERIAL=M\n1.\n"
@@ -36,7 +36,7 @@ WAYS = {
 
 @pytest.mark.parametrize("way", WAYS)
 def test_spelling_does_not_matter(tmp_path: Path, way: str) -> None:
-    node, section = blocks_of(tmp_path, WAYS[way])
+    node, section = cards_of(tmp_path, WAYS[way])
     assert (node.keyword, section.keyword) == ("NODE", "SOLID SECTION")
     assert node.parameters == {"NSET": "All"}
     assert section.parameters == {"ELSET": "E", "MATERIAL": "M"}
@@ -46,7 +46,7 @@ def test_spelling_does_not_matter(tmp_path: Path, way: str) -> None:
 
 
 def test_lines_are_those_of_the_file(tmp_path: Path) -> None:
-    node, static = blocks_of(tmp_path, "**\n*NODE\n1, 2.\n** a\n\n2, x\n*STATIC\n")
+    node, static = cards_of(tmp_path, "**\n*NODE\n1, 2.\n** a\n\n2, x\n*STATIC\n")
     assert (node.line, static.line) == (2, 7)
     assert [row.line for row in node.rows()] == [3, 6]
     with pytest.raises(DeckError, match=r"deck\.inp:6: has 'x' in field 2"):
@@ -54,7 +54,7 @@ def test_lines_are_those_of_the_file(tmp_path: Path) -> None:
 
 
 def test_a_trailing_comma_does_not_swallow_data(tmp_path: Path) -> None:
-    first, second = blocks_of(tmp_path, "*BOUNDARY,\n2, 1, 1\n*NSET, NSET=a,\n1, 2\n")
+    first, second = cards_of(tmp_path, "*BOUNDARY,\n2, 1, 1\n*NSET, NSET=a,\n1, 2\n")
     assert first.row("").fields == ("2", "1", "1")
     assert second.row("").fields == ("1", "2")
 
@@ -62,7 +62,7 @@ def test_a_trailing_comma_does_not_swallow_data(tmp_path: Path) -> None:
 def test_files_are_included_where_they_are_named(tmp_path: Path) -> None:
     (tmp_path / "more").mkdir()
     (tmp_path / "more" / "nodes.inc").write_text("1, 0.\n*NODE\n2, 1.\n")
-    first, second, last = blocks_of(tmp_path, "*NODE\n*INCLUDE, INPUT=more/nodes.inc\n*STATIC\n")
+    first, second, last = cards_of(tmp_path, "*NODE\n*INCLUDE, INPUT=more/nodes.inc\n*STATIC\n")
     assert first.row("").fields == ("1", "0.")
     assert (second.path.name, second.line, last.line) == ("nodes.inc", 2, 3)
 
@@ -78,12 +78,12 @@ def test_files_are_included_where_they_are_named(tmp_path: Path) -> None:
 )
 def test_only_files_near_the_deck_are_included(tmp_path: Path, name: str, said: str) -> None:
     with pytest.raises(DeckError, match=rf"deck\.inp:2: \*INCLUDE: .*{said}"):
-        blocks_of(tmp_path, f"*NODE\n*INCLUDE, INPUT={name}\n")
+        cards_of(tmp_path, f"*NODE\n*INCLUDE, INPUT={name}\n")
 
 
 def test_a_file_that_includes_itself_ends(tmp_path: Path) -> None:
     with pytest.raises(DeckError, match="include itself"):
-        blocks_of(tmp_path, "*INCLUDE, INPUT=deck.inp\n")
+        cards_of(tmp_path, "*INCLUDE, INPUT=deck.inp\n")
 
 
 def test_files_that_include_each_other_many_times_end(tmp_path: Path) -> None:
@@ -92,20 +92,20 @@ def test_files_that_include_each_other_many_times_end(tmp_path: Path) -> None:
         (tmp_path / f"{k}.inc").write_text(f"*INCLUDE, INPUT={k + 1}.inc\n" * 10)
     (tmp_path / "7.inc").write_text("*NODE\n")
     with pytest.raises(DeckError, match="is the 1001th file that is included; expected at most 1000"):
-        blocks_of(tmp_path, "*INCLUDE, INPUT=0.inc\n")
+        cards_of(tmp_path, "*INCLUDE, INPUT=0.inc\n")
 
 
 def test_records_go_on_over_lines(tmp_path: Path) -> None:
-    (block,) = blocks_of(tmp_path, "*ELEMENT\n1, 11, 12,\n13\n2, 21,\n** in between\n22, 23\n")
-    assert record_table(block, 4, "").tolist() == [[1, 11, 12, 13], [2, 21, 22, 23]]
+    (card,) = cards_of(tmp_path, "*ELEMENT\n1, 11, 12,\n13\n2, 21,\n** in between\n22, 23\n")
+    assert record_table(card, 4, "").tolist() == [[1, 11, 12, 13], [2, 21, 22, 23]]
     for wrong, said in (
         ("1, 2, 3, 4, 5", r"deck\.inp:2: .*5 numbers"),
         ("1, 2, 3", "ends after 3"),
         ("1,2.5,3,4", "2.5"),
     ):
-        (block,) = blocks_of(tmp_path, f"*ELEMENT\n{wrong}\n")
+        (card,) = cards_of(tmp_path, f"*ELEMENT\n{wrong}\n")
         with pytest.raises(DeckError, match=said):
-            record_table(block, 4, "")
+            record_table(card, 4, "")
 
 
 @given(
@@ -120,7 +120,7 @@ def test_records_go_on_over_lines(tmp_path: Path) -> None:
 def test_bulk_reading_is_reading_line_by_line(rows: list[list[str]]) -> None:
     """The fast way answers exactly what the slow way does, or leaves it to it."""
     text = "\n".join(",".join(row) for row in rows).encode()
-    fast = Block(keyword="NODE", parameters={}, path=Path("d"), line=1, chunks=((Path("d"), 2, text),))
+    fast = Card(keyword="NODE", parameters={}, path=Path("d"), line=1, chunks=((Path("d"), 2, text),))
     slow = list(fast.rows())
     try:
         expected = [[row.number(i, "", 0.0 if i else None) for i in range(4)] for row in slow]

@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from benchmarks.spatial_problems import hard_random
 from spatial_samples import block_on_floor, pressed_punch, random_problem
 
 from signorini import lcp
-from signorini.bench.spatial import hard_random
 from signorini.condense.image import Image
 from signorini.friction.spatial import (
     SLIP,

@@ -16,7 +16,7 @@ from signorini.deck.inp.course import Course
 from signorini.deck.inp.links import DeckRigid
 from signorini.deck.inp.materials import Section
 from signorini.deck.inp.sets import Sets
-from signorini.deck.inp.surfaces import Edges, Surfaces
+from signorini.deck.inp.surfaces import ElementFaces, Surfaces
 
 _SAME = 1e-9  # of an axis or a direction: vectors that differ by less are one, as written with ten digits
 
@@ -28,7 +28,7 @@ class Known:
     nodes: Sets
     elements: Sets
     surfaces: Surfaces
-    edges: Edges
+    edges: ElementFaces
     sections: tuple[Section, ...]
     amplitudes: Mapping[str, Amplitude]
     axisymmetric: bool

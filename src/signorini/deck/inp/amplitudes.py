@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, frozen
-from signorini.deck.inp.block import Block
+from signorini.deck.inp.card import Card
 from signorini.deck.inp.flatten import Placed
 from signorini.errors import one_of
 
@@ -55,33 +55,33 @@ def make_amplitudes(placed: list[Placed]) -> Mapping[str, Amplitude]:
     """
     amplitudes = {}
     for item in placed:
-        block = item.block
-        if block.keyword != "AMPLITUDE":
+        card = item.card
+        if card.keyword != "AMPLITUDE":
             continue
-        block.refuse_unknown(("NAME", "TIME", "DEFINITION", "VALUE", "INPUT"))
-        block.choice("DEFINITION", ("TABULAR",), "TABULAR")
-        block.choice("VALUE", ("RELATIVE",), "RELATIVE")  # ABSOLUTE would take the place of the load's own value
-        total = block.choice("TIME", ("STEP TIME", "TOTAL TIME", "TOTALTIME"), "STEP TIME") != "STEP TIME"
-        flat = [row.number(i, "a time or a factor") for row in block.rows() for i in range(len(row.fields))]
+        card.refuse_unknown(("NAME", "TIME", "DEFINITION", "VALUE", "INPUT"))
+        card.choice("DEFINITION", ("TABULAR",), "TABULAR")
+        card.choice("VALUE", ("RELATIVE",), "RELATIVE")  # ABSOLUTE would take the place of the load's own value
+        total = card.choice("TIME", ("STEP TIME", "TOTAL TIME", "TOTALTIME"), "STEP TIME") != "STEP TIME"
+        flat = [row.number(i, "a time or a factor") for row in card.rows() for i in range(len(row.fields))]
         if not flat or len(flat) % 2:
-            raise block.error(f"has {len(flat)} numbers; expected pairs of a time and a factor")
+            raise card.error(f"has {len(flat)} numbers; expected pairs of a time and a factor")
         times, values = frozen(flat[::2]), frozen(flat[1::2])
         if (np.diff(times) < 0).any():
             late = int(np.argmax(np.diff(times) < 0)) + 1
             words = f"has the time {times[late]:g} after {times[late - 1]:g}; expected times that ascend"
-            raise block.at(block.row_with(2 * late)).error(words)
-        name = block.value("NAME")
+            raise card.at(card.row_with(2 * late)).error(words)
+        name = card.value("NAME")
         if name.upper() in amplitudes:
-            raise block.error(f"there is another amplitude '{name}'")
+            raise card.error(f"there is another amplitude '{name}'")
         amplitudes[name.upper()] = Amplitude(name=name, times=times, values=values, total=total)
     return amplitudes
 
 
-def find_amplitude(block: Block, amplitudes: Mapping[str, Amplitude]) -> Amplitude | None:
+def find_amplitude(card: Card, amplitudes: Mapping[str, Amplitude]) -> Amplitude | None:
     """The amplitude that a keyword names, if any."""
-    if "AMPLITUDE" not in block.parameters:
+    if "AMPLITUDE" not in card.parameters:
         return None
-    name = block.value("AMPLITUDE")
+    name = card.value("AMPLITUDE")
     if name.upper() not in amplitudes:
-        raise block.error(one_of(name, [a.name for a in amplitudes.values()], "amplitude"))
+        raise card.error(one_of(name, [a.name for a in amplitudes.values()], "amplitude"))
     return amplitudes[name.upper()]

@@ -13,12 +13,12 @@ import numpy as np
 from signorini.deck.error import DeckError
 from signorini.deck.inp.acting import Known
 from signorini.deck.inp.amplitudes import make_amplitudes
-from signorini.deck.inp.block import Block
+from signorini.deck.inp.card import Card
 from signorini.deck.inp.changes import make_changes
 from signorini.deck.inp.conditions import Conditions, make_conditions
 from signorini.deck.inp.couplings import make_couplings
 from signorini.deck.inp.flatten import Placed
-from signorini.deck.inp.grid import Grid, make_grid
+from signorini.deck.inp.grid import DeckGrid, make_grid
 from signorini.deck.inp.interactions import make_interactions
 from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS
 from signorini.deck.inp.links import link_places, make_equations, make_rigid_bodies
@@ -30,7 +30,7 @@ from signorini.deck.inp.prints import make_prints
 from signorini.deck.inp.sets import make_sets
 from signorini.deck.inp.steps import DeckStep, split_steps
 from signorini.deck.inp.supported import refuse_unsupported
-from signorini.deck.inp.surfaces import Edges, make_surfaces
+from signorini.deck.inp.surfaces import ElementFaces, make_surfaces
 from signorini.errors import InputError, Where
 from signorini.model.body import Body
 from signorini.model.material import Orthotropic
@@ -60,7 +60,7 @@ class Built:
     """
 
     model: Model
-    places: dict[Where, Block]
+    places: dict[Where, Card]
     notes: tuple[str, ...]
     unused_materials: tuple[str, ...]
     prints: Prints
@@ -91,7 +91,7 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
     nodes, elements = make_sets(placed, grid)
     materials = make_materials(outside)
     sections = make_sections(outside, elements, materials, grid)
-    edges = Edges(grid)
+    edges = ElementFaces(grid)
     surfaces = make_surfaces(outside, edges, nodes, elements)
     interactions = make_interactions(outside)
     contacts = make_contacts(outside, interactions, surfaces, nodes, edges)
@@ -141,18 +141,16 @@ def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increm
     )
 
 
-def located(
-    error: InputError, places: Mapping[Where, Block], path: object, cell_at: Callable[[int], Block]
-) -> DeckError:
+def located(error: InputError, places: Mapping[Where, Card], path: object, cell_at: Callable[[int], Card]) -> DeckError:
     """The error with the line of the keyword that its place in the model comes from; of a cell, that of its element."""
     if isinstance(error, DeckError):
         return error
     if error.cell is not None:
         return cell_at(error.cell).error(error.message)
     for end in range(len(error.where), 0, -1):
-        block = places.get(error.where[:end])
-        if block is not None:
-            return block.error(error.message)
+        card = places.get(error.where[:end])
+        if card is not None:
+            return card.error(error.message)
     return DeckError(error.message, path=str(path), where=error.where)
 
 
@@ -166,7 +164,7 @@ def _left_out(outside: Sequence[Placed], steps: Sequence[DeckStep]) -> dict[str,
 
 def _refuse_incomplete(outside: Sequence[Placed], steps: Sequence[DeckStep], path: object) -> None:
     for needed in ("NODE", "ELEMENT", "SOLID SECTION"):
-        if not any(item.block.keyword == needed for item in outside):
+        if not any(item.card.keyword == needed for item in outside):
             raise DeckError(f"has no *{needed}; expected one", path=str(path))
     if not steps:
         raise DeckError("has no *STEP; expected at least one", path=str(path))
@@ -175,26 +173,26 @@ def _refuse_incomplete(outside: Sequence[Placed], steps: Sequence[DeckStep], pat
 def _refuse_large(steps: Sequence[DeckStep], small_strain: bool) -> None:
     for step in steps:
         if step.nlgeom and not small_strain:
-            raise step.block.error(
+            raise step.card.error(
                 "NLGEOM asks for large displacements, which are not supported; --small-strain solves with small ones"
             )
 
 
-def _kind(grid: Grid) -> Kind:
+def _kind(grid: DeckGrid) -> Kind:
     first = grid.groups[0]
     assert first.type.kind is not None
     for group in grid.groups:
         if group.type.kind != first.type.kind:
-            raise group.block.error(
-                f"{group.block.value('TYPE')} is {group.type.kind}, but {first.block.value('TYPE')} of line "
-                f"{first.block.line} {first.type.kind}; expected one of them for all elements"
+            raise group.card.error(
+                f"{group.card.value('TYPE')} is {group.type.kind}, but {first.card.value('TYPE')} of line "
+                f"{first.card.line} {first.type.kind}; expected one of them for all elements"
             )
         if group.type.family not in NODES_PER_CELL:
-            raise group.block.error(f"TYPE={group.block.value('TYPE')} is not supported")
+            raise group.card.error(f"TYPE={group.card.value('TYPE')} is not supported")
     return first.type.kind
 
 
-def _mesh(grid: Grid, sections: Sequence[Section], places: Places) -> Mesh:
+def _mesh(grid: DeckGrid, sections: Sequence[Section], places: Places) -> Mesh:
     """Cells family by family; their numbers and the bodies follow."""
     families = {group.type.family for group in grid.groups}
     cells = {
@@ -239,7 +237,7 @@ def _body(section: Section, usual: float, kind: Kind) -> Body:
             thickness=None if thickness == usual else thickness,
         )
     except InputError as error:
-        raise substance.block.error(str(error)) from error
+        raise substance.card.error(str(error)) from error
 
 
 def _step(
@@ -256,28 +254,28 @@ def _where(
     contacts: Sequence[Pair],
     conditions: Conditions,
     steps: Sequence[DeckStep],
-) -> dict[Where, Block]:
-    places: dict[Where, Block] = {("body", i): section.block for i, section in enumerate(sections)}
-    places |= {("contact", i): pair.block for i, pair in enumerate(contacts)}
-    places |= {("support", i): conditions.blocks[s.label] for i, s in enumerate(conditions.supports)}
-    places |= {("load", i): conditions.blocks[load.label] for i, load in enumerate(conditions.loads)}
-    return places | {("step", i): step.block for i, step in enumerate(steps)}
+) -> dict[Where, Card]:
+    places: dict[Where, Card] = {("body", i): section.card for i, section in enumerate(sections)}
+    places |= {("contact", i): pair.card for i, pair in enumerate(contacts)}
+    places |= {("support", i): conditions.cards[s.label] for i, s in enumerate(conditions.supports)}
+    places |= {("load", i): conditions.cards[load.label] for i, load in enumerate(conditions.loads)}
+    return places | {("step", i): step.card for i, step in enumerate(steps)}
 
 
 def _unused(materials: Mapping[str, Substance], sections: Sequence[Section]) -> tuple[str, ...]:
     used = {id(section.substance) for section in sections}
-    return tuple(substance.block.value("NAME") for substance in materials.values() if id(substance) not in used)
+    return tuple(substance.card.value("NAME") for substance in materials.values() if id(substance) not in used)
 
 
 def _title(outside: Sequence[Placed]) -> str:
     for item in outside:
-        if item.block.keyword == "HEADING":
-            return " ".join(", ".join(row.fields) for row in item.block.rows())[:200]
+        if item.card.keyword == "HEADING":
+            return " ".join(", ".join(row.fields) for row in item.card.rows())[:200]
     return ""
 
 
 def _notes(
-    grid: Grid,
+    grid: DeckGrid,
     steps: Sequence[DeckStep],
     contacts: Sequence[Pair],
     ignored: dict[str, int],
@@ -290,7 +288,7 @@ def _notes(
         notes.append(f"{types}: faces and lines of the bodies, for sets and surfaces; they carry nothing")
     if any(not pair.contact.tied for pair in contacts):
         notes.append(_SMALL_SLIDING)
-    if any(pair.contact.tied and pair.block.keyword == "CONTACT PAIR" for pair in contacts):
+    if any(pair.contact.tied and pair.card.keyword == "CONTACT PAIR" for pair in contacts):
         notes.append("surfaces of a TIED contact pair are tied exactly: a stiffness given with it is not used")
     if small_strain and any(step.nlgeom for step in steps):
         notes.append("NLGEOM is ignored: displacements and strains are taken as small")

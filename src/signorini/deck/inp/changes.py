@@ -32,23 +32,23 @@ def make_changes(
     switched: dict[str, bool] = {}
     changed = ""
     for item in step.placed:
-        block = item.block
-        if block.keyword == "CHANGE FRICTION":
-            block.refuse_unknown(("INTERACTION",))
-            changed = block.value("INTERACTION").upper()
+        card = item.card
+        if card.keyword == "CHANGE FRICTION":
+            card.refuse_unknown(("INTERACTION",))
+            changed = card.value("INTERACTION").upper()
             if changed not in interactions:
-                known = [law.block.value("NAME") for law in interactions.values()]
-                raise block.error(one_of(block.value("INTERACTION"), known, "surface interaction"))
-        elif block.keyword == "FRICTION":
+                known = [law.card.value("NAME") for law in interactions.values()]
+                raise card.error(one_of(card.value("INTERACTION"), known, "surface interaction"))
+        elif card.keyword == "FRICTION":
             if not changed:
-                raise block.error("stands in a step without *CHANGE FRICTION before it")
-            coefficient, compliance = read_friction(block)
-            if "TAUMAX" in block.parameters or interactions[changed].shear_limit is not None:
-                raise block.error("changes friction with a largest traction, which is not supported")
+                raise card.error("stands in a step without *CHANGE FRICTION before it")
+            coefficient, compliance = read_friction(card)
+            if "TAUMAX" in card.parameters or interactions[changed].shear_limit is not None:
+                raise card.error("changes friction with a largest traction, which is not supported")
             if compliance != interactions[changed].tangential_compliance:
-                raise block.error("changes the stick slope, which is not supported; expected that of the model")
+                raise card.error("changes the stick slope, which is not supported; expected that of the model")
             friction |= {pair.contact.label: coefficient for pair in pairs if pair.interaction == changed}
-        elif block.keyword in ("MODEL CHANGE", "CHANGE CONTACT PAIR"):
+        elif card.keyword in ("MODEL CHANGE", "CHANGE CONTACT PAIR"):
             switched |= _switched(item, pairs, surfaces)
     found: dict[str, Any] = {"friction": friction} if friction else {}
     for key, on in (("active", True), ("inactive", False)):
@@ -59,18 +59,18 @@ def make_changes(
 
 
 def _switched(item: Placed, pairs: Sequence[Pair], surfaces: Surfaces) -> dict[str, bool]:
-    block = item.block
-    block.refuse_unknown(("TYPE", "ADD", "REMOVE"))
-    if block.choice("TYPE", ("CONTACT PAIR", "ELEMENT"), "CONTACT PAIR") == "ELEMENT":
-        raise block.error("TYPE=ELEMENT is not supported; expected CONTACT PAIR")
-    if ("ADD" in block.parameters) == ("REMOVE" in block.parameters):
-        raise block.error("expected either ADD or REMOVE")
+    card = item.card
+    card.refuse_unknown(("TYPE", "ADD", "REMOVE"))
+    if card.choice("TYPE", ("CONTACT PAIR", "ELEMENT"), "CONTACT PAIR") == "ELEMENT":
+        raise card.error("TYPE=ELEMENT is not supported; expected CONTACT PAIR")
+    if ("ADD" in card.parameters) == ("REMOVE" in card.parameters):
+        raise card.error("expected either ADD or REMOVE")
     found: dict[str, bool] = {}
-    block.row("the slave and the master surface")
-    for row in block.rows():
+    card.row("the slave and the master surface")
+    for row in card.rows():
         sides = tuple(surfaces.find(row.text(i, "a surface"), item.scope, row) for i in (0, 1))
         names = [pair.contact.label for pair in pairs if (pair.contact.nonmortar, pair.contact.mortar) == sides]
         if not names:
             raise row.error(f"there is no contact pair of '{sides[0]}' and '{sides[1]}'")
-        found |= dict.fromkeys(names, "ADD" in block.parameters)
+        found |= dict.fromkeys(names, "ADD" in card.parameters)
     return found

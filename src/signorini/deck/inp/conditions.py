@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray, distinct
 from signorini.deck.inp.acting import Courses, Known
-from signorini.deck.inp.block import Block
+from signorini.deck.inp.card import Card
 from signorini.deck.inp.course import Course, Hold, Pattern, unique_label
 from signorini.deck.inp.links import STRIDE, DeckRigid, component
 from signorini.deck.inp.materials import Section
@@ -30,26 +30,26 @@ class Conditions:
     Attributes
     ----------
     supports, loads : of the model
-    blocks : the keyword of each support and load, by label
+    cards : the keyword of each support and load, by label
     factors : label to its pattern, of what moves or loads
     holds : label of a support that some step takes away, brings or freezes to what it holds at, step by step
     """
 
     supports: list[Support] = field(default_factory=list)
     loads: list[Load] = field(default_factory=list)
-    blocks: dict[str, Block] = field(default_factory=dict)
+    cards: dict[str, Card] = field(default_factory=dict)
     factors: dict[str, Pattern] = field(default_factory=dict)
     holds: dict[str, tuple[Hold, ...]] = field(default_factory=dict)
 
     def label(self, name: str) -> str:
         """The name, or with a number behind it if another support or load bears it."""
-        return unique_label(name, self.blocks)
+        return unique_label(name, self.cards)
 
     def add_support(self, pattern: Pattern, **given: Any) -> None:
         """Add a support under a name of its own."""
         support = Support(name=self.label(given.pop("name")), **given)
         self.supports.append(support)
-        self.blocks[support.label] = pattern.block
+        self.cards[support.label] = pattern.card
         if support.moves:
             self.factors[support.label] = pattern
         if any(hold != "value" for hold in pattern.holds):
@@ -58,10 +58,10 @@ class Conditions:
     def add_load(self, pattern: Pattern, **given: Any) -> None:
         """Add a load under a name of its own."""
         if len(self.loads) >= _MOST:
-            raise pattern.block.error(f"makes more than {_MOST} different loads; expected uniform ones")
+            raise pattern.card.error(f"makes more than {_MOST} different loads; expected uniform ones")
         load = Load(name=self.label(given.pop("name")), **given)
         self.loads.append(load)
-        self.blocks[load.label] = pattern.block
+        self.cards[load.label] = pattern.card
         self.factors[load.label] = pattern
 
     def scale(self, k: int, steps: Sequence[DeckStep]) -> dict[str, float | tuple[float, ...]]:
@@ -174,7 +174,7 @@ def _hold_idle(conditions: Conditions, known: Known) -> None:
             name = conditions.label(f"{item.body.name} idle")
             u = tuple(0.0 if i in idle else None for i in range(len(directions(known.dimension))))
             conditions.supports.append(Support(item.body.name, u=u, name=name))
-            conditions.blocks[name] = item.block
+            conditions.cards[name] = item.card
 
 
 def _forces(course: Course, places: Places, conditions: Conditions, known: Known) -> None:
@@ -183,8 +183,8 @@ def _forces(course: Course, places: Places, conditions: Conditions, known: Known
         pattern, rigid = _apart(whole, known)
         for item, index, value in rigid:
             if value and index in item.idle:
-                raise pattern.block.error(
-                    f"acts on '{directions(known.dimension)[index]}' of the reference node of line {item.block.line}, "
+                raise pattern.card.error(
+                    f"acts on '{directions(known.dimension)[index]}' of the reference node of line {item.card.line}, "
                     "which nothing follows; expected a load on what is coupled"
                 )
             if value:

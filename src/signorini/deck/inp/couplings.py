@@ -8,13 +8,13 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from signorini.arrays import Array, distinct
-from signorini.deck.inp.block import Block
+from signorini.deck.inp.card import Card
 from signorini.deck.inp.flatten import Placed
-from signorini.deck.inp.grid import Grid
+from signorini.deck.inp.grid import DeckGrid
 from signorini.deck.inp.links import DeckEquation, DeckRigid, named_node, refuse_shared
 from signorini.deck.inp.places import Places
 from signorini.deck.inp.sets import Sets
-from signorini.deck.inp.surfaces import Edges, Surfaces
+from signorini.deck.inp.surfaces import ElementFaces, Surfaces
 from signorini.model.links import AXES, Equation, RigidBody, Term, directions
 
 _ROUNDING = 1e-12  # of the longest arm: shorter ones are none
@@ -27,8 +27,8 @@ def make_couplings(
     rigid: list[DeckRigid],
     nodes: Sets,
     surfaces: Surfaces,
-    edges: Edges,
-    grid: Grid,
+    edges: ElementFaces,
+    grid: DeckGrid,
     places: Places,
 ) -> tuple[list[DeckRigid], list[DeckEquation]]:
     """Read all ``*COUPLING`` keywords: rigid bodies where they couple all directions, otherwise equations too.
@@ -53,17 +53,17 @@ def make_couplings(
     equations: list[DeckEquation] = []
     dimension = 3 if grid.groups[0].type.kind == "3d" else 2
     for item, kinematic in _pairs(placed):
-        block = item.block
-        block.refuse_unknown(("REF NODE", "SURFACE"), ("CONSTRAINT NAME",))
-        surface = surfaces.find(block.value("SURFACE"), item.scope, block)
+        card = item.card
+        card.refuse_unknown(("REF NODE", "SURFACE"), ("CONSTRAINT NAME",))
+        surface = surfaces.find(card.value("SURFACE"), item.scope, card)
         faces = edges.ends[surfaces.keys[surface.upper()]]
         members = distinct(surfaces.nodes.get(surface.upper(), faces[faces >= 0]))
-        block.value("REF NODE", "a node")
+        card.value("REF NODE", "a node")
         reference = named_node(item, "REF NODE", nodes)
-        refuse_shared(block, (reference,), bodies)
+        refuse_shared(card, (reference,), bodies)
         members = members[members != reference]
         if not len(members):
-            raise block.error(f"surface '{surface}' holds no node but the reference node")
+            raise card.error(f"surface '{surface}' holds no node but the reference node")
         coupled = _directions(kinematic, dimension)
         whole = len(coupled) == dimension
         own = np.array([reference])
@@ -77,42 +77,42 @@ def make_couplings(
             labels = nodes.numbering.labels[members].tolist()
             own_terms = list(_followed(name, labels, grid.points[members, :dimension] - point, coupled))
             followed = {direction for terms in own_terms for place, direction, _ in terms if place == name}
-            equations += [DeckEquation(equation=Equation(terms), row=at, block=block) for terms in own_terms]
+            equations += [DeckEquation(equation=Equation(terms), row=at, card=card) for terms in own_terms]
         idle = tuple(i for i, direction in enumerate(directions(dimension)) if direction not in followed)
-        bodies.append(DeckRigid(body=body, reference=reference, turning=-1, block=block, idle=idle))
+        bodies.append(DeckRigid(body=body, reference=reference, turning=-1, card=card, idle=idle))
     return bodies, equations
 
 
-def _pairs(placed: Sequence[Placed]) -> Iterator[tuple[Placed, Block]]:
+def _pairs(placed: Sequence[Placed]) -> Iterator[tuple[Placed, Card]]:
     """Every ``*COUPLING`` and the keyword behind it that says how."""
     before: Placed | None = None
     for item in placed:
-        asked = before is not None and before.block.keyword == "COUPLING"
-        if item.block.keyword in COUPLINGS:
+        asked = before is not None and before.card.keyword == "COUPLING"
+        if item.card.keyword in COUPLINGS:
             if before is None or not asked:
-                raise item.block.error("stands without *COUPLING before it")
-            if item.block.keyword == "DISTRIBUTING":
-                raise item.block.error("is not supported; expected *KINEMATIC")
-            yield before, item.block
+                raise item.card.error("stands without *COUPLING before it")
+            if item.card.keyword == "DISTRIBUTING":
+                raise item.card.error("is not supported; expected *KINEMATIC")
+            yield before, item.card
         elif before is not None and asked:
-            raise before.block.error("expected *KINEMATIC behind it")
+            raise before.card.error("expected *KINEMATIC behind it")
         before = item
-    if before is not None and before.block.keyword == "COUPLING":
-        raise before.block.error("expected *KINEMATIC behind it")
+    if before is not None and before.card.keyword == "COUPLING":
+        raise before.card.error("expected *KINEMATIC behind it")
 
 
-def _directions(block: Block, dimension: int) -> list[int]:
+def _directions(card: Card, dimension: int) -> list[int]:
     """Coupled directions from 0: ranges of 1 to 6 in the data lines, all without any; rotations have no say here."""
-    block.refuse_unknown(())
-    found: set[int] = set() if block.has_data else set(range(dimension))
-    for row in block.rows():
+    card.refuse_unknown(())
+    found: set[int] = set() if card.has_data else set(range(dimension))
+    for row in card.rows():
         first = row.whole(0, "a direction")
         last = row.whole(1, "the last direction", first)
         if not 1 <= first <= last <= 6:
             raise row.error(f"*KINEMATIC: directions {first} to {last}; expected 1 to {dimension}")
         found |= {axis - 1 for axis in range(first, last + 1) if axis <= dimension}
     if not found:
-        raise block.error(f"couples no displacement; expected directions of 1 to {dimension}")
+        raise card.error(f"couples no displacement; expected directions of 1 to {dimension}")
     return sorted(found)
 
 

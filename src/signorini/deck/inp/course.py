@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.deck.inp.amplitudes import Amplitude
-from signorini.deck.inp.block import Block
+from signorini.deck.inp.card import Card
 from signorini.deck.inp.steps import DeckStep
 
 _SAME = 1e-9  # of a factor: a smaller jump is none
@@ -29,7 +29,7 @@ class Pattern:
     Attributes
     ----------
     label : what the deck calls the place
-    block : the keyword that first set a value there
+    card : the keyword that first set a value there
     slots : (m,)
     values : (m,) the largest of each slot, with its sign
     shares : (steps,) magnitudes in the steps, as parts of the largest
@@ -38,7 +38,7 @@ class Pattern:
     """
 
     label: str
-    block: Block
+    card: Card
     slots: IntArray
     values: Array
     shares: tuple[float, ...]
@@ -77,13 +77,13 @@ class Course:
         self._now: dict[int, tuple[float, int, int, Hold]] = {}  # slot to magnitude, amplitude, source, hold
         self._before: set[int] = set()  # slots set in an earlier step, which a new value replaces
         self._amplitudes: list[Amplitude | None] = [None]
-        self._sources: list[tuple[str, Block]] = []
+        self._sources: list[tuple[str, Card]] = []
         self._first: dict[int, int] = {}  # slot to the source that set it first
         self._ends: list[dict[int, tuple[float, int, Hold]]] = []  # by step: slot to magnitude, amplitude, hold
         self._reached: dict[int, float] = {}  # values at the end of the last step
 
     def put(
-        self, slots: IntArray, value: float, label: str, block: Block, amplitude: Amplitude | None, *, adds: bool
+        self, slots: IntArray, value: float, label: str, card: Card, amplitude: Amplitude | None, *, adds: bool
     ) -> None:
         """Give slots a value; what was set in this step is added to it, or replaced by it.
 
@@ -92,20 +92,20 @@ class Course:
         DeckError
             If both act, but with different amplitudes.
         """
-        source = self._source(label, block)
+        source = self._source(label, card)
         index = self._amplitude(amplitude)
         now, before = self._now, self._before
         for slot in slots.tolist():
             base, other, earlier, _ = now.get(slot, _UNSET) if slot not in before else _UNSET
             if base and value and other != index:
-                self._refuse_two_amplitudes(index, other, self._sources[earlier][1], block)
+                self._refuse_two_amplitudes(index, other, self._sources[earlier][1], card)
             now[slot] = (base + value if adds else value, other if adds and not value else index, source, "value")
             before.discard(slot)
             self._first.setdefault(slot, source)
 
-    def freeze(self, slots: IntArray, label: str, block: Block) -> None:
+    def freeze(self, slots: IntArray, label: str, card: Card) -> None:
         """Hold slots where the last step left them: at the value that it took them to, or in whatever place."""
-        source = self._source(label, block)
+        source = self._source(label, card)
         for slot in slots.tolist():
             known = not self._ends or slot in self._reached
             self._now[slot] = (self._reached.get(slot, 0.0), 0, source, "value" if known else "place")
@@ -120,7 +120,7 @@ class Course:
         """Remove every value (``OP=NEW``)."""
         self._now = {}
 
-    def set_by(self, slot: int) -> Block | None:
+    def set_by(self, slot: int) -> Card | None:
         """The keyword whose value a slot has, None where it has none."""
         return self._sources[self._now[slot][2]][1] if slot in self._now else None
 
@@ -158,12 +158,12 @@ class Course:
             if index in over:
                 self._now[slot] = (magnitude * ends[index], 0, source, hold)
 
-    def _refuse_two_amplitudes(self, index: int, other: int, earlier: Block, block: Block) -> None:
+    def _refuse_two_amplitudes(self, index: int, other: int, earlier: Card, card: Card) -> None:
         mine, its = (
             f"'{found.name}'" if found else "no amplitude"
             for found in map(self._amplitudes.__getitem__, (index, other))
         )
-        raise block.error(
+        raise card.error(
             f"acts with {mine} where line {earlier.line} of the same step acts with {its}; expected one amplitude for "
             "all that a step sets in one direction or on one face"
         )
@@ -180,11 +180,11 @@ class Course:
             key = (named, shares, tuple(index for _, index, _ in history), tuple(hold for _, _, hold in history))
             groups.setdefault(key, []).append((slot, size))
         for (source, shares, indices, holds), members in groups.items():
-            label, block = self._sources[source]
+            label, card = self._sources[source]
             members.sort()
             yield Pattern(
                 label=label,
-                block=block,
+                card=card,
                 slots=np.array([slot for slot, _ in members], np.int64),
                 values=np.array([value for _, value in members]),
                 shares=shares,
@@ -192,9 +192,9 @@ class Course:
                 holds=holds,
             )
 
-    def _source(self, label: str, block: Block) -> int:
-        if not self._sources or self._sources[-1] != (label, block):
-            self._sources.append((label, block))
+    def _source(self, label: str, card: Card) -> int:
+        if not self._sources or self._sources[-1] != (label, card):
+            self._sources.append((label, card))
         return len(self._sources) - 1
 
     def _amplitude(self, amplitude: Amplitude | None) -> int:

@@ -10,16 +10,16 @@ import numpy as np
 from signorini.arrays import IntArray, distinct
 from signorini.deck.inp.acting import Courses, Known, VolumeLoad
 from signorini.deck.inp.amplitudes import find_amplitude
-from signorini.deck.inp.block import Row
+from signorini.deck.inp.card import Row
 from signorini.deck.inp.flatten import Placed
 
 
 def read_dload(item: Placed, known: Known, courses: Courses) -> None:
     """Pressure on faces of elements, gravity, rotation and forces per volume."""
-    block = item.block
-    block.refuse_unknown(("OP", "AMPLITUDE"), ("LOAD CASE",))
-    amplitude = find_amplitude(block, known.amplitudes)
-    for row in block.rows():
+    card = item.card
+    card.refuse_unknown(("OP", "AMPLITUDE"), ("LOAD CASE",))
+    amplitude = find_amplitude(card, known.amplitudes)
+    for row in card.rows():
         kind = row.text(1, "the kind of load, like P2").upper()
         if kind == "GRAV" and not row.fields[0]:  # as CAE writes it for the whole model
             label, elements = "", np.concatenate([section.elements for section in known.sections])
@@ -29,7 +29,7 @@ def read_dload(item: Placed, known: Known, courses: Courses) -> None:
             keys = known.edges.keys(elements, kind, row, "*DLOAD")
             value = row.number(2, "the pressure")
             name = f"{label} {kind}" if label in known.elements else "single elements"
-            courses.pressure.put(keys, value, name, block.at(row), amplitude, adds=True)
+            courses.pressure.put(keys, value, name, card.at(row), amplitude, adds=True)
             continue
         if kind == "GRAV":
             found = _gravity(row, label, elements, known)
@@ -43,7 +43,7 @@ def read_dload(item: Placed, known: Known, courses: Courses) -> None:
             slot = courses.volume_slot(load)
             if kind == "CENTRIF":
                 _refuse_two_axes(load, slot, courses, row, known)
-            courses.volume.put(np.array([slot]), value, load.label, block.at(row), amplitude, adds=True)
+            courses.volume.put(np.array([slot]), value, load.label, card.at(row), amplitude, adds=True)
 
 
 def _refuse_two_axes(load: VolumeLoad, slot: int, courses: Courses, row: Row, known: Known) -> None:
@@ -61,17 +61,17 @@ def _refuse_two_axes(load: VolumeLoad, slot: int, courses: Courses, row: Row, kn
 
 def read_dsload(item: Placed, known: Known, courses: Courses) -> None:
     """Pressure on surfaces."""
-    block = item.block
-    block.refuse_unknown(("OP", "AMPLITUDE"), ("LOAD CASE",))
-    amplitude = find_amplitude(block, known.amplitudes)
-    for row in block.rows():
+    card = item.card
+    card.refuse_unknown(("OP", "AMPLITUDE"), ("LOAD CASE",))
+    amplitude = find_amplitude(card, known.amplitudes)
+    for row in card.rows():
         kind = row.text(1, "the kind of load, P").upper()
         if kind != "P":
             raise row.error(f"*DSLOAD: '{kind}' is not supported; expected P")
         name = known.surfaces.find(row.text(0, "a surface"), item.scope, row)
         keys = known.surfaces.keys[name.upper()]
         known.surfaces.refuse_bare(name, known.edges, known.nodes, row)
-        courses.pressure.put(keys, row.number(2, "the pressure"), name, block.at(row), amplitude, adds=True)
+        courses.pressure.put(keys, row.number(2, "the pressure"), name, card.at(row), amplitude, adds=True)
 
 
 def _gravity(row: Row, label: str, elements: IntArray, known: Known) -> Iterator[tuple[VolumeLoad, float]]:

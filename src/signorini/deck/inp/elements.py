@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import cast
 
 from signorini.deck.error import DeckError
-from signorini.deck.inp.block import Block
+from signorini.deck.inp.card import Card
 from signorini.model.mesh import CORNERS, NODES_PER_CELL
 from signorini.model.model import Kind
 
@@ -94,7 +94,7 @@ class ElementType:
         )
 
 
-def element_type(block: Block) -> ElementType:
+def element_type(card: Card) -> ElementType:
     """The type of an ``*ELEMENT`` keyword.
 
     Raises
@@ -102,7 +102,7 @@ def element_type(block: Block) -> ElementType:
     DeckError
         For types that this version does not have.
     """
-    name = block.value("TYPE", "an element type").upper()
+    name = card.value("TYPE", "an element type").upper()
     if name.rstrip("R") in _SHAPES:
         return ElementType(name=name, family=_SHAPES[name.rstrip("R")], kind=None)
     solid = name.startswith("C3D")
@@ -111,18 +111,18 @@ def element_type(block: Block) -> ElementType:
     family = (_SOLID if solid else _PLANE).get(size)
     if (solid or name[:3] in _PLANES) and family is not None and variant in _VARIANTS:
         if variant.startswith("I") and family not in ("quad", "hexahedron"):
-            raise block.error(f"TYPE={name} is not supported; incompatible modes are for 4 nodes, in space 8")
+            raise card.error(f"TYPE={name} is not supported; incompatible modes are for 4 nodes, in space 8")
         note = f"{name}: {_VARIANTS[variant]}" if _VARIANTS[variant] else ""
         if family == "wedge15":
             note = note or f"{name}: integrated with 21 points, where CalculiX and Abaqus take 9"
         kind = cast(Kind, "3d" if solid else _PLANES[name[:3]])
         return ElementType(name=name, family=family, kind=kind, incompatible=variant.startswith("I"), note=note)
-    raise unknown_type(block)
+    raise unknown_type(card)
 
 
-def unknown_type(block: Block) -> DeckError:
+def unknown_type(card: Card) -> DeckError:
     """What is said of an ``*ELEMENT`` keyword whose elements no model has."""
-    return block.error(
-        f"TYPE={block.get('TYPE')} is not supported; expected CPE, CPS or CAX with 3, 4, 6 or 8 nodes, or C3D with 4, "
+    return card.error(
+        f"TYPE={card.get('TYPE')} is not supported; expected CPE, CPS or CAX with 3, 4, 6 or 8 nodes, or C3D with 4, "
         "6, 8, 10, 15 or 20 (variants R, I, H, M)"
     )

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.deck.inp.block import Block, Row
+from signorini.deck.inp.card import Card, Row
 
 _OUTSIDE = ("ASSEMBLY", "END ASSEMBLY", "END PART", "END INSTANCE")
 
@@ -37,14 +37,14 @@ class Scope:
 class Placed:
     """A keyword and the scope of its names and numbers."""
 
-    block: Block
+    card: Card
     scope: Scope
 
 
 DECK = Scope()
 
 
-def flatten(blocks: list[Block]) -> list[Placed]:
+def flatten(cards: list[Card]) -> list[Placed]:
     """Put the keywords of a part wherever an instance of it stands.
 
     Raises
@@ -52,36 +52,36 @@ def flatten(blocks: list[Block]) -> list[Placed]:
     DeckError
         If an instance names no part, a part or an instance is not ended, or its motion is malformed.
     """
-    parts: dict[str, list[Block]] = {}
+    parts: dict[str, list[Card]] = {}
     placed: list[Placed] = []
-    stream = iter(blocks)
-    for block in stream:
-        if block.keyword == "PART":
-            parts[block.value("NAME").upper()] = list(_until(stream, "END PART", block))
-        elif block.keyword == "INSTANCE":
-            block.refuse_unknown(("NAME", "PART"))
-            name = block.value("PART").upper()
+    stream = iter(cards)
+    for card in stream:
+        if card.keyword == "PART":
+            parts[card.value("NAME").upper()] = list(_until(stream, "END PART", card))
+        elif card.keyword == "INSTANCE":
+            card.refuse_unknown(("NAME", "PART"))
+            name = card.value("PART").upper()
             if name not in parts:
-                raise block.error(f"there is no part '{name}' before it")
-            scope = _scope(block)
-            inner = list(_until(stream, "END INSTANCE", block))
-            placed += [Placed(block=part, scope=scope) for part in (*parts[name], *inner)]
-        elif block.keyword not in _OUTSIDE:
-            placed.append(Placed(block=block, scope=DECK))
+                raise card.error(f"there is no part '{name}' before it")
+            scope = _scope(card)
+            inner = list(_until(stream, "END INSTANCE", card))
+            placed += [Placed(card=part, scope=scope) for part in (*parts[name], *inner)]
+        elif card.keyword not in _OUTSIDE:
+            placed.append(Placed(card=card, scope=DECK))
     return placed
 
 
-def _until(stream: Iterator[Block], end: str, start: Block) -> Iterator[Block]:
-    for block in stream:
-        if block.keyword == end:
+def _until(stream: Iterator[Card], end: str, start: Card) -> Iterator[Card]:
+    for card in stream:
+        if card.keyword == end:
             return
-        yield block
+        yield card
     raise start.error(f"is not ended; expected *{end}")
 
 
-def _scope(block: Block) -> Scope:
+def _scope(card: Card) -> Scope:
     """Translation in the first data line, then rotation about the line from a to b by an angle in degrees."""
-    rows = list(block.rows())
+    rows = list(card.rows())
     if len(rows) > 2:
         raise rows[2].error("*INSTANCE: has a third data line; expected a translation and a rotation")
     shift = _numbers(rows[0], 3) if rows else np.zeros(3)
@@ -94,7 +94,7 @@ def _scope(block: Block) -> Scope:
             raise rows[1].error("*INSTANCE: the two points of the axis of rotation coincide")
         turn = rotation(axis / size, np.radians(values[6]))
         shift = turn @ (shift - a) + a  # the translation comes first
-    return Scope(name=block.value("NAME").upper(), turn=turn, shift=shift)
+    return Scope(name=card.value("NAME").upper(), turn=turn, shift=shift)
 
 
 def _numbers(row: Row, count: int) -> Array:

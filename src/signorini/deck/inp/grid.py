@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from signorini.arrays import Array, IntArray, distinct
-from signorini.deck.inp.block import MOST, Block
+from signorini.deck.inp.card import MOST, Card
 from signorini.deck.inp.elements import ElementType, element_type, unknown_type
 from signorini.deck.inp.flatten import Placed, Scope
 from signorini.deck.inp.numbering import Numbering
@@ -20,7 +20,7 @@ _FLAT = 1e-9  # of the size: how far a plane mesh may leave its plane
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Grid:
+class DeckGrid:
     """Everything that has a number.
 
     Attributes
@@ -34,11 +34,11 @@ class Grid:
     points: Array
     nodes: Numbering
     elements: Numbering
-    groups: tuple[Group, ...]
-    skins: tuple[Group, ...] = ()
+    groups: tuple[ElementGroup, ...]
+    skins: tuple[ElementGroup, ...] = ()
 
     @property
-    def all_groups(self) -> tuple[Group, ...]:
+    def all_groups(self) -> tuple[ElementGroup, ...]:
         """Those of cells and of skins."""
         return self.groups + self.skins
 
@@ -48,28 +48,28 @@ class Grid:
         ordered = [group.index for family in NODES_PER_CELL for group in self.groups if group.type.family == family]
         return np.concatenate([np.empty(0, np.int64), *ordered])
 
-    def at(self, element: int) -> Block:
+    def at(self, element: int) -> Card:
         """The ``*ELEMENT`` keyword of an element, at its line."""
         group = next(group for group in self.all_groups if element in group.index)
         return group.at(int(np.nonzero(group.index == element)[0][0]))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Group:
+class ElementGroup:
     """Elements of one keyword: ``index`` (m,) counts elements, ``nodes`` (m, k) points."""
 
-    block: Block
+    card: Card
     scope: Scope
     type: ElementType
     index: IntArray
     nodes: IntArray
 
-    def at(self, element: int) -> Block:
+    def at(self, element: int) -> Card:
         """The keyword, at the line of one of its elements, counted from 0."""
-        return _at_record(self.block, element, self.type)
+        return _at_record(self.card, element, self.type)
 
 
-def make_grid(placed: list[Placed]) -> Grid:
+def make_grid(placed: list[Placed]) -> DeckGrid:
     """Read all ``*NODE`` and ``*ELEMENT`` keywords.
 
     Raises
@@ -77,50 +77,50 @@ def make_grid(placed: list[Placed]) -> Grid:
     DeckError
         For a number that is used twice or for nothing, a type that is not supported, or a mesh that is not plane.
     """
-    nodes, points = _nodes([item for item in placed if item.block.keyword == "NODE"])
+    nodes, points = _nodes([item for item in placed if item.card.keyword == "NODE"])
     elements, groups = Numbering("element"), []
-    for scope, blocks in _by_scope([item for item in placed if item.block.keyword == "ELEMENT"]):
+    for scope, cards in _by_scope([item for item in placed if item.card.keyword == "ELEMENT"]):
         tables = []
-        for block in blocks:
-            block.refuse_unknown(("TYPE", "ELSET", "INPUT"))
-            kind = element_type(block)
-            tables.append((block, kind, record_table(block, kind.nodes + 1, f"a number and {kind.nodes} nodes")))
+        for card in cards:
+            card.refuse_unknown(("TYPE", "ELSET", "INPUT"))
+            kind = element_type(card)
+            tables.append((card, kind, record_table(card, kind.nodes + 1, f"a number and {kind.nodes} nodes")))
         _refuse_twice(tables)
         elements.add(scope.name, np.concatenate([table[:, 0] for *_, table in tables]))
-        for block, kind, table in tables:
+        for card, kind, table in tables:
             groups.append(
-                Group(
-                    block=block,
+                ElementGroup(
+                    card=card,
                     scope=scope,
                     type=kind,
-                    index=elements.index(scope, table[:, 0], block),
-                    nodes=_members(block, kind, table, nodes, scope),
+                    index=elements.index(scope, table[:, 0], card),
+                    nodes=_members(card, kind, table, nodes, scope),
                 )
             )
     top = max((group.type.dimension for group in groups), default=0)
     cells = tuple(group for group in groups if group.type.dimension == top)
     for group in cells:
         if group.type.kind is None:
-            raise unknown_type(group.block)
+            raise unknown_type(group.card)
     _refuse_space(points, cells, nodes, elements)
     skins = tuple(group for group in groups if group.type.dimension < top)
-    return Grid(points=points, nodes=nodes, elements=elements, groups=cells, skins=skins)
+    return DeckGrid(points=points, nodes=nodes, elements=elements, groups=cells, skins=skins)
 
 
-def _members(block: Block, kind: ElementType, table: IntArray, nodes: Numbering, scope: Scope) -> IntArray:
+def _members(card: Card, kind: ElementType, table: IntArray, nodes: Numbering, scope: Scope) -> IntArray:
     """(m, k) nodes of elements."""
     numbers = table[:, 1:].ravel()
-    return nodes.index(scope, numbers, lambda place: _at_record(block, place // kind.nodes, kind)).reshape(
+    return nodes.index(scope, numbers, lambda place: _at_record(card, place // kind.nodes, kind)).reshape(
         -1, kind.nodes
     )
 
 
-def _at_record(block: Block, record: int, kind: ElementType) -> Block:
+def _at_record(card: Card, record: int, kind: ElementType) -> Card:
     """An ``*ELEMENT`` keyword at the line where one of its elements begins."""
-    return block.at(block.row_with(record * (kind.nodes + 1)))
+    return card.at(card.row_with(record * (kind.nodes + 1)))
 
 
-def nodes_of(grid: Grid, elements: IntArray) -> IntArray:
+def nodes_of(grid: DeckGrid, elements: IntArray) -> IntArray:
     """The sorted nodes of elements."""
     pieces = [group.nodes[np.isin(group.index, elements)].ravel() for group in grid.all_groups]
     return distinct(np.concatenate([np.empty(0, np.int64), *pieces]))
@@ -128,21 +128,21 @@ def nodes_of(grid: Grid, elements: IntArray) -> IntArray:
 
 def _nodes(placed: list[Placed]) -> tuple[Numbering, Array]:
     nodes, points = Numbering("node"), [np.empty((0, 3))]
-    for scope, blocks in _by_scope(placed):
+    for scope, cards in _by_scope(placed):
         tables = []
-        for block in blocks:
-            block.refuse_unknown(("NSET", "INPUT"))
-            tables.append(number_table(block, "a number and up to 3 coordinates", least=1, most=7)[:, :4])
+        for card in cards:
+            card.refuse_unknown(("NSET", "INPUT"))
+            tables.append(number_table(card, "a number and up to 3 coordinates", least=1, most=7)[:, :4])
         table = np.vstack(tables)
         wrong = (table[:, 0] != np.rint(table[:, 0])) | (table[:, 0] < 1) | (table[:, 0] >= MOST)
         if wrong.any():
-            raise _at_node(blocks, tables, int(np.argmax(wrong))).error(
+            raise _at_node(cards, tables, int(np.argmax(wrong))).error(
                 f"a node has the number {table[wrong, 0][0]:g}; expected a whole number >= 1 of at most ten digits"
             )
         _, where, again = np.unique(table[:, 0].astype(np.int64), return_index=True, return_inverse=True)
         moved = np.nonzero((table[:, 1:] != table[where[again], 1:]).any(axis=1))[0]
         if len(moved):
-            raise _at_node(blocks, tables, int(moved[0])).error(
+            raise _at_node(cards, tables, int(moved[0])).error(
                 f"node {table[moved[0], 0]:.0f} is there twice, at different places"
             )
         first = np.sort(where)
@@ -151,23 +151,23 @@ def _nodes(placed: list[Placed]) -> tuple[Numbering, Array]:
     return nodes, np.vstack(points)
 
 
-def _by_scope(placed: list[Placed]) -> list[tuple[Scope, list[Block]]]:
-    scopes: dict[str, tuple[Scope, list[Block]]] = {}
+def _by_scope(placed: list[Placed]) -> list[tuple[Scope, list[Card]]]:
+    scopes: dict[str, tuple[Scope, list[Card]]] = {}
     for item in placed:
-        scopes.setdefault(item.scope.name, (item.scope, []))[1].append(item.block)
+        scopes.setdefault(item.scope.name, (item.scope, []))[1].append(item.card)
     return list(scopes.values())
 
 
-def _at_node(blocks: list[Block], tables: list[Array], record: int) -> Block:
+def _at_node(cards: list[Card], tables: list[Array], record: int) -> Card:
     """The ``*NODE`` keyword of a node, at its line; nodes are counted through all of them."""
-    for block, table in zip(blocks, tables, strict=True):
+    for card, table in zip(cards, tables, strict=True):
         if record < len(table):
-            return block.at(block.row_of(record))
+            return card.at(card.row_of(record))
         record -= len(table)
     raise IndexError("there are fewer nodes")
 
 
-def _refuse_twice(tables: list[tuple[Block, ElementType, IntArray]]) -> None:
+def _refuse_twice(tables: list[tuple[Card, ElementType, IntArray]]) -> None:
     """Every element has a number of its own, 1 or more."""
     numbers = np.concatenate([table[:, 0] for *_, table in tables])
     first = np.unique(numbers, return_index=True)[1]
@@ -177,14 +177,14 @@ def _refuse_twice(tables: list[tuple[Block, ElementType, IntArray]]) -> None:
         return
     place = int(np.argmax(wrong))
     number, record = numbers[place], place
-    for block, kind, table in tables:
+    for card, kind, table in tables:
         if record < len(table):
             words = f"{number} is there twice" if number > 0 else f"has the number {number}; expected one >= 1"
-            raise _at_record(block, record, kind).error(f"element {words}")
+            raise _at_record(card, record, kind).error(f"element {words}")
         record -= len(table)
 
 
-def _refuse_space(points: Array, groups: tuple[Group, ...], nodes: Numbering, elements: Numbering) -> None:
+def _refuse_space(points: Array, groups: tuple[ElementGroup, ...], nodes: Numbering, elements: Numbering) -> None:
     """Plane elements lie in a plane of constant z."""
     for group in groups:
         if group.type.kind == "3d" or not len(group.index):

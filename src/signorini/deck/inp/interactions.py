@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from signorini.deck.inp.block import Block, Row, to_number
+from signorini.deck.inp.card import Card, Row, to_number
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.named import gathered
 
@@ -20,14 +20,14 @@ class Interaction:
 
     Attributes
     ----------
-    block : where it begins
+    card : where it begins
     friction : Coulomb's coefficient, or "stick"
     normal_compliance, tangential_compliance : length per pressure
     shear_limit : largest traction of friction, or None
     tied : the surfaces never part
     """
 
-    block: Block
+    card: Card
     friction: float | Literal["stick"] = 0.0
     normal_compliance: float = 0.0
     tangential_compliance: float = 0.0
@@ -46,34 +46,34 @@ def make_interactions(placed: list[Placed]) -> dict[str, Interaction]:
     return gathered(placed, "SURFACE INTERACTION", INTERACTION_WORDS, _begun, _with)
 
 
-def _begun(block: Block) -> Interaction:
-    block.refuse_unknown(("NAME",))
-    return Interaction(block=block)
+def _begun(card: Card) -> Interaction:
+    card.refuse_unknown(("NAME",))
+    return Interaction(card=card)
 
 
-def _with(law: Interaction, block: Block) -> Interaction:
-    if block.keyword == "FRICTION":
-        friction, compliance = read_friction(block)
-        return replace(law, friction=friction, tangential_compliance=compliance, shear_limit=_limit(block))
+def _with(law: Interaction, card: Card) -> Interaction:
+    if card.keyword == "FRICTION":
+        friction, compliance = read_friction(card)
+        return replace(law, friction=friction, tangential_compliance=compliance, shear_limit=_limit(card))
     enforcement = ("PENALTY", "AUGMENTED LAGRANGE", "DIRECT", "MECHANICAL CONSTRAINT")  # ours is exact
-    block.refuse_unknown(("PRESSURE-OVERCLOSURE",), enforcement)
-    kind = block.choice("PRESSURE-OVERCLOSURE", ("HARD", "LINEAR", "TIED"), "HARD")
+    card.refuse_unknown(("PRESSURE-OVERCLOSURE",), enforcement)
+    kind = card.choice("PRESSURE-OVERCLOSURE", ("HARD", "LINEAR", "TIED"), "HARD")
     if kind == "TIED":
         return replace(law, tied=True)
     if kind == "LINEAR":
-        row = block.row("the stiffness, pressure per overlap")
+        row = card.row("the stiffness, pressure per overlap")
         return replace(law, normal_compliance=1.0 / _positive(row, 0, "the stiffness, pressure per overlap"))
     return law
 
 
-def read_friction(block: Block) -> tuple[float | Literal["stick"], float]:
+def read_friction(card: Card) -> tuple[float | Literal["stick"], float]:
     """Coefficient and tangential compliance of a ``*FRICTION``; CalculiX's stick slope is the compliance's inverse."""
-    block.refuse_unknown(("ROUGH", "LAGRANGE", "TAUMAX"), ("SLIP TOLERANCE", "ELASTIC SLIP"))
-    if "ROUGH" in block.parameters:
+    card.refuse_unknown(("ROUGH", "LAGRANGE", "TAUMAX"), ("SLIP TOLERANCE", "ELASTIC SLIP"))
+    if "ROUGH" in card.parameters:
         return "stick", 0.0
-    rows = list(block.rows())
+    rows = list(card.rows())
     if len(rows) != 1:
-        raise block.error(f"has {len(rows)} data lines; expected one: a constant coefficient")
+        raise card.error(f"has {len(rows)} data lines; expected one: a constant coefficient")
     row = rows[0]
     coefficient = row.number(0, "the coefficient of friction")
     if coefficient < 0.0:
@@ -84,13 +84,13 @@ def read_friction(block: Block) -> tuple[float | Literal["stick"], float]:
     return coefficient, 1.0 / slope if slope else 0.0
 
 
-def _limit(block: Block) -> float | None:
+def _limit(card: Card) -> float | None:
     """``TAUMAX``, the largest traction of friction."""
-    if "TAUMAX" not in block.parameters:
+    if "TAUMAX" not in card.parameters:
         return None
-    limit = to_number(block.value("TAUMAX", "a traction"))
-    if limit is None or not limit > 0.0 or "ROUGH" in block.parameters:
-        raise block.error(f"TAUMAX={block.get('TAUMAX')}: expected a traction > 0, and no ROUGH")
+    limit = to_number(card.value("TAUMAX", "a traction"))
+    if limit is None or not limit > 0.0 or "ROUGH" in card.parameters:
+        raise card.error(f"TAUMAX={card.get('TAUMAX')}: expected a traction > 0, and no ROUGH")
     return limit
 
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from signorini.arrays import IntArray, distinct
-from signorini.deck.inp.block import Block, Row
+from signorini.deck.inp.card import Card, Row
 from signorini.deck.inp.flatten import Placed
-from signorini.deck.inp.grid import Grid, nodes_of
+from signorini.deck.inp.grid import DeckGrid, nodes_of
 from signorini.deck.inp.places import Places
 from signorini.deck.inp.sets import Sets
 from signorini.errors import Where
@@ -31,14 +31,14 @@ class DeckRigid:
     ----------
     body : its counterpart in the model
     reference, turning : its REF NODE and its ROT NODE, -1 where it has none
-    block : the keyword
+    card : the keyword
     idle : displacements and rotations that nothing follows, where single directions are coupled
     """
 
     body: RigidBody
     reference: int
     turning: int
-    block: Block
+    card: Card
     idle: tuple[int, ...] = ()
 
 
@@ -48,7 +48,7 @@ class DeckEquation:
 
     equation: Equation
     row: Row
-    block: Block
+    card: Card
 
 
 def rigid_slots(rigid: Sequence[DeckRigid], nodes: IntArray, axes: Sequence[int]) -> tuple[IntArray, IntArray]:
@@ -80,7 +80,7 @@ def component(slot: int, dimension: int) -> int | None:
 
 
 def make_rigid_bodies(
-    placed: Sequence[Placed], nodes: Sets, elements: Sets, grid: Grid, places: Places
+    placed: Sequence[Placed], nodes: Sets, elements: Sets, grid: DeckGrid, places: Places
 ) -> list[DeckRigid]:
     """Read all ``*RIGID BODY`` keywords.
 
@@ -91,64 +91,64 @@ def make_rigid_bodies(
     """
     found: list[DeckRigid] = []
     for item in placed:
-        block = item.block
-        if block.keyword != "RIGID BODY":
+        card = item.card
+        if card.keyword != "RIGID BODY":
             continue
-        block.refuse_unknown(
+        card.refuse_unknown(
             ("NSET", "TIE NSET", "PIN NSET", "ELSET", "REF NODE", "ROT NODE", "POSITION"), ("ISOTHERMAL",)
         )
-        block.choice("POSITION", ("INPUT",), "INPUT")
+        card.choice("POSITION", ("INPUT",), "INPUT")
         label, members = _members(item, nodes, elements, grid)
-        block.value("REF NODE", "a node")
+        card.value("REF NODE", "a node")
         reference, turning = (named_node(item, key, nodes) for key in ("REF NODE", "ROT NODE"))
-        refuse_shared(block, (reference, turning), found)
+        refuse_shared(card, (reference, turning), found)
         if turning in members:
             members = members[members != turning]
         on = places.at_nodes(distinct(np.append(members, reference)), label)
         point = tuple(float(x) for x in grid.points[reference, : 3 if grid.groups[0].type.kind == "3d" else 2])
         body = RigidBody(places.unused(f"rigid {label}", [other.body.name for other in found]), on, point)
-        found.append(DeckRigid(body=body, reference=reference, turning=turning, block=block))
+        found.append(DeckRigid(body=body, reference=reference, turning=turning, card=card))
     return found
 
 
-def link_places(rigid: Sequence[DeckRigid], equations: Sequence[DeckEquation]) -> dict[Where, Block]:
+def link_places(rigid: Sequence[DeckRigid], equations: Sequence[DeckEquation]) -> dict[Where, Card]:
     """The keyword of every rigid body, and of every equation with its own line, by the place in the model."""
-    places: dict[Where, Block] = {("rigid_body", j): item.block for j, item in enumerate(rigid)}
+    places: dict[Where, Card] = {("rigid_body", j): item.card for j, item in enumerate(rigid)}
     return places | {
-        ("equation", i): replace(item.block, path=item.row.path, line=item.row.line) for i, item in enumerate(equations)
+        ("equation", i): replace(item.card, path=item.row.path, line=item.row.line) for i, item in enumerate(equations)
     }
 
 
-def _members(item: Placed, nodes: Sets, elements: Sets, grid: Grid) -> tuple[str, IntArray]:
-    block = item.block
-    given = [key for key in ("NSET", "TIE NSET", "PIN NSET", "ELSET") if key in block.parameters]
+def _members(item: Placed, nodes: Sets, elements: Sets, grid: DeckGrid) -> tuple[str, IntArray]:
+    card = item.card
+    given = [key for key in ("NSET", "TIE NSET", "PIN NSET", "ELSET") if key in card.parameters]
     if not given:
-        raise block.error("names no nodes; expected NSET= or ELSET=")
+        raise card.error("names no nodes; expected NSET= or ELSET=")
     found = []
     for key in given:
         sets = elements if key == "ELSET" else nodes
-        label, members = sets.find(block.value(key), item.scope, block)
+        label, members = sets.find(card.value(key), item.scope, card)
         found.append((label, nodes_of(grid, members) if key == "ELSET" else members))
     return found[0][0], distinct(np.concatenate([members for _, members in found]))
 
 
 def named_node(item: Placed, key: str, nodes: Sets) -> int:
     """The node that a parameter names, -1 without it."""
-    block = item.block
-    if key not in block.parameters:
+    card = item.card
+    if key not in card.parameters:
         return -1
-    label, members = nodes.find(block.value(key, "a node"), item.scope, block)
+    label, members = nodes.find(card.value(key, "a node"), item.scope, card)
     if len(members) != 1:
-        raise block.error(f"{key}: '{label}' holds {len(members)} nodes; expected one")
+        raise card.error(f"{key}: '{label}' holds {len(members)} nodes; expected one")
     return int(members[0])
 
 
-def refuse_shared(block: Block, own: tuple[int, ...], others: Sequence[DeckRigid]) -> None:
+def refuse_shared(card: Card, own: tuple[int, ...], others: Sequence[DeckRigid]) -> None:
     """Reference nodes, -1 for none, that another rigid body or coupling has too, stop."""
     for other in others:
         if set(own) & {other.reference, other.turning} - {-1}:
-            raise block.error(
-                f"has a node in common with the rigid body of line {other.block.line}: its REF NODE or ROT NODE"
+            raise card.error(
+                f"has a node in common with the rigid body of line {other.card.line}: its REF NODE or ROT NODE"
             )
 
 
@@ -162,14 +162,14 @@ def make_equations(placed: Sequence[Placed], nodes: Sets, rigid: Sequence[DeckRi
     """
     found: list[DeckEquation] = []
     for item in placed:
-        block = item.block
-        if block.keyword != "EQUATION":
+        card = item.card
+        if card.keyword != "EQUATION":
             continue
-        block.refuse_unknown((), ("LOAD CASE",))
-        rows = block.rows()
+        card.refuse_unknown((), ("LOAD CASE",))
+        rows = card.rows()
         for row in rows:
             for terms in _spread(_terms(row, rows, item, nodes, rigid, kind), row):
-                found.append(DeckEquation(equation=Equation(terms), row=row, block=block))
+                found.append(DeckEquation(equation=Equation(terms), row=row, card=card))
     return found
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.deck.inp.acting import Courses, Known
 from signorini.deck.inp.amplitudes import find_amplitude
-from signorini.deck.inp.block import Block
+from signorini.deck.inp.card import Card
 from signorini.deck.inp.course import Course
 from signorini.deck.inp.distributed import read_dload, read_dsload
 from signorini.deck.inp.flatten import Placed
@@ -51,18 +51,18 @@ def follow_steps(model: list[Placed], steps: list[DeckStep], known: Known) -> Co
         "TEMPERATURE": lambda item, known, courses: _temperature(item, known, courses, initial),
     }
     for item in model:
-        if item.block.keyword == "BOUNDARY":
+        if item.card.keyword == "BOUNDARY":
             _boundary(item, known, courses)
-        elif item.block.keyword in readers:
-            raise item.block.error("stands outside the steps; expected loads inside a *STEP")
+        elif item.card.keyword in readers:
+            raise item.card.error("stands outside the steps; expected loads inside a *STEP")
     for step in steps:
         for course in courses.all:
             course.begin_step()
-        cards = [item for item in step.placed if item.block.keyword in readers]
+        cards = [item for item in step.placed if item.card.keyword in readers]
         for keywords in (("BOUNDARY",), ("CLOAD",), _DISTRIBUTED, ("TEMPERATURE",)):
-            _renew([item.block for item in cards if item.block.keyword in keywords], courses)
+            _renew([item.card for item in cards if item.card.keyword in keywords], courses)
         for item in cards:
-            readers[item.block.keyword](item, known, courses)
+            readers[item.card.keyword](item, known, courses)
         courses.notes.extend(_kept_beside(courses, step))
         if step.held and courses.displacement.plain:
             courses.notes.append(
@@ -74,7 +74,7 @@ def follow_steps(model: list[Placed], steps: list[DeckStep], known: Known) -> Co
     return courses
 
 
-def _renew(cards: Sequence[Block], courses: Courses) -> None:
+def _renew(cards: Sequence[Card], courses: Courses) -> None:
     """``OP=NEW`` of the first card of its kind in a step takes away what earlier steps have set, as in CalculiX."""
     new = [card for card in cards if card.choice("OP", ("MOD", "NEW"), "MOD") == "NEW"]
     if not new:
@@ -114,13 +114,13 @@ def _kept_beside(courses: Courses, step: DeckStep) -> Iterator[str]:
 
 
 def _boundary(item: Placed, known: Known, courses: Courses) -> None:
-    block = item.block
-    block.refuse_unknown(("OP", "AMPLITUDE", "TYPE", "FIXED"), ("LOAD CASE",))
-    block.choice("TYPE", ("DISPLACEMENT",), "DISPLACEMENT")
-    amplitude, fixed = find_amplitude(block, known.amplitudes), "FIXED" in block.parameters
+    card = item.card
+    card.refuse_unknown(("OP", "AMPLITUDE", "TYPE", "FIXED"), ("LOAD CASE",))
+    card.choice("TYPE", ("DISPLACEMENT",), "DISPLACEMENT")
+    amplitude, fixed = find_amplitude(card, known.amplitudes), "FIXED" in card.parameters
     if fixed and amplitude is not None:
-        raise block.error("FIXED goes with no AMPLITUDE: nodes stay where they are")
-    for row in block.rows():
+        raise card.error("FIXED goes with no AMPLITUDE: nodes stay where they are")
+    for row in card.rows():
         label, nodes = known.nodes.find(row.text(0, "a node or a node set"), item.scope, row)
         label = _HELD if label.startswith("node ") and label not in known.nodes else label
         word = row.text(1, "a direction").upper()
@@ -142,16 +142,16 @@ def _boundary(item: Placed, known: Known, courses: Courses) -> None:
         if fixed and value:
             raise row.error(f"*BOUNDARY: FIXED goes with no displacement, {value:g}: nodes stay where they are")
         if fixed:
-            courses.displacement.freeze(slots, label, block.at(row))
+            courses.displacement.freeze(slots, label, card.at(row))
         else:
-            courses.displacement.put(slots, value, label, block.at(row), amplitude, adds=False)
+            courses.displacement.put(slots, value, label, card.at(row), amplitude, adds=False)
 
 
 def _cload(item: Placed, known: Known, courses: Courses) -> None:
-    block = item.block
-    block.refuse_unknown(("OP", "AMPLITUDE"), ("LOAD CASE",))
-    amplitude = find_amplitude(block, known.amplitudes)
-    for row in block.rows():
+    card = item.card
+    card.refuse_unknown(("OP", "AMPLITUDE"), ("LOAD CASE",))
+    amplitude = find_amplitude(card, known.amplitudes)
+    for row in card.rows():
         label, nodes = known.nodes.find(row.text(0, "a node or a node set"), item.scope, row)
         label = _PULLED if label.startswith("node ") and label not in known.nodes else label
         axis = row.whole(1, "a direction")
@@ -162,32 +162,32 @@ def _cload(item: Placed, known: Known, courses: Courses) -> None:
             turns = "" if len(rest) else ", or a rotation of the rigid body"
             raise row.error(f"*CLOAD: direction {axis}; expected 1 to {known.dimension}{turns}")
         slots = np.append(slots, STRIDE * rest + axis - 1)
-        courses.force.put(slots, value, label, block.at(row), amplitude, adds=True)
+        courses.force.put(slots, value, label, card.at(row), amplitude, adds=True)
 
 
 def initial_temperatures(model: list[Placed], known: Known) -> Array:
     """Temperature of every node at the beginning, (n,), from ``*INITIAL CONDITIONS``; 0 where none is given."""
     temperatures = np.zeros(len(known.nodes.numbering.labels))
     for item in model:
-        block = item.block
-        if block.keyword == "INITIAL CONDITIONS":
-            block.refuse_unknown(("TYPE",))
-            block.choice("TYPE", ("TEMPERATURE",), "")
-            for row in block.rows():
+        card = item.card
+        if card.keyword == "INITIAL CONDITIONS":
+            card.refuse_unknown(("TYPE",))
+            card.choice("TYPE", ("TEMPERATURE",), "")
+            for row in card.rows():
                 nodes = known.nodes.find(row.text(0, "a node or a node set"), item.scope, row)[1]
                 temperatures[nodes] = row.number(1, "the temperature")
     return temperatures
 
 
 def _temperature(item: Placed, known: Known, courses: Courses, initial: Array) -> None:
-    block = item.block
-    block.refuse_unknown(("OP", "AMPLITUDE"))
-    amplitude = find_amplitude(block, known.amplitudes)
-    for row in block.rows():
+    card = item.card
+    card.refuse_unknown(("OP", "AMPLITUDE"))
+    amplitude = find_amplitude(card, known.amplitudes)
+    for row in card.rows():
         nodes = known.nodes.find(row.text(0, "a node or a node set"), item.scope, row)[1]
         value = row.number(1, "the temperature")
         if amplitude is not None and initial[nodes].any():
             raise row.error("*TEMPERATURE: an amplitude together with initial temperatures is not supported")
         for start in np.unique(initial[nodes]):
             own = nodes[initial[nodes] == start]
-            courses.temperature.put(own, value - float(start), "temperature", block.at(row), amplitude, adds=False)
+            courses.temperature.put(own, value - float(start), "temperature", card.at(row), amplitude, adds=False)

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from signorini.arrays import IntArray, distinct
-from signorini.deck.inp.block import Block
+from signorini.deck.inp.card import Card
 from signorini.deck.inp.course import unique_label
 from signorini.deck.inp.flatten import Placed
-from signorini.deck.inp.grid import Grid, nodes_of
+from signorini.deck.inp.grid import DeckGrid, nodes_of
 from signorini.deck.inp.named import gathered
 from signorini.deck.inp.sets import Sets
 from signorini.errors import InputError, one_of
@@ -29,13 +29,13 @@ class Substance:
 
     Attributes
     ----------
-    block : where it begins
+    card : where it begins
     elastic : None before ``*ELASTIC``
     density : mass per volume, None if not given
     expansion : thermal, per degree, None if not given
     """
 
-    block: Block
+    card: Card
     elastic: Material | None = None
     density: float | None = None
     expansion: float | None = None
@@ -47,7 +47,7 @@ class Section:
 
     Attributes
     ----------
-    block : the ``*SOLID SECTION``
+    card : the ``*SOLID SECTION``
     name : of the body
     elements, nodes : their indices, and those of their nodes, sorted
     substance : what they are made of
@@ -56,7 +56,7 @@ class Section:
     incompatible : its elements have incompatible modes
     """
 
-    block: Block
+    card: Card
     name: str
     elements: IntArray
     nodes: IntArray
@@ -74,24 +74,24 @@ def make_materials(placed: list[Placed]) -> dict[str, Substance]:
     DeckError
         For laws that are not linear elasticity with constant moduli.
     """
-    return gathered(placed, "MATERIAL", MATERIAL_WORDS, lambda block: Substance(block=block), _with)
+    return gathered(placed, "MATERIAL", MATERIAL_WORDS, lambda card: Substance(card=card), _with)
 
 
-def _with(substance: Substance, block: Block) -> Substance:
-    if block.keyword == "DENSITY":
-        return replace(substance, density=_constant(block, "the density"))
-    if block.keyword == "EXPANSION":
-        block.refuse_unknown(("TYPE", "ZERO"))
-        block.choice("TYPE", ("ISO",), "ISO")
-        return replace(substance, expansion=_constant(block, "the coefficient of expansion"))
-    block.refuse_unknown(("TYPE", "MODULI"))
-    block.choice("MODULI", ("LONG TERM", "INSTANTANEOUS"), "LONG TERM")
-    kind = block.choice("TYPE", ("ISO", "ISOTROPIC", "ENGINEERING CONSTANTS"), "ISO")
+def _with(substance: Substance, card: Card) -> Substance:
+    if card.keyword == "DENSITY":
+        return replace(substance, density=_constant(card, "the density"))
+    if card.keyword == "EXPANSION":
+        card.refuse_unknown(("TYPE", "ZERO"))
+        card.choice("TYPE", ("ISO",), "ISO")
+        return replace(substance, expansion=_constant(card, "the coefficient of expansion"))
+    card.refuse_unknown(("TYPE", "MODULI"))
+    card.choice("MODULI", ("LONG TERM", "INSTANTANEOUS"), "LONG TERM")
+    kind = card.choice("TYPE", ("ISO", "ISOTROPIC", "ENGINEERING CONSTANTS"), "ISO")
     if kind == "ENGINEERING CONSTANTS":
-        return replace(substance, elastic=_orthotropic(block))
-    rows = [(row, row.number(0, "Young's modulus"), row.number(1, "Poisson's ratio")) for row in block.rows()]
+        return replace(substance, elastic=_orthotropic(card))
+    rows = [(row, row.number(0, "Young's modulus"), row.number(1, "Poisson's ratio")) for row in card.rows()]
     if not rows:
-        raise block.error("has no data line; expected Young's modulus and Poisson's ratio")
+        raise card.error("has no data line; expected Young's modulus and Poisson's ratio")
     if len({row[1:] for row in rows}) > 1:
         raise rows[1][0].error("*ELASTIC: moduli that depend on temperature are not supported; expected one data line")
     row, modulus, ratio = rows[0]
@@ -101,12 +101,12 @@ def _with(substance: Substance, block: Block) -> Substance:
         raise row.error(f"*ELASTIC: {error}") from error
 
 
-def _orthotropic(block: Block) -> Orthotropic:
+def _orthotropic(card: Card) -> Orthotropic:
     """Nine constants in two lines: E1, E2, E3, nu12, nu13, nu23, G12, G13, G23."""
-    rows = list(block.rows())
+    rows = list(card.rows())
     words = [(row, i) for row in rows for i in range(len(row.fields))]
     if len(words) not in (9, 10):
-        raise block.error(f"has {len(words)} constants; expected 9: E1, E2, E3, nu12, nu13, nu23, G12, G13, G23")
+        raise card.error(f"has {len(words)} constants; expected 9: E1, E2, E3, nu12, nu13, nu23, G12, G13, G23")
     values = [row.number(i, "a constant") for row, i in words[:9]]  # a tenth is the temperature that they belong to
     keys = ("E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23")
     try:
@@ -115,48 +115,50 @@ def _orthotropic(block: Block) -> Orthotropic:
         raise rows[0].error(f"*ELASTIC: {error}") from error
 
 
-def _constant(block: Block, what: str) -> float:
-    value = block.row(what).number(0, what)
-    for row in block.rows():
+def _constant(card: Card, what: str) -> float:
+    value = card.row(what).number(0, what)
+    for row in card.rows():
         if row.number(0, what) != value:
-            raise block.at(row).error(f"{what} depends on temperature, which is not supported; expected one data line")
+            raise card.at(row).error(f"{what} depends on temperature, which is not supported; expected one data line")
     return value
 
 
-def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Substance], grid: Grid) -> list[Section]:
+def make_sections(
+    placed: list[Placed], elements: Sets, materials: dict[str, Substance], grid: DeckGrid
+) -> list[Section]:
     """Read all ``*SOLID SECTION`` keywords; every element has exactly one, and bodies are of one formulation."""
     sections: list[Section] = []
     taken: set[str] = set()
     angles = make_orientations(placed)
     owner = np.full(len(grid.elements.labels), -1)
     for item in placed:
-        block = item.block
-        if block.keyword != "SOLID SECTION":
+        card = item.card
+        if card.keyword != "SOLID SECTION":
             continue
-        block.refuse_unknown(("ELSET", "MATERIAL", "ORIENTATION"), ("CONTROLS", "OFFSET"))
-        material = block.value("MATERIAL")
+        card.refuse_unknown(("ELSET", "MATERIAL", "ORIENTATION"), ("CONTROLS", "OFFSET"))
+        material = card.value("MATERIAL")
         if material.upper() not in materials:
-            raise block.error(one_of(material, [m.block.value("NAME") for m in materials.values()], "material"))
+            raise card.error(one_of(material, [m.card.value("NAME") for m in materials.values()], "material"))
         substance = materials[material.upper()]
         if substance.elastic is None:
-            raise substance.block.error(f"'{material}' has no *ELASTIC")
-        name, members = elements.find(block.value("ELSET"), item.scope, block)
+            raise substance.card.error(f"'{material}' has no *ELASTIC")
+        name, members = elements.find(card.value("ELSET"), item.scope, card)
         members = distinct(members)
         if not len(members):
-            raise block.error(f"element set '{name}' is empty")
-        _refuse_skins(block, name, members, grid)
+            raise card.error(f"element set '{name}' is empty")
+        _refuse_skins(card, name, members, grid)
         if (owner[members] >= 0).any():
             first = members[owner[members] >= 0][0]
             number = elements.numbering.labels[first]
-            raise block.error(f"element {number} has the section of '{sections[owner[first]].name}' already")
-        given: dict[str, Any] = {"substance": substance, "angle": _angle(block, angles), "thickness": _thickness(block)}
+            raise card.error(f"element {number} has the section of '{sections[owner[first]].name}' already")
+        given: dict[str, Any] = {"substance": substance, "angle": _angle(card, angles), "thickness": _thickness(card)}
         for kind, own in _by_formulation(members, grid):
             owner[own] = len(sections)
             label = unique_label(f"{name} {kind}" if kind and len(own) < len(members) else name, taken)
             taken.add(label)
             sections.append(
                 Section(
-                    block=block, name=label, elements=own, nodes=nodes_of(grid, own), incompatible=bool(kind), **given
+                    card=card, name=label, elements=own, nodes=nodes_of(grid, own), incompatible=bool(kind), **given
                 )
             )
     bodies = grid.elements_of_cells
@@ -166,23 +168,23 @@ def make_sections(placed: list[Placed], elements: Sets, materials: dict[str, Sub
     return sections
 
 
-def _refuse_skins(block: Block, name: str, members: IntArray, grid: Grid) -> None:
+def _refuse_skins(card: Card, name: str, members: IntArray, grid: DeckGrid) -> None:
     for skin in grid.skins:
         if np.isin(skin.index, members).any():
             cells = grid.groups[0].type.name
-            raise block.error(
+            raise card.error(
                 f"'{name}' holds {skin.type.name} beside {cells} of the model; expected no section for these"
             )
 
 
-def _by_formulation(members: IntArray, grid: Grid) -> Iterator[tuple[str, IntArray]]:
+def _by_formulation(members: IntArray, grid: DeckGrid) -> Iterator[tuple[str, IntArray]]:
     """Elements without and with incompatible modes, which are bodies of their own: "" or their type, and members."""
     groups = [group for group in grid.groups if group.type.incompatible]
     modes = np.isin(members, np.concatenate([np.empty(0, np.int64), *(group.index for group in groups)]))
     if not modes.all():
         yield "", members[~modes]
     if modes.any():
-        yield groups[0].block.value("TYPE").upper(), members[modes]
+        yield groups[0].card.value("TYPE").upper(), members[modes]
 
 
 def make_orientations(placed: list[Placed]) -> dict[str, float]:
@@ -195,43 +197,43 @@ def make_orientations(placed: list[Placed]) -> dict[str, float]:
     """
     angles: dict[str, float] = {}
     for item in placed:
-        block = item.block
-        if block.keyword != "ORIENTATION":
+        card = item.card
+        if card.keyword != "ORIENTATION":
             continue
-        block.refuse_unknown(("NAME", "SYSTEM", "DEFINITION"))
-        block.choice("SYSTEM", ("RECTANGULAR",), "RECTANGULAR")
-        block.choice("DEFINITION", ("COORDINATES",), "COORDINATES")
-        angles[block.value("NAME").upper()] = _axes(block)
+        card.refuse_unknown(("NAME", "SYSTEM", "DEFINITION"))
+        card.choice("SYSTEM", ("RECTANGULAR",), "RECTANGULAR")
+        card.choice("DEFINITION", ("COORDINATES",), "COORDINATES")
+        angles[card.value("NAME").upper()] = _axes(card)
     return angles
 
 
-def _axes(block: Block) -> float:
+def _axes(card: Card) -> float:
     """Angle of the first axis, degrees, from points on it and beside it, and a turn about a local axis behind them."""
-    rows = list(block.rows())
+    rows = list(card.rows())
     if len(rows) not in (1, 2):
-        raise block.error(f"has {len(rows)} data lines; expected points on and beside the first axis, then a rotation")
+        raise card.error(f"has {len(rows)} data lines; expected points on and beside the first axis, then a rotation")
     a, b, c = (np.array([rows[0].number(3 * k + i, "a coordinate", 0.0) for i in range(3)]) for k in range(3))
     a, b = a - c, b - c
     if a[2] or b[2] or not a[0] * b[1] - a[1] * b[0] > 0.0:
-        raise block.at(rows[0]).error("its axes do not lie in the plane with the third towards the reader")
+        raise card.at(rows[0]).error("its axes do not lie in the plane with the third towards the reader")
     axis = rows[1].whole(0, "the local axis of the rotation", 1) if len(rows) == 2 else 3
     turn = rows[1].number(1, "the additional rotation, degrees", 0.0) if len(rows) == 2 else 0.0
     if axis != 3 and turn:
-        raise block.at(rows[1]).error(f"turns by {turn:g} degrees about axis {axis}; expected axis 3, across the plane")
+        raise card.at(rows[1]).error(f"turns by {turn:g} degrees about axis {axis}; expected axis 3, across the plane")
     return float(np.degrees(np.arctan2(a[1], a[0]))) + turn
 
 
-def _angle(block: Block, angles: dict[str, float]) -> float:
-    if "ORIENTATION" not in block.parameters:
+def _angle(card: Card, angles: dict[str, float]) -> float:
+    if "ORIENTATION" not in card.parameters:
         return 0.0
-    name = block.value("ORIENTATION")
+    name = card.value("ORIENTATION")
     if name.upper() not in angles:
-        raise block.error(one_of(name.upper(), angles, "orientation"))
+        raise card.error(one_of(name.upper(), angles, "orientation"))
     return angles[name.upper()]
 
 
-def _thickness(block: Block) -> float:
-    for row in block.rows():
+def _thickness(card: Card) -> float:
+    for row in card.rows():
         thickness = row.number(0, "the thickness", 1.0)
         if not thickness > 0.0:
             raise row.error(f"*SOLID SECTION: the thickness is {thickness:g}; expected a number > 0")

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
-from signorini.deck.inp.block import Block
+from signorini.deck.inp.card import Card
 from signorini.deck.inp.flatten import Placed
 
 Named = TypeVar("Named")
@@ -16,8 +16,8 @@ def gathered(
     placed: list[Placed],
     opening: str,
     words: Sequence[str],
-    begun: Callable[[Block], Named],
-    extended: Callable[[Named, Block], Named],
+    begun: Callable[[Card], Named],
+    extended: Callable[[Named, Card], Named],
 ) -> dict[str, Named]:
     """All that a keyword begins, by name in capitals.
 
@@ -36,14 +36,14 @@ def gathered(
     found: dict[str, Named] = {}
     current = ""
     for item in placed:
-        block = item.block
-        if block.keyword == opening:
-            first, current = begun(block), block.value("NAME").upper()
+        card = item.card
+        if card.keyword == opening:
+            first, current = begun(card), card.value("NAME").upper()
             if current in found:
-                raise block.error(f"there is another {opening.lower()} '{block.value('NAME')}'")
+                raise card.error(f"there is another {opening.lower()} '{card.value('NAME')}'")
             found[current] = first
-        elif block.keyword in words:
+        elif card.keyword in words:
             if not current:
-                raise block.error(f"stands before any *{opening}")
-            found[current] = extended(found[current], block)
+                raise card.error(f"stands before any *{opening}")
+            found[current] = extended(found[current], card)
     return found

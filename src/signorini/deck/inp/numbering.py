@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from signorini.arrays import IntArray
-from signorini.deck.inp.block import Block, Row
+from signorini.deck.inp.card import Card, Row
 from signorini.deck.inp.flatten import Scope
 
 
@@ -60,11 +60,11 @@ class Numbering:
         found = known[at] == numbers
         return index[at[found]], np.nonzero(~found)[0]
 
-    def index(self, scope: Scope, numbers: IntArray, at: Block | Row | Callable[[int], Block]) -> IntArray:
+    def index(self, scope: Scope, numbers: IntArray, at: Card | Row | Callable[[int], Card]) -> IntArray:
         """Indices of numbers, all of which must be there; otherwise ``at`` is blamed, or gives by place what is."""
         found, missing = self.find(scope.name, numbers)
         if len(missing):
             inside = f" in instance '{scope.name}'" if scope.name else ""
-            blamed = at if isinstance(at, Block | Row) else at(int(missing[0]))
+            blamed = at if isinstance(at, Card | Row) else at(int(missing[0]))
             raise blamed.error(f"there is no {self.what} {numbers[missing[0]]}{inside}")
         return found

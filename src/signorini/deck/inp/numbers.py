@@ -10,7 +10,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.checks import LARGEST
-from signorini.deck.inp.block import MOST, Block
+from signorini.deck.inp.card import MOST, Card
 
 _EXPONENT = bytes.maketrans(b"Dd", b"ee")
 _LETTERS = b"abcdfghijklmnopqrstuvwxyzABCDFGHIJKLMNOPQRSTUVWXYZ"  # but not e: 1e5
@@ -50,7 +50,7 @@ def bulk(data: bytes) -> tuple[Array, IntArray] | None:
     return values, counts
 
 
-def number_table(block: Block, what: str, *, least: int, most: int) -> Array:
+def number_table(card: Card, what: str, *, least: int, most: int) -> Array:
     """Data lines of numbers as a table, missing ones 0: (n, most).
 
     Parameters
@@ -64,7 +64,7 @@ def number_table(block: Block, what: str, *, least: int, most: int) -> Array:
         At the first line that does not hold so many numbers.
     """
     tables = []
-    for part in _parts(block):
+    for part in _parts(card):
         found = bulk(part.chunks[0][2])
         if found is not None and len(found[1]) and found[1].min() == found[1].max() and least <= found[1][0] <= most:
             table = found[0].reshape(-1, int(found[1][0]))
@@ -74,7 +74,7 @@ def number_table(block: Block, what: str, *, least: int, most: int) -> Array:
     return np.vstack(tables) if tables else np.empty((0, most))
 
 
-def record_table(block: Block, size: int, what: str) -> IntArray:
+def record_table(card: Card, size: int, what: str) -> IntArray:
     """Whole numbers in records of ``size``, each of which may go on over several lines: (n, size).
 
     Parameters
@@ -87,21 +87,21 @@ def record_table(block: Block, size: int, what: str) -> IntArray:
         At the first line that holds anything else, or where a record ends inside a line or not at all.
     """
     tables = []
-    for part in _parts(block):
+    for part in _parts(card):
         found = bulk(part.chunks[0][2])
         if found is None or len(found[0]) % size or (found[0] != np.rint(found[0])).any():
-            return _records(block, size, what)
+            return _records(card, size, what)
         ends = np.cumsum(found[1])
         if not np.isin(np.arange(size, len(found[0]) + 1, size), ends).all() or np.abs(found[0]).max(initial=0) >= MOST:
-            return _records(block, size, what)
+            return _records(card, size, what)
         tables.append(found[0].astype(np.int64).reshape(-1, size))
     return np.vstack(tables) if tables else np.empty((0, size), np.int64)
 
 
-def whole_numbers(block: Block) -> IntArray | None:
+def whole_numbers(card: Card) -> IntArray | None:
     """All data as whole numbers in one list; None if anything else is there (names, in sets)."""
     lists = []
-    for part in _parts(block):
+    for part in _parts(card):
         found = bulk(part.chunks[0][2])
         if found is None or (found[0] != np.rint(found[0])).any() or np.abs(found[0]).max(initial=0) >= MOST:
             return None
@@ -109,34 +109,32 @@ def whole_numbers(block: Block) -> IntArray | None:
     return np.concatenate(lists) if lists else np.empty(0, np.int64)
 
 
-def _parts(block: Block) -> Iterator[Block]:
-    """The block, one piece of its data at a time."""
-    for chunk in block.chunks:
-        yield Block(
-            keyword=block.keyword, parameters=block.parameters, path=block.path, line=block.line, chunks=(chunk,)
-        )
+def _parts(card: Card) -> Iterator[Card]:
+    """The card, one piece of its data at a time."""
+    for chunk in card.chunks:
+        yield Card(keyword=card.keyword, parameters=card.parameters, path=card.path, line=card.line, chunks=(chunk,))
 
 
-def _by_line(block: Block, what: str, least: int, most: int) -> Array:
+def _by_line(card: Card, what: str, least: int, most: int) -> Array:
     rows = []
-    for row in block.rows():
+    for row in card.rows():
         if not least <= len(row.fields) <= most:
-            raise row.error(f"*{block.keyword}: has {len(row.fields)} fields; expected {what}")
+            raise row.error(f"*{card.keyword}: has {len(row.fields)} fields; expected {what}")
         rows.append([row.number(i, what, 0.0 if i else None) for i in range(most)])
     return np.array(rows, float).reshape(-1, most)
 
 
-def _records(block: Block, size: int, what: str) -> IntArray:
+def _records(card: Card, size: int, what: str) -> IntArray:
     records: list[list[int]] = []
     current: list[int] = []
     last = None
-    for last in block.rows():
+    for last in card.rows():
         current += [last.whole(i, what) for i in range(len(last.fields))]
         if len(current) > size:
-            raise last.error(f"*{block.keyword}: has {len(current)} numbers; expected {size}: {what}")
+            raise last.error(f"*{card.keyword}: has {len(current)} numbers; expected {size}: {what}")
         if len(current) == size:
             records.append(current)
             current = []
     if current and last is not None:
-        raise last.error(f"*{block.keyword}: ends after {len(current)} numbers; expected {size}: {what}")
+        raise last.error(f"*{card.keyword}: ends after {len(current)} numbers; expected {size}: {what}")
     return np.array(records, np.int64).reshape(-1, size)

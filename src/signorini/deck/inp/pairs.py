@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from signorini.arrays import IntArray, distinct
-from signorini.deck.inp.block import Block, Row, to_number
+from signorini.deck.inp.card import Card, Row, to_number
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.interactions import Interaction
 from signorini.deck.inp.sets import Sets
-from signorini.deck.inp.surfaces import Edges, Surfaces
+from signorini.deck.inp.surfaces import ElementFaces, Surfaces
 from signorini.errors import one_of
 from signorini.model.contact import Contact
 
@@ -34,12 +34,12 @@ class Pair:
     """A contact, the keyword that it comes from, at its line, and the name of its law in capitals."""
 
     contact: Contact
-    block: Block
+    card: Card
     interaction: str = ""
 
 
 def make_contacts(
-    placed: list[Placed], interactions: Mapping[str, Interaction], surfaces: Surfaces, nodes: Sets, edges: Edges
+    placed: list[Placed], interactions: Mapping[str, Interaction], surfaces: Surfaces, nodes: Sets, edges: ElementFaces
 ) -> list[Pair]:
     """Read all ``*CONTACT PAIR`` keywords: the slave side is nonmortar.
 
@@ -51,21 +51,21 @@ def make_contacts(
     clearances = _clearances(placed, surfaces)
     found: list[Pair] = []
     for item in placed:
-        block = item.block
-        if block.keyword != "CONTACT PAIR":
+        card = item.card
+        if card.keyword != "CONTACT PAIR":
             continue
-        block.refuse_unknown(("INTERACTION", "TYPE", "ADJUST"), IGNORED)
-        block.choice("TYPE", _TYPES, "")
-        name = block.value("INTERACTION")
+        card.refuse_unknown(("INTERACTION", "TYPE", "ADJUST"), IGNORED)
+        card.choice("TYPE", _TYPES, "")
+        name = card.value("INTERACTION")
         if name.upper() not in interactions:
-            known = [law.block.value("NAME") for law in interactions.values()]
-            raise block.error(one_of(name, known, "surface interaction"))
+            known = [law.card.value("NAME") for law in interactions.values()]
+            raise card.error(one_of(name, known, "surface interaction"))
         law = interactions[name.upper()]
-        block.row("the slave and the master surface")
-        for row in block.rows():
+        card.row("the slave and the master surface")
+        for row in card.rows():
             slave, master = (_side(item, row, i, surfaces, edges, nodes) for i in (0, 1))
             faces = edges.ends[surfaces.keys[slave.upper()]]
-            given = _adjusted(block, nodes, item, distinct(faces[faces >= 0]))
+            given = _adjusted(card, nodes, item, distinct(faces[faces >= 0]))
             if (slave, master) in clearances:
                 given = {"gap": clearances[slave, master][0]}
             contact = Contact(
@@ -78,16 +78,16 @@ def make_contacts(
                 name=_label(slave, master, found),
                 **given,
             )
-            found.append(Pair(contact=contact, block=block.at(row), interaction=name.upper()))
+            found.append(Pair(contact=contact, card=card.at(row), interaction=name.upper()))
     sides = {(pair.contact.nonmortar, pair.contact.mortar) for pair in found}
-    for (slave, master), (_, block) in clearances.items():
+    for (slave, master), (_, card) in clearances.items():
         if (slave, master) not in sides:
-            raise block.error(f"there is no contact pair of '{slave}' and '{master}'")
+            raise card.error(f"there is no contact pair of '{slave}' and '{master}'")
     return found
 
 
 def make_ties(
-    placed: list[Placed], surfaces: Surfaces, nodes: Sets, edges: Edges, contacts: Sequence[Pair]
+    placed: list[Placed], surfaces: Surfaces, nodes: Sets, edges: ElementFaces, contacts: Sequence[Pair]
 ) -> list[Pair]:
     """Read all ``*TIE`` keywords: surfaces that neither slip nor open; initial gaps count as filled.
 
@@ -98,21 +98,21 @@ def make_ties(
     """
     found: list[Pair] = []
     for item in placed:
-        block = item.block
-        if block.keyword != "TIE":
+        card = item.card
+        if card.keyword != "TIE":
             continue
-        block.refuse_unknown(("NAME", "POSITION TOLERANCE", "ADJUST"), ("TYPE", "CONSTRAINT RATIO"))
+        card.refuse_unknown(("NAME", "POSITION TOLERANCE", "ADJUST"), ("TYPE", "CONSTRAINT RATIO"))
         given: dict[str, Any] = {}
-        if "POSITION TOLERANCE" in block.parameters:
-            reach = to_number(block.value("POSITION TOLERANCE", "a distance"))
+        if "POSITION TOLERANCE" in card.parameters:
+            reach = to_number(card.value("POSITION TOLERANCE", "a distance"))
             if reach is None or not reach > 0.0:
-                raise block.error("POSITION TOLERANCE: expected a distance > 0")
+                raise card.error("POSITION TOLERANCE: expected a distance > 0")
             given["search"] = reach
-        block.row("the slave and the master surface")
-        for row in block.rows():
+        card.row("the slave and the master surface")
+        for row in card.rows():
             slave, master = (_side(item, row, i, surfaces, edges, nodes) for i in (0, 1))
             name = _label(slave, master, [*contacts, *found])
-            found.append(Pair(contact=Contact(slave, master, friction="tied", name=name, **given), block=block.at(row)))
+            found.append(Pair(contact=Contact(slave, master, friction="tied", name=name, **given), card=card.at(row)))
     return found
 
 
@@ -121,7 +121,7 @@ def _label(slave: str, master: str, others: Sequence[Pair]) -> str:
     return slave if not any(other.contact.nonmortar == slave for other in others) else f"{slave} on {master}"
 
 
-def _side(item: Placed, row: Row, i: int, surfaces: Surfaces, edges: Edges, nodes: Sets) -> str:
+def _side(item: Placed, row: Row, i: int, surfaces: Surfaces, edges: ElementFaces, nodes: Sets) -> str:
     name = surfaces.find(row.text(i, "a surface"), item.scope, row)
     keys = surfaces.keys[name.upper()]
     surfaces.refuse_bare(name, edges, nodes, row)
@@ -132,32 +132,32 @@ def _side(item: Placed, row: Row, i: int, surfaces: Surfaces, edges: Edges, node
     return name
 
 
-def _adjusted(block: Block, nodes: Sets, item: Placed, slave: IntArray) -> dict[str, Any]:
+def _adjusted(card: Card, nodes: Sets, item: Placed, slave: IntArray) -> dict[str, Any]:
     """``ADJUST``: gaps up to a distance are closed; or those of a node set, if it holds all slave nodes."""
-    if "ADJUST" not in block.parameters:
+    if "ADJUST" not in card.parameters:
         return {}
-    word = block.value("ADJUST", "a distance or a node set")
+    word = card.value("ADJUST", "a distance or a node set")
     distance = to_number(word)
     if distance is None:
-        name, members = nodes.find(word, item.scope, block)
+        name, members = nodes.find(word, item.scope, card)
         if not np.isin(slave, members).all():
-            raise block.error(f"ADJUST={name} does not hold all nodes of the slave surface, which is not supported")
+            raise card.error(f"ADJUST={name} does not hold all nodes of the slave surface, which is not supported")
         return {"gap": "zero"}
     if distance < 0.0:
-        raise block.error(f"ADJUST is {distance:g}; expected a distance >= 0")
+        raise card.error(f"ADJUST is {distance:g}; expected a distance >= 0")
     return {"adjust": distance}
 
 
-def _clearances(placed: list[Placed], surfaces: Surfaces) -> dict[tuple[str, str], tuple[float, Block]]:
+def _clearances(placed: list[Placed], surfaces: Surfaces) -> dict[tuple[str, str], tuple[float, Card]]:
     """Gap of every pair of slave and master surface, and where it stands."""
     found = {}
     for item in placed:
-        if item.block.keyword == "CLEARANCE":
-            block = item.block
-            block.refuse_unknown(("MASTER", "SLAVE", "VALUE"))
-            value = to_number(block.value("VALUE", "a distance"))
+        if item.card.keyword == "CLEARANCE":
+            card = item.card
+            card.refuse_unknown(("MASTER", "SLAVE", "VALUE"))
+            value = to_number(card.value("VALUE", "a distance"))
             if value is None:
-                raise block.error(f"VALUE is '{block.value('VALUE')}'; expected a number")
-            slave, master = (surfaces.find(block.value(key), item.scope, block) for key in ("SLAVE", "MASTER"))
-            found[slave, master] = value, block
+                raise card.error(f"VALUE is '{card.value('VALUE')}'; expected a number")
+            slave, master = (surfaces.find(card.value(key), item.scope, card) for key in ("SLAVE", "MASTER"))
+            found[slave, master] = value, card
     return found

@@ -10,7 +10,7 @@ import numpy as np
 from signorini.arrays import IntArray
 from signorini.deck.inp.course import unique_label
 from signorini.deck.inp.sets import Sets
-from signorini.deck.inp.surfaces import Edges, Surfaces
+from signorini.deck.inp.surfaces import ElementFaces, Surfaces
 
 
 class Places:
@@ -22,7 +22,7 @@ class Places:
     nodes : name to sorted nodes; no name is that of a boundary
     """
 
-    def __init__(self, edges: Edges, surfaces: Surfaces, sets: Sets) -> None:
+    def __init__(self, edges: ElementFaces, surfaces: Surfaces, sets: Sets) -> None:
         self._edges = edges
         self.boundaries: dict[str, tuple[IntArray, ...]] = dict(surfaces.facets(edges))
         self.nodes: dict[str, IntArray] = {}

@@ -10,7 +10,7 @@ import numpy as np
 
 from signorini.arrays import IntArray
 from signorini.deck.inp.acting import Known
-from signorini.deck.inp.block import Block
+from signorini.deck.inp.card import Card
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.pairs import Pair
 from signorini.deck.inp.sets import Sets
@@ -45,9 +45,9 @@ def make_prints(steps: Sequence[DeckStep], known: Known, mesh: Mesh, contacts: S
     asked: list[Placed] = []
     tables: list[Table] = []
     for k, step in enumerate(steps):
-        anew = [item for item in step.placed if item.block.keyword in _OF]
-        words = {item.block.keyword for item in anew}
-        asked = [item for item in asked if item.block.keyword not in words] + anew
+        anew = [item for item in step.placed if item.card.keyword in _OF]
+        words = {item.card.keyword for item in anew}
+        asked = [item for item in asked if item.card.keyword not in words] + anew
         own = [table for item in asked for table in _tables(k, item, known, cell_of, contacts)]
         tables += sorted(own, key=lambda table: bool(set(table.quantities) & set(_FORCES)))
     return Prints(tables=tuple(tables), times=tuple(step.end for step in steps))
@@ -55,8 +55,8 @@ def make_prints(steps: Sequence[DeckStep], known: Known, mesh: Mesh, contacts: S
 
 def _tables(k: int, item: Placed, known: Known, cell_of: IntArray, contacts: Sequence[Pair]) -> Iterator[Table]:
     """What one keyword asks for in step k."""
-    of = _OF[item.block.keyword]
-    quantities = _quantities(item.block, _KNOWN[of])
+    of = _OF[item.card.keyword]
+    quantities = _quantities(item.card, _KNOWN[of])
     if of == "contacts":
         yield from _contact_tables(k, item, quantities, known, contacts)
     elif quantities:
@@ -68,7 +68,7 @@ def _tables(k: int, item: Placed, known: Known, cell_of: IntArray, contacts: Seq
             place=place.upper(),
             members=members if nodes else np.sort(cell_of[members][cell_of[members] >= 0]),
             quantities=quantities,
-            totals=_totals(item.block),
+            totals=_totals(item.card),
             rotations={rigid.turning: rigid.body.name for rigid in known.rigid if nodes and rigid.turning >= 0},
         )
 
@@ -77,12 +77,12 @@ def _contact_tables(
     k: int, item: Placed, quantities: Sequence[str], known: Known, contacts: Sequence[Pair]
 ) -> Iterator[Table]:
     """Nodal values of all contact pairs in one table each, and the forces of the pair that is named, or of all."""
-    every = [i for i, pair in enumerate(contacts) if pair.block.keyword == "CONTACT PAIR"]
+    every = [i for i, pair in enumerate(contacts) if pair.card.keyword == "CONTACT PAIR"]
     nodal = tuple(word for word in quantities if word not in _FORCES)
     forces = tuple(word for word in quantities if word in _FORCES)
     if every and nodal:
         members = np.array(every)
-        totals = _totals(item.block)
+        totals = _totals(item.card)
         yield Table(step=k, of="contacts", place="all", members=members, quantities=nodal, totals=totals)
     named = _named(item, known, every, contacts) if forces else []
     for quantity in forces:
@@ -94,28 +94,28 @@ def _contact_tables(
 
 def _named(item: Placed, known: Known, every: Sequence[int], contacts: Sequence[Pair]) -> Sequence[int]:
     """Contact pairs of ``SLAVE=`` and ``MASTER=``; without them all."""
-    block = item.block
-    given = [key for key in ("SLAVE", "MASTER") if key in block.parameters]
+    card = item.card
+    given = [key for key in ("SLAVE", "MASTER") if key in card.parameters]
     if not given:
         return every
-    sides = tuple(known.surfaces.find(block.value(key, "a surface"), item.scope, block) for key in ("SLAVE", "MASTER"))
+    sides = tuple(known.surfaces.find(card.value(key, "a surface"), item.scope, card) for key in ("SLAVE", "MASTER"))
     found = [i for i in every if (contacts[i].contact.nonmortar, contacts[i].contact.mortar) == sides]
     if not found:
-        raise block.error(f"there is no contact pair of '{sides[0]}' and '{sides[1]}'")
+        raise card.error(f"there is no contact pair of '{sides[0]}' and '{sides[1]}'")
     return found
 
 
 def _members(item: Placed, key: str, sets: Sets) -> tuple[str, IntArray]:
-    if item.block.parameters.get(key):
-        return sets.find(item.block.parameters[key], item.scope, item.block)
+    if item.card.parameters.get(key):
+        return sets.find(item.card.parameters[key], item.scope, item.card)
     return "all", np.arange(len(sets.numbering.labels))
 
 
-def _totals(block: Block) -> Literal["no", "yes", "only"]:
-    found = block.get("TOTALS", "NO")
+def _totals(card: Card) -> Literal["no", "yes", "only"]:
+    found = card.get("TOTALS", "NO")
     return "yes" if found == "YES" else "only" if found == "ONLY" else "no"
 
 
-def _quantities(block: Block, known: tuple[str, ...]) -> tuple[str, ...]:
-    found = [_SAME.get(word.upper(), word.upper()) for row in block.rows() for word in row.fields]
+def _quantities(card: Card, known: tuple[str, ...]) -> tuple[str, ...]:
+    found = [_SAME.get(word.upper(), word.upper()) for row in card.rows() for word in row.fields]
     return tuple(dict.fromkeys(word for word in found if word in known))

@@ -8,9 +8,9 @@ from collections import defaultdict
 import numpy as np
 
 from signorini.arrays import IntArray, distinct
-from signorini.deck.inp.block import MOST, Block, Row, to_number
+from signorini.deck.inp.card import MOST, Card, Row, to_number
 from signorini.deck.inp.flatten import Placed, Scope
-from signorini.deck.inp.grid import Grid, nodes_of
+from signorini.deck.inp.grid import DeckGrid, nodes_of
 from signorini.deck.inp.numbering import Numbering
 from signorini.deck.inp.numbers import number_table, whole_numbers
 from signorini.errors import one_of
@@ -60,7 +60,7 @@ class Sets:
         inner = scope.prefixed(word)
         return next((name for name in (inner, word) if name in self), None)
 
-    def find(self, word: str, scope: Scope, at: Block | Row) -> tuple[str, IntArray]:
+    def find(self, word: str, scope: Scope, at: Card | Row) -> tuple[str, IntArray]:
         """Label and members of a set or of a single number; instances go before a dot: ``PART-1.7``.
 
         Raises
@@ -84,58 +84,58 @@ def _ascending(members: IntArray) -> bool:
     return bool((np.diff(members) > 0).all())
 
 
-def make_sets(placed: list[Placed], grid: Grid) -> tuple[Sets, Sets]:
+def make_sets(placed: list[Placed], grid: DeckGrid) -> tuple[Sets, Sets]:
     """Node sets and element sets of a deck, in the order of their definitions."""
     nodes, elements = Sets(grid.nodes), Sets(grid.elements)
     for group in grid.all_groups:
-        if group.block.parameters.get("ELSET"):
-            elements.add(group.scope.prefixed(group.block.parameters["ELSET"]), group.index)
-    node_scopes = [item for item in placed if item.block.keyword == "NODE" and item.block.parameters.get("NSET")]
+        if group.card.parameters.get("ELSET"):
+            elements.add(group.scope.prefixed(group.card.parameters["ELSET"]), group.index)
+    node_scopes = [item for item in placed if item.card.keyword == "NODE" and item.card.parameters.get("NSET")]
     for item in node_scopes:
-        numbers = _numbers_of_nodes(item.block)
-        nodes.add(item.scope.prefixed(item.block.parameters["NSET"]), grid.nodes.index(item.scope, numbers, item.block))
+        numbers = _numbers_of_nodes(item.card)
+        nodes.add(item.scope.prefixed(item.card.parameters["NSET"]), grid.nodes.index(item.scope, numbers, item.card))
     for item in placed:
-        if item.block.keyword == "NSET":
+        if item.card.keyword == "NSET":
             _define(item, "NSET", nodes, elements, grid)
-        elif item.block.keyword == "ELSET":
+        elif item.card.keyword == "ELSET":
             _define(item, "ELSET", elements, elements, grid)
     return nodes, elements
 
 
-def _numbers_of_nodes(block: Block) -> IntArray:
-    return number_table(block, "a number and up to 3 coordinates", least=1, most=7)[:, 0].astype(np.int64)
+def _numbers_of_nodes(card: Card) -> IntArray:
+    return number_table(card, "a number and up to 3 coordinates", least=1, most=7)[:, 0].astype(np.int64)
 
 
-def _define(item: Placed, key: str, sets: Sets, elements: Sets, grid: Grid) -> None:
-    block = item.block
-    block.refuse_unknown((key, "GENERATE", "INSTANCE", "ELSET", "INPUT"), ("INTERNAL", "UNSORTED", "FREQUENCY"))
-    name = item.scope.prefixed(block.value(key))
-    inside = Scope(name=block.parameters["INSTANCE"].upper()) if block.parameters.get("INSTANCE") else item.scope
-    if key == "NSET" and block.parameters.get("ELSET"):
-        members = elements.find(block.parameters["ELSET"], inside, block)[1]
+def _define(item: Placed, key: str, sets: Sets, elements: Sets, grid: DeckGrid) -> None:
+    card = item.card
+    card.refuse_unknown((key, "GENERATE", "INSTANCE", "ELSET", "INPUT"), ("INTERNAL", "UNSORTED", "FREQUENCY"))
+    name = item.scope.prefixed(card.value(key))
+    inside = Scope(name=card.parameters["INSTANCE"].upper()) if card.parameters.get("INSTANCE") else item.scope
+    if key == "NSET" and card.parameters.get("ELSET"):
+        members = elements.find(card.parameters["ELSET"], inside, card)[1]
         sets.add(name, nodes_of(grid, members))
         return
-    if "GENERATE" in block.parameters:
-        sets.add(name, _generated(block, sets.numbering, inside))
+    if "GENERATE" in card.parameters:
+        sets.add(name, _generated(card, sets.numbering, inside))
         return
-    numbers = whole_numbers(block)
+    numbers = whole_numbers(card)
     if numbers is not None:
-        sets.add(name, sets.numbering.index(inside, numbers, lambda field: block.at(block.row_with(field))))
+        sets.add(name, sets.numbering.index(inside, numbers, lambda field: card.at(card.row_with(field))))
         return
     sets.add(name, np.empty(0, np.int64))
-    for row in block.rows():
+    for row in card.rows():
         for word in row.fields:
             if word:
                 sets.add(name, sets.find(word, inside, row)[1])
 
 
-def _generated(block: Block, numbering: Numbering, scope: Scope) -> IntArray:
+def _generated(card: Card, numbering: Numbering, scope: Scope) -> IntArray:
     """Members from first to last by steps; numbers in between that nothing has are left out, as CalculiX does."""
     pieces: list[IntArray] = [np.empty(0, np.int64)]
-    for row in block.rows():
+    for row in card.rows():
         first, last = row.whole(0, "the first number"), row.whole(1, "the last number", row.whole(0, "a number"))
         step = row.whole(2, "the step", 1)
         if step < 1 or last < first or (last - first) // step > _MOST:
-            raise row.error(f"*{block.keyword}: goes from {first} to {last} by {step}; expected an ascending range")
+            raise row.error(f"*{card.keyword}: goes from {first} to {last} by {step}; expected an ascending range")
         pieces.append(numbering.find(scope.name, np.arange(first, last + 1, step))[0])
     return np.concatenate(pieces)

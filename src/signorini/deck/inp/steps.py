@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from signorini.deck.inp.block import Block, to_number
+from signorini.deck.inp.card import Card, to_number
 from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.keywords import HARMLESS, STEP_WORDS
 
@@ -20,7 +20,7 @@ class DeckStep:
 
     Attributes
     ----------
-    block : where it begins
+    card : where it begins
     name : as given, or ``"step 1"``
     start, end : total time, which ``TIME RESET`` takes back by the period and ``TOTAL TIME AT START`` sets
     increments : that the deck asks for at first: its period over its first increment
@@ -29,7 +29,7 @@ class DeckStep:
     placed : the keywords in it
     """
 
-    block: Block
+    card: Card
     name: str
     start: float
     end: float
@@ -56,36 +56,36 @@ def split_steps(placed: list[Placed]) -> tuple[list[Placed], list[DeckStep]]:
     inside: list[tuple[Placed, list[Placed]]] = []
     open_ = False
     for item in placed:
-        keyword = item.block.keyword
+        keyword = item.card.keyword
         if keyword == "STEP":
             if open_:
-                raise item.block.error("begins before the step before it has ended; expected *END STEP")
+                raise item.card.error("begins before the step before it has ended; expected *END STEP")
             inside.append((item, []))
             open_ = True
         elif keyword == "END STEP":
             if not open_:
-                raise item.block.error("ends no step")
+                raise item.card.error("ends no step")
             open_ = False
         else:
             (inside[-1][1] if open_ else model).append(item)
     if open_:
-        raise inside[-1][0].block.error("is not ended; expected *END STEP")
+        raise inside[-1][0].card.error("is not ended; expected *END STEP")
     steps: list[DeckStep] = []
     for number, (item, members) in enumerate(inside, start=1):
         start = steps[-1].end if steps else 0.0
-        steps.append(_step(item.block, number, members, start, steps[-1] if steps else None))
+        steps.append(_step(item.card, number, members, start, steps[-1] if steps else None))
     return model, steps
 
 
-def _step(block: Block, number: int, members: list[Placed], start: float, before: DeckStep | None) -> DeckStep:
-    block.refuse_unknown(("NLGEOM", "AMPLITUDE"), IGNORED)
-    statics = [item.block for item in members if item.block.keyword == "STATIC"]
+def _step(card: Card, number: int, members: list[Placed], start: float, before: DeckStep | None) -> DeckStep:
+    card.refuse_unknown(("NLGEOM", "AMPLITUDE"), IGNORED)
+    statics = [item.card for item in members if item.card.keyword == "STATIC"]
     if len(statics) != 1:
-        other = next((m.block for m in members if m.block.keyword not in (*STEP_WORDS, *HARMLESS)), None)
+        other = next((m.card for m in members if m.card.keyword not in (*STEP_WORDS, *HARMLESS)), None)
         if not statics and other is not None:
             raise other.error("is not supported; expected *STATIC")
         found = "no *STATIC" if not statics else "two *STATIC"
-        raise block.error(f"has {found}; expected one: only static steps can be solved")
+        raise card.error(f"has {found}; expected one: only static steps can be solved")
     static = statics[0]
     static.refuse_unknown(
         ("SOLVER", "DIRECT", "TIME RESET", "TOTAL TIME AT START"),
@@ -106,16 +106,16 @@ def _step(block: Block, number: int, members: list[Placed], start: float, before
         start -= period
     if not start < start + period < math.inf:
         raise static.error(f"has the period {period:g} after {start:g}; expected one that can be added to that")
-    nlgeom = "NLGEOM" in block.parameters and block.get("NLGEOM") != "NO"
-    if "NLGEOM" not in block.parameters and before is not None:
+    nlgeom = "NLGEOM" in card.parameters and card.get("NLGEOM") != "NO"
+    if "NLGEOM" not in card.parameters and before is not None:
         nlgeom = before.nlgeom
     return DeckStep(
-        block=block,
-        name=block.parameters.get("NAME", "") or f"step {number}",
+        card=card,
+        name=card.parameters.get("NAME", "") or f"step {number}",
         start=start,
         end=start + period,
         increments=max(1, math.ceil(min(period / first, _MOST) - 1e-6)),
-        held=block.choice("AMPLITUDE", ("RAMP", "STEP"), "RAMP") == "STEP",
+        held=card.choice("AMPLITUDE", ("RAMP", "STEP"), "RAMP") == "STEP",
         nlgeom=nlgeom,
         placed=tuple(members),
     )

@@ -28,13 +28,13 @@ def refuse_unsupported(placed: Sequence[Placed], known: Sequence[str], where: st
     """
     ignored: dict[str, int] = {}
     for item in placed:
-        keyword = item.block.keyword
+        keyword = item.card.keyword
         if keyword in PRINTED:
             continue
         if keyword in HARMLESS:
-            ignored.setdefault(keyword, item.block.line)
+            ignored.setdefault(keyword, item.card.line)
         elif keyword not in known:
             elsewhere = keyword in MODEL_WORDS or keyword in STEP_WORDS
             what = f"is not supported {where}" if elsewhere else "is not supported, and it may change the answer"
-            raise item.block.error(what)
+            raise item.card.error(what)
     return ignored

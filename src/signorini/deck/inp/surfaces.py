@@ -8,9 +8,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from signorini.arrays import IntArray, distinct
-from signorini.deck.inp.block import Block, Row
+from signorini.deck.inp.card import Card, Row
 from signorini.deck.inp.flatten import Placed, Scope
-from signorini.deck.inp.grid import Grid
+from signorini.deck.inp.grid import DeckGrid
 from signorini.deck.inp.sets import Sets
 from signorini.errors import one_of
 from signorini.model.mesh import CORNERS
@@ -22,7 +22,7 @@ _WIDEST = 8  # nodes of a face
 _NAMED = 5  # nodes that a message names
 
 
-class Edges:
+class ElementFaces:
     """The faces of all elements: edges in the plane.
 
     Attributes
@@ -31,7 +31,7 @@ class Edges:
     outer : (FACES * elements,) whether no other element has the face
     """
 
-    def __init__(self, grid: Grid) -> None:
+    def __init__(self, grid: DeckGrid) -> None:
         self._skins = grid.skins
         count = len(grid.elements.labels)
         self._quadratic = np.zeros(count, bool)
@@ -107,17 +107,17 @@ class Surfaces:
         self.keys: dict[str, IntArray] = {}
         self.nodes: dict[str, IntArray] = {}
         self._spelled: dict[str, str] = {}
-        self.blocks: dict[str, Block] = {}
+        self.cards: dict[str, Card] = {}
 
-    def add(self, name: str, keys: IntArray, block: Block) -> None:
+    def add(self, name: str, keys: IntArray, card: Card) -> None:
         """Add a surface."""
         if name.upper() in self.keys:
-            raise block.error(f"there is another surface '{name}'")
+            raise card.error(f"there is another surface '{name}'")
         self.keys[name.upper()] = keys
         self._spelled[name.upper()] = name
-        self.blocks[name.upper()] = block
+        self.cards[name.upper()] = card
 
-    def find(self, word: str, scope: Scope, at: Block | Row) -> str:
+    def find(self, word: str, scope: Scope, at: Card | Row) -> str:
         """The name by which the deck knows a surface, as first spelled.
 
         Raises
@@ -130,7 +130,7 @@ class Surfaces:
                 return self._spelled[name]
         raise at.error(one_of(word, self._spelled.values(), "surface"))
 
-    def refuse_bare(self, name: str, edges: Edges, nodes: Sets, at: Row) -> None:
+    def refuse_bare(self, name: str, edges: ElementFaces, nodes: Sets, at: Row) -> None:
         """A surface of nodes stands for the faces that it holds as a whole: nodes of none would be left out."""
         bare = np.setdiff1d(self.nodes.get(name.upper(), ()), edges.ends[self.keys[name.upper()]]).astype(np.int64)
         if len(bare):
@@ -141,13 +141,13 @@ class Surfaces:
                 "of faces, or TYPE=ELEMENT"
             )
 
-    def facets(self, edges: Edges) -> Mapping[str, tuple[IntArray, ...]]:
+    def facets(self, edges: ElementFaces) -> Mapping[str, tuple[IntArray, ...]]:
         """Nodes of the faces of every surface that has any, all of linear or all of quadratic elements."""
         found = {name: edges.facets(self.keys[key]) for key, name in self._spelled.items()}
         return {name: parts[0] for name, parts in found.items() if len(parts) == 1}
 
 
-def make_surfaces(placed: list[Placed], edges: Edges, nodes: Sets, elements: Sets) -> Surfaces:
+def make_surfaces(placed: list[Placed], edges: ElementFaces, nodes: Sets, elements: Sets) -> Surfaces:
     """Read all ``*SURFACE`` keywords.
 
     Raises
@@ -157,24 +157,24 @@ def make_surfaces(placed: list[Placed], edges: Edges, nodes: Sets, elements: Set
     """
     surfaces = Surfaces()
     for item in placed:
-        block = item.block
-        if block.keyword != "SURFACE":
+        card = item.card
+        if card.keyword != "SURFACE":
             continue
-        block.refuse_unknown(("NAME", "TYPE"), ("INTERNAL", "TRIM"))
-        name = item.scope.prefixed(block.value("NAME"))
-        if block.choice("TYPE", ("ELEMENT", "NODE"), "ELEMENT") == "NODE":
-            members = [nodes.find(row.text(0, "a node or a node set"), item.scope, row)[1] for row in block.rows()]
+        card.refuse_unknown(("NAME", "TYPE"), ("INTERNAL", "TRIM"))
+        name = item.scope.prefixed(card.value("NAME"))
+        if card.choice("TYPE", ("ELEMENT", "NODE"), "ELEMENT") == "NODE":
+            members = [nodes.find(row.text(0, "a node or a node set"), item.scope, row)[1] for row in card.rows()]
             found = distinct(np.concatenate([np.empty(0, np.int64), *members]))
-            surfaces.add(name, edges.between(found), block)
+            surfaces.add(name, edges.between(found), card)
             surfaces.nodes[name.upper()] = found
         else:
-            surfaces.add(name, _of_elements(item, edges, elements), block)
+            surfaces.add(name, _of_elements(item, edges, elements), card)
     return surfaces
 
 
-def _of_elements(item: Placed, edges: Edges, elements: Sets) -> IntArray:
+def _of_elements(item: Placed, edges: ElementFaces, elements: Sets) -> IntArray:
     pieces: list[IntArray] = [np.empty(0, np.int64)]
-    for row in item.block.rows():
+    for row in item.card.rows():
         members = elements.find(row.text(0, "an element or an element set"), item.scope, row)[1]
         face = row.fields[1].upper() if len(row.fields) > 1 else ""
         if not face:

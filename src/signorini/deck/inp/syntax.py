@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from signorini.deck.error import DeckError
-from signorini.deck.inp.block import Block, decode
+from signorini.deck.inp.card import Card, decode
 from signorini.deck.inp.words import canonical
 from signorini.errors import InputError
 from signorini.sources import Reach
@@ -23,7 +23,7 @@ _MOST = 1000  # includes of a deck: ten files that each include the next one ten
 _SHOWN = 60  # characters of a line in messages
 
 
-def read_blocks(path: Path, reach: Reach | None = None) -> list[Block]:
+def read_cards(path: Path, reach: Reach | None = None) -> list[Card]:
     """All keywords of a deck in order, with those of the files that it includes.
 
     Parameters
@@ -36,9 +36,9 @@ def read_blocks(path: Path, reach: Reach | None = None) -> list[Block]:
     DeckError
         If a file is missing or unreadable, or a keyword line is malformed.
     """
-    blocks: list[_Open] = []
-    _read(path, reach or Reach.of(path), blocks, [], 0, None)
-    return [block.closed() for block in blocks]
+    cards: list[_Open] = []
+    _read(path, reach or Reach.of(path), cards, [], 0, None)
+    return [card.closed() for card in cards]
 
 
 class _Open:
@@ -48,8 +48,8 @@ class _Open:
         self.keyword, self.parameters, self.path, self.line = keyword, parameters, path, line
         self.chunks: list[tuple[Path, int, bytes]] = []
 
-    def closed(self) -> Block:
-        return Block(
+    def closed(self) -> Card:
+        return Card(
             keyword=self.keyword,
             parameters=self.parameters,
             path=self.path,
@@ -58,12 +58,12 @@ class _Open:
         )
 
 
-def _read(path: Path, reach: Reach, blocks: list[_Open], included: list[Path], depth: int, by: _Open | None) -> None:
+def _read(path: Path, reach: Reach, cards: list[_Open], included: list[Path], depth: int, by: _Open | None) -> None:
     """Append the keywords of one file; data before its first keyword belong to the keyword before it, if any."""
     for line, starred, data in _pieces(_bytes(path, by)):
         if not starred:
-            if blocks and data and not data.isspace():
-                blocks[-1].chunks.append((path, line, data))
+            if cards and data and not data.isspace():
+                cards[-1].chunks.append((path, line, data))
             continue
         opened = _keyword(data, path, line)
         if opened.keyword == "INCLUDE":
@@ -72,9 +72,9 @@ def _read(path: Path, reach: Reach, blocks: list[_Open], included: list[Path], d
             included.append(_named(opened, reach))
             if len(included) > _MOST:
                 raise _error(opened, f"is the {_MOST + 1}th file that is included; expected at most {_MOST}")
-            _read(included[-1], reach, blocks, included, depth + 1, opened)
+            _read(included[-1], reach, cards, included, depth + 1, opened)
             continue
-        blocks.append(opened)
+        cards.append(opened)
         if opened.keyword in ("NODE", "ELEMENT", "NSET", "ELSET", "AMPLITUDE") and "INPUT" in opened.parameters:
             file = _named(opened, reach)
             opened.chunks.append((file, 1, _bytes(file, opened)))

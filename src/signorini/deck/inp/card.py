@@ -70,7 +70,7 @@ class Row:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Block:
+class Card:
     """A keyword line and the data lines that follow it.
 
     Attributes
@@ -91,7 +91,7 @@ class Block:
         """The message with keyword and place."""
         return DeckError(f"*{self.keyword}: {message}", path=self.path, line=self.line)
 
-    def at(self, row: Row) -> Block:
+    def at(self, row: Row) -> Card:
         """The keyword as one that stands at one of its data lines: whatever is said of it names that line."""
         return replace(self, path=row.path, line=row.line)
 
