@@ -33,7 +33,7 @@ import matplotlib as mpl
 from benchmarks import command
 from benchmarks.mutations import KINDS, Corpus, corpus, damage, small_model
 from signorini.api import solve
-from signorini.cli.check_text import describe
+from signorini.cli.check_text import deck_text
 from signorini.deck import load
 from signorini.engine.prepare import examine
 from signorini.errors import InputError, SolveFailed
@@ -74,7 +74,7 @@ def _read(kind: str, path: Path, sound: Corpus) -> None:
     if kind in ("toml", "inp"):
         deck = load(path, small_strain=True)
         try:
-            describe(deck, examine(deck.model))
+            deck_text(deck, examine(deck.model))
         except InputError as error:
             raise deck.locate(error) from error
     elif kind == "mesh":

@@ -118,7 +118,7 @@ def test_every_failure_is_one_line(
     def fail(_options: object) -> int:
         raise error
 
-    monkeypatch.setattr("signorini.cli.check.check", fail)
+    monkeypatch.setattr("signorini.cli.deck_commands.check", fail)
     assert main(["check", CYLINDER]) == code
     told = capsys.readouterr().err
     assert told.startswith(said)
@@ -126,7 +126,7 @@ def test_every_failure_is_one_line(
 
 
 def test_debug_shows_where(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setattr("signorini.cli.check.check", lambda _options: 1 / 0)
+    monkeypatch.setattr("signorini.cli.deck_commands.check", lambda _options: 1 / 0)
     assert main(["check", CYLINDER, "--debug"]) == 1
     assert "Traceback" in capsys.readouterr().err
 

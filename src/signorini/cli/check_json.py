@@ -10,7 +10,7 @@ from signorini.deck import Deck
 from signorini.engine.prepare import Examined
 
 
-def described(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str, Any]:
+def deck_data(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str, Any]:
     """What ``signorini check --json`` prints.
 
     Parameters

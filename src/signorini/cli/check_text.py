@@ -25,7 +25,7 @@ Rows = list[tuple[str, ...]]
 _FORMULATIONS = {"incompatible": "incompatible modes", "mean dilatation": "mean dilatation"}
 
 
-def describe(deck: Deck, examined: Examined) -> list[str]:
+def deck_text(deck: Deck, examined: Examined) -> list[str]:
     """Lines on everything that the deck holds."""
     model, mesh = deck.model, deck.model.mesh
     families = ", ".join(

@@ -5,12 +5,14 @@ from __future__ import annotations
 
 import importlib
 import os
+import signal
 import sys
+import threading
 import traceback
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 from signorini.cli.parser import make_parser
-from signorini.cli.stopping import stoppable
 from signorini.errors import InputError, SolveFailed
 
 DONE, FAILED, WRONG_INPUT, NO_SOLUTION, INTERRUPTED = 0, 1, 2, 3, 130
@@ -18,13 +20,9 @@ DONE, FAILED, WRONG_INPUT, NO_SOLUTION, INTERRUPTED = 0, 1, 2, 3, 130
 _LESS = "expected a coarser mesh, --backend iterative, or more memory"
 
 _COMMANDS = {
-    "run": "signorini.cli.run",
-    "check": "signorini.cli.check",
-    "convert": "signorini.cli.convert",
-    "diff": "signorini.cli.differ",
-    "plot": "signorini.cli.draw",
-    "verify": "signorini.cli.suites",
-    "bench": "signorini.cli.suites",
+    "signorini.cli.deck_commands": ("run", "check", "convert"),
+    "signorini.cli.result_commands": ("diff", "plot"),
+    "signorini.cli.suite_commands": ("verify", "bench"),
 }
 
 
@@ -41,8 +39,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     options = make_parser().parse_args(arguments)
     try:
-        with stoppable():
-            code = int(getattr(importlib.import_module(_COMMANDS[options.command]), options.command)(options))
+        with _stoppable():
+            (home,) = (module for module, commands in _COMMANDS.items() if options.command in commands)
+            code = int(getattr(importlib.import_module(home), options.command)(options))
         sys.stdout.flush()
         return code
     except InputError as error:
@@ -79,3 +78,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _say(words: str, code: int) -> int:
     print(words, file=sys.stderr)
     return code
+
+
+@contextmanager
+def _stoppable() -> Iterator[None]:
+    """Raise KeyboardInterrupt on SIGTERM, by which batch systems end a run, while the block lasts.
+
+    Handlers can be set in the main thread alone.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before or signal.SIG_DFL)  # None: one that was not set by Python

@@ -29,7 +29,7 @@ from signorini.solution.history import INTERRUPTED, History
 
 
 @one_thread()
-def solve_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: float) -> int:
+def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: float) -> int:
     """Solve, write, print.
 
     Parameters

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``signorini plot``: pictures from a result folder."""
+"""``signorini plot`` and ``diff``: pictures from a result folder, and two results side by side."""
 
 from __future__ import annotations
 
@@ -8,8 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from signorini.errors import InputError
+from signorini.output.align import align
 from signorini.output.archive import read_archive
 from signorini.output.atomic_write import atomic_write
+from signorini.output.compare import compare
+from signorini.output.folder import ARCHIVE
 from signorini.output.picture import write_pixels
 from signorini.plot.contact import draw_contacts
 from signorini.plot.escape import plot_escape
@@ -20,6 +23,7 @@ from signorini.plot.result_folder import ResultFolder
 from signorini.plot.solid import draw_solid_mesh, draw_solid_stress
 from signorini.plot.style import literal
 from signorini.plot.view import render_view
+from signorini.solution.history import History
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -58,3 +62,28 @@ def _draw(folder: ResultFolder, what: str) -> Figure:
     if what == "history":
         return draw_history(folder)
     return draw_patches(folder.patches, folder.title) if folder.solid else draw_contacts(folder.steps[-1], folder.title)
+
+
+def diff(options: argparse.Namespace) -> int:
+    """Print what differs; 0 if nothing does by more than the tolerance, otherwise 1."""
+    if not options.tolerance >= 0.0:
+        raise InputError(f"is {options.tolerance:g}; expected a number >= 0", where=("--tolerance",))
+    first, second = _archive(options.first), _archive(options.second)
+    differences, words = compare(first, second)
+    apart = [d for d in differences if not d.relative <= options.tolerance]
+    for line in words:
+        print(line)
+    if apart:
+        rows = [("step", "quantity", "largest difference", "of", "relative", "node")]
+        for d in sorted(apart, key=lambda d: -d.relative):
+            node = "" if d.where is None else str(d.where)
+            rows.append((d.step, d.quantity, f"{d.largest:.6g}", f"{d.size:.6g}", f"{d.relative:.2e}", node))
+        print("\n".join(align(rows, right=(2, 3, 4, 5), indent="")))
+    else:
+        print(f"{len(differences)} quantities, none apart by more than {options.tolerance:g} of its size")
+    return 1 if apart or words else 0
+
+
+def _archive(name: str) -> History:
+    path = Path(name)
+    return read_archive(path / ARCHIVE if path.is_dir() else path)

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``signorini run``, ``check`` and ``convert``: what reads a deck. A wrong deck never waits for heavy imports."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from pathlib import Path
+
+from signorini.cli.progress import progress
+from signorini.deck import Deck, load
+from signorini.errors import InputError
+
+
+def run(options: argparse.Namespace) -> int:
+    """Read, solve, write, print; 0 if solved and certified, 3 if not."""
+    started = time.perf_counter()
+    with progress(quiet=options.quiet) as clock, clock.phase("read"):
+        deck = _load(options)
+    from signorini.cli.run_deck import run_deck
+
+    return run_deck(deck, options, clock, started)
+
+
+def check(options: argparse.Namespace) -> int:
+    """Print a deck as it was understood, and notes on it; 0 unless something is wrong. Solves nothing."""
+    deck = _load(options)
+    from signorini.cli.check_json import deck_data
+    from signorini.cli.check_text import all_notes, deck_text
+    from signorini.engine.prepare import examine
+
+    try:
+        examined = examine(deck.model)
+    except InputError as error:
+        raise deck.locate(error) from error
+    words = ""
+    if options.wellposed:
+        from signorini.engine.prepare import prepare
+        from signorini.engine.wellposed import assess
+
+        words = assess(prepare(deck.model)).words
+    if options.json:
+        found = deck_data(deck, examined, all_notes(deck, examined))
+        print(json.dumps(found | ({"uniqueness": words} if words else {}), indent=1))
+    elif not options.quiet:
+        print("\n".join(deck_text(deck, examined)))
+        if words:
+            print(f"\nuniqueness\n  {words}")
+    return 0
+
+
+def convert(options: argparse.Namespace) -> int:
+    """Read any deck and write it as TOML, with its mesh beside it."""
+    target = Path(options.output) if options.output else Path(options.deck).with_suffix(".toml")
+    if target.suffix.lower() != ".toml":
+        raise InputError(f"is '{target}'; expected a name that ends in .toml", where=("-o",))
+    if not target.absolute().parent.is_dir():
+        raise InputError(f"there is no folder '{target.parent}'", where=("-o",))
+    deck = _load(options)
+    if target.resolve() == Path(options.deck).resolve():
+        raise InputError("would replace the deck itself; expected another name", where=("-o",))
+    from signorini.deck.write import write_deck
+
+    try:
+        files = write_deck(deck.model, target)
+    except OSError as error:
+        raise InputError(f"cannot write '{target}': {error.strerror}", where=("-o",)) from error
+    for note in deck.notes:
+        print(f"deck: {note}")
+    print(*files, sep="\n")
+    return 0
+
+
+def _load(options: argparse.Namespace) -> Deck:
+    """Read ``options.deck`` as the options say."""
+    return load(
+        options.deck,
+        small_strain=options.small_strain,
+        deck_increments=options.increments == "deck",
+        allow=options.allow,
+    )
