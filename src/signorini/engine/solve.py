@@ -23,6 +23,7 @@ from signorini.engine.leg import Leg, Snapshot, joined, keep, lightened, reached
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
 from signorini.engine.resting import resting
+from signorini.engine.slides import follow_watchfully
 from signorini.engine.span import Span, spans
 from signorini.engine.staged import nominal_gap, staged
 from signorini.engine.stretch import Stretch
@@ -300,7 +301,8 @@ def _leg(stage: Stage, stretch: Stretch) -> Leg:
     if step.path != "exact" and (step.path is not None or step.increments is not None or not rubbing):
         if step.increments == "auto":
             return follow_automatically(stretch, step.tolerance, jump=jump)
-        return follow_increments(stretch, _increments(step, stretch.span, stage))
+        number = _increments(step, stretch.span, stage)
+        return follow_watchfully(stretch, number, stops=step.jump == "stop")
     if step.path is None and interface.directions == 3:
         return follow_automatically(stretch, step.tolerance, enough=_ENOUGH, jump=jump)
     try:

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Equal increments in space that say where they step over gross sliding or another jump.
+
+An equilibrium behind one is right by itself, but no history leads there gradually. An increment in which contact alone
+holds bodies, and which moves a pair farther than all loads compress them, is looked at in increments to events.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from signorini.engine.exact import follow_to_events
+from signorini.engine.footing import known
+from signorini.engine.increments import follow_increments
+from signorini.engine.leg import Leg, keep, reached
+from signorini.engine.stretch import Stretch
+from signorini.errors import SolveFailed
+from signorini.friction.spatial import SpatialProblem
+from signorini.solution.state import State
+
+_SAME_LOAD = 1e-9  # part of a step: how far behind the end of an increment a jump at its very end may be seen
+
+
+def follow_watchfully(stretch: Stretch, number: int, *, stops: bool = False) -> Leg:
+    """Follow a straight part of a step in equal increments, and say where bodies lose their hold on the way.
+
+    Parameters
+    ----------
+    number : of increments
+    stops : whether the way ends at a jump; otherwise it goes on, and a note says from where on it is a candidate
+
+    Raises
+    ------
+    SolveFailed
+        If an increment has no certified solution; with status "jump" where the history does not lead there gradually.
+    """
+    try:
+        leg = follow_increments(stretch, number)
+    except SolveFailed as failure:
+        lost, found = known(failure, stretch), reached(failure)
+        if lost.status != "not_found":
+            raise lost from None
+        jump = _jump(stretch, found.after if found else stretch.before, _part(stretch, found), 1.0)
+        if jump is None:
+            raise
+        raise keep(jump, [] if found is None else [found]) from lost
+    notes, before = [], stretch.before
+    for k, shot in enumerate(leg.snapshots, start=1):
+        if _far(stretch, before, shot.state):
+            jump = _jump(stretch, before, (k - 1) / number, min(1.0, (k + 1) / number))
+            here = None if jump is None else reached(jump)
+            if jump is not None and (here is None or here.snapshots[-1].load_factor <= shot.load_factor + _SAME_LOAD):
+                if stops:
+                    raise keep(jump, [_up_to(leg, k - 1)] if k > 1 else [])
+                words = f"{number} increment{'s' if number > 1 else ''}"
+                notes.append(f"{jump.sentence}; followed in {words} to what is a candidate")
+        before = shot.state
+    return replace(leg, notes=(*leg.notes, *notes))
+
+
+def _far(stretch: Stretch, before: State, after: State) -> bool:
+    """Whether an increment moves a pair farther than all loads compress bodies that contact alone holds."""
+    prepared, law = stretch.prepared, stretch.prepared.law_or_none
+    if not isinstance(law, SpatialProblem) or not law.floating or not before.forces.any():
+        return False
+    rows = prepared.condensed.active_rows
+    moved = np.concatenate([after.gap - before.gap, after.tangential - before.tangential])[rows]
+    return bool(np.abs(prepared.condensed.root * moved).max(initial=0.0) > (law.scale or 1.0))
+
+
+def _part(stretch: Stretch, leg: Leg | None) -> float:
+    """Part of a stretch that a leg has followed of it."""
+    if leg is None:
+        return 0.0
+    span = stretch.span
+    return (leg.snapshots[-1].load_factor - span.factor(0.0)) / (span.high - span.low)
+
+
+def _jump(stretch: Stretch, state: State, low: float, high: float) -> SolveFailed | None:
+    """The first jump between two parts of a stretch, from the state at the first; None where none is seen."""
+    if not isinstance(stretch.prepared.law_or_none, SpatialProblem):
+        return None
+    begin = stretch.before.point
+    span = replace(stretch.span, low=stretch.span.part(low), high=stretch.span.part(high), ends="jump")
+    part = replace(stretch, before=state, end=begin.towards(stretch.end, high), span=span)
+    try:
+        follow_to_events(part, 1)
+    except SolveFailed as failure:
+        return failure if failure.status == "jump" else None
+    return None
+
+
+def _up_to(leg: Leg, count: int) -> Leg:
+    """The first increments of a leg."""
+    return replace(
+        leg,
+        after=leg.snapshots[count - 1].state,
+        certificates=leg.certificates[:count],
+        trace=leg.trace[:count],
+        snapshots=leg.snapshots[:count],
+    )

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Equal increments in space never step over a slide in silence."""
+
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.fem.solids import box
+from signorini.model.mesh import join
+
+SLIDES = "step 'pull' at 50.000000%: gross sliding: body 'top' can move along x: no equilibrium continues the history"
+
+
+def block(*, pull, increments, jump=None):
+    """A cube that friction holds up to a pull of 0.3, half its size before a wall."""
+    sides = np.linspace(0.0, 1.0, 3)
+    return sg.Model(
+        join({"top": box(x=sides, y=sides, z=sides)}),
+        bodies=[sg.Body("top", sg.Elastic(E=1000.0, nu=0.3))],
+        loads=[
+            sg.Load("top.top", force=(0.0, 0.0, -1.0), name="press"),
+            sg.Load("top.bottom", force=(pull, 0.0, 0.0), name="pull"),
+        ],
+        contacts=[
+            sg.Contact("top.bottom", sg.Plane((0, 0, 0), (0, 0, 1)), friction=0.3, name="floor"),
+            sg.Contact("top.right", sg.Plane((1.5, 0, 0), (-1, 0, 0)), friction=0.3, name="wall"),
+        ],
+        steps=[
+            sg.Step(name="press", scale={"press": 1.0}, increments=1),
+            sg.Step(name="pull", scale={"pull": 1.0}, increments=increments, jump=jump),
+        ],
+    )
+
+
+@pytest.mark.parametrize(("increments", "words"), [(1, "1 increment"), (3, "3 increments")])
+def test_the_equilibrium_behind_a_slide_is_called_a_candidate(increments, words):
+    solution = sg.solve(block(pull=0.6, increments=increments))
+    assert solution.last.displacement[:, 0].min() > 0.49  # it stands at the wall
+    notes = [note for note in solution.steps[-1].notes if note.startswith(SLIDES)]
+    assert len(notes) == 1
+    assert notes[0].endswith(f"; followed in {words} to what is a candidate")
+
+
+@pytest.mark.parametrize("increments", [1, 3])
+def test_a_step_that_stops_at_jumps_stops_at_the_slide(increments):
+    solution = sg.solve(block(pull=0.6, increments=increments, jump="stop"), raise_on_failure=False)
+    assert solution.status == "jump"
+    assert solution.message.startswith(SLIDES)
+    assert 1.4 < solution.steps[-1].load_factor <= 1.5
+
+
+def test_where_no_increment_goes_on_the_slide_is_named():
+    """At half the pull any place is in equilibrium, and none is found."""
+    solution = sg.solve(block(pull=0.6, increments=10), raise_on_failure=False)
+    assert solution.status == "jump"
+    assert solution.message.startswith(SLIDES)
+
+
+@pytest.mark.parametrize("increments", [1, 3, 10])
+def test_what_friction_holds_says_nothing(increments):
+    solution = sg.solve(block(pull=0.28, increments=increments))
+    assert not [note for note in solution.steps[-1].notes if "gross sliding" in note]
