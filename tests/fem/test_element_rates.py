@@ -8,7 +8,6 @@ meshes whose inner nodes are moved off the grid.
 import numpy as np
 import pytest
 import scipy.sparse.linalg
-from families import lame
 
 from signorini.fem.generators import rectangle
 from signorini.fem.jacobian import gradients_in_space
@@ -19,6 +18,7 @@ from signorini.model.body import Body
 from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh
 from signorini.model.model import Model
+from tests.helpers.families import lame
 
 
 def exact(x):

@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import skfem
-from families import FAMILIES, KINDS, MIXED, bent, block, lame
 from skfem.models.elasticity import linear_elasticity
 
 from signorini.errors import InputError
@@ -22,6 +21,7 @@ from signorini.model.conditions import Load
 from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh
 from signorini.model.model import Model
+from tests.helpers.families import FAMILIES, KINDS, MIXED, bent, block, lame
 
 QUADRATIC = ("triangle6", "quad8", "quad9")
 QUADRATURES = {"triangle": 1, "quad": 2, "triangle6": 2, "quad8": 5, "quad9": 5}

@@ -8,11 +8,11 @@ import h5py
 import meshio
 import numpy as np
 import pytest
-from tests.fem.test_read_others import GEOMETRY
 
 from signorini.errors import InputError
 from signorini.fem.files import open_mesh
 from signorini.hdf5 import check_hdf5
+from tests.helpers.gmsh_block import GEOMETRY
 
 POINTS = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
 VTK = "# vtk DataFile Version 4.2\n\nASCII\nDATASET UNSTRUCTURED_GRID\n"

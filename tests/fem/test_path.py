@@ -5,13 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from families import FAMILIES, MIXED, block
 
 import signorini as sg
 from signorini.fem.path import along
 from signorini.fem.solids import extruded
 from signorini.fem.space import make_space
 from signorini.model.mesh import join
+from tests.helpers.families import FAMILIES, MIXED, block
 
 
 def model_of(mesh, kind="plane strain"):

@@ -11,16 +11,10 @@ import pytest
 import signorini as sg
 from signorini.fem.read import read_mesh
 from signorini.fem.space import make_space
+from tests.helpers.gmsh_block import GEOMETRY
 
 POINTS = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.0], [2.0, 1.0]])
 QUADS, LINES = np.array([[0, 1, 2, 3], [1, 4, 5, 2]]), np.array([[0, 1], [1, 4]])
-GEOMETRY = """SetFactory("OpenCASCADE");
-Rectangle(1) = {0, 0, 0, 2, 1};
-Physical Surface("block") = {1};
-Physical Curve("bottom") = {1};
-Mesh.MeshSizeMax = 0.5;
-Mesh.ElementOrder = 2;
-"""
 
 
 def test_groups_of_a_med_file_are_names(tmp_path: Path) -> None:

@@ -5,8 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from coulomb_samples import HELD, answer, block_on_floor, for_all, random_problem
-from exact.path_samples import EqualBodies, Springs, increments, loads_at_breakpoints, one_node, stiff
 from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 
@@ -25,6 +23,8 @@ from signorini.friction.several import all_solutions, always_unique
 from signorini.friction.spatial import SpatialProblem, solve_spatial
 from signorini.friction.tree import search
 from signorini.friction.walls import beyond, constant, jacobian, placed
+from tests.helpers.coulomb_samples import HELD, answer, block_on_floor, for_all, random_problem
+from tests.helpers.path_samples import EqualBodies, Springs, increments, loads_at_breakpoints, one_node, stiff
 
 SEEDS = st.integers(0, 10**6)
 

@@ -5,11 +5,11 @@ import dataclasses
 
 import numpy as np
 import pytest
-from coulomb_samples import block_on_floor
 
 from signorini.condense.image import Image
 from signorini.friction import OPEN, STICK, CoulombProblem, solve_coulomb
 from signorini.friction.path import follow
+from tests.helpers.coulomb_samples import block_on_floor
 
 
 def test_pressed_block_carries_its_load():

@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from coulomb_samples import block_on_floor, for_all, random_problem
 from hypothesis import assume
 from hypothesis import strategies as st
 
 from signorini.friction.cone import balanced
 from signorini.friction.newton import newton
+from tests.helpers.coulomb_samples import block_on_floor, for_all, random_problem
 
 
 @for_all(examples=30, seed=st.integers(0, 10**6), motions=st.sampled_from([0, 2]), bounded=st.booleans())

@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from coulomb_samples import answer, block_on_floor, for_all, random_problem
 from hypothesis import strategies as st
 
 from signorini.bench.hard import hard_set
@@ -16,6 +15,7 @@ from signorini.friction.path import follow
 from signorini.friction.release import released
 from signorini.friction.tree import search
 from signorini.friction.walls import beyond, columns, jacobian, walls
+from tests.helpers.coulomb_samples import answer, block_on_floor, for_all, random_problem
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from coulomb_samples import HELD, block_on_floor, for_all, random_problem
 from hypothesis import strategies as st
 
 from signorini.errors import InputError
@@ -17,6 +16,7 @@ from signorini.friction import CoulombProblem, mu_low, solve_coulomb
 from signorini.friction import certify as certify_in_plane
 from signorini.friction.spatial import SLIP, SpatialProblem, solve_spatial
 from signorini.friction.spatial import certify as certify_in_space
+from tests.helpers.coulomb_samples import HELD, block_on_floor, for_all, random_problem
 
 SEEDS = st.integers(0, 10**6)
 PAIRS = st.sampled_from([1, 2, 3, 6, 10])

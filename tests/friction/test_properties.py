@@ -4,11 +4,11 @@
 import dataclasses
 
 import numpy as np
-from coulomb_samples import HELD, answer, for_all, random_problem
 from hypothesis import strategies as st
 
 from signorini.condense.image import Image
 from signorini.friction import SLIP_MINUS, SLIP_PLUS, CoulombProblem, mu_low, solve_coulomb
+from tests.helpers.coulomb_samples import HELD, answer, for_all, random_problem
 
 seeds = st.integers(0, 10**6)
 pair_counts = st.integers(1, 10)

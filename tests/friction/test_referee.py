@@ -3,13 +3,13 @@
 
 import numpy as np
 import pytest
-from coulomb_samples import HELD, all_solutions, answer, for_all, random_problem, with_stiffness
 from hypothesis import strategies as st
 
 from signorini.friction import CoulombProblem, index, mu_low, solve_coulomb
 from signorini.friction.path import follow
 from signorini.friction.rigid import pulled_away
 from signorini.friction.tree import search
+from tests.helpers.coulomb_samples import HELD, all_solutions, answer, for_all, random_problem, with_stiffness
 
 seeds = st.integers(0, 10**6)
 

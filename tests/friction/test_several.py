@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from exact.path_samples import stiff
 
 from signorini.errors import InputError
 from signorini.friction import CoulombProblem, mu_low
 from signorini.friction.several import all_solutions, always_unique, search_solutions
+from tests.helpers.path_samples import stiff
 
 
 def node(mu, f_t):

@@ -5,13 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from coulomb_samples import all_solutions
-from exact.path_samples import stiff
 
 from signorini.friction import CoulombProblem, mu_low
 from signorini.friction.spatial import SpatialProblem
 from signorini.friction.spatial.several import search_solutions
 from signorini.friction.spatial.solve import solve_spatial
+from tests.helpers.coulomb_samples import all_solutions
+from tests.helpers.path_samples import stiff
 
 
 def lifted(seed, pairs, tilt=0.0):

@@ -3,19 +3,12 @@
 
 from __future__ import annotations
 
-import importlib.util
-from pathlib import Path
-
 import numpy as np
 import pytest
 
+from benchmarks import lcp_contact
 from signorini import lcp
 from signorini.friction import solve_coulomb
-
-FILE = Path(__file__).parents[2] / "benchmarks" / "lcp_contact.py"
-spec = importlib.util.spec_from_file_location("lcp_contact", FILE)
-lcp_contact = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(lcp_contact)
 
 
 @pytest.fixture

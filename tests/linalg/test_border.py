@@ -3,12 +3,12 @@
 
 import numpy as np
 import pytest
-from problems import lattice, together
 from scipy import sparse
 
 from signorini.linalg import BACKENDS, NotPositiveDefinite, factorise
 from signorini.linalg.border import bordered
 from signorini.linalg.registry import BORDERED, takes_borders
+from tests.helpers.lattices import lattice, together
 
 BODIES = together(lattice((9, 7)), lattice((5, 4, 4)))
 

@@ -3,12 +3,12 @@
 
 import numpy as np
 import pytest
-from problems import dense_schur, lattice, rigid_motions, together
 from scipy import sparse
 
 from signorini.errors import InputError
 from signorini.linalg import AUTOMATIC, BACKENDS, Factorisation, NotPositiveDefinite, factorise, pardiso
 from signorini.linalg._blas import get_threads
+from tests.helpers.lattices import dense_schur, lattice, rigid_motions, together
 
 PROBLEMS = {
     "2d": lattice((17, 12)),

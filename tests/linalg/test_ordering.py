@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from problems import lattice
 from scipy import sparse
 
 from signorini.errors import InputError
@@ -15,6 +14,7 @@ from signorini.linalg import factorise
 from signorini.linalg.ordering import nested_dissection
 from signorini.linalg.plan import analyse
 from signorini.linalg.system import check, node_graph
+from tests.helpers.lattices import lattice
 
 few = settings(max_examples=25, deadline=None)
 shapes = st.one_of(

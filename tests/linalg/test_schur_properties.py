@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from problems import lattice, rigid_motions
 from scipy import sparse
 
 from signorini.linalg import factorise
+from tests.helpers.lattices import lattice, rigid_motions
 
 shapes = st.one_of(
     st.tuples(st.integers(2, 9), st.integers(2, 9)),

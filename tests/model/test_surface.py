@@ -5,13 +5,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from rigid_surfaces import sphere
 from scipy.spatial import Delaunay
 
 from signorini.errors import InputError
 from signorini.model.boxes import BoxTree, closest
 from signorini.model.obstacle import Plane, Sphere
 from signorini.model.triangulated import Surface
+from tests.helpers.rigid_surfaces import sphere
 
 SQUARE = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
 HALVES = [[0, 1, 2], [0, 2, 3]]

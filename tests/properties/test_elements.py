@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from changed_models import mapped, rescaled
 
 import signorini as sg
+from tests.helpers.changed_models import mapped, rescaled
 
 FAMILIES = ("triangle", "quad", "triangle6", "quad8", "quad9")
 PLANE = ("plane strain", "plane stress")

@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from changed_models import mapped, renumbered, rescaled
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -24,6 +23,7 @@ from signorini.model.model import Model
 from signorini.model.obstacle import Plane, Sphere
 from signorini.model.rigid import Rigid
 from signorini.model.step import Step
+from tests.helpers.changed_models import mapped, renumbered, rescaled
 
 few = settings(max_examples=8, deadline=None, derandomize=True)
 powers = st.floats(-4, 4).map(lambda x: 10.0**x)

@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from every_state import follow
 
 from signorini.engine.solve import solve
 from signorini.fem.generators import rectangle
@@ -18,6 +17,7 @@ from signorini.model.material import Elastic
 from signorini.model.model import Model
 from signorini.model.obstacle import Plane
 from signorini.model.step import Step
+from tests.helpers.every_state import follow
 
 FLOOR = Plane(point=(0.0, 0.0), normal=(0.0, 1.0))
 

@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from test_axisymmetric import WALL, sphere, tube
 
 import signorini as sg
 from signorini.engine.prepare import examine
@@ -16,6 +15,7 @@ from signorini.fem.stress import body_stresses
 from signorini.gallery.hertz import LINE_FORCE, RADIUS, hertz_contact
 from signorini.reference.hertz import HertzLine, contact_modulus
 from signorini.reference.lame import hollow_sphere, thick_cylinder
+from tests.helpers.walls import WALL, sphere, tube
 
 
 def cantilever(cells, *, formulation="standard", kind="plane stress", nu=0.3, nx=8, ny=1):

@@ -4,13 +4,13 @@
 import meshio
 import numpy as np
 import pytest
-from rigid_surfaces import sphere
 
 import signorini as sg
 from signorini.cli import main
 from signorini.deck.write import write_deck
 from signorini.errors import InputError
 from signorini.fem.write import write_mesh
+from tests.helpers.rigid_surfaces import sphere
 
 FINE = [0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.5]
 FLOOR = ([[-3, -3, 0], [9, -3, 0], [9, 9, 0], [-3, 9, 0], [1.1, 0.7, 0]], [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])

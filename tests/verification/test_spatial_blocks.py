@@ -7,11 +7,11 @@ Finite elements by scikit-fem itself; mortar coupling, frames and Coulomb's law 
 import numpy as np
 import pytest
 import skfem
-from face_samples import rotation
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from signorini.friction.spatial import STICK, SpatialProblem, solve_spatial, split
 from signorini.interface.spatial import frames, make_surface, mortar_coupling
+from tests.helpers.face_samples import rotation
 
 E, NU, PRESSURE, FRICTION = 2000.0, 0.3, 25.0, 0.5
 

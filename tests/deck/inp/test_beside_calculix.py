@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from calculix import ccx_displacements, needs_ccx
 
 import signorini as sg
+from tests.helpers.calculix import ccx_displacements, needs_ccx
 
 PRESS = "*BOUNDARY\nHEAD,1,2\nHEAD,3,3,-.0005"
 PULL = "*BOUNDARY\nHEAD,1,2\nHEAD,3,3,.0005"

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from two_cells import two_cells
 
 import signorini as sg
 from signorini.deck import DeckError, load
+from tests.helpers.two_cells import two_cells
 
 MESH = two_cells("99,0.7,2.") + "*SURFACE,NAME=STOP\nE,S3\n"
 LOADS = "*CLOAD\n99,1,0.3\n99,2,-1.\n99,6,0.5\n"

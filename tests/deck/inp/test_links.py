@@ -5,11 +5,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from two_cells import two_cells
 
 import signorini as sg
 from signorini.deck import DeckError, load
 from signorini.deck.write import write_deck
+from tests.helpers.two_cells import two_cells
 
 BLOCK = two_cells("99,1.,2.", "100,5,5")
 LOADS = "*CLOAD\n99,2,-1.\n99,1,0.3\n"

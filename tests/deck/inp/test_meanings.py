@@ -5,11 +5,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from calculix import ccx_displacements, needs_ccx
-from eight_cells import eight_cells
 
 import signorini as sg
 from signorini.deck import DeckError, load
+from tests.helpers.calculix import ccx_displacements, needs_ccx
+from tests.helpers.eight_cells import eight_cells
 
 RAMPS = """*AMPLITUDE,NAME=A
 0.,.2,1.,.5,2.,.9

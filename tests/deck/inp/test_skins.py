@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from eight_cells import eight_cells
 
 import signorini as sg
 from signorini.deck import DeckError, load
+from tests.helpers.eight_cells import eight_cells
 
 SKINS = """*ELEMENT,TYPE=T3D2,ELSET=EDGE
 101,19,20

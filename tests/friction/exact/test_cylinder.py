@@ -5,11 +5,11 @@ import functools
 
 import numpy as np
 import pytest
-from exact.path_samples import increments, loads_at_breakpoints
-from exact.prepared import PreparedPath
 
 from signorini.gallery.blocks import dragged_block
 from signorini.gallery.cylinder import zhu_cylinder
+from tests.helpers.path_samples import increments, loads_at_breakpoints
+from tests.helpers.prepared_paths import PreparedPath
 
 
 @functools.cache

@@ -3,7 +3,8 @@
 
 import numpy as np
 import pytest
-from exact.path_samples import EqualBodies, at
+
+from tests.helpers.path_samples import EqualBodies, at
 
 MU, P = 0.5, 0.6
 Q = 0.7 * MU * P

@@ -3,7 +3,8 @@
 
 import numpy as np
 import pytest
-from exact.path_samples import Springs
+
+from tests.helpers.path_samples import Springs
 
 MU = 0.5
 

@@ -3,13 +3,13 @@
 
 import numpy as np
 import pytest
-from coulomb_samples import block_on_floor, for_all, random_problem
 from hypothesis import strategies as st
 
 from signorini.friction import OPEN, STICK
 from signorini.friction.cone import cone_system
 from signorini.friction.exact.inverse import SingularState
 from signorini.friction.exact.responses import Responses
+from tests.helpers.coulomb_samples import block_on_floor, for_all, random_problem
 
 
 def answer(responses, state, b):

@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from exact.path_samples import EqualBodies, Springs, one_node, stiff
 
 from signorini.friction import OPEN, SLIP_PLUS, certify
 from signorini.friction.exact import follow, initial_state, land
+from tests.helpers.path_samples import EqualBodies, Springs, one_node, stiff
 
 
 def pulled(mu, most=4.0):

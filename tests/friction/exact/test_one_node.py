@@ -3,10 +3,10 @@
 
 import numpy as np
 import pytest
-from exact.path_samples import at, one_node
 
 from signorini.friction import OPEN, SLIP_MINUS, STICK
 from signorini.friction.exact import follow, initial_state
+from tests.helpers.path_samples import at, one_node
 
 
 def pull(mu, most=4.0):

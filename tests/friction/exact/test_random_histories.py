@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from coulomb_samples import for_all
-from exact.path_samples import Springs, increments, loads_at_breakpoints, stiff
 from hypothesis import strategies as st
 
 from signorini.friction import SLIP_MINUS, SLIP_PLUS, certify, mu_low
 from signorini.friction.exact import initial_state
+from tests.helpers.coulomb_samples import for_all
+from tests.helpers.path_samples import Springs, increments, loads_at_breakpoints, stiff
 
 SEEDS = st.integers(0, 10**6)
 

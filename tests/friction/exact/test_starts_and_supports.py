@@ -5,13 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from coulomb_samples import block_on_floor, for_all
-from exact.path_samples import Springs, increments, loads_at_breakpoints, one_node, stiff
 from hypothesis import strategies as st
 
 from signorini.errors import InputError
 from signorini.friction import OPEN, SLIP_MINUS, SLIP_PLUS, CoulombProblem
 from signorini.friction.exact import follow, initial_state
+from tests.helpers.coulomb_samples import block_on_floor, for_all
+from tests.helpers.path_samples import Springs, increments, loads_at_breakpoints, one_node, stiff
 
 
 def test_at_rest_the_gaps_are_open():

@@ -5,8 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from coulomb_samples import random_problem as plane_problem
-from spatial_samples import pressed_punch, random_problem
 
 from signorini import lcp
 from signorini.condense.image import Image
@@ -22,6 +20,8 @@ from signorini.friction.spatial import (
     split,
     violations,
 )
+from tests.helpers.coulomb_samples import random_problem as plane_problem
+from tests.helpers.spatial_samples import pressed_punch, random_problem
 
 
 def one_pair(b, friction, **more):

@@ -5,13 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from spatial_samples import block_on_floor
 
 from signorini.errors import InputError
 from signorini.friction import CoulombProblem
 from signorini.friction.exact import follow, initial_state
 from signorini.friction.spatial import SpatialProblem, StopSettings, at_rest, follow_stopping, solve_spatial
 from signorini.friction.spatial.section import outermost
+from tests.helpers.spatial_samples import block_on_floor
 
 
 def random_history(seed, pairs, rows, segments=3):

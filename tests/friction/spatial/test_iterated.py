@@ -3,13 +3,13 @@
 
 import numpy as np
 import pytest
-from spatial_samples import block_on_floor, pressed_punch, random_problem
 
 from signorini.friction.spatial import solve_spatial
 from signorini.friction.spatial.equilibrium import Equilibrium, linear_system
 from signorini.friction.spatial.iterated import balanced
 from signorini.friction.spatial.law import sticking, tangent
 from signorini.linalg.gmres import gmres
+from tests.helpers.spatial_samples import block_on_floor, pressed_punch, random_problem
 
 PROBLEMS = {
     "punch": pressed_punch(49, 0.4)[2],

@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from exact.path_samples import Springs, stiff
 
 from signorini.friction import OPEN, STICK
 from signorini.friction.exact import follow, initial_state, land
 from signorini.friction.spatial import SpatialProblem, StopSettings, at_rest, certify, follow_stopping, land_spatial
 from signorini.friction.spatial.rates import SpatialRates, find_rates
+from tests.helpers.path_samples import Springs, stiff
 
 
 def turned_node(mu, facets, angle, **bounds):

@@ -2,10 +2,10 @@
 """The projection on sections of the friction cone: feasible, nearest, and its first-order form."""
 
 import numpy as np
-from coulomb_samples import for_all
 from hypothesis import strategies as st
 
 from signorini.friction.spatial.section import nearest
+from tests.helpers.coulomb_samples import for_all
 
 NUMBER = st.floats(-10, 10)
 AXIS = st.sampled_from([0.0, 0.01, 0.3, 0.5, 1.0, 7.0, 1e6])

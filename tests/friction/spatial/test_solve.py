@@ -5,9 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from benchmarks.spatial_problems import hard_random
-from spatial_samples import block_on_floor, pressed_punch, random_problem
 
+from benchmarks.spatial_problems import hard_random
 from signorini import lcp
 from signorini.condense.image import Image
 from signorini.friction.spatial import (
@@ -25,6 +24,7 @@ from signorini.friction.spatial import (
 )
 from signorini.friction.spatial.equilibrium import Equilibrium
 from signorini.friction.spatial.sweeps import gauss_seidel
+from tests.helpers.spatial_samples import block_on_floor, pressed_punch, random_problem
 
 
 @pytest.mark.parametrize("friction", [0.1, 0.3, 0.6, 1.0])

@@ -3,12 +3,12 @@
 
 import numpy as np
 import pytest
-from face_samples import grid, rotation, turned
 
 from signorini.errors import InputError
 from signorini.interface.spatial.faces import CORNERS, node_places, pieces, shapes_at, slopes_at
 from signorini.interface.spatial.frames import frames
 from signorini.interface.spatial.surface import make_surface
+from tests.helpers.face_samples import grid, rotation, turned
 
 KINDS = tuple(CORNERS)
 

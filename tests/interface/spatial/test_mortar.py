@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from face_samples import grid, rotation, turned, two_sides
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -17,6 +16,7 @@ from signorini.interface.spatial.faces import shapes_at
 from signorini.interface.spatial.mortar import mortar_coupling
 from signorini.interface.spatial.node_to_face import node_pairs, node_to_face
 from signorini.interface.spatial.surface import make_surface, reference_rule
+from tests.helpers.face_samples import grid, rotation, turned, two_sides
 
 KINDS = (3, 4, 6, 8, 9)
 

@@ -2,8 +2,8 @@
 """Small spatial Coulomb problems: random ones, and an elastic half-space under a punch."""
 
 import numpy as np
-from benchmarks.spatial_problems import punch
 
+from benchmarks.spatial_problems import punch
 from signorini.friction.spatial import SpatialProblem, from_compliance
 
 
