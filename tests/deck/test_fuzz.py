@@ -4,12 +4,15 @@
 import os
 import random
 import time
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
+from signorini.engine.prepare import examine
 
 fuzz = pytest.importorskip("benchmarks.fuzz", reason="the benchmarks are beside the tests in a checkout only")
 from benchmarks.mutations import KINDS, corpus, damage  # noqa: E402  # nothing to import where fuzz is not
@@ -46,6 +49,17 @@ def test_other_inputs_are_read(sound: Any, tmp_path: Path) -> None:
         assert fuzz.outcome("mesh", tmp_path / f"mesh{Path(name).suffix}", sound) == "read"
     for kind, name in (("state", "state.npz"), ("archive", "solution.h5"), ("folder", "")):
         assert fuzz.outcome(kind, sound.results / name, sound) == "read"
+
+
+def test_functions_that_no_sound_deck_calls_are_compiled_before_seconds_count(monkeypatch: pytest.MonkeyPatch) -> None:
+    called = set()
+    for place, name in (("mortar", "widen"), ("node_to_face", "meet")):
+        module = import_module(f"signorini.interface.spatial.{place}")
+        original = getattr(module, name)
+        monkeypatch.setattr(module, name, lambda *a, name=name, original=original: called.add(name) or original(*a))
+    for model in fuzz.rare_models():
+        examine(model)
+    assert called == {"widen", "meet"}
 
 
 def busy() -> None:
