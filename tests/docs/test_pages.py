@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""README and docs do what they show: their Python code runs as it stands, and so do the commands of README."""
+
+import re
+import shlex
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.cli import main
+
+ROOT = Path(__file__).parents[2]
+BLOCKS = {
+    f"{page.relative_to(ROOT)}:{1 + page.read_text()[: found.start()].count(chr(10))}": found[1]
+    for page in (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
+    for found in re.finditer(r"```python\n(.*?)```", page.read_text(), re.DOTALL)
+}
+COMMANDS = re.findall(r"^signorini ([^#\n]+)", (ROOT / "README.md").read_text(), re.MULTILINE)
+SUITES = ("verify", "bench")  # minutes, with tests of their own
+GIVEN = {"sg": sg, "M": np.diag([2.0, 3.0]), "q": np.array([-1.0, 1.0]), "start": np.zeros(2), "d": np.ones(2)}
+"""What pages leave to their reader."""
+
+
+@pytest.fixture(autouse=True)
+def _beside_the_examples(tmp_path, monkeypatch):
+    """A folder to write in that has the examples where README has them."""
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    monkeypatch.chdir(tmp_path)
+    mpl.use("agg")
+
+
+@pytest.mark.parametrize("place", BLOCKS)
+def test_python_code_runs(place, tmp_path):
+    names = dict(GIVEN)
+    exec(compile(BLOCKS[place], place, "exec"), names)
+    for file in re.findall(r'(?:write|savefig)\("(.+?)"\)', BLOCKS[place]):
+        assert (tmp_path / file).stat().st_size > 0
+    if "solution" in names:
+        assert getattr(names["solution"], "solved", True)
+
+
+def test_the_code_of_readme_is_its_deck():
+    """README: "The same as a deck"."""
+    names = dict(GIVEN)
+    exec(BLOCKS[next(place for place in BLOCKS if place.startswith("README"))].split("solution.write")[0], names)
+    deck = sg.solve(sg.read("examples/hertz_two_bodies.toml"))
+    np.testing.assert_allclose(names["pressure"], deck.contact("hertz").pressure, rtol=1e-12)
+
+
+def test_commands_of_readme_run(capsys):
+    assert {command.split()[0] for command in COMMANDS} == {"check", "run", "plot", *SUITES}
+    for command in COMMANDS:
+        if command.split()[0] not in SUITES:
+            assert main(shlex.split(command)) == 0, capsys.readouterr()
