@@ -27,7 +27,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.condense.image import softened, symmetric_product
 from signorini.friction.posed import PosedContact
-from signorini.linalg.gmres import gmres
+from signorini.linalg.krylov import gmres
 
 LARGE = 500
 """Unknowns from which a factorisation costs more."""
@@ -141,10 +141,7 @@ def iterate(
     start = np.concatenate([unknown.coordinates(r), a])
     error = balance(start)[2]
     least, aim = problem.scale * np.sqrt(len(error)), forward * float(np.linalg.norm(error))
-    change = gmres(product, precondition, error, max(aim, _SHARP * least))
-    if change is None:
-        return None
-    x = start + change
+    x = start + gmres(product, precondition, error, max(aim, _SHARP * least))
     force, motion, error = balance(x)
     if not np.linalg.norm(error) <= max(_TRUSTED * aim, _ROUNDED * least):
         return None

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,7 +18,6 @@ from signorini.arrays import Array
 from signorini.iterative._kernels import sweep_back, sweep_from_zero
 
 _SMALLEST = 100  # blocks that are solved for directly
-_MOST = 400  # iterations
 _NOTHING = 1e-13  # of the largest stiffness: motions that nothing resists
 
 
@@ -140,31 +139,3 @@ class Cycle:
         x += level.P @ self._descend(depth + 1, level.R @ left.ravel())
         level.finish(b, x)
         return x
-
-
-def conjugate_gradients(
-    apply: Callable[[Array], Array], precondition: Callable[[Array], Array], g: Array, *, tolerance: float
-) -> tuple[Array, int]:
-    """Preconditioned conjugate gradients from zero, to a relative residual: x and the number of iterations.
-
-    Examples
-    --------
-    >>> x, iterations = conjugate_gradients(lambda v: 2.0 * v, lambda v: v, np.array([2.0, 4.0]), tolerance=1e-12)
-    >>> x.tolist(), iterations
-    ([1.0, 2.0], 1)
-    """
-    x, residual = np.zeros_like(g), g.copy()
-    first = float(np.linalg.norm(g))
-    direction, old = np.zeros_like(g), 1.0
-    for count in range(1, _MOST + 1):
-        z = precondition(residual)
-        new = float(residual @ z)
-        direction = z + (new / old if count > 1 else 0.0) * direction
-        forces = apply(direction)
-        step = new / float(direction @ forces)
-        x += step * direction
-        residual -= step * forces
-        old = new
-        if float(np.linalg.norm(residual)) <= tolerance * first:
-            break
-    return x, count

@@ -30,7 +30,7 @@ from signorini.bound import Bound
 from signorini.errors import told
 from signorini.iterative.bodies import Bodies
 from signorini.iterative.law import Slope, project, slope, states
-from signorini.iterative.multigrid import conjugate_gradients
+from signorini.linalg.krylov import conjugate_gradients
 from signorini.pairstate import OPEN, STICK
 from signorini.trace import Attempt
 
@@ -230,7 +230,7 @@ class _Rounds:
         bodies, springs = self.bodies, self.transposed @ law.matrix() @ self.bodies.B
         if self.cycle is None or law.change(self.cycle[0]) > _CHANGED * float(self.softened.max(initial=0.0)):
             self.cycle = law, bodies.preconditioner.under(springs)
-        return conjugate_gradients(lambda v: bodies.K @ v + springs @ v, self.cycle[1], g, tolerance=_INEXACT)
+        return conjugate_gradients(lambda v: bodies.K @ v + springs @ v, self.cycle[1], g, _INEXACT)
 
     def _go(self, step: Array, forces: Array) -> None:
         """Along a step to where the energy is least: a convex function whose slope is found from the pairs alone."""

@@ -4,11 +4,11 @@
 import numpy as np
 import pytest
 
+from signorini.friction.iterated import Unknowns, iterate
 from signorini.friction.spatial import solve_spatial
 from signorini.friction.spatial.equilibrium import Equilibrium, linear_system
 from signorini.friction.spatial.iterated import balanced
 from signorini.friction.spatial.law import sticking, tangent
-from signorini.linalg.gmres import gmres
 from tests.helpers.spatial_samples import block_on_floor, pressed_punch, random_problem
 
 PROBLEMS = {
@@ -44,5 +44,10 @@ def test_newton_ends_where_it_does_with_factorisations(name, monkeypatch):
     np.testing.assert_allclose(found.y, expected.y, rtol=0, atol=1e-9 * np.abs(expected.y).max())
 
 
-def test_what_gmres_cannot_solve_is_said():
-    assert gmres(lambda x: 0.0 * x, lambda y: y, np.ones(3), 1e-12) is None
+def test_what_cannot_be_balanced_is_said():
+    problem = PROBLEMS["floating"]
+    nothing, none = np.zeros((3, 3, problem.pairs)), np.zeros(3 * problem.pairs)
+    unknown = Unknowns(force=nothing, motion=nothing, fixed=none, resisting=none, apart=none)
+    a = np.zeros(problem.motions.shape[1])
+    assert len(a)
+    assert iterate(problem, unknown, problem.free_motion, none, a, forward=1e-2) is None
