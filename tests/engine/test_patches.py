@@ -36,17 +36,36 @@ def test_a_patch_of_few_pairs_is_noted(load, pairs):
     assert all(f"with {pairs} pair" in note for note in notes)
 
 
-@pytest.mark.parametrize(("depth", "said"), [(0.002, True), (0.08, False)])
-def test_in_space_all_pairs_of_a_small_patch_are_next_to_open_ones(depth, said):
-    x = np.linspace(0.0, 2.0, 9)
-    ball = sg.Sphere((1.0, 1.0, 3.0 - depth), 1.0)
+@pytest.mark.parametrize("cells", ["hexahedron", "tetra"])
+@pytest.mark.parametrize(
+    ("width", "half", "pairs"),
+    [
+        (0.1, False, 1),
+        (0.3, False, 2),
+        (0.6, False, 3),
+        (0.8, False, 4),
+        (0.1, True, 1),
+        (0.6, True, 3),
+        (1.1, True, 5),
+    ],
+)
+def test_in_space_pairs_are_counted_across(width, half, pairs, cells):
+    """A punch with a flat square end on pairs 0.25 apart; half of it where y = 0 is a plane of symmetry."""
+    z = np.linspace(-1.0, 1.0, 9)
+    x = z + (0.125 if pairs % 2 == 0 else 0.0)
+    y = np.linspace(0.0, 1.0, 5) if half else x
+    edges = 0.5 * width * np.array([-1.0, 1.0])
+    ends = np.array([[a, b, 1.0] for b in edges for a in edges])
+    punch = sg.Surface(ends, [[0, 3, 1], [0, 2, 3]])
     model = sg.Model(
-        sg.box(x=x, y=x, z=x),
+        sg.box(x=x, y=y, z=z, cells=cells),
         bodies=[sg.Body("block", STEEL)],
-        supports=[sg.Support("bottom", u=(0, 0, 0))],
-        contacts=[sg.Contact("top", ball, name="ball")],
+        supports=[sg.Support("bottom", u=(0, 0, 0)), sg.Support("front", u=(None, 0, None))][: 1 + half],
+        contacts=[sg.Contact("top", punch, name="punch", interference=0.01)],
     )
-    assert bool(few(model)) == said
+    notes = few(model)
+    assert bool(notes) == (pairs < 4)
+    assert all(f"with {pairs} pair" in note for note in notes)
 
 
 def test_patches_that_end_with_their_side_are_not():

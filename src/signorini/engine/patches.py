@@ -33,8 +33,7 @@ def patch_notes(prepared: Prepared, state: State) -> Iterator[str]:
     """Contacts that end between open pairs and hold fewer than four closed ones across.
 
     In the plane they are counted, twice where the patch begins at an end of its side, an axis or a plane of symmetry;
-    in space a patch is noted if all of its pairs are next to open ones. What ends where a side does has its edges
-    there, whatever the mesh.
+    in space layer by layer from open ones inwards. What ends where a side does has its edges there, whatever the mesh.
     """
     interface = prepared.interface
     for i, contact in enumerate(prepared.model.contacts):
@@ -56,13 +55,8 @@ def _fewest(prepared: Prepared, i: int, nodes: IntArray, closed: BoolArray) -> i
     blocks = boundary(space, prepared.interface.sides[i].nonmortar, ("contact", i)).blocks
     place = np.full(len(space.mesh.points), -1)
     place[nodes] = np.arange(len(nodes))
-    edges = []
-    for block in blocks:
-        corners = np.arange(block.corners)
-        edges.append(
-            np.stack([block.facets[:, corners], block.facets[:, np.roll(corners, -1)]], axis=-1).reshape(-1, 2)
-        )
-    one, two = place[np.concatenate(edges)].T
+    facets = [place[block.facets[:, : block.corners]] for block in blocks]
+    one, two = np.concatenate([np.stack([at, np.roll(at, -1, axis=1)]).reshape(2, -1) for at in facets], axis=1)
     both = (one >= 0) & (two >= 0)
     one, two = np.concatenate([one[both], two[both]]), np.concatenate([two[both], one[both]])
     within = closed[one] & closed[two]
@@ -70,9 +64,30 @@ def _fewest(prepared: Prepared, i: int, nodes: IntArray, closed: BoolArray) -> i
     _, patch = connected_components(graph, directed=False)
     ends = np.unique(np.column_stack([one, two])[closed[one] & ~closed[two]], axis=0)
     ended = np.unique(patch[ends[:, 0]])
-    size = np.bincount(patch[closed], minlength=len(nodes))[ended]
     if space.dimension == 3:
-        beside = np.bincount(patch[np.unique(ends[:, 0])], minlength=len(nodes))[ended]
-        return 2 if (beside == size).any() else _ACROSS
+        return int(_layers(facets, one, two, closed, patch)[ended].min(initial=_ACROSS))
+    size = np.bincount(patch[closed], minlength=len(nodes))[ended]
     half = np.bincount(patch[ends[:, 0]], minlength=len(nodes))[ended] == 1
     return int(np.where(half, 2 * size - 1, size).min(initial=_ACROSS))
+
+
+def _layers(facets: list[IntArray], one: IntArray, two: IntArray, closed: BoolArray, patch: IntArray) -> IntArray:
+    """(n,) Pairs across every patch in space, four where there are more: two a layer, one where the last is a line.
+
+    Parameters
+    ----------
+    facets : pairs at the corners of facets, -1 where there is none
+    one, two : pairs at the ends of their edges, in both directions
+    closed, patch : (n,) whether pairs are closed, and their patch
+    """
+    across = np.zeros(len(closed), dtype=np.int64)
+    inside = closed.copy()
+    for layer in range(_ACROSS // 2 + 1):
+        across[patch[inside]] = 2 * layer + 1
+        for at in facets:
+            filled = ((at >= 0) & inside[at]).all(axis=1)
+            across[patch[at[filled, 0]]] = 2 * layer + 2
+        outside = ~inside
+        inside = inside.copy()
+        inside[one[outside[two]]] = False
+    return np.minimum(across, _ACROSS)
