@@ -13,8 +13,8 @@ import numpy as np
 
 from benchmarks.page import table, write
 from signorini.engine.solve import solve
-from signorini.fem.generators import Cells
 from signorini.gallery.press_fit import press_fit
+from signorini.meshing.plane import Cells
 from signorini.model.contact import Contact
 from signorini.reference.lame import press_fit_pressure
 

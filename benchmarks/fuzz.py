@@ -39,9 +39,9 @@ from signorini.deck import load
 from signorini.engine.prepare import examine
 from signorini.errors import InputError, SolveFailed
 from signorini.fem.profile import read_profile
-from signorini.fem.read import read_mesh
 from signorini.fem.surface import read_surface
 from signorini.gallery.spheres import hollow_spheres
+from signorini.meshing.read import read_mesh
 from signorini.model.model import Model
 from signorini.output.archive import read_archive
 from signorini.output.checkpoint import read_checkpoint

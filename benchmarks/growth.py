@@ -25,8 +25,8 @@ from benchmarks import command, page
 from signorini.bench.price import TimerClock
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
-from signorini.fem.generators import rectangle
 from signorini.gallery.cylinder import zhu_cylinder
+from signorini.meshing.plane import rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact

@@ -16,10 +16,10 @@ import scipy.linalg
 
 from signorini.arrays import Array
 from signorini.engine.prepare import Prepared, prepare
-from signorini.fem.generators import rectangle
 from signorini.friction.problem import CoulombProblem
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.lcp.problems import PosedLCP
+from signorini.meshing.plane import rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact

@@ -18,8 +18,8 @@ import meshio
 import numpy as np
 
 import signorini as sg
-from signorini.fem.solids import box
-from signorini.fem.write import write_mesh
+from signorini.meshing.solid import box
+from signorini.meshing.write import write_mesh
 
 ROOT = Path(__file__).parents[1]
 

@@ -14,7 +14,7 @@ import numpy as np
 from benchmarks.page import table, write
 from signorini.api import solve
 from signorini.errors import InputError
-from signorini.fem.generators import Cells, annulus
+from signorini.meshing.plane import Cells, annulus
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.material import Elastic

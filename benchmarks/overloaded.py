@@ -34,10 +34,14 @@ from benchmarks import command, page
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.errors import InputError, SolveFailed
-from signorini.fem.solids import box
-from signorini.friction import iterated
-from signorini.friction.spatial import held, newton, overload, proximal, rates, sectors
+from signorini.friction import krylov as iterated
+from signorini.friction.history.space import find_rates as rates
+from signorini.friction.history.space import no_rates_proof as sectors
+from signorini.friction.history.space import sticking_response as held
+from signorini.friction.space import overload, proximal
+from signorini.friction.spatial import newton
 from signorini.linalg import multifrontal
+from signorini.meshing.solid import box
 from signorini.model.mesh import join
 
 FAMILIES = ("block on plane", "block on block", "stack", "slab", "wedge", "tall block")

@@ -20,8 +20,8 @@ import numpy as np
 from benchmarks import command, page
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
-from signorini.fem.solids import box
 from signorini.gallery.cubes import cubes
+from signorini.meshing.solid import box
 from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact

@@ -17,7 +17,7 @@ import numpy as np
 from benchmarks.page import seconds, table, write
 from benchmarks.spatial_problems import hard_random, punch
 from signorini.arrays import Array
-from signorini.friction.exact import PathState
+from signorini.friction.history.plane import PathState
 from signorini.friction.spatial import (
     SpatialProblem,
     StopSettings,
@@ -29,8 +29,8 @@ from signorini.friction.spatial import (
     split,
 )
 from signorini.interface.spatial import make_surface, mortar_coupling
-from signorini.interface.spatial.candidates import near_pairs
 from signorini.interface.spatial.faces import node_places
+from signorini.interface.spatial.facing import near_pairs
 
 PAGE = Path(__file__).parent.parent / "docs" / "three_dimensions.md"
 FRICTIONS = (0.1, 0.3, 0.6, 1.0)

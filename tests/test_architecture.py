@@ -21,6 +21,7 @@ ROOT = Path(signorini.__file__).parent
 FILES = sorted(ROOT.rglob("*.py"))
 
 BASE = {
+    "attempt",
     "errors",
     "arrays",
     "checks",
@@ -28,14 +29,11 @@ BASE = {
     "meshio_fixes",
     "hdf5",
     "memory",
-    "bound",
-    "pairstate",
     "short",
     "sources",
-    "trace",
     "_version",
 }
-CORE = {"model", "linalg", "lcp", "fem", "interface", "condense", "iterative", "friction", "solution"}
+CORE = {"law", "model", "meshing", "linalg", "lcp", "fem", "interface", "condense", "iterative", "friction", "solution"}
 BELOW_CLI = BASE | CORE | {"engine", "deck", "output", "plot", "reference"}
 
 # folder or file: what it may import besides itself and the base
@@ -43,16 +41,18 @@ ALLOWED = {
     "model": set(),
     "linalg": set(),
     "lcp": {"linalg"},
-    "fem": {"model"},
-    "interface": {"fem", "model"},
+    "law": set(),
+    "meshing": {"model"},
+    "fem": {"model", "meshing"},
+    "interface": {"law", "meshing", "fem", "model"},
     "condense": {"linalg", "interface"},
-    "iterative": {"linalg", "interface"},
-    "friction": {"linalg", "lcp", "condense"},
-    "solution": {"model", "fem", "interface"},
+    "iterative": {"law", "linalg", "interface"},
+    "friction": {"law", "linalg", "lcp", "condense"},
+    "solution": {"law", "model", "fem", "interface"},
     "engine": CORE,
-    "deck": {"model", "fem"},
-    "output": {"solution", "model", "fem"},
-    "plot": {"solution", "model"},
+    "deck": {"model", "meshing", "fem"},
+    "output": {"solution", "law", "model", "meshing", "fem"},
+    "plot": {"solution", "law", "model"},
     "reference": set(),
     "gallery": BELOW_CLI | {"api"},
     "verify": BELOW_CLI | {"api", "gallery"},
@@ -247,8 +247,6 @@ PENDING = {
     #
     "bench": "files nouns parameters constants",
     #
-    "bound": "constants",
-    #
     "checks": "parameters constants",
     #
     "cli": "nouns parameters constants",
@@ -261,7 +259,7 @@ PENDING = {
     #
     "errors": "nouns parameters",
     #
-    "fem": "files signatures nouns parameters classes constants",
+    "fem": "signatures nouns parameters classes constants",
     #
     "friction": "files nouns parameters classes constants",
     #
@@ -271,11 +269,15 @@ PENDING = {
     #
     "iterative": "nouns parameters classes constants",
     #
+    "law": "constants",
+    #
     "lcp": "signatures nouns parameters classes constants",
     #
     "linalg": "signatures nouns parameters constants",
     #
     "memory": "parameters",
+    #
+    "meshing": "files parameters",
     #
     "meshio_fixes": "nouns",
     #
@@ -292,8 +294,6 @@ PENDING = {
     "solution": "signatures nouns parameters classes constants",
     #
     "sources": "nouns",
-    #
-    "trace": "classes",
     #
     "verify": "nouns constants",
 }

@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.fem.generators import quarter_disk
 from signorini.gallery.cylinder import FORCE, NU, RADIUS, E
+from signorini.meshing.plane import quarter_disk
 
 CALCULIX_PENALTY = 1e4
 """Pressure per overlap. Its stick slope is a tenth, the manual's advice for the ratio is 1 to 100."""

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.condense.image import Image
+from signorini.condense.operator import Image
 from signorini.gallery.blocks import dragged_block, four_blocks
 from signorini.gallery.cubes import cubes
 

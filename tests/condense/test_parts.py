@@ -6,7 +6,7 @@ import pytest
 import scipy.sparse as sp
 
 from signorini.condense.basis import make_basis
-from signorini.condense.parts import independent, make_parts
+from signorini.condense.body_blocks import independent, make_parts
 
 
 def stiff(rng, size, rigid=None):

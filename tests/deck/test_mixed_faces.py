@@ -8,7 +8,7 @@ import pytest
 import signorini as sg
 from signorini.cli import main
 from signorini.deck import load
-from signorini.fem.read import read_mesh
+from signorini.meshing.read import read_mesh
 from signorini.model.mesh import FACES
 
 TYPES = {"hexahedron": "C3D8", "wedge": "C3D6", "hexahedron20": "C3D20", "wedge15": "C3D15"}

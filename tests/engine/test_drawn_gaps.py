@@ -8,8 +8,8 @@ import pytest
 
 from signorini.engine.prepare import examine
 from signorini.engine.solve import solve
-from signorini.fem.generators import annulus, rectangle
-from signorini.fem.solids import extruded
+from signorini.meshing.plane import annulus, rectangle
+from signorini.meshing.solid import extruded
 from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact

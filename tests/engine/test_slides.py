@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.fem.solids import box
+from signorini.meshing.solid import box
 from signorini.model.mesh import join
 
 SLIDES = "step 'pull' at 50.000000%: gross sliding: body 'top' can move along x: no equilibrium continues the history"

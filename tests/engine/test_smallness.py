@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from signorini.engine.solve import solve
-from signorini.fem.generators import rectangle
-from signorini.fem.solids import box
+from signorini.meshing.plane import rectangle
+from signorini.meshing.solid import box
 from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact

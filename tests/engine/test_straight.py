@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.fem.solids import box
 from signorini.gallery.blocks import stacked_blocks
+from signorini.meshing.solid import box
 from signorini.model.mesh import join
 
 ALONG = "the law of contact holds all along"

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 import scipy.sparse.linalg
 
-from signorini.fem.generators import rectangle
 from signorini.fem.jacobian import gradients_in_space
 from signorini.fem.space import make_space
 from signorini.fem.stiffness import stiffness
 from signorini.fem.stress import body_stresses
+from signorini.meshing.plane import rectangle
 from signorini.model.body import Body
 from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh

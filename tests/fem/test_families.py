@@ -10,12 +10,12 @@ from skfem.models.elasticity import linear_elasticity
 
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
-from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
 from signorini.fem.loads import nodal_loads
 from signorini.fem.measure import facet_areas, nodal_areas
 from signorini.fem.space import make_space
 from signorini.fem.stiffness import stiffness
 from signorini.fem.stress import body_stresses
+from signorini.meshing.plane import annulus, half_disk, quarter_disk, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load
 from signorini.model.material import Elastic

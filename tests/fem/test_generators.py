@@ -9,9 +9,9 @@ from scipy.spatial import KDTree
 
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
-from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
-from signorini.fem.solids import extruded
 from signorini.fem.space import make_space
+from signorini.meshing.plane import annulus, half_disk, quarter_disk, rectangle
+from signorini.meshing.solid import extruded
 
 R = 8.0
 both_cells = pytest.mark.parametrize("cells", ["quad", "triangle"])

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from signorini.errors import InputError
-from signorini.fem.files import open_mesh
 from signorini.hdf5 import check_hdf5
+from signorini.meshing.files import open_mesh
 from tests.helpers.gmsh_block import GEOMETRY
 
 POINTS = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])

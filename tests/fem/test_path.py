@@ -8,8 +8,8 @@ import pytest
 
 import signorini as sg
 from signorini.fem.path import along
-from signorini.fem.solids import extruded
 from signorini.fem.space import make_space
+from signorini.meshing.solid import extruded
 from signorini.model.mesh import join
 from tests.helpers.families import FAMILIES, MIXED, block
 

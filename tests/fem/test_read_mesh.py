@@ -6,8 +6,8 @@ import pytest
 
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
-from signorini.fem.read import read_mesh
 from signorini.fem.space import make_space
+from signorini.meshing.read import read_mesh
 
 NAMES = """$PhysicalNames
 5

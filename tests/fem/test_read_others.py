@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.fem.read import read_mesh
 from signorini.fem.space import make_space
+from signorini.meshing.read import read_mesh
 from tests.helpers.gmsh_block import GEOMETRY
 
 POINTS = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.0], [2.0, 1.0]])

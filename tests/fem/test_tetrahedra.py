@@ -8,10 +8,10 @@ import pytest
 
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
-from signorini.fem.generators import rectangle, target
-from signorini.fem.solids import extruded
 from signorini.fem.space import make_space
-from signorini.fem.tetrahedra import tetrahedra
+from signorini.meshing.plane import rectangle, target
+from signorini.meshing.solid import extruded
+from signorini.meshing.tetrahedra import tetrahedra
 
 
 @pytest.mark.parametrize("cells", ["quad", "quad9"])

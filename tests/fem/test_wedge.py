@@ -9,13 +9,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import signorini as sg
-from signorini.fem.generators import rectangle
-from signorini.fem.read import read_mesh
-from signorini.fem.solids import extruded
 from signorini.fem.space import make_space, shape_functions
 from signorini.fem.stress import body_stresses
 from signorini.fem.wedge import QuadraticWedge
-from signorini.fem.write import write_mesh
+from signorini.meshing.plane import rectangle
+from signorini.meshing.read import read_mesh
+from signorini.meshing.solid import extruded
+from signorini.meshing.write import write_mesh
 
 STEEL = sg.Elastic(E=1000.0, nu=0.3, density=2.0)
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 from signorini.friction.approach import approach
-from signorini.friction.rigid import unresisted
+from signorini.friction.pull_away import unresisted
 from signorini.friction.spatial.rigid import unresisted as unresisted_in_space
 
 

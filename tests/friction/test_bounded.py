@@ -9,20 +9,20 @@ from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 
 from signorini.bench.hard import hard_set
-from signorini.bound import STEEP, Bound
 from signorini.errors import InputError
 from signorini.friction import OPEN, solve_coulomb
 from signorini.friction.cone import cone_system
-from signorini.friction.exact import follow as follow_load
-from signorini.friction.exact import initial_state, land
+from signorini.friction.history.plane import follow as follow_load
+from signorini.friction.history.plane import initial_state, land
 from signorini.friction.law import split, states
 from signorini.friction.newton import newton
-from signorini.friction.path import follow
-from signorini.friction.rigid import pulled_away
+from signorini.friction.plane.covering import follow
+from signorini.friction.plane.state_tree import search
+from signorini.friction.plane.walls import beyond, constant, jacobian, placed
+from signorini.friction.pull_away import pulled_away
 from signorini.friction.several import all_solutions, always_unique
 from signorini.friction.spatial import SpatialProblem, solve_spatial
-from signorini.friction.tree import search
-from signorini.friction.walls import beyond, constant, jacobian, placed
+from signorini.law.bound import STEEP, FrictionBound
 from tests.helpers.coulomb_samples import HELD, answer, block_on_floor, for_all, random_problem
 from tests.helpers.path_samples import EqualBodies, Springs, increments, loads_at_breakpoints, one_node, stiff
 
@@ -42,7 +42,7 @@ def test_the_bound_is_what_it_says(seed):
     rng = np.random.default_rng(seed)
     mu = rng.choice([0.0, 0.1, 3.0, np.inf], 40)
     c, L = rng.choice([0.0, 1e-3, 0.5, 2.0], 40), rng.choice([1e-3, 0.5, 0.50005, 2.0, np.inf], 40)
-    bound = Bound.of(mu, adhesion=c, limit=L)
+    bound = FrictionBound.of(mu, adhesion=c, limit=L)
     p = 10.0 ** rng.uniform(-7, 3, 40)
     sticks = np.where(np.isinf(L), 1e6, STEEP) * p
     expected = np.minimum(np.where(np.isinf(mu), sticks, np.nan_to_num(mu, posinf=0) * p + np.minimum(STEEP * p, c)), L)

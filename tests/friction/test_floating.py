@@ -6,9 +6,9 @@ import dataclasses
 import numpy as np
 import pytest
 
-from signorini.condense.image import Image
+from signorini.condense.operator import Image
 from signorini.friction import OPEN, STICK, CoulombProblem, solve_coulomb
-from signorini.friction.path import follow
+from signorini.friction.plane.covering import follow
 from tests.helpers.coulomb_samples import block_on_floor
 
 

@@ -11,10 +11,10 @@ from signorini.bench.hard import hard_set
 from signorini.friction import CoulombProblem, CoulombSettings, certify, solve_coulomb
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED, split, states
 from signorini.friction.newton import newton
-from signorini.friction.path import follow
-from signorini.friction.release import released
-from signorini.friction.tree import search
-from signorini.friction.walls import beyond, columns, jacobian, walls
+from signorini.friction.plane.covering import follow
+from signorini.friction.plane.restricted import released
+from signorini.friction.plane.state_tree import search
+from signorini.friction.plane.walls import beyond, columns, jacobian, walls
 from tests.helpers.coulomb_samples import answer, block_on_floor, for_all, random_problem
 
 

@@ -6,7 +6,7 @@ import dataclasses
 import numpy as np
 from hypothesis import strategies as st
 
-from signorini.condense.image import Image
+from signorini.condense.operator import Image
 from signorini.friction import SLIP_MINUS, SLIP_PLUS, CoulombProblem, mu_low, solve_coulomb
 from tests.helpers.coulomb_samples import HELD, answer, for_all, random_problem
 

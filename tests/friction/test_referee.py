@@ -6,9 +6,9 @@ import pytest
 from hypothesis import strategies as st
 
 from signorini.friction import CoulombProblem, index, mu_low, solve_coulomb
-from signorini.friction.path import follow
-from signorini.friction.rigid import pulled_away
-from signorini.friction.tree import search
+from signorini.friction.plane.covering import follow
+from signorini.friction.plane.state_tree import search
+from signorini.friction.pull_away import pulled_away
 from tests.helpers.coulomb_samples import HELD, all_solutions, answer, for_all, random_problem, with_stiffness
 
 seeds = st.integers(0, 10**6)

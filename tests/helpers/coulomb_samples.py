@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given, settings
 
 from signorini.condense.basis import make_basis
-from signorini.condense.image import Image
+from signorini.condense.operator import Image
 from signorini.friction import CoulombProblem, certify
 from signorini.friction.cone import cone_system
 from signorini.friction.law import states

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.fem.generators import rectangle
+from signorini.meshing.plane import rectangle
 from signorini.model.mesh import Mesh
 
 FAMILIES = ("triangle", "quad", "triangle6", "quad8", "quad9")

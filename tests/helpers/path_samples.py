@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.friction import CoulombProblem, solve_coulomb
-from signorini.friction.exact import follow, initial_state
+from signorini.friction.history.plane import follow, initial_state
 
 
 def one_node(mu):

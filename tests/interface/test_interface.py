@@ -10,9 +10,9 @@ from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
-from signorini.fem.generators import annulus, half_disk, rectangle
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit
+from signorini.meshing.plane import annulus, half_disk, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact

@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
-from signorini.fem.generators import rectangle
 from signorini.fem.space import make_space
 from signorini.interface.mortar import mortar_coupling
 from signorini.interface.overlap import find_overlaps
+from signorini.meshing.plane import rectangle
 from signorini.model.mesh import Mesh, join
 
 knots = st.lists(st.floats(0.02, 0.98), min_size=0, max_size=6).map(

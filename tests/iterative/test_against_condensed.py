@@ -8,8 +8,8 @@ import pytest
 
 import signorini as sg
 from signorini.engine import room
-from signorini.fem.solids import box
 from signorini.gallery.blocks import block_on_foundation, dragged_block, four_blocks, stacked_blocks
+from signorini.meshing.solid import box
 from signorini.model.mesh import join
 
 

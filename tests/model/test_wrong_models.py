@@ -9,7 +9,7 @@ import pytest
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve
 from signorini.errors import InputError, SolveFailed
-from signorini.fem.generators import quarter_disk, rectangle
+from signorini.meshing.plane import quarter_disk, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 import signorini as sg
 from signorini.errors import InputError
-from signorini.fem.solids import extruded
+from signorini.meshing.solid import extruded
 from signorini.plot.camera import best_view, look_from
 from signorini.plot.paint import Paint, paint_skin
 from signorini.plot.skin import make_skin

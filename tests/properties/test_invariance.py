@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve, solve_prepared
-from signorini.fem.generators import rectangle
-from signorini.fem.solids import box
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit
+from signorini.meshing.plane import rectangle
+from signorini.meshing.solid import box
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact

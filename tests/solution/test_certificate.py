@@ -9,7 +9,7 @@ import pytest
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.gallery.cylinder import zhu_cylinder
-from signorini.pairstate import OPEN, STICK
+from signorini.law.states import OPEN, STICK
 from signorini.solution.certificate import TOLERANCE, Certificate, certify
 from signorini.solution.state import initial_state, next_state
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from signorini.engine.solve import solve
-from signorini.fem.generators import rectangle
 from signorini.gallery.blocks import dragged_block, stacked_blocks
 from signorini.gallery.cylinder import zhu_cylinder
+from signorini.meshing.plane import rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact

@@ -13,9 +13,9 @@ from signorini.deck import read
 from signorini.deck.write import write_deck
 from signorini.engine.solve import solve
 from signorini.errors import InputError
-from signorini.fem.generators import rectangle
-from signorini.fem.solids import box
 from signorini.gallery.cubes import cubes
+from signorini.meshing.plane import rectangle
+from signorini.meshing.solid import box
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact

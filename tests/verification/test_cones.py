@@ -14,8 +14,8 @@ from signorini.engine.increments import measured
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve, solve_prepared
 from signorini.errors import InputError
-from signorini.fem.solids import box
 from signorini.gallery.cubes import cube_on_block, cubes
+from signorini.meshing.solid import box
 from signorini.model.mesh import join
 from signorini.output.dataclasses_json import from_plain, to_plain
 

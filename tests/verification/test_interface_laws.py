@@ -10,8 +10,8 @@ from signorini.api import prepare
 from signorini.deck import read
 from signorini.engine.solve import solve
 from signorini.errors import InputError
-from signorini.fem.generators import rectangle
 from signorini.gallery.blocks import four_blocks, stacked_blocks
+from signorini.meshing.plane import rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact

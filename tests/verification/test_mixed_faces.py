@@ -11,10 +11,10 @@ import signorini as sg
 from signorini.engine.prepare import prepare
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
-from signorini.fem.generators import rectangle
-from signorini.fem.solids import box, extruded
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
+from signorini.meshing.plane import rectangle
+from signorini.meshing.solid import box, extruded
 from signorini.model.mesh import Mesh, join
 
 STEEL = sg.Elastic(E=2e5, nu=0.3)

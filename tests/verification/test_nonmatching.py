@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from signorini.engine.solve import solve
-from signorini.fem.generators import quarter_disk, rectangle
 from signorini.gallery.blocks import block_on_foundation, stacked_blocks
+from signorini.meshing.plane import quarter_disk, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact

@@ -11,7 +11,7 @@ from signorini.deck import read
 from signorini.deck.write import write_deck
 from signorini.engine.solve import solve
 from signorini.errors import InputError, SolveFailed
-from signorini.fem.solids import box
+from signorini.meshing.solid import box
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact

@@ -9,7 +9,7 @@ import signorini as sg
 from signorini.cli import main
 from signorini.deck.write import write_deck
 from signorini.errors import InputError
-from signorini.fem.write import write_mesh
+from signorini.meshing.write import write_mesh
 from tests.helpers.rigid_surfaces import sphere
 
 FINE = [0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.5]

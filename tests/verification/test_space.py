@@ -10,12 +10,12 @@ from scipy.spatial.transform import Rotation
 import signorini as sg
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
-from signorini.fem.generators import rectangle
-from signorini.fem.solids import box, extruded
 from signorini.fem.space import make_space
 from signorini.fem.stiffness import stiffness
 from signorini.fem.stress import body_stresses
 from signorini.gallery.blocks import curved_blocks
+from signorini.meshing.plane import rectangle
+from signorini.meshing.solid import box, extruded
 from signorini.model.mesh import join
 
 FAMILIES = ("hexahedron", "hexahedron20", "hexahedron27", "tetra", "tetra10")

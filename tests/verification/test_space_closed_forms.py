@@ -9,11 +9,11 @@ import pytest
 import signorini as sg
 from signorini.engine.solve import solve
 from signorini.fem.boundary import boundary
-from signorini.fem.generators import target
-from signorini.fem.solids import extruded
 from signorini.fem.space import make_space
 from signorini.gallery.half_spaces import EQUAL, ball, hertz
 from signorini.gallery.press_fit import press_fit, press_fit_in_space
+from signorini.meshing.plane import target
+from signorini.meshing.solid import extruded
 from signorini.reference.hertz_point import round_punch
 from signorini.verify.space import ball_on_plane, mindlin
 from signorini.verify.space import press_fit as lame

@@ -9,7 +9,7 @@ import pytest
 import signorini as sg
 from signorini.engine.solve import solve
 from signorini.errors import SolveFailed
-from signorini.fem.solids import box
+from signorini.meshing.solid import box
 
 GRID = [0.0, 0.5, 1.0]
 SOFT = [sg.Body("block", sg.Elastic(E=100.0, nu=0.3))]

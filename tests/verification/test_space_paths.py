@@ -10,10 +10,10 @@ import pytest
 import signorini as sg
 from signorini.engine.solve import solve
 from signorini.errors import InputError, SolveFailed
-from signorini.fem.solids import extruded
 from signorini.gallery.cubes import cubes
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.half_spaces import ball
+from signorini.meshing.solid import extruded
 
 ADHESIVE = {"friction": 0.3, "adhesion": 0.5}
 HISTORY = [sg.Step(scale={"cut": 1.0}), sg.Step(scale={"cut": 0.2}), sg.Step(scale={"cut": 0.7}, at=[0.3])]

@@ -11,9 +11,9 @@ from signorini.deck.write import write_deck
 from signorini.engine.prepare import examine
 from signorini.engine.solve import solve
 from signorini.errors import InputError
-from signorini.fem.generators import rectangle
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
+from signorini.meshing.plane import rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Foundation, Load, Support
 from signorini.model.contact import Contact

@@ -8,8 +8,6 @@ import pytest
 
 from signorini.engine.solve import solve
 from signorini.fem.boundary import boundary
-from signorini.fem.generators import quarter_disk, rectangle
-from signorini.fem.solids import extruded
 from signorini.fem.space import make_space
 from signorini.gallery.spheres import equal_spheres
 from signorini.interface.mortar import mortar_coupling
@@ -17,6 +15,8 @@ from signorini.interface.overlap import find_overlaps
 from signorini.interface.spatial import make_surface
 from signorini.interface.spatial import mortar_coupling as mortar_in_space
 from signorini.interface.tilt import normals_between, turned
+from signorini.meshing.plane import quarter_disk, rectangle
+from signorini.meshing.solid import extruded
 from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact

@@ -9,7 +9,7 @@ import numpy as np
 import scipy.linalg
 
 from signorini.arrays import Array
-from signorini.condense.parts import mirror
+from signorini.condense.body_blocks import mirror
 
 _DEPENDENT = 1e-10  # of the largest: what is left of a motion that follows from the others
 

@@ -14,8 +14,8 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.clock import Clock
 from signorini.condense.basis import Basis, make_basis
-from signorini.condense.image import Image
-from signorini.condense.parts import make_parts
+from signorini.condense.body_blocks import make_parts
+from signorini.condense.operator import Image
 from signorini.condense.response import ByNodes, Response, keep_pairs
 from signorini.condense.ties import Ties, make_ties
 from signorini.interface.interface import Interface
@@ -34,7 +34,7 @@ class Condensed:
     With S the condensed stiffness on the contact dofs, ``u_c = B_c z_c`` the relative displacement and r the forces of
     the pairs, ``S z_c = f_c + B_c^T r``. The interface compliance C = diag(c / area) is in series: h = u_c + C r + h_0
     obeys the exact law. With Z the rigid motions that nothing but contact resists and S~ = S held by springs on Z (see
-    :mod:`signorini.condense.parts`)
+    `condense.body_blocks`)
 
         h = X r + B_c S~^-1 f_c + h_0 + B_c Z a,    X = B_c S~^-1 B_c^T + C,    Z^T (f_c + B_c^T r) = 0.
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How the bodies answer loads and forces of the pairs, through what their factorisation keeps: contact nodes or pairs.
 
-Contact nodes are always possible: see :mod:`signorini.condense.parts`. Or the forces of the pairs are kept, as a border
+Contact nodes are always possible: see `condense.body_blocks`. Or the forces of the pairs are kept, as a border
 
     [ K   B^T ]
     [ B    0  ]    which condenses to    -B K^-1 B^T:
@@ -24,7 +24,7 @@ import scipy.linalg
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.condense.parts import Parts
+from signorini.condense.body_blocks import Parts
 from signorini.linalg.border import bordered
 from signorini.linalg.protocol import Factorisation, Reduced
 from signorini.linalg.registry import factorise

@@ -10,8 +10,8 @@ from typing import Any
 from signorini.checks import choice, text, vector
 from signorini.deck.table import check_keys, table
 from signorini.errors import InputError, Where
-from signorini.fem.generators import annulus, half_disk, quarter_disk, rectangle
-from signorini.fem.solids import box
+from signorini.meshing.plane import annulus, half_disk, quarter_disk, rectangle
+from signorini.meshing.solid import box
 from signorini.model.mesh import Mesh, join
 from signorini.sources import Reach
 
@@ -62,7 +62,7 @@ def _one(data: dict[str, Any], where: Where, reach: Reach) -> Mesh:
 
 
 def _from_file(data: Mapping[str, Any], reach: Reach) -> Mesh:
-    from signorini.fem.read import read_mesh  # brings every format of meshio with it
+    from signorini.meshing.read import read_mesh  # brings every format of meshio with it
 
     check_keys(data, ("mesh",), known=["file", "name"])
     name = text(data["file"], ("mesh", "file"))

@@ -40,7 +40,7 @@ def write_deck(model: Model, path: Path) -> list[Path]:
     InputError
         If the model holds a function, which a deck cannot say.
     """
-    from signorini.fem.write import write_mesh  # brings meshio with it
+    from signorini.meshing.write import write_mesh  # brings meshio with it
 
     mesh = path.with_suffix(".vtu")
     write_mesh(model.mesh, mesh)

@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.arrays import BoolArray
+from signorini.attempt import MethodRun
 from signorini.engine.exact import set_free, stored_energy
 from signorini.engine.increments import advance
 from signorini.engine.prepare import Prepared
 from signorini.friction.law import OPEN
 from signorini.solution.certificate import Certificate
 from signorini.solution.state import State
-from signorini.trace import Attempt
 
 _MORE = 1e-9  # of the friction bound: what counts as beyond it
 
@@ -48,7 +48,7 @@ def switched(prepared: Prepared, state: State, absent: BoolArray) -> State:
     )
 
 
-def relaxed(prepared: Prepared, state: State, where: str) -> tuple[State, Certificate, tuple[Attempt, ...]] | None:
+def relaxed(prepared: Prepared, state: State, where: str) -> tuple[State, Certificate, tuple[MethodRun, ...]] | None:
     """The state after pairs whose friction was lowered below what they carry have slipped, at the same loads.
 
     That is no gradual motion: the energy set free beyond what friction takes, by the mean of its forces before and

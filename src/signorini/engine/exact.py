@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from signorini.arrays import Array, BoolArray
-from signorini.bound import plain
+from signorini.attempt import MethodRun
 from signorini.engine.approach import approached
 from signorini.engine.increments import (
     applied,
@@ -26,13 +26,13 @@ from signorini.engine.prepare import Prepared
 from signorini.engine.resting import resting, undisturbed
 from signorini.engine.stretch import Stretch
 from signorini.errors import SolveFailed, told
-from signorini.friction.exact import Landing, PathState, Segment, follow, initial_state, land
+from signorini.friction.history.plane import Landing, PathState, Segment, follow, initial_state, land
 from signorini.friction.law import OPEN, STICK
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.spatial import SpatialProblem, StopSettings, at_rest, follow_stopping, land_spatial
+from signorini.law.bound import plain
 from signorini.solution.results import PairEvent
 from signorini.solution.state import LoadPoint, State, next_state
-from signorini.trace import Attempt
 
 _NAMED = 12  # nodes that a message lists
 _JUMPS = 100  # most that one part of a step may hold
@@ -190,13 +190,13 @@ def _landing(followed: _Followed) -> Landing | None:
     return land(law, followed.start, followed.segment)
 
 
-def _trace(followed: _Followed) -> tuple[tuple[Attempt, ...], ...]:
+def _trace(followed: _Followed) -> tuple[tuple[MethodRun, ...], ...]:
     """What was tried: for an exact path in one entry, in increments for each of them."""
     segment = followed.segment
     if followed.stops is None:
-        return ((Attempt(method="exact path", iterations=segment.pivots, end=segment.message),),)
+        return ((MethodRun(method="exact path", iterations=segment.pivots, end=segment.message),),)
     return tuple(
-        (Attempt(method="increments to events", iterations=piece.tried, end="certified"),)
+        (MethodRun(method="increments to events", iterations=piece.tried, end="certified"),)
         for piece in segment.pieces[1:]
     )
 
@@ -237,7 +237,7 @@ def _landed(stretch: Stretch, state: State, landing: Landing) -> Leg:
         f"{stretch.where} at {span.high:.6%}: a jump, followed through {landing.events} events to the next equilibrium "
         f"at that load; it sets energy {freed:.6g} free and is a candidate: inertia may lead elsewhere"
     )
-    attempt = Attempt(method="beyond a jump", iterations=landing.events, end="landed")
+    attempt = MethodRun(method="beyond a jump", iterations=landing.events, end="landed")
     return Leg(
         path="exact",
         before=state,

@@ -11,8 +11,8 @@ from signorini.engine.increments import leaving
 from signorini.engine.leg import reached
 from signorini.engine.stretch import Stretch
 from signorini.errors import SolveFailed, told
+from signorini.friction.space.overload import overload
 from signorini.friction.spatial import SpatialProblem
-from signorini.friction.spatial.overload import overload
 
 _WORDS = "forces in the friction cones of all pairs cannot balance more load, however they are shared"
 

@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
+from signorini.attempt import MethodRun
 from signorini.engine.giving_way import given_way, has_another_way
 from signorini.engine.leg import Leg, Snapshot, keep
 from signorini.engine.prepare import Prepared
@@ -25,7 +26,6 @@ from signorini.iterative.solve import Answer, Load, solve_iteratively
 from signorini.linalg import NotPositiveDefinite
 from signorini.solution.certificate import Certificate, certify
 from signorini.solution.state import LoadPoint, State, next_state
-from signorini.trace import Attempt
 
 _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
 _REFINEMENTS = 2
@@ -52,7 +52,7 @@ def follow_increments(stretch: Stretch, number: int) -> Leg:
     prepared, span, state = stretch.prepared, stretch.span, stretch.before
     path = "single" if number == 1 else "increments"
     certificates: list[Certificate] = []
-    trace: list[tuple[Attempt, ...]] = []
+    trace: list[tuple[MethodRun, ...]] = []
     snapshots: list[Snapshot] = []
 
     def followed() -> Leg:

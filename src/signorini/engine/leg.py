@@ -10,11 +10,11 @@ from typing import Literal
 
 import numpy as np
 
+from signorini.attempt import MethodRun
 from signorini.errors import Interrupted, SolveFailed
 from signorini.solution.certificate import Certificate
 from signorini.solution.results import PairEvent
 from signorini.solution.state import State
-from signorini.trace import Attempt
 
 What = Literal["start", "event", "increment", "asked", "segment", "jump", "landing", "change", "approach"]
 
@@ -68,7 +68,7 @@ class Leg:
     before: State
     after: State
     certificates: tuple[Certificate, ...]
-    trace: tuple[tuple[Attempt, ...], ...]
+    trace: tuple[tuple[MethodRun, ...], ...]
     snapshots: tuple[Snapshot, ...]
     events: tuple[PairEvent, ...] = ()
     notes: tuple[str, ...] = ()

@@ -12,7 +12,7 @@ from scipy.sparse.csgraph import connected_components
 from signorini.arrays import BoolArray, IntArray
 from signorini.engine.prepare import Examined, Prepared
 from signorini.fem.boundary import boundary
-from signorini.pairstate import OPEN
+from signorini.law.states import OPEN
 from signorini.solution.state import State
 
 _ACROSS = 4  # closed pairs: with fewer the pressure is a matter of the mesh

@@ -29,8 +29,8 @@ from signorini.fem.stiffness import reduced_stiffness, stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.spatial import SpatialProblem
-from signorini.interface.candidates import candidates
 from signorini.interface.interface import Interface, anisotropy_of, friction_of, make_interface
+from signorini.interface.reach import candidates
 from signorini.iterative.bodies import ITERATIVE, Bodies, make_bodies
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.linalg.threads import one_thread

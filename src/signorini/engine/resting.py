@@ -11,7 +11,7 @@ from signorini.engine.approach import DRIVES, change_of_loads, standing, unfelt
 from signorini.engine.increments import applied
 from signorini.engine.prepare import contact_law
 from signorini.engine.stretch import Stretch
-from signorini.friction.exact import Segment
+from signorini.friction.history.plane import Segment
 from signorini.friction.law import OPEN
 from signorini.iterative.bodies import Bodies
 

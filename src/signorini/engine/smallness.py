@@ -10,7 +10,7 @@ import numpy as np
 from signorini.arrays import extent
 from signorini.engine.prepare import Prepared
 from signorini.fem.rigid import Part
-from signorini.pairstate import OPEN
+from signorini.law.states import OPEN
 from signorini.solution.state import State
 
 _STRAINED = 0.25  # of the size of a body

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.bound import STEEP
 from signorini.engine.increments import advance, applied, free_load, moved_by_supports
 from signorini.engine.prepare import Prepared
 from signorini.engine.report import contacts_of
@@ -18,6 +17,7 @@ from signorini.friction.problem import CoulombProblem
 from signorini.friction.several import all_solutions, always_unique, countable, search_solutions
 from signorini.friction.spatial import SpatialProblem, several
 from signorini.friction.uniqueness import mu_low
+from signorini.law.bound import STEEP
 from signorini.solution.results import ContactResult
 from signorini.solution.state import State
 from signorini.solution.wellposedness import WellPosedness

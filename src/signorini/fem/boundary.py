@@ -11,9 +11,9 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
-from signorini.fem.faces import outer_faces
 from signorini.fem.facet_block import FacetBlock
 from signorini.fem.space import Space
+from signorini.meshing.faces import outer_faces
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -91,7 +91,7 @@ def boundary(space: Space, name: str, where: Where) -> Boundary:
 
     Examples
     --------
-    >>> from signorini.fem.generators import rectangle
+    >>> from signorini.meshing.plane import rectangle
     >>> from signorini.fem.space import make_space
     >>> boundary(make_space(rectangle(width=2, height=1, nx=2, ny=1)), "top", ("load", 0)).nodal_normals
     array([[0., 1.],

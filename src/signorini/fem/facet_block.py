@@ -9,8 +9,8 @@ from functools import cached_property
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.fem.faces import CORNERS
 from signorini.fem.facets import facet_nodes, facet_rule, facet_shapes
+from signorini.meshing.faces import CORNERS
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

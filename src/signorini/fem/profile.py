@@ -12,8 +12,8 @@ from scipy.sparse.csgraph import connected_components, depth_first_order
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, one_of
 from signorini.fem.boundary import boundary
-from signorini.fem.read import read_facets, read_mesh
 from signorini.fem.space import make_space
+from signorini.meshing.read import read_facets, read_mesh
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Profile
 
@@ -37,7 +37,7 @@ def mesh_profile(mesh: Mesh, name: str, *, fillet: float = 0.0, flip: bool = Fal
 
     Examples
     --------
-    >>> from signorini.fem.generators import rectangle
+    >>> from signorini.meshing.plane import rectangle
     >>> mesh_profile(rectangle(width=2.0, height=1.0, nx=2, ny=1, origin=(0.0, 3.0)), "bottom").points
     ((2.0, 3.0), (1.0, 3.0), (0.0, 3.0))
     """

@@ -12,10 +12,10 @@ import skfem
 
 from signorini.arrays import Array, BoolArray, IntArray, among, extent
 from signorini.errors import InputError
-from signorini.fem.edges import Edges, check_conforming, make_edges
-from signorini.fem.faces import HEXAHEDRON, Faces, make_faces
 from signorini.fem.jacobian import determinants, jacobians
 from signorini.fem.wedge import QuadraticWedge
+from signorini.meshing.edges import Edges, check_conforming, make_edges
+from signorini.meshing.faces import HEXAHEDRON, Faces, make_faces
 from signorini.model.mesh import CORNERS, Mesh
 
 ON_AXIS = 1e-10

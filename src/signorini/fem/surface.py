@@ -11,8 +11,8 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, one_of
 from signorini.fem.boundary import boundary
-from signorini.fem.read import read_facets, read_mesh
 from signorini.fem.space import make_space
+from signorini.meshing.read import read_facets, read_mesh
 from signorini.model.mesh import Mesh
 from signorini.model.triangulated import Surface
 
@@ -44,7 +44,7 @@ def mesh_surface(mesh: Mesh, name: str, *, flip: bool = False) -> Surface:
 
     Examples
     --------
-    >>> from signorini.fem.solids import box
+    >>> from signorini.meshing.solid import box
     >>> top = mesh_surface(box(x=[0, 1, 2], y=[0, 1], z=[0, 1]), "top")
     >>> print(top, top.nearest([[0.5, 0.5, 3.0]])[0])
     an open surface of 4 triangles [2.]

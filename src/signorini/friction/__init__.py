@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The condensed 2D Coulomb problem and the solver that always answers."""
 
+from signorini.attempt import MethodRun
 from signorini.friction.certificate import certify
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STATE_NAMES, STICK, UNDECIDED
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.result import CoulombResult
 from signorini.friction.solve import CoulombSettings, solve_coulomb
 from signorini.friction.uniqueness import index, mu_low
-from signorini.trace import Attempt
 
 __all__ = [
     "OPEN",
@@ -16,10 +16,10 @@ __all__ = [
     "STATE_NAMES",
     "STICK",
     "UNDECIDED",
-    "Attempt",
     "CoulombProblem",
     "CoulombResult",
     "CoulombSettings",
+    "MethodRun",
     "certify",
     "index",
     "mu_low",

@@ -6,13 +6,13 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
-from signorini.bound import STEEP, plain
+from signorini.attempt import MethodRun
 from signorini.errors import told
 from signorini.friction.candidate import Candidate
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, UNDECIDED, split, states
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.result import CoulombResult, Outcome
-from signorini.trace import Attempt
+from signorini.law.bound import STEEP, plain
 
 UNDETERMINED = (
     "; the state leaves a motion or a force undetermined (nothing resists a motion along the contact, or one pair"
@@ -49,7 +49,7 @@ def nothing_found(ends: str, *, escapes: bool) -> str:
     return told(f"{_LOST}: every method ended without a solution", remedy=remedy, evidence=ends)
 
 
-def solved(problem: CoulombProblem, found: Candidate, trace: tuple[Attempt, ...]) -> CoulombResult:
+def solved(problem: CoulombProblem, found: Candidate, trace: tuple[MethodRun, ...]) -> CoulombResult:
     """A certified candidate as a result."""
     n, y = problem.pairs, found.y
     h, r = split(y, problem.bound)
@@ -71,7 +71,7 @@ def solved(problem: CoulombProblem, found: Candidate, trace: tuple[Attempt, ...]
     )
 
 
-def _how(problem: CoulombProblem, found: Candidate, state: IntArray, trace: tuple[Attempt, ...]) -> str:
+def _how(problem: CoulombProblem, found: Candidate, state: IntArray, trace: tuple[MethodRun, ...]) -> str:
     if not trace:
         return "no pairs, nothing to solve"
     words = f"solved by {trace[-1].method}, {trace[-1].iterations} steps"
@@ -86,20 +86,20 @@ def _how(problem: CoulombProblem, found: Candidate, state: IntArray, trace: tupl
     return words
 
 
-def impossible(problem: CoulombProblem, found: Candidate, trace: tuple[Attempt, ...]) -> CoulombResult:
+def impossible(problem: CoulombProblem, found: Candidate, trace: tuple[MethodRun, ...]) -> CoulombResult:
     """A proof that there is no equilibrium as a result."""
     message = (PULLED_AWAY if found.proof == "rigid motion" else TREE).format(margin=found.margin)
     return _unsolved(problem, "no_equilibrium", trace, found.escape, message)
 
 
-def not_found(problem: CoulombProblem, escape: Array | None, trace: tuple[Attempt, ...]) -> CoulombResult:
+def not_found(problem: CoulombProblem, escape: Array | None, trace: tuple[MethodRun, ...]) -> CoulombResult:
     """Neither solution nor proof."""
     ends = "; ".join(f"{a.method}: {a.end}" for a in trace)
     return _unsolved(problem, "not_found", trace, escape, nothing_found(ends, escapes=escape is not None))
 
 
 def _unsolved(
-    problem: CoulombProblem, outcome: Outcome, trace: tuple[Attempt, ...], escape: Array | None, message: str
+    problem: CoulombProblem, outcome: Outcome, trace: tuple[MethodRun, ...], escape: Array | None, message: str
 ) -> CoulombResult:
     nothing = frozen(np.full(problem.pairs, np.nan))
     return CoulombResult(

@@ -17,15 +17,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.bound import STICKY
-from signorini.condense.image import Image
+from signorini.condense.operator import Image
 from signorini.friction.law import OPEN, STICK
 from signorini.friction.problem import CoulombProblem
+from signorini.friction.pull_away import unresisted
 from signorini.friction.result import CoulombResult
-from signorini.friction.rigid import unresisted
 from signorini.friction.solve import solve_coulomb
 from signorini.friction.spatial import SpatialProblem, SpatialResult, solve_spatial
 from signorini.friction.spatial.rigid import unresisted as unresisted_in_space
+from signorini.law.bound import STICKY
 
 _PIECES = 200  # most of an approach
 _SOFT = 1e-6  # of the motion of a pair under a force on it: its own compliance, which shares forces among many pairs

@@ -9,9 +9,9 @@ from typing import Literal
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.attempt import MethodRun
 from signorini.friction.law import UNDECIDED
 from signorini.friction.problem import CoulombProblem
-from signorini.trace import Attempt
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,14 +36,14 @@ class Candidate:
     state: IntArray
     residual: float
     index: int
-    attempt: Attempt
+    attempt: MethodRun
     touched: BoolArray | None = None
     proof: Literal["rigid motion", "tree"] | None = None
     margin: float = 0.0
     escape: Array | None = None
 
     @classmethod
-    def without(cls, problem: CoulombProblem, attempt: Attempt) -> Candidate:
+    def without(cls, problem: CoulombProblem, attempt: MethodRun) -> Candidate:
         """A method that ended without a candidate."""
         n = problem.pairs
         return cls(y=np.zeros(2 * n), state=np.full(n, UNDECIDED), residual=np.inf, index=0, attempt=attempt)
@@ -51,5 +51,5 @@ class Candidate:
     @classmethod
     def nothing(cls) -> Candidate:
         """The solution of a problem without pairs."""
-        attempt = Attempt(method="none", iterations=0, end="certified")
+        attempt = MethodRun(method="none", iterations=0, end="certified")
         return cls(y=np.zeros(0), state=np.zeros(0, dtype=np.int64), residual=0.0, index=1, attempt=attempt)

@@ -8,7 +8,7 @@ tangential force of those that stick, and the rigid motion a. Slipping pairs car
     [ A_sn + A_st s mu   A_ss   R_s ] [ r_s ] = - [ c_s ]      slip = 0 where it sticks
     [ R_n' + R_t' s mu   R_s'   0   ] [ a   ]     [ R'b ]      resultants
 
-On another branch of their bound (see :mod:`signorini.bound`) mu is its slope, and what does not depend on p, ``s
+On another branch of their bound (see `law.bound`) mu is its slope, and what does not depend on p, ``s
 start``, is a load like any other. At most 2 n_closed + k unknowns, however many candidates are open.
 """
 
@@ -20,7 +20,7 @@ import numpy as np
 from scipy.linalg import lapack, lstsq
 
 from signorini.arrays import Array, IntArray
-from signorini.friction.iterated import Unknowns, iterate
+from signorini.friction.krylov import Unknowns, iterate
 from signorini.friction.law import OPEN, STICK, split
 from signorini.friction.problem import CoulombProblem
 

@@ -6,7 +6,7 @@ Because a pair never presses and gapes at once, and never has friction to spare 
     p = max(y_n, 0)      gap  = max(-y_n, 0)
     r_t = clip(y_t, -F(p), F(p))      slip = r_t - y_t
 
-with F the bound of the friction, ``mu p`` in Coulomb's law (see :mod:`signorini.bound` for others). Every y obeys the
+with F the bound of the friction, ``mu p`` in Coulomb's law (see `law.bound` for others). Every y obeys the
 law; what is left to solve is equilibrium, one piecewise linear equation in y with four pieces a pair, or two more for
 every further branch of F.
 """
@@ -16,17 +16,17 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.bound import Bound
-from signorini.pairstate import OPEN as OPEN
-from signorini.pairstate import SLIP_MINUS as SLIP_MINUS
-from signorini.pairstate import SLIP_PLUS as SLIP_PLUS
-from signorini.pairstate import STICK as STICK
-from signorini.pairstate import UNDECIDED as UNDECIDED
+from signorini.law.bound import FrictionBound
+from signorini.law.states import OPEN as OPEN
+from signorini.law.states import SLIP_MINUS as SLIP_MINUS
+from signorini.law.states import SLIP_PLUS as SLIP_PLUS
+from signorini.law.states import STICK as STICK
+from signorini.law.states import UNDECIDED as UNDECIDED
 
 STATE_NAMES = ("open", "stick", "slip, friction +", "slip, friction -")
 
 
-def split(y: Array, friction: Array | Bound) -> tuple[Array, Array]:
+def split(y: Array, friction: Array | FrictionBound) -> tuple[Array, Array]:
     """Motion h = (gap, slip increment) and force r = (normal, tangential) of y.
 
     Parameters
@@ -46,13 +46,13 @@ def split(y: Array, friction: Array | Bound) -> tuple[Array, Array]:
     """
     n = len(y) // 2
     pressure = np.maximum(y[:n], 0.0)
-    bound = friction.at(pressure) if isinstance(friction, Bound) else friction * pressure
+    bound = friction.at(pressure) if isinstance(friction, FrictionBound) else friction * pressure
     r = np.concatenate([pressure, np.clip(y[n:], -bound, bound)])
     return r - y, r
 
 
-def states(y: Array, friction: Array | Bound, closed: IntArray) -> IntArray:
-    """The piece of each pair's plane that y lies in; slip codes with their branch, see `Bound`.
+def states(y: Array, friction: Array | FrictionBound, closed: IntArray) -> IntArray:
+    """The piece of each pair's plane that y lies in; slip codes with their branch, see `FrictionBound`.
 
     Parameters
     ----------
@@ -67,11 +67,11 @@ def states(y: Array, friction: Array | Bound, closed: IntArray) -> IntArray:
     """
     n = len(y) // 2
     y_n, y_t = y[:n], y[n:]
-    most = friction.at(y_n) if isinstance(friction, Bound) else friction * y_n
+    most = friction.at(y_n) if isinstance(friction, FrictionBound) else friction * y_n
     state = np.where(np.abs(y_t) <= most, STICK, np.where(y_t >= 0, SLIP_PLUS, SLIP_MINUS))
     state = np.where(closed == UNDECIDED, state, closed)
     state = np.where(y_n <= 0, OPEN, state).astype(np.int64)
-    return friction.coded(state, y_n) if isinstance(friction, Bound) else state
+    return friction.coded(state, y_n) if isinstance(friction, FrictionBound) else state
 
 
 def closed_states(friction: Array, locked: BoolArray, b_t: Array) -> IntArray:

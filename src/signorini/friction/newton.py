@@ -15,14 +15,14 @@ from collections.abc import Mapping
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.bound import plain
+from signorini.attempt import MethodRun
 from signorini.friction.candidate import Candidate
 from signorini.friction.certificate import certify
 from signorini.friction.cone import balanced, cone_system
-from signorini.friction.iterated import LARGE
+from signorini.friction.krylov import LARGE
 from signorini.friction.law import OPEN, STICK, UNDECIDED, states
 from signorini.friction.problem import CoulombProblem
-from signorini.trace import Attempt
+from signorini.law.bound import plain
 
 
 def newton(
@@ -73,7 +73,7 @@ def newton(
         if state.tobytes() in seen:
             end = "states repeat"
             break
-    attempt = Attempt(method="newton", iterations=len(changes), changes=tuple(changes), end=end)
+    attempt = MethodRun(method="newton", iterations=len(changes), changes=tuple(changes), end=end)
     late = list(seen.values())[len(seen) // 2 :] + [state]
     touched = np.any([tried != OPEN for tried in late], axis=0)
     return Candidate(y=y, state=state, residual=residual, index=index, attempt=attempt, touched=touched)

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, BoolArray, read_only
-from signorini.bound import Bound
-from signorini.condense.image import Image
+from signorini.condense.operator import Image
 from signorini.errors import InputError
+from signorini.law.bound import FrictionBound
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,7 +25,7 @@ class PosedContact:
     b : (d n,)
     friction : (n,) or (n, d - 1)
     scale : size of b's entries
-    adhesion, limit : (n,) scaled forces of :mod:`signorini.bound`: friction at no normal force, and the most there is;
+    adhesion, limit : (n,) scaled forces of `law.bound`: friction at no normal force, and the most there is;
         None stands for none
     """
 
@@ -82,7 +82,7 @@ class PosedContact:
         return (self.b if b is None else b) + self.image.applied(h + r) - h
 
     @property
-    def bound(self) -> Bound:
+    def bound(self) -> FrictionBound:
         """What friction is bounded by at every normal force."""
         raise NotImplementedError
 

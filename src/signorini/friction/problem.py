@@ -9,9 +9,9 @@ from functools import cached_property
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.bound import Bound
 from signorini.friction.law import closed_states
 from signorini.friction.posed import PosedContact
+from signorini.law.bound import FrictionBound
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +30,7 @@ class CoulombProblem(PosedContact):
     b : (2n,) load: motion of the pairs under the loads plus ``G h0``, h0 = (initial gap, -slip of the step before)
     friction : (n,) mu >= 0; ``inf`` sticks wherever it is closed. A pair on the verge of opening may be in equilibrium
         neither sticking nor open; it slips then, under a normal force of 1e-6 of its friction
-    adhesion, limit : (n,) scaled forces of :mod:`signorini.bound`: friction at no normal force, and the most there is;
+    adhesion, limit : (n,) scaled forces of `law.bound`: friction at no normal force, and the most there is;
         None stands for none
     scale : size of b's entries, from the data, that tolerances refer to; in the units of b
 
@@ -55,14 +55,14 @@ class CoulombProblem(PosedContact):
         return self.image.still[self.pairs :]
 
     @cached_property
-    def bound(self) -> Bound:
+    def bound(self) -> FrictionBound:
         """Friction that can act: none at a locked pair that is not dragged, 1e6 for ``inf``."""
         still = self.locked & (self.b[self.pairs :] == 0)
         if self.adhesion is None and self.limit is None:
-            return Bound.coulomb(np.where(still, 0.0, self.friction))
+            return FrictionBound.coulomb(np.where(still, 0.0, self.friction))
         adhesion = 0.0 if self.adhesion is None else np.where(still, 0.0, self.adhesion)
         limit = np.inf if self.limit is None else self.limit
-        return Bound.of(np.where(still, 0.0, self.friction), adhesion=adhesion, limit=limit)
+        return FrictionBound.of(np.where(still, 0.0, self.friction), adhesion=adhesion, limit=limit)
 
     @property
     def mu(self) -> Array:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from signorini.arrays import Array, IntArray
-from signorini.trace import Attempt
+from signorini.attempt import MethodRun
 
 Outcome = Literal["solved", "no_equilibrium", "not_found"]
 
@@ -20,7 +20,7 @@ class ContactAnswer:
     ----------
     outcome : ``"solved"`` (certified), ``"no_equilibrium"`` (proved) or ``"not_found"``
     gap, slip, normal_force, tangential_force : of the pairs; NaN unless solved
-    state : (n,) codes of :mod:`signorini.pairstate`; UNDECIDED (-1) unless solved
+    state : (n,) codes of :mod:`signorini.law.states`; UNDECIDED (-1) unless solved
     trace : the methods tried, in order
     residual : largest violation of equilibrium and resultants relative to scale, see `certify`
     escape : motion of the pairs, largest entry 1, along which the loads carry the bodies away, or None
@@ -33,7 +33,7 @@ class ContactAnswer:
     normal_force: Array
     tangential_force: Array
     state: IntArray
-    trace: tuple[Attempt, ...]
+    trace: tuple[MethodRun, ...]
     residual: float
     escape: Array | None = None
     message: str

@@ -26,7 +26,7 @@ from signorini.friction.certificate import certify
 from signorini.friction.cone import cone_system
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 from signorini.friction.newton import newton
-from signorini.friction.path import follow
+from signorini.friction.plane.covering import follow
 from signorini.friction.problem import CoulombProblem
 
 FEW = 6

@@ -20,18 +20,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.attempt import MethodRun
 from signorini.errors import InputError
 from signorini.friction.answer import impossible, not_found, solved
 from signorini.friction.candidate import Candidate
 from signorini.friction.law import OPEN, SLIP_MINUS, UNDECIDED, split
 from signorini.friction.newton import newton
-from signorini.friction.path import Covering, PathEnd, follow
+from signorini.friction.plane.covering import Covering, PathEnd, follow
+from signorini.friction.plane.restricted import released
+from signorini.friction.plane.state_tree import search
 from signorini.friction.problem import CoulombProblem
-from signorini.friction.release import released
+from signorini.friction.pull_away import pulled_away
 from signorini.friction.result import CoulombResult
-from signorini.friction.rigid import pulled_away
-from signorini.friction.tree import search
-from signorini.trace import Attempt
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,7 +86,7 @@ def solve_coulomb(
     _check_start(problem, start)
     if problem.pairs == 0:
         return solved(problem, Candidate.nothing(), ())
-    trace: list[Attempt] = []
+    trace: list[MethodRun] = []
     escape: Array | None = None
     for found in _candidates(problem, start, settings):
         trace.append(found.attempt)
@@ -131,8 +131,8 @@ def _candidates(problem: CoulombProblem, start: IntArray | None, settings: Coulo
 def _proof_by_rigid_motion(problem: CoulombProblem) -> Candidate:
     pull = pulled_away(problem)
     if pull is None:
-        return Candidate.without(problem, Attempt(method="rigid motions", iterations=1, end="nothing proved"))
-    attempt = Attempt(method="rigid motions", iterations=1, end="pulled away")
+        return Candidate.without(problem, MethodRun(method="rigid motions", iterations=1, end="nothing proved"))
+    attempt = MethodRun(method="rigid motions", iterations=1, end="pulled away")
     return replace(Candidate.without(problem, attempt), proof="rigid motion", margin=pull.share, escape=pull.motion)
 
 
@@ -140,14 +140,14 @@ def _among_touched(problem: CoulombProblem, touched: BoolArray, settings: Coulom
     """The end of a path of the touching pairs alone, made exact with all pairs."""
     few = released(problem, touched)
     if few is None:
-        attempt = Attempt(method="path among touching", iterations=0, end="touching pairs do not hold the bodies")
+        attempt = MethodRun(method="path among touching", iterations=0, end="touching pairs do not hold the bodies")
         return Candidate.without(problem, attempt)
     budget = settings.pivots_per_pair[0] * max(few.pairs, 5)
     path = follow(few, "press" if problem.floating else "open", budget=budget)
     state = np.full(problem.pairs, OPEN)
     state[touched] = path.state
     exact = newton(problem, state, limit=settings.newton_steps, tolerance=settings.tolerance)
-    return replace(exact, attempt=Attempt(method="path among touching", iterations=path.pivots, end=path.end))
+    return replace(exact, attempt=MethodRun(method="path among touching", iterations=path.pivots, end=path.end))
 
 
 def _along_path(
@@ -159,7 +159,7 @@ def _along_path(
 
 def _polished(problem: CoulombProblem, path: PathEnd, method: str, settings: CoulombSettings) -> Candidate:
     """The end of a path made exact on the problem as posed: no perturbation, no springs."""
-    attempt = Attempt(method=method, iterations=path.pivots, end=path.end)
+    attempt = MethodRun(method=method, iterations=path.pivots, end=path.end)
     if path.end == "singular":
         return Candidate.without(problem, attempt)
     near = None if path.end == "ray" else path.y
@@ -182,7 +182,7 @@ def _with_springs(problem: CoulombProblem, budget: int, seed: int, settings: Cou
 
 def _in_tree(problem: CoulombProblem, settings: CoulombSettings) -> Candidate:
     tree = search(problem, budget=settings.tree_programs)
-    attempt = Attempt(method="tree", iterations=tree.programs, end=tree.end)
+    attempt = MethodRun(method="tree", iterations=tree.programs, end=tree.end)
     if tree.state is None:
         proved = tree.end == "impossible" and problem.floating  # held bodies have a solution: refusals are rounding
         return replace(Candidate.without(problem, attempt), proof="tree" if proved else None, margin=tree.margin)

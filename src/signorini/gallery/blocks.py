@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.arrays import BoolArray
-from signorini.fem.generators import Cells, rectangle
+from signorini.meshing.plane import Cells, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from signorini.fem.solids import SolidCells, box
+from signorini.meshing.solid import SolidCells, box
 from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal
 
-from signorini.fem.generators import Cells, quarter_disk
+from signorini.meshing.plane import Cells, quarter_disk
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
@@ -45,7 +45,7 @@ def zhu_cylinder(
     spread : "traction", uniform on the cut, or "displacement", a rigid cut that carries the same force
     increments : of the one step
     cells : "quad" or "triangle"
-    contact_length, contact_spacing : see :func:`signorini.fem.generators.quarter_disk`
+    contact_length, contact_spacing : see :func:`signorini.meshing.plane.quarter_disk`
     force : on the whole cylinder per thickness
     steps : instead of one step with ``increments``
 

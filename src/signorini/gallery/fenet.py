@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.fem.generators import Cells, quarter_disk, rectangle
 from signorini.gallery.half_planes import graded
+from signorini.meshing.plane import Cells, quarter_disk, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact

@@ -10,10 +10,10 @@ from typing import Literal
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.fem.generators import Cells, target
-from signorini.fem.solids import SolidCells, box, extruded
-from signorini.fem.tetrahedra import tetrahedra
 from signorini.gallery.half_planes import graded
+from signorini.meshing.plane import Cells, target
+from signorini.meshing.solid import SolidCells, box, extruded
+from signorini.meshing.tetrahedra import tetrahedra
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact

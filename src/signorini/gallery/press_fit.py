@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from signorini.fem.generators import Cells, annulus
-from signorini.fem.solids import extruded
+from signorini.meshing.plane import Cells, annulus
+from signorini.meshing.solid import extruded
 from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact

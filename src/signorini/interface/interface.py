@@ -11,7 +11,6 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray, extent
-from signorini.bound import Bound
 from signorini.errors import InputError
 from signorini.fem.obstacles import carried
 from signorini.fem.space import Space
@@ -22,6 +21,7 @@ from signorini.interface.frames import along_tangents, tangents
 from signorini.interface.moments import moments_of_rows
 from signorini.interface.pairing import Pairs, Sides, make_pairs
 from signorini.interface.spatial.frames import ALONG
+from signorini.law.bound import FrictionBound
 from signorini.model.contact import ratios
 from signorini.model.model import Model
 
@@ -50,7 +50,7 @@ class Interface:
     moments : (d n, 1 or 3) moments about the origin of unit forces of every row of B on the nonmortar side, length
     contact : (n,) index of the contact that a pair belongs to
     friction : (n,) Coulomb's coefficient, the largest where it differs by direction, infinite where it sticks
-    adhesion, shear_limit : (n,) tractions of :mod:`signorini.bound`, force per area, along the direction of the largest
+    adhesion, shear_limit : (n,) tractions of `law.bound`, force per area, along the direction of the largest
         friction; no limit is infinite
     anisotropy : (n, d - 1) coefficient along every tangent over the largest
     facets : (n,) corners of the section of the friction cone, 0 for the exact one
@@ -123,10 +123,10 @@ class Interface:
         """(n, d - 1) Coulomb's coefficient along every tangent."""
         return self.friction[:, None] * self.anisotropy
 
-    def bound(self, pairs: BoolArray | IntArray) -> Bound:
+    def bound(self, pairs: BoolArray | IntArray) -> FrictionBound:
         """Of the friction forces of some pairs."""
         area = self.area[pairs]
-        return Bound.of(
+        return FrictionBound.of(
             self.friction[pairs], adhesion=self.adhesion[pairs] * area, limit=self.shear_limit[pairs] * area
         )
 

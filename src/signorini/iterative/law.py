@@ -12,7 +12,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.pairstate import OPEN, SLIP_MINUS, SLIP_PLUS, STICK
+from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK
 
 
 def project(y: Array, bound: Array, tied: BoolArray) -> Array:
@@ -35,7 +35,7 @@ def project(y: Array, bound: Array, tied: BoolArray) -> Array:
 
 
 def states(y: Array, bound: Array, tied: BoolArray) -> IntArray:
-    """(a,) What each pair does, codes of :mod:`signorini.pairstate`; without friction a closed pair slips."""
+    """(a,) What each pair does, codes of :mod:`signorini.law.states`; without friction a closed pair slips."""
     stick = (np.linalg.norm(y[1:], axis=0) <= bound) & (bound > 0)
     slip = np.where(y[1] >= 0, SLIP_PLUS, SLIP_MINUS) if len(y) == 2 else SLIP_PLUS
     found = np.where(y[0] <= 0, OPEN, np.where(stick, STICK, slip))

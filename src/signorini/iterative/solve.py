@@ -26,13 +26,13 @@ from typing import Literal
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.bound import Bound
+from signorini.attempt import MethodRun
 from signorini.errors import told
 from signorini.iterative.bodies import Bodies
 from signorini.iterative.law import Slope, project, slope, states
+from signorini.law.bound import FrictionBound
+from signorini.law.states import OPEN, STICK
 from signorini.linalg.krylov import conjugate_gradients
-from signorini.pairstate import OPEN, STICK
-from signorini.trace import Attempt
 
 TOLERANCE = 1e-10
 """Of the sizes of the data: equilibrium, gaps that should be closed, forces that should have settled."""
@@ -57,7 +57,7 @@ class Answer:
     solved : whether it converged
     free : (z,) free displacements
     forces, moved : (d a,) forces of the pairs; gaps and slip increments
-    state : codes of :mod:`signorini.pairstate`, of the pairs that are not tied
+    state : codes of :mod:`signorini.law.states`, of the pairs that are not tied
     trace : one entry
     residual : largest residual, of the sizes of the data
     """
@@ -67,7 +67,7 @@ class Answer:
     forces: Array
     moved: Array
     state: IntArray
-    trace: tuple[Attempt, ...]
+    trace: tuple[MethodRun, ...]
     residual: float
 
     @property
@@ -103,7 +103,7 @@ class Load:
 
     f: Array
     offset: Array
-    bound: Bound
+    bound: FrictionBound
     force: float
     length: float
     floating: bool
@@ -199,7 +199,7 @@ class _Rounds:
         moved[1:] = np.where(state == STICK, 0.0, moved[1:])
         solved = worst <= TOLERANCE
         end = f"{sum(self.iterations)} conjugate gradients, residual {worst:.0e}"
-        attempt = Attempt(method="multipliers", iterations=len(self.changes), changes=tuple(self.changes), end=end)
+        attempt = MethodRun(method="multipliers", iterations=len(self.changes), changes=tuple(self.changes), end=end)
         return Answer(
             solved=solved,
             free=self.z[bodies.blocks.place],

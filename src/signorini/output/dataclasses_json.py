@@ -20,7 +20,7 @@ from signorini.errors import InputError
 AnyArray = np.ndarray[Any, Any]
 
 _HOMES = (
-    "signorini.trace",
+    "signorini.attempt",
     "signorini.model.body",
     "signorini.model.conditions",
     "signorini.model.contact",

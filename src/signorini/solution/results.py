@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.attempt import MethodRun
 from signorini.short import Short
 from signorini.solution.certificate import Certificate
-from signorini.trace import Attempt
 
 OPEN, STICK, SLIP = "open", "stick", "slip"
 Part = Literal["all", "pressure", "friction"]
@@ -266,7 +266,7 @@ class StepResult(Short):
     energy_defect: float
     certificate: Certificate
     contacts: tuple[ContactResult, ...]
-    trace: tuple[tuple[Attempt, ...], ...]
+    trace: tuple[tuple[MethodRun, ...], ...]
     instants: tuple[Instant, ...]
     cycles: tuple[Cycle, ...]
     steadiness: str

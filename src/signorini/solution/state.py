@@ -13,7 +13,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array, IntArray
 from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface
-from signorini.pairstate import OPEN
+from signorini.law.states import OPEN
 from signorini.short import Short
 
 
@@ -64,7 +64,7 @@ class State(Short):
     tangential : ((d - 1) n,) tangential displacement of the contact law, length: where the next slip increment starts
     increment : ((d - 1) n,) slip increment of the last increment
     slip : ((d - 1) n,) accumulated while closed
-    status : (n,) codes of :mod:`signorini.pairstate`
+    status : (n,) codes of :mod:`signorini.law.states`
     work : of loads, moving supports and interferences since the beginning
     dissipation : (n,) frictional dissipation since the beginning
     released : energy set free at once since the beginning: in jumps, by changes of the law, by contacts switched off

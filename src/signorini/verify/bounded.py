@@ -10,7 +10,7 @@ import numpy as np
 from scipy.optimize import lsq_linear
 
 from signorini.engine.solve import solve
-from signorini.friction.exact import follow, initial_state
+from signorini.friction.history.plane import follow, initial_state
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.solve import solve_coulomb
 from signorini.gallery.blocks import dragged_block

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from signorini.api import solve
-from signorini.fem.generators import Cells, annulus, quarter_disk, rectangle
+from signorini.meshing.plane import Cells, annulus, quarter_disk, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact

@@ -10,8 +10,8 @@ import numpy as np
 
 from signorini.api import Solution, solve
 from signorini.arrays import Array
-from signorini.fem.generators import Cells, quarter_disk
 from signorini.gallery.hertz import LINE_FORCE, LOWER, MODULUS, POINT_FORCE, RADIUS, SEAT, hertz_contact
+from signorini.meshing.plane import Cells, quarter_disk
 from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from signorini.friction.exact import follow, initial_state, land
+from signorini.friction.history.plane import follow, initial_state, land
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.solve import solve_coulomb
 from signorini.friction.spatial import SpatialProblem, at_rest, follow_stopping, land_spatial

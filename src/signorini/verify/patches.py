@@ -10,10 +10,10 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.engine.solve import solve
-from signorini.fem.generators import Cells, rectangle
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
 from signorini.gallery.blocks import block_on_foundation, curved_blocks, four_blocks, stacked_blocks
+from signorini.meshing.plane import Cells, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact

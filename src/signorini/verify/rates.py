@@ -10,9 +10,9 @@ import numpy as np
 from scipy.optimize import brentq
 
 from signorini.api import Solution, solve
-from signorini.fem.generators import Cells, rectangle
 from signorini.fem.space import make_space
 from signorini.fem.stiffness import stiffness
+from signorini.meshing.plane import Cells, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact

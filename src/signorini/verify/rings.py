@@ -10,8 +10,8 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.engine.solve import solve
-from signorini.fem.generators import Cells, annulus
 from signorini.gallery.press_fit import press_fit
+from signorini.meshing.plane import Cells, annulus
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact

@@ -9,8 +9,8 @@ from typing import Literal
 import numpy as np
 
 from signorini.engine.solve import solve
-from signorini.fem.generators import Cells
 from signorini.gallery.spheres import MATERIAL, RADIUS, WALL, equal_spheres, hollow_spheres
+from signorini.meshing.plane import Cells
 from signorini.reference.hertz import contact_modulus
 from signorini.reference.hertz_point import HertzPoint
 from signorini.reference.lame import hollow_sphere

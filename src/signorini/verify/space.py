@@ -10,10 +10,10 @@ from typing import Literal
 import numpy as np
 
 from signorini.engine.solve import solve
-from signorini.fem.generators import Cells
 from signorini.gallery import half_spaces
 from signorini.gallery.half_spaces import CONTACT_RADIUS, EQUAL, ball, equal_half_spaces, hertz
 from signorini.gallery.press_fit import press_fit_in_space
+from signorini.meshing.plane import Cells
 from signorini.model.model import Model
 from signorini.model.step import Step
 from signorini.reference.hertz_point import round_punch

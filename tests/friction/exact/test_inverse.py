@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from signorini.friction import OPEN, STICK
 from signorini.friction.cone import cone_system
-from signorini.friction.exact.inverse import SingularState
-from signorini.friction.exact.responses import Responses
+from signorini.friction.history.plane.responses import Responses
+from signorini.friction.history.plane.state_inverse import SingularState
 from tests.helpers.coulomb_samples import block_on_floor, for_all, random_problem
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from signorini.friction import OPEN, SLIP_PLUS, certify
-from signorini.friction.exact import follow, initial_state, land
+from signorini.friction.history.plane import follow, initial_state, land
 from tests.helpers.path_samples import EqualBodies, Springs, one_node, stiff
 
 

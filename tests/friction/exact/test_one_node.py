@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from signorini.friction import OPEN, SLIP_MINUS, STICK
-from signorini.friction.exact import follow, initial_state
+from signorini.friction.history.plane import follow, initial_state
 from tests.helpers.path_samples import at, one_node
 
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import strategies as st
 
 from signorini.friction import SLIP_MINUS, SLIP_PLUS, certify, mu_low
-from signorini.friction.exact import initial_state
+from signorini.friction.history.plane import initial_state
 from tests.helpers.coulomb_samples import for_all
 from tests.helpers.path_samples import Springs, increments, loads_at_breakpoints, stiff
 

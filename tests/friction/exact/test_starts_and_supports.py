@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from signorini.errors import InputError
 from signorini.friction import OPEN, SLIP_MINUS, SLIP_PLUS, CoulombProblem
-from signorini.friction.exact import follow, initial_state
+from signorini.friction.history.plane import follow, initial_state
 from tests.helpers.coulomb_samples import block_on_floor, for_all
 from tests.helpers.path_samples import Springs, increments, loads_at_breakpoints, one_node, stiff
 

@@ -13,12 +13,12 @@ from signorini import deck
 from signorini.api import solve
 from signorini.arrays import frozen
 from signorini.clock import Clock
-from signorini.friction.rigid import GAIN
-from signorini.friction.spatial.cones import ConeProblem
-from signorini.friction.spatial.overload import overload
+from signorini.friction.history.space.no_rates_proof import Exhausted, search
+from signorini.friction.history.space.smooth_cones import ConeProblem
+from signorini.friction.pull_away import GAIN
+from signorini.friction.space.overload import overload
 from signorini.friction.spatial.problem import SpatialProblem
 from signorini.friction.spatial.rigid import pulled_away
-from signorini.friction.spatial.sectors import Exhausted, search
 
 HERE, EXAMPLES = Path(__file__).parent, Path(__file__).parents[3] / "examples"
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from signorini import lcp
-from signorini.condense.image import Image
+from signorini.condense.operator import Image
 from signorini.errors import InputError
 from signorini.friction import solve_coulomb
 from signorini.friction.spatial import (

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from signorini.friction.exact.fallback import NoRates
+from signorini.friction.history.plane.find_rates import NoRates
+from signorini.friction.history.space.find_rates import SpatialRates, find_rates
+from signorini.friction.history.space.no_rates_proof import search
+from signorini.friction.history.space.smooth_cones import ConeProblem
 from signorini.friction.spatial import OPEN, SLIP, STICK, SpatialProblem, at_rest, solve_spatial
-from signorini.friction.spatial.cones import ConeProblem
-from signorini.friction.spatial.rates import SpatialRates, find_rates
-from signorini.friction.spatial.sectors import search
 
 
 def obeys(problem, x):

@@ -8,7 +8,7 @@ import pytest
 
 from signorini.errors import InputError
 from signorini.friction import CoulombProblem
-from signorini.friction.exact import follow, initial_state
+from signorini.friction.history.plane import follow, initial_state
 from signorini.friction.spatial import SpatialProblem, StopSettings, at_rest, follow_stopping, solve_spatial
 from signorini.friction.spatial.section import outermost
 from tests.helpers.spatial_samples import block_on_floor

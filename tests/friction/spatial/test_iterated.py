@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from signorini.friction.iterated import Unknowns, iterate
+from signorini.friction.krylov import Unknowns, iterate
 from signorini.friction.spatial import solve_spatial
 from signorini.friction.spatial.equilibrium import Equilibrium, linear_system
 from signorini.friction.spatial.iterated import balanced

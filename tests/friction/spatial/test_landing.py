@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from signorini.friction import OPEN, STICK
-from signorini.friction.exact import follow, initial_state, land
+from signorini.friction.history.plane import follow, initial_state, land
+from signorini.friction.history.space.find_rates import SpatialRates, find_rates
 from signorini.friction.spatial import SpatialProblem, StopSettings, at_rest, certify, follow_stopping, land_spatial
-from signorini.friction.spatial.rates import SpatialRates, find_rates
 from tests.helpers.path_samples import Springs, stiff
 
 

@@ -8,7 +8,8 @@ import pytest
 
 from benchmarks.spatial_problems import hard_random
 from signorini import lcp
-from signorini.condense.image import Image
+from signorini.condense.operator import Image
+from signorini.friction.space.sweeps import gauss_seidel
 from signorini.friction.spatial import (
     SLIP,
     STICK,
@@ -23,7 +24,6 @@ from signorini.friction.spatial import (
     violations,
 )
 from signorini.friction.spatial.equilibrium import Equilibrium
-from signorini.friction.spatial.sweeps import gauss_seidel
 from tests.helpers.spatial_samples import block_on_floor, pressed_punch, random_problem
 
 

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from signorini.errors import InputError
 from signorini.interface.coupling import geometric_gap
 from signorini.interface.gaps import resolved
-from signorini.interface.spatial.candidates import near_pairs
 from signorini.interface.spatial.faces import shapes_at
+from signorini.interface.spatial.facing import near_pairs
 from signorini.interface.spatial.mortar import mortar_coupling
 from signorini.interface.spatial.node_to_face import node_pairs, node_to_face
 from signorini.interface.spatial.surface import make_surface, reference_rule

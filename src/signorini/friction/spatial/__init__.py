@@ -5,10 +5,10 @@ Pairs have three rows: n normals, n first tangents, n second tangents. `solve_sp
 `friction.solve_coulomb` is to a `friction.CoulombProblem`.
 """
 
+from signorini.friction.history.space.follow import StopSettings, at_rest, follow_stopping
+from signorini.friction.history.space.landing import land_spatial
 from signorini.friction.spatial.certificate import Violations, certify, natural_residual, violations
 from signorini.friction.spatial.faceted import decoded, faceted_lcp
-from signorini.friction.spatial.follow import StopSettings, at_rest, follow_stopping
-from signorini.friction.spatial.landing import land_spatial
 from signorini.friction.spatial.law import OPEN, SLIP, STICK, split, states
 from signorini.friction.spatial.problem import SpatialProblem, from_compliance
 from signorini.friction.spatial.result import LimitLoad, SpatialResult

@@ -26,7 +26,7 @@ import scipy.sparse as sp
 from scipy.linalg import lapack, lstsq
 
 from signorini.arrays import Array, IntArray
-from signorini.condense.image import symmetric_product
+from signorini.condense.operator import symmetric_product
 from signorini.friction.spatial.law import Tangent
 from signorini.friction.spatial.problem import SpatialProblem
 

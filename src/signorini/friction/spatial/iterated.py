@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.friction.iterated import Unknowns, iterate
+from signorini.friction.krylov import Unknowns, iterate
 from signorini.friction.spatial.equilibrium import prescribed
 from signorini.friction.spatial.law import Tangent
 from signorini.friction.spatial.problem import SpatialProblem

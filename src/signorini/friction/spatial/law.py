@@ -16,9 +16,9 @@ import numpy as np
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.friction.spatial.problem import SpatialProblem
 from signorini.friction.spatial.section import project
-from signorini.pairstate import OPEN as OPEN
-from signorini.pairstate import SLIP_PLUS
-from signorini.pairstate import STICK as STICK
+from signorini.law.states import OPEN as OPEN
+from signorini.law.states import SLIP_PLUS
+from signorini.law.states import STICK as STICK
 
 SLIP = SLIP_PLUS
 """Closed and slipping; in space the direction is that of the tangential force."""

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.friction.iterated import LARGE
+from signorini.attempt import MethodRun
+from signorini.friction.krylov import LARGE
 from signorini.friction.spatial.certificate import certify
 from signorini.friction.spatial.equilibrium import Equilibrium, linear_system
 from signorini.friction.spatial.iterated import balanced
 from signorini.friction.spatial.law import Tangent, split, tangent
-from signorini.trace import Attempt
 
 MEMORY = 5
 """Last violations of which a step must undercut the largest."""
@@ -47,7 +47,7 @@ class NewtonEnd:
     rigid: Array
     y: Array
     residual: float
-    attempt: Attempt
+    attempt: MethodRun
     converged: bool
 
 
@@ -115,7 +115,7 @@ def newton(
     _, r, a, y = best
     if not equilibrium.as_posed:
         y = r - Equilibrium.of(problem).moved(r, a)
-    attempt = Attempt(method=method, iterations=len(changes), changes=tuple(changes), end=end)
+    attempt = MethodRun(method=method, iterations=len(changes), changes=tuple(changes), end=end)
     residual = certify(problem, y) if np.isfinite(best[0]) else np.inf
     return NewtonEnd(force=r, rigid=a, y=y, residual=residual, attempt=attempt, converged=converged)
 

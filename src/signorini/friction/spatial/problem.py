@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, BoolArray, IntArray, frozen
-from signorini.bound import STICKY, Bound
 from signorini.errors import InputError
 from signorini.friction.posed import PosedContact
+from signorini.law.bound import STICKY, FrictionBound
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,7 +37,7 @@ class SpatialProblem(PosedContact):
         opening may be in equilibrium neither sticking nor open; it slips then, under a normal force of 1e-6 of its
         friction
     scale : size of b's entries, from the data, that tolerances refer to; in the units of b
-    adhesion, limit : (n,) scaled forces of :mod:`signorini.bound`: friction at no normal force, and the most there is,
+    adhesion, limit : (n,) scaled forces of `law.bound`: friction at no normal force, and the most there is,
         along the axis of the larger friction; None stands for none
     tresca : (n,) pairs whose ``friction`` is the bound itself, a scaled force, whatever the normal force, also where
         the pair is open; None stands for none
@@ -84,18 +84,18 @@ class SpatialProblem(PosedContact):
         return self.image.still[n:].reshape(2, n).T
 
     @cached_property
-    def bound(self) -> Bound:
+    def bound(self) -> FrictionBound:
         """Of the friction along the axis of the larger friction; that of Tresca's law does not depend on the force."""
         given = self.friction.reshape(self.pairs, -1 if self.pairs else 1).max(axis=1, initial=0.0)
         adhesion = 0.0 if self.adhesion is None else self.adhesion
         limit = np.inf if self.limit is None else self.limit
-        bound = Bound.of(np.where(self.bounded, 0.0, given), adhesion=adhesion, limit=limit)
+        bound = FrictionBound.of(np.where(self.bounded, 0.0, given), adhesion=adhesion, limit=limit)
         if not self.bounded.any():
             return bound
         known = np.where(self.bounded, given, 0.0)
         slopes, kinks = np.where(self.bounded, 0.0, bound.slopes), bound.kinks.copy()
         kinks[1:, self.bounded] = np.inf
-        return Bound(slopes=slopes, starts=np.where(self.bounded, known, bound.starts), kinks=kinks)
+        return FrictionBound(slopes=slopes, starts=np.where(self.bounded, known, bound.starts), kinks=kinks)
 
     @cached_property
     def axes(self) -> Array:

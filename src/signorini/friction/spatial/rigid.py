@@ -7,7 +7,7 @@ import numpy as np
 from scipy.optimize import nnls
 
 from signorini.arrays import Array, IntArray
-from signorini.friction.rigid import GAIN, STRONGEST, Pull, pull_along, size_of
+from signorini.friction.pull_away import GAIN, STRONGEST, Pull, pull_along, size_of
 from signorini.friction.spatial.problem import SpatialProblem
 from signorini.friction.spatial.section import outermost
 

@@ -18,19 +18,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from signorini.arrays import Array, frozen
+from signorini.attempt import MethodRun
 from signorini.errors import InputError
 from signorini.friction.answer import PULLED_AWAY, VERGE, nothing_found
 from signorini.friction.result import Outcome
+from signorini.friction.space.proximal import proximal_rounds, swept_rounds
 from signorini.friction.spatial.equilibrium import Equilibrium
 from signorini.friction.spatial.escape import escape_motion
 from signorini.friction.spatial.law import OPEN, SLIP, STICK, split, states, sticking, tangent
 from signorini.friction.spatial.newton import NewtonEnd, newton
 from signorini.friction.spatial.problem import SpatialProblem
-from signorini.friction.spatial.proximal import proximal_rounds, swept_rounds
 from signorini.friction.spatial.result import LimitLoad, SpatialResult
 from signorini.friction.spatial.rigid import pulled_away
-from signorini.pairstate import UNDECIDED
-from signorini.trace import Attempt
+from signorini.law.states import UNDECIDED
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,12 +86,12 @@ def solve_spatial(
         raise InputError(f"has shape {np.shape(start)}; expected {(3 * problem.pairs,)}", where=("start",))
     if problem.pairs == 0:
         return _solved(problem, np.zeros(0), 0.0, ())
-    trace: list[Attempt] = []
+    trace: list[MethodRun] = []
     best = _tried(None, _newton_runs(problem, start, settings), settings.tolerance, trace)
     if best.residual > settings.tolerance and problem.floating:
         pull = pulled_away(problem)
         end = "nothing proved" if pull is None else "pulled away"
-        trace.append(Attempt(method="rigid motions", iterations=1, end=end))
+        trace.append(MethodRun(method="rigid motions", iterations=1, end=end))
         if pull is not None:
             words = PULLED_AWAY.format(margin=pull.share)
             return _unsolved(problem, "no_equilibrium", tuple(trace), best.residual, words, pull.motion)
@@ -140,7 +140,7 @@ def limit_load(
     return LimitLoad(factor=factor, beyond=beyond, result=result, closed=int(closed), sticking=int(stick))
 
 
-def _tried(best: NewtonEnd | None, ends: Iterator[NewtonEnd], tolerance: float, trace: list[Attempt]) -> NewtonEnd:
+def _tried(best: NewtonEnd | None, ends: Iterator[NewtonEnd], tolerance: float, trace: list[MethodRun]) -> NewtonEnd:
     """The first end that is certified, or the best of all; what was tried goes into the trace."""
     for end in ends:
         trace.append(end.attempt)
@@ -168,7 +168,7 @@ def _rounds(problem: SpatialProblem, settings: SpatialSettings) -> Iterator[Newt
     yield from proximal_rounds(problem, rounds=settings.proximal_rounds, steps=steps, tolerance=tolerance)
 
 
-def _solved(problem: SpatialProblem, y: Array, residual: float, trace: tuple[Attempt, ...]) -> SpatialResult:
+def _solved(problem: SpatialProblem, y: Array, residual: float, trace: tuple[MethodRun, ...]) -> SpatialResult:
     n = problem.pairs
     h, r = split(problem, y)
     state = states(problem, y)
@@ -195,7 +195,7 @@ def _solved(problem: SpatialProblem, y: Array, residual: float, trace: tuple[Att
 def _unsolved(
     problem: SpatialProblem,
     outcome: Outcome,
-    trace: tuple[Attempt, ...],
+    trace: tuple[MethodRun, ...],
     least: float,
     message: str,
     escape: Array | None = None,

@@ -11,7 +11,7 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import Array
-from signorini.fem.faces import CORNERS
+from signorini.meshing.faces import CORNERS
 
 _TRIANGLE = np.array([[0.0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
 _SQUARE = np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1], [0, -1], [1, 0], [0, 1], [-1, 0], [0, 0]])

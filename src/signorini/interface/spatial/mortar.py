@@ -13,9 +13,9 @@ from signorini.errors import InputError, Where
 from signorini.interface.coupling import Coupling, FacetGaps, joined_gaps
 from signorini.interface.dual import dual_functions
 from signorini.interface.smooth import Smooth
-from signorini.interface.spatial.candidates import near_pairs, nearest_layers
 from signorini.interface.spatial.clip import Side, integrate, overlap_areas
 from signorini.interface.spatial.faces import pieces
+from signorini.interface.spatial.facing import near_pairs, nearest_layers
 from signorini.interface.spatial.gaps import spread_gaps, widen
 from signorini.interface.spatial.surface import Block, Surface, reference_rule, search_distance
 from signorini.interface.tilt import normals_between

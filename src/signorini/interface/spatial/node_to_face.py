@@ -10,16 +10,16 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
-from signorini.fem.faces import CORNERS
 from signorini.interface.coupling import Coupling, picked, point_coupling
 from signorini.interface.matching import match_nodes
 from signorini.interface.near import near
 from signorini.interface.smooth import Smooth, rises
-from signorini.interface.spatial.candidates import FACING
 from signorini.interface.spatial.faces import shapes_at
+from signorini.interface.spatial.facing import FACING
 from signorini.interface.spatial.projection import meet
 from signorini.interface.spatial.surface import Block, Surface, search_distance
 from signorini.interface.tilt import areas_between
+from signorini.meshing.faces import CORNERS
 
 _BESIDE = 1e-9  # of the reference face: how far beyond its edge a node still lies on it
 

@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, IntArray, frozen
 from signorini.errors import InputError
-from signorini.fem.faces import CORNERS
 from signorini.fem.facet_block import FacetBlock
 from signorini.interface.smooth import Facets, Smooth, smooth_surfaces
 from signorini.interface.spatial.faces import node_places, pieces, shapes_at, slopes_at
 from signorini.interface.tilt import turns
+from signorini.meshing.faces import CORNERS
 
 _RULE = 3
 

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Coulomb histories: what is followed along a load, in the plane and in space."""

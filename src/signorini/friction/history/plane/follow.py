@@ -1,0 +1,352 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Follow a straight segment of the load history exactly, from event to event: no step size.
+
+While no pair changes its state, motions and forces are linear in the load and slip rates are constant. So a piece ends
+where a gap, a normal force or the friction to spare of a sticking pair vanishes, or where a slipping pair comes to a
+kink of its bound. There the rates change, and every pair
+on its friction limit may change with them: from slip to stick only then.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray, frozen
+from signorini.errors import InputError
+from signorini.friction.certificate import certify
+from signorini.friction.history.plane.driven_pivots import drive
+from signorini.friction.history.plane.find_rates import MARGIN, NoRates, find_rates
+from signorini.friction.history.plane.jump import explain
+from signorini.friction.history.plane.rate_law import CORNER, RateLaw, Rates, weight
+from signorini.friction.history.plane.responses import ROUNDING, Responses
+from signorini.friction.history.plane.state_inverse import SingularState
+from signorini.friction.history.segment import Breakpoint, Segment
+from signorini.friction.history.state import PathState
+from signorini.friction.history.way import Way, check_loads
+from signorini.friction.law import OPEN, SLIP_PLUS, STICK, UNDECIDED
+from signorini.friction.problem import CoulombProblem
+from signorini.law.bound import SIGN, plain
+
+_APART = 1e-2  # of the first kink of a bound: what counts as zero beside it
+_ROUNDING = 1e-14  # of the data
+
+LET_GO = "a pair of infinite friction holds back a tangential force until it loses its pressure, and lets go at once"
+"""A jump that the law itself makes."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PathSettings:
+    """Tolerances of the path, all dimensionless; events do not depend on them between 1e-12 and 1e-7.
+
+    Attributes
+    ----------
+    width : of zero for a gap, a force or the friction to spare, relative to the data
+    together : events closer than this part of the segment act together
+    tolerance : of the certificate at every event, relative to the data
+    standstill : most events without progress between them
+    """
+
+    width: float = 1e-10
+    together: float = 1e-12
+    tolerance: float = 1e-10
+    standstill: int = 50
+
+
+def follow(problem: CoulombProblem, start: PathState, b_end: Array, *, settings: PathSettings | None = None) -> Segment:
+    """Follow the load from ``start.b`` straight to ``b_end``.
+
+    ``G h - W r = b(s)`` with h = (gap, total tangential displacement), Coulomb's law for the slip rate.
+
+    Parameters
+    ----------
+    problem : the problem; its own b is not used
+    start : where the history stands
+    b_end : (2n,) load at the end of the segment
+    settings : tolerances
+
+    Returns
+    -------
+    Segment
+        Also where the path ends in a jump or is not found: look at ``outcome``.
+
+    Raises
+    ------
+    InputError
+        Where shapes do not fit, the start is outside the friction cone, or supports drag a pair along that may never
+        slip.
+
+    Notes
+    -----
+    Every end of a piece is certified as an increment that starts at the end before, and solved for afresh where its
+    equilibrium lacks more than rounding, so that no error adds up.
+
+    References
+    ----------
+    Klarbring (1986), A mathematical programming approach to three-dimensional contact problems with friction;
+    Klarbring (1990), Examples of non-uniqueness and non-existence of solutions to quasistatic contact problems.
+
+    Examples
+    --------
+    One node, pressed by 1 and pulled sideways by up to 4: slips at 1, lifts off at 2.
+
+    >>> from signorini.friction.history.plane import initial_state
+    >>> W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
+    >>> problem = CoulombProblem.of(W=W, b=np.zeros(2), friction=[1.0], motions=np.zeros((2, 0)), scale=1.0)
+    >>> pressed = follow(problem, initial_state(problem, np.zeros(2)), W @ [-1.0, 0.0])
+    >>> pulled = follow(problem, pressed.end, W @ [-1.0, 4.0])
+    >>> [(round(4.0 * event.factor, 9), event.what) for event in pulled.events], pulled.end.h.round(6).tolist()
+    ([(1.0, 'slips'), (2.0, 'opens')], [0.666667, 2.333333])
+    """
+    walk = Walk(problem, start, b_end, settings or PathSettings())
+    while walk.factor < 1.0:
+        failure = walk.turn() or walk.advance()
+        if failure is not None:
+            return walk.ended(failure)
+    return walk.segment("followed", None, f"followed through {len(walk.events)} events")
+
+
+class Walk(Way):
+    """One straight way of the load from a state in the plane, gone from event to event.
+
+    Parameters
+    ----------
+    problem, start, b_end, settings : see `follow`
+
+    Attributes
+    ----------
+    acting : pairs whose event it is
+    load : (2n,) rate of b
+    responses : of the interface
+    """
+
+    def __init__(self, problem: CoulombProblem, start: PathState, b_end: Array, settings: PathSettings) -> None:
+        target = np.array(b_end, dtype=np.float64)
+        check_loads(2 * problem.pairs, start=start.b, b_end=target)
+        self.b_start, self.b_end, self.settings = start.b, target, settings
+        self.problem = replace(problem, b=frozen(target - start.b))
+        self.load = self.problem.b
+        self.responses = Responses(self.problem)
+        self.bound = self.problem.bound
+        limit = np.inf if problem.limit is None else problem.limit
+        self.unbounded = np.isinf(problem.friction) & np.isinf(limit) & ~self.problem.locked
+        self.forced = np.where(self.unbounded, STICK, self.problem.closed)
+        unit = problem.scale or 1.0
+        # a kink at small pressures is told from the corner
+        self.width = np.minimum(settings.width * unit, np.maximum(_APART * self.bound.kinks[1], _ROUNDING * unit))
+        super().__init__(self._entered(start))
+        self.acting: IntArray = np.zeros(0, dtype=np.int64)
+        self.rates: Rates | None = None
+        self.still = 0
+
+    def _entered(self, start: PathState) -> PathState:
+        """The first state; pairs that supports drag turn their friction at once where the load turns."""
+        n = self.problem.pairs
+        turned = (start.state != OPEN) & (self.forced != UNDECIDED) & (plain(start.state) != self.forced)
+        state = self._on_branch(np.where(turned, self.forced, start.state), start.r[:n])
+        slides = turned & (state > STICK)
+        bound = self.bound.at(start.r[:n])
+        friction = np.where(slides, SIGN[state] * bound, start.r[n:])
+        most = np.where(self.unbounded, np.inf, bound)
+        beyond = np.flatnonzero((np.abs(friction) - most) / weight(self.problem.mu) > 1e2 * self.width)
+        if len(beyond):
+            raise InputError(
+                f"pair {beyond[0]} carries more friction than it can; where friction was lowered, expected a start "
+                "that one increment at the same load has brought into the law",
+                where=("start",),
+            )
+        return replace(start, state=state, r=np.concatenate([start.r[:n], friction]))
+
+    def _on_branch(self, state: IntArray, p: Array) -> IntArray:
+        """The states with the branch that each pair slips on; at a kink the one given stays."""
+        here = self.bound.coded(state, p)
+        given = np.abs(self.bound.start(state) + self.bound.slope(state) * p)
+        meant = np.abs(given - self.bound.at(p)) <= self.width * weight(self.problem.mu)
+        return np.where((state > STICK) & meant, state, here)
+
+    def turn(self) -> NoRates | None:
+        """Find the rates from here on; what changes its state is an event."""
+        state, law = self.now.state, self.law()
+        found: Rates | NoRates | None = None
+        if self.rates is not None:
+            found = drive(self.responses, law, self.load, self.rates, self.acting)
+        if found is None:
+            found = find_rates(self.responses, law, self.load, state, self._guesses(law, state))
+        if isinstance(found, NoRates):
+            return found
+        self.enter(found)
+        return None
+
+    def law(self) -> RateLaw:
+        """The law of the rates here."""
+        now = self.now
+        closing = self.acting[now.state[self.acting] == OPEN]
+        return RateLaw.at(
+            bound=self.bound,
+            forced=self.forced,
+            state=now.state,
+            h=now.h,
+            r=now.r,
+            width=self.width,
+            closing=closing,
+        )
+
+    def enter(self, rates: Rates) -> None:
+        """Go on with these rates; what changes its state is an event."""
+        self._change(rates.state)
+        self.rates = rates
+
+    def _guesses(self, law: RateLaw, state: IntArray) -> list[IntArray]:
+        """As before, the acting pairs in their natural next state; and with every pair at a corner sticking."""
+        natural, stuck, acts = state.copy(), state.copy(), np.zeros(len(state), dtype=np.bool_)
+        acts[self.acting] = True
+        corner = law.kind == CORNER
+        hold = np.where(law.forced == UNDECIDED, STICK, law.forced)
+        natural[acts & corner] = np.where(state == OPEN, hold, OPEN)[acts & corner]
+        spent = acts & ~corner & (state == STICK) & (law.kind > CORNER)
+        natural[spent] = law.kind[spent]
+        turns = acts & law.kink & (state > STICK)
+        natural[turns] = law.across(state)[turns]
+        stuck[corner] = hold[corner]
+        return [stuck, natural] if (state == OPEN).all() else [natural, stuck]
+
+    def _change(self, state: IntArray) -> None:
+        """Enter new states at the present load."""
+        now, old = self.now, self.now.state
+        if np.array_equal(state, old):
+            return
+        sticking = (state == STICK) & (old != STICK)
+        anchor = np.where(sticking, now.h[len(state) :], now.anchor)
+        self.now = replace(now, state=state, anchor=anchor)
+        turned = plain(state) != plain(old)
+        self.happens(
+            {
+                "opens": (old != OPEN) & (state == OPEN),
+                "closes": (old == OPEN) & (state != OPEN),
+                "sticks": (old > STICK) & (state == STICK),
+                "slips": (old != OPEN) & (state > STICK) & turned & (self.forced == UNDECIDED),
+                "kinks": (old > STICK) & (state > STICK) & (state != old) & ~turned,
+            },
+            self.now,
+        )
+
+    def advance(self) -> NoRates | None:
+        """Go on to the next event or the end, and certify it."""
+        assert self.rates is not None
+        times = self._times(self.rates)
+        step, room = float(times.min(initial=np.inf)), 1.0 - self.factor
+        last = step >= room - 1e-13
+        factor = 1.0 if last else self.factor + step
+        self.acting = np.flatnonzero(times <= step + self.settings.together)
+        self.still = self.still + 1 if factor - self.factor < 1e-13 else 0
+        if self.still > self.settings.standstill:
+            return NoRates(proof=f"{self.still} events follow each other at one load", proved=False)
+        try:
+            after, residual = self._reached(factor, self.rates)
+        except SingularState:
+            return NoRates(proof="the state that has rates is singular", proved=False)
+        lost = self._let_go(after)
+        if residual > self.settings.tolerance and not len(lost):
+            return NoRates(proof=f"the next state fails its certificate, residual {residual:.1e}", proved=False)
+        self.now, self.factor = after, factor
+        self.pieces.append(Breakpoint(factor=factor, h=after.h, r=after.r))
+        if len(lost):
+            self.acting = lost
+            held = float(np.abs(after.r[after.pairs + lost]).max()) / (self.problem.scale or 1.0)
+            return NoRates(proof=f"{LET_GO}: {held:.2g} of the data", proved=held > MARGIN, margin=held)
+        self.residual = max(self.residual, residual)
+        return None
+
+    def _let_go(self, after: PathState) -> IntArray:
+        """Acting pairs of infinite friction that lose their pressure while they hold back a tangential force."""
+        n, k = self.problem.pairs, self.acting
+        holds = self.unbounded[k] & (after.state[k] == STICK)
+        return k[holds & (after.r[k] <= self.width[k]) & (np.abs(after.r[n + k]) > self.width[k])]
+
+    def _times(self, rates: Rates) -> Array:
+        """(n,) Part of the segment until a gap, a normal force or the friction to spare of a pair vanishes.
+
+        Or until a slipping pair comes to a kink of its bound.
+        """
+        n, state, bound = self.problem.pairs, rates.state, self.bound
+        gap, p, q = self.now.h[:n], self.now.r[:n], self.now.r[n:]
+        normal, tangential = rates.r[:n], rates.r[n:]
+        stick, opened = (state == STICK) & (self.forced == UNDECIDED), state == OPEN
+        every = np.ones(n, dtype=np.bool_)
+        vanishing = [(every, np.where(opened, gap, p), np.where(opened, rates.h[:n], normal))]
+        for mu, start, begins in zip(bound.slopes, bound.starts, bound.kinks[:-1], strict=True):
+            has, unit, most, grows = stick & np.isfinite(begins), weight(mu), start + mu * p, mu * normal
+            vanishing += [(has, (most - sign * q) / unit, (grows - sign * tangential) / unit) for sign in (1.0, -1.0)]
+        branch = np.where(state > STICK, (state - SLIP_PLUS) // 2, -1)
+        for j in range(1, bound.branches):
+            vanishing.append((branch == j, p - bound.kinks[j], normal))
+            vanishing.append(((branch == j - 1) & np.isfinite(bound.kinks[j]), bound.kinks[j] - p, -normal))
+        which, value, rate = (np.array(rows) for rows in zip(*vanishing, strict=True))
+        falls = which & (rate < np.where(value <= self.width, -1e-10 * rates.size, 0.0))
+        times = np.divide(np.maximum(value, 0.0), -rate, out=np.full(value.shape, np.inf), where=falls)
+        return np.asarray(times.min(axis=0))
+
+    def _load_at(self, factor: float) -> Array:
+        return self.b_end if factor == 1.0 else self.b_start + factor * self.load
+
+    def _reached(self, factor: float, rates: Rates) -> tuple[PathState, float]:
+        """The state at a load, solved for afresh where it lacks more than rounding, and its certificate."""
+        b, step = self._load_at(factor), factor - self.factor
+        h, r = self.now.h + step * rates.h, self.now.r + step * rates.r
+        after = self._lawful(b, h, r)
+        residual = self._certificate(after)
+        size = max(np.abs(part).max(initial=0.0) for part in (b, h, r))
+        if residual * (self.problem.scale or 1.0) > ROUNDING * size:
+            after = self._lawful(b, *self._afresh(b))
+            residual = self._certificate(after)
+        return after, residual
+
+    def _afresh(self, b: Array) -> tuple[Array, Array]:
+        """(2n,) Motions and forces under a load in the present states, whatever has led there."""
+        now, n, state = self.now, self.problem.pairs, self.now.state
+        held = np.concatenate([np.zeros(n), np.where(state == STICK, now.anchor, now.h[n:])])
+        given = np.concatenate([np.zeros(n), self.bound.start(state)])
+        free = self.responses.free(b) + self.responses.imposed(held, given)
+        h, r = self.responses.respond(state, free)
+        return self.responses.balanced(state, b, h + held, r + given)
+
+    def _lawful(self, b: Array, h: Array, r: Array) -> PathState:
+        """The state with motions and forces of its law to the last digit, the slip and the dissipation of the piece."""
+        now, n, state = self.now, self.problem.pairs, self.now.state
+        opened, slips = state == OPEN, state > STICK
+        p = np.where(opened, 0.0, np.maximum(r[:n], 0.0))
+        bound = self.bound.at(p)
+        most = np.where(self.unbounded, np.inf, bound)
+        friction = np.where(slips, SIGN[state] * bound, np.where(opened, 0.0, np.clip(r[n:], -most, most)))
+        gap, tangential = np.where(opened, np.maximum(h[:n], 0.0), 0.0), np.where(state == STICK, now.anchor, h[n:])
+        moved = np.where(slips, tangential - now.h[n:], 0.0)
+        return PathState(
+            b=b,
+            h=np.concatenate([gap, tangential]),
+            r=np.concatenate([p, friction]),
+            state=state,
+            anchor=now.anchor,
+            slip=now.slip + moved,
+            dissipation=now.dissipation - 0.5 * (friction + now.r[n:]) * moved,
+        )
+
+    def _certificate(self, after: PathState) -> float:
+        """Of the piece as one increment: equilibrium, no tension, the friction cone, slip against friction."""
+        n = self.problem.pairs
+        origin = np.concatenate([np.zeros(n), self.now.h[n:]])
+        return certify(self.problem, after.r - (after.h - origin), b=after.b, origin=origin)
+
+    def ended(self, failure: NoRates) -> Segment:
+        """The segment up to a jump, or to where nothing was found."""
+        if not failure.proved:
+            message = f"at factor {self.factor:.12g}: {failure.proof}"
+            return self.segment("not_found", None, message)
+        jump = explain(self.problem, self.now, self.b_end, self.factor, self.acting, failure, self.width)
+        return self.segment("jump", jump, f"no gradual continuation at factor {self.factor:.12g}: {jump.proof}")
+
+    @property
+    def effort(self) -> tuple[int, int, int]:
+        """States tried, dense factorisations and their updates, so far."""
+        done = self.responses
+        return done.pivots, done.inverse.factorisations, done.inverse.updates

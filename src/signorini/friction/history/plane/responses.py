@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Motions and forces of the pairs under a load, with every pair's state given: the linear map behind the path.
+
+In the force form (see `signorini.friction.cone`) a state leaves these unknowns: the normal force of every closed pair,
+the tangential force of those that stick, and the rigid motion. Slipping pairs carry ``r_t = s mu p``, mu the slope of
+their bound; open pairs take no part. Friction that does not depend on p is a load, for the caller.
+
+Loads come as what the equations see of them where no pair pushes, (2n + k,): the motion c and the resultants R'b.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.friction.history.plane.state_inverse import StateInverse
+from signorini.friction.problem import CoulombProblem
+
+ROUNDING = 2e-15
+"""Error of a response, relative to its largest entry, that is not refined."""
+
+
+class Responses:
+    """Responses of an interface in changing states; the inverse of the last state is kept and changed.
+
+    Parameters
+    ----------
+    problem : its bound of friction holds, its b does not matter
+
+    Attributes
+    ----------
+    inverse : of the last state
+    pivots : states tried so far
+
+    Examples
+    --------
+    >>> from signorini.friction import STICK
+    >>> problem = CoulombProblem.of(
+    ...     W=np.diag([0.5, 0.5]), b=np.zeros(2), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
+    ... )
+    >>> responses = Responses(problem)
+    >>> h, r = responses.respond(np.array([STICK]), responses.free(np.array([-1.0, 0.2])))
+    >>> h.round(12).tolist(), r.round(12).tolist()
+    ([0.0, 0.0], [2.0, -0.4])
+    """
+
+    def __init__(self, problem: CoulombProblem) -> None:
+        self.problem = problem
+        self.inverse = StateInverse(problem)
+        self.pivots = 0
+        self._state: IntArray | None = None
+
+    def free(self, b: Array) -> Array:
+        """(2n + k,) Motion and resultants of a load b, (2n,)."""
+        return np.concatenate([self.problem.free_motion(b), self.problem.image.R.T @ b])
+
+    def imposed(self, h: Array, r: Array) -> Array:
+        """(2n + k,) What motions and forces, (2n,), are worth that come on top of what a state allows."""
+        interface, acting = self.problem.image, np.flatnonzero(r)
+        return np.concatenate([r[acting] @ interface.A[acting] - h, r[acting] @ interface.R[acting]])
+
+    def respond(self, state: IntArray, free: Array) -> tuple[Array, Array]:
+        """Motion h and force r, (2n,), with ``G h - W r = b``, h = 0 where a state holds and r = 0 where it is open.
+
+        Parameters
+        ----------
+        state : (n,)
+        free : (2n + k,) of the load
+
+        Raises
+        ------
+        SingularState
+            Where the state has no unique response.
+        """
+        if self._state is None or not np.array_equal(state, self._state):
+            self.pivots += 1
+            self._state = None
+            self.inverse.move_to(state)
+            self._state = state.copy()
+        n, unknowns = self.problem.pairs, self.inverse.unknowns
+        x, seen = self.inverse.solve(free)
+        full = np.zeros(len(free))
+        full[unknowns] = x
+        r = full[: 2 * n]
+        r[n:] += self.inverse.slope * r[:n]
+        seen[unknowns] = 0.0
+        return seen[: 2 * n], r
+
+    def balanced(self, state: IntArray, b: Array, h: Array, r: Array) -> tuple[Array, Array]:
+        """A response to b with one step of refinement, where equilibrium lacks more than rounding."""
+        error = self.problem.misfit(h, r, b)
+        size = max(np.abs(part).max(initial=0.0) for part in (b, h, r))
+        if np.abs(error).max(initial=0.0) > ROUNDING * size:
+            dh, dr = self.respond(state, self.free(error))
+            return h + dh, r + dr
+        return h, r

@@ -1,0 +1,273 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The inverse of a state's system, changed by one rank for each unknown where pairs change their states.
+
+Unknown j < n is the normal force of pair j, n + j its tangential force, 2 n + i the rigid motion i; the system holds
+those alone that a state leaves unknown, in any order, equations in the order of the unknowns (see `responses`).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.linalg import blas, lapack
+
+from signorini.arrays import Array, IntArray
+from signorini.condense.body_blocks import inverse_of
+from signorini.friction.law import OPEN, STICK
+from signorini.friction.problem import CoulombProblem
+
+SINGULAR = 1e-13
+"""Reciprocal condition below which a state counts as singular."""
+
+SMALL = 1e-9
+"""Pivot, relative to what cancels in it, below which the system is inverted afresh."""
+
+REFRESH = 400
+"""Changes of state after which the system is inverted afresh."""
+
+
+ROOM = 64
+"""Unknowns that an inverse may grow by before it is moved to larger memory."""
+
+
+class SingularState(Exception):
+    """Some load leaves the motions or the forces of a state undetermined."""
+
+
+class StateInverse:
+    """Inverse of the system of one state at a time.
+
+    Parameters
+    ----------
+    problem : its bound of friction holds, its b does not matter
+
+    Attributes
+    ----------
+    slope : (n,) tangential per normal force of slipping pairs, 0 of others
+    factorisations, updates : inversions afresh and changes by one unknown so far
+
+    Examples
+    --------
+    >>> problem = CoulombProblem.of(
+    ...     W=np.diag([0.5, 0.5]), b=np.zeros(2), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
+    ... )
+    >>> inverse = StateInverse(problem)
+    >>> inverse.move_to(np.array([STICK]))
+    >>> inverse.move_to(np.array([OPEN]))
+    >>> inverse.unknowns.tolist(), inverse.factorisations, inverse.updates
+    ([], 1, 2)
+    """
+
+    def __init__(self, problem: CoulombProblem) -> None:
+        A, self._motions = problem.image.A, problem.image.R
+        self._forces = np.hstack([A, self._motions])  # what all equations see of each, in rows
+        equations = self._forces.shape[1]
+        self._bound, self._n = problem.bound, problem.pairs
+        self._state: IntArray | None = None
+        self._columns = np.empty((equations, equations), order="F")  # of the unknowns, as all equations see them
+        self._inverse = np.empty((0, 0), order="F")  # with room to grow
+        self._place = np.full(equations, -1)  # of an unknown among those of the state
+        self._list = np.empty(equations, dtype=np.int64)
+        self._count = 0
+        self.slope = np.zeros(problem.pairs)
+        self.factorisations = self.updates = self._age = 0
+
+    @property
+    def unknowns(self) -> IntArray:
+        """(m,) Those of the present state."""
+        return self._list[: self._count]
+
+    def move_to(self, state: IntArray) -> None:
+        """Make it the inverse of another state.
+
+        Raises
+        ------
+        SingularState
+            Where that has none; the inverse is lost.
+        """
+        if self._state is not None:
+            changes = np.flatnonzero(state != self._state)
+            few = len(changes) <= max(4, self._count // 4) and self._age < REFRESH
+            if few and self._change(state):
+                self._state = state.copy()
+                return
+        self._invert(state)
+
+    def solve(self, free: Array) -> tuple[Array, Array]:
+        """The (m,) unknowns x that bring their equations to zero, and ``free + columns x``, what all equations see.
+
+        Parameters
+        ----------
+        free : (2n + k,) what the equations see of a load alone
+        """
+        m = self._count
+        x = -(self._inverse[:m, :m] @ free[self.unknowns])
+        return x, free + self._columns[:, :m] @ x
+
+    def _invert(self, state: IntArray) -> None:
+        self._state, self._age = None, 0
+        self.factorisations += 1
+        n = self._n
+        closed, stick = np.flatnonzero(state != OPEN), np.flatnonzero(state == STICK)
+        self.slope = self._bound.slope(state)
+        forces = np.concatenate([closed, n + stick])
+        m = self._count = len(forces) + self._motions.shape[1]
+        self._list[:m] = np.concatenate([forces, np.arange(2 * n, len(self._list))])
+        self._place[:] = -1
+        self._place[self.unknowns] = np.arange(m)
+        columns = self._columns[:, :m]
+        np.take(self._forces, forces, axis=0, out=columns.T[: len(forces)], mode="clip")
+        columns[: 2 * n, len(forces) :], columns[2 * n :, len(forces) :] = self._motions, 0.0
+        slips = np.flatnonzero(self.slope[closed])
+        columns[:, slips] += (self._forces[n + closed[slips]] * self.slope[closed[slips], None]).T
+        self._inverse = np.zeros((m + ROOM, m + ROOM), order="F")
+        if m:
+            matrix = np.take(columns.T, self.unknowns, axis=1).T  # by columns: LAPACK overwrites it
+            symmetric = not len(slips) and m == len(forces)
+            self._inverse[:m, :m] = _inverse_of_compliance(matrix) if symmetric else _inverse(matrix)
+        self._state = state.copy()
+
+    def _change(self, state: IntArray) -> bool:
+        """Some pairs enter other states, all at once; False where the way there is (nearly) singular.
+
+        Tangential forces are added before, and removed after, the slopes of normal forces change: in their presence
+        that only shares the same forces otherwise.
+        """
+        assert self._state is not None
+        old, n, slope = self._state, self._n, self._bound.slope(state)
+        which = np.flatnonzero(state != old)
+        self._age += 1
+        before, after = old[which], state[which]
+        closes, opens = which[before == OPEN], which[after == OPEN]
+        self.slope[closes] = slope[closes]
+        sticks, lets_go = which[after == STICK], which[before == STICK]
+        stays = which[(before != OPEN) & (after != OPEN)]
+        if not (self._add(np.concatenate([n + sticks, closes])) and self._tilt(stays, slope[stays])):
+            return False
+        self.slope[opens] = 0.0
+        return self._remove(np.concatenate([n + lets_go, opens]))
+
+    def _add(self, new: IntArray) -> bool:
+        """Border the system by unknowns and their equations."""
+        if not len(new):
+            return True
+        m, n, known, k = self._count, self._n, self.unknowns, len(new)
+        self._grow(m + k)
+        columns = self._columns[:, m : m + k]
+        columns[:] = self._forces[new].T
+        normal = np.flatnonzero(new < n)
+        if self.slope[new[normal]].any():
+            columns[:, normal] += (self._forces[n + new[normal]] * self.slope[new[normal], None]).T
+        rows = self._columns[new, :m]
+        u, v = self._inverse[:m, :m] @ columns[known], rows @ self._inverse[:m, :m]
+        size = max(np.abs(columns[new]).max(), (np.abs(rows) @ np.abs(u)).max(initial=0.0))
+        pivot = _inverted(columns[new] - rows @ u, size)
+        if pivot is None:
+            return False
+        u = u @ pivot
+        self._add_product(u, v)
+        H = self._inverse
+        H[:m, m : m + k], H[m : m + k, :m], H[m : m + k, m : m + k] = -u, -(pivot @ v), pivot
+        self._list[m : m + k], self._place[new], self._count = new, np.arange(m, m + k), m + k
+        return True
+
+    def _remove(self, old: IntArray) -> bool:
+        """Take unknowns and their equations out; the last ones take their places."""
+        if not len(old):
+            return True
+        H, places, left = self._inverse[: self._count, : self._count], self._place[old], self._count - len(old)
+        out = np.zeros(self._count, dtype=np.bool_)
+        out[places] = True
+        free, last = np.flatnonzero(out[:left]), left + np.flatnonzero(~out[left:])
+        order = np.arange(left)
+        order[free] = last
+        u, v = H[:, places], H[places]
+        block, u, v = u[places], u[order], v[:, order]
+        for i, j in zip(free, last, strict=True):
+            H[:, i], self._columns[:, i] = H[:, j], self._columns[:, j]
+        for i, j in zip(free, last, strict=True):
+            H[i] = H[j]
+        self._list[free] = self._list[last]
+        self._place[old] = -1
+        self._place[self._list[free]], self._count = free, left
+        pivot = _inverted(block, max(np.abs(u).max(initial=0.0), np.abs(v).max(initial=0.0)))
+        if pivot is None:
+            return False
+        self._add_product(u @ -pivot, v)
+        return True
+
+    def _tilt(self, pairs: IntArray, slope: Array) -> bool:
+        """Give normal forces of pairs other shares of friction."""
+        share = slope - self.slope[pairs]
+        pairs, share = pairs[share != 0.0], share[share != 0.0]
+        if not len(pairs):
+            return True
+        m, n, H = self._count, self._n, self._inverse
+        i, t = self._place[pairs], self._place[n + pairs]
+        self.slope[pairs] += share
+        change = (self._forces[n + pairs] * share[:, None]).T
+        self._columns[:, i] += change
+        held = t >= 0  # what is left of the tangential force is an unknown
+        H[t[held], :m] -= share[held, None] * H[i[held], :m]
+        if held.all():
+            return True
+        i, change = i[~held], change[:, ~held]
+        u = H[:m, :m] @ change[self.unknowns]
+        pivot = _inverted(np.eye(len(i)) + u[i], max(1.0, float(np.abs(u).max())))
+        if pivot is None:
+            return False
+        self._add_product(u @ -pivot, H[i, :m])
+        return True
+
+    def _add_product(self, u: Array, v: Array) -> None:
+        """Change the inverse by ``u v``, in place."""
+        m, k = u.shape
+        self.updates += k
+        if m:
+            padded = np.zeros((len(self._inverse), k), order="F")
+            padded[:m] = u
+            if k == 1:  # half the time of a product of matrices
+                blas.dger(1.0, padded[:, 0], v[0], a=self._inverse[:, :m], overwrite_x=0, overwrite_y=0, overwrite_a=1)
+            else:
+                blas.dgemm(1.0, padded, v, beta=1.0, c=self._inverse[:, :m], overwrite_c=1)
+
+    def _grow(self, size: int) -> None:
+        """Room for so many unknowns."""
+        if size > len(self._inverse):
+            m = self._count
+            larger = np.zeros((size + ROOM, size + ROOM), order="F")
+            larger[:m, :m] = self._inverse[:m, :m]
+            self._inverse = larger
+
+
+def _inverse(matrix: Array) -> Array:
+    """Of a state's system, which is overwritten; SingularState where there is none."""
+    norm = float(np.abs(matrix).sum(axis=0).max())
+    lu, order, failed = lapack.dgetrf(matrix, overwrite_a=1)
+    if failed or lapack.dgecon(lu, norm)[0] < SINGULAR:
+        raise SingularState
+    return _from_factors(lu, order)
+
+
+def _inverse_of_compliance(matrix: Array) -> Array:
+    """The same where all that is closed sticks, for half the operations: symmetric and positive definite."""
+    norm = float(np.abs(matrix).sum(axis=0).max())
+    factor, failed = lapack.dpotrf(matrix, lower=1, overwrite_a=1)
+    if failed or lapack.dpocon(factor, norm, uplo="L")[0] < SINGULAR:
+        raise SingularState
+    return inverse_of(factor, overwrite=True)
+
+
+def _inverted(block: Array, size: float) -> Array | None:
+    """Inverse of a block that pivots, None where it is next to singular beside what cancels in it, of a size."""
+    if len(block) == 1:
+        return None if abs(block[0, 0]) < SMALL * size else 1.0 / block
+    lu, order, failed = lapack.dgetrf(block)
+    if failed or np.abs(np.diag(lu)).min() < SMALL * size:
+        return None
+    return _from_factors(lu, order)
+
+
+def _from_factors(lu: Array, order: IntArray) -> Array:
+    """The inverse, in place of its factors; with room for blocks, without which it takes several times as long."""
+    room = int(lapack.dgetri_lwork(len(lu))[0])
+    return np.asarray(lapack.dgetri(lu, order, lwork=room, overwrite_lu=1)[0], dtype=np.float64)

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What following a segment of the load history gives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from signorini.arrays import Array
+from signorini.friction.history.state import PathState
+
+What = Literal["closes", "opens", "slips", "sticks", "kinks"]
+Outcome = Literal["followed", "jump", "not_found", "disturbed"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Event:
+    """Pairs that change their state at one load.
+
+    Attributes
+    ----------
+    factor : part of the segment behind, 0 .. 1
+    pairs : their numbers
+    what : "closes" (sticking or slipping), "opens", "slips" (from stick, or the other way round), "sticks" (from slip),
+        "kinks" (slips on, on another branch of its bound: it reaches the shear limit or leaves it)
+    state : the state at this load, with the codes that hold from here on
+    """
+
+    factor: float
+    pairs: tuple[int, ...]
+    what: What
+    state: PathState
+
+
+@dataclass(frozen=True, kw_only=True)
+class Breakpoint:
+    """Motions and forces at one end of a linear piece; in between they are interpolated linearly, exactly.
+
+    Attributes
+    ----------
+    factor : part of the segment behind
+    h, r : (2n,) as in `PathState`
+    state : the whole state, in space, where a piece is an increment
+    tried : increments tried to find where it ends, in space
+    """
+
+    factor: float
+    h: Array
+    r: Array
+    state: PathState | None = None
+    tried: int = 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Jump:
+    """A load beyond which equilibrium cannot change gradually.
+
+    Attributes
+    ----------
+    factor : where on the segment
+    pairs : those whose event has no continuation
+    proof : what shows it: that no combination of states has rates, or a rigid motion; a ray of Lemke's method alone
+        (too many combinations to try) is strong evidence, no proof
+    margin : what rates lack at least, of the data; 0 where nothing but a rigid motion or strong evidence shows it
+    gross_sliding : whether bodies slide as a whole: every closed pair has used up its friction and the loads go on
+    escape : rows of pairs, rigid motion along which bodies leave, largest entry 1, where it is known
+    hopeless : part of the segment beyond which it is proved that no load has any equilibrium, where it is known
+    """
+
+    factor: float
+    pairs: tuple[int, ...]
+    proof: str
+    gross_sliding: bool
+    escape: Array | None = None
+    hopeless: float | None = None
+    margin: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Segment:
+    """A straight segment of the load history, followed.
+
+    Attributes
+    ----------
+    end : the last state reached; at the end of the segment where ``outcome`` is "followed"
+    events : in order
+    pieces : the ends of the linear pieces in order, the start first
+    outcome : "followed", "jump" (no gradual continuation), "not_found" (neither rates nor proof of a jump), or
+        "disturbed": cut short because another problem goes on from there
+    jump : where, who and why, or None
+    pivots : states tried
+    factorisations, updates : dense factorisations, and changes of a factorised state by one unknown
+    residual : largest of the certificates, relative to the data, see `signorini.friction.certify`
+    message : the same in words
+    """
+
+    end: PathState
+    events: tuple[Event, ...]
+    pieces: tuple[Breakpoint, ...]
+    outcome: Outcome
+    jump: Jump | None
+    pivots: int
+    factorisations: int
+    updates: int
+    residual: float
+    message: str
+
+    @property
+    def followed(self) -> bool:
+        """Whether the end of the segment was reached."""
+        return self.outcome == "followed"
+
+    @property
+    def departure(self) -> Jump | None:
+        """The jump from which the load can go back to a landing; None where there is none, nor where bodies slide."""
+        gone = self.jump is None or self.jump.gross_sliding or self.jump.factor <= 0.0
+        return None if gone else self.jump

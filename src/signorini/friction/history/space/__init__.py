@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Histories in space: increments that end at events, rates where they fail, landings."""

@@ -1,0 +1,499 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Follow a straight segment of the load history in space in increments that end where something happens.
+
+Between two events (a pair opens, closes, starts to slip, or its friction reaches the end of an edge of its section)
+motions and forces are linear in the load where sections are polygons: an increment that ends at every event is exact.
+On smooth sections friction turns while a pair slips; there increments are short enough for a small turn of it.
+
+A short increment shows the rates behind an event; extended in a straight line they tell the next event; the increment
+up to there is solved for afresh and certified.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray, frozen
+from signorini.errors import InputError
+from signorini.friction.history.plane.find_rates import NoRates
+from signorini.friction.history.segment import Breakpoint, Jump, Segment
+from signorini.friction.history.space.find_rates import SpatialRates, acting_pairs, find_rates
+from signorini.friction.history.space.missed_jumps import passed_over
+from signorini.friction.history.space.straight import columns, held_until, lasts, spare, turned
+from signorini.friction.history.state import PathState
+from signorini.friction.history.way import Way, check_loads
+from signorini.friction.space.bearing import OVERLOADED, Bearing, sliding
+from signorini.friction.space.standstill import standstill
+from signorini.friction.spatial.law import OPEN, SLIP, STICK
+from signorini.friction.spatial.problem import SpatialProblem
+from signorini.friction.spatial.result import SpatialResult
+from signorini.friction.spatial.solve import SpatialSettings, solve_spatial
+from signorini.law.bound import STEEP
+
+SHORTEST = 1e-12
+"""Part of the segment below which an increment counts as none."""
+
+_FIRST = 2.0**-6  # part of the segment that is tried first
+_PROBE = 2.0**-4  # part of the last increment that shows the rates behind an event
+_LEAST = 2.0**-10  # part of the segment that does
+_GROWTH, _FINER = 0.5, 2.0**-4  # of what is behind, and of the shortest: what increments at the beginning may be
+_SHRINK = 0.9  # of the estimated part up to an event: short of it
+_SAME, _LATE = 1e-12, 1e-3  # part of an increment by which it may miss an event; the latter after some tries
+_REFUSED = 0.25  # part of an increment, beyond which none was found: not looked into, the next one begins nearer to it
+_COARSER = 4.0  # times what friction may turn elsewhere: where one longer increment is gone again event by event
+_ACROSS = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)  # times the last increment: where to look for the other side of a fold
+_FOLD, _TURNED = 1e-9, 0.3  # part of the way in which it is looked for, and what friction may turn in it
+_PATIENCE = 4  # tries
+_ROUNDING = 1e-9  # part of an increment: what comes so late does not happen in it
+_LOST = 1e-7  # part of the segment: where not even that has a solution nothing goes on gradually
+_TRIES = 60  # at one increment
+_IDLE = 1e-12  # of the data: a normal force that rounding leaves, under which nothing slips
+_NEAR = 1e-6  # of the data: width of zero at an event that smooth sections make uncertain
+_QUICK = SpatialSettings(newton_steps=12, swept_rounds=1, proximal_rounds=0, springs=())
+
+
+@dataclass(frozen=True, kw_only=True)
+class StopSettings:
+    """How increments are chosen; all dimensionless.
+
+    Attributes
+    ----------
+    shortest : part of the segment that an increment need not undercut whatever happens in it, less of it at the
+        beginning; 0: every event ends one
+    turn : largest angle by which friction on a smooth section turns in an increment longer than that
+    width : of zero for a gap, a force or the friction to spare, relative to the data
+    most : increments; more are no answer
+    """
+
+    shortest: float = 0.0
+    turn: float = 0.05
+    width: float = 1e-10
+    most: int = 20000
+
+
+def follow_stopping(
+    problem: SpatialProblem,
+    start: PathState,
+    b_end: Array,
+    *,
+    settings: StopSettings | None = None,
+    tell: Callable[[float], None] | None = None,
+) -> Segment:
+    """Follow the load from ``start.b`` straight to ``b_end``, as `history.plane.follow` does in the plane.
+
+    Parameters
+    ----------
+    problem : the problem; its own b is not used
+    start : where the history stands
+    b_end : (3n,) load at the end of the segment
+    settings : how increments are chosen
+    tell : called with the part of the segment that is behind, increment by increment
+
+    Returns
+    -------
+    Segment
+        Exact where every section is a polygon and ``shortest`` is 0. ``pivots`` counts the increments tried.
+
+    Raises
+    ------
+    InputError
+        Where shapes do not fit.
+
+    Examples
+    --------
+    One pair, pressed by 1 and pulled sideways by up to 1 across an octagon of friction: slips at 0.5.
+
+    >>> problem = SpatialProblem.of(
+    ...     W=0.5 * np.eye(3), b=np.zeros(3), friction=[0.5], motions=np.zeros((3, 0)), scale=1.0, facets=8
+    ... )
+    >>> pressed = follow_stopping(problem, at_rest(problem, np.zeros(3)), np.array([-0.5, 0.0, 0.0]))
+    >>> pulled = follow_stopping(problem, pressed.end, np.array([-0.5, 0.5, 0.0]))
+    >>> [(round(event.factor, 12), event.what) for event in pulled.events], (pulled.end.h.round(12) + 0.0).tolist()
+    ([(0.5, 'slips')], [0.0, 0.5, 0.0])
+    """
+    walk = Walk(problem, start, np.asarray(b_end, dtype=np.float64), settings or StopSettings())
+    while True:
+        lost = None
+        while walk.factor < 1.0 and lost is None:
+            lost = walk.go_on()
+            if tell is not None:
+                tell(walk.factor)
+        if walk.limited or not walk.again():  # close to a limit of the load increments miss energy however short
+            break
+    if lost is not None:
+        return walk.ended(lost)
+    return walk.segment("followed", None, f"followed through {len(walk.events)} events")
+
+
+def at_rest(problem: SpatialProblem, b: Array, *, motion: Array | None = None) -> PathState:
+    """The start of a history: forces zero, or, where the load presses already, one increment from zero slip.
+
+    Parameters
+    ----------
+    problem : the problem; its own b is not used
+    b : (3n,) load at the start
+    motion : (3n,) motions without forces; where not given those of the load, of bodies that supports hold
+    """
+    n = problem.pairs
+    posed = replace(problem, b=frozen(b))
+    h = posed.free_motion if motion is None else motion
+    if (motion is None and problem.floating) or h[:n].min(initial=0.0) < -1e-10 * (problem.scale or 1.0):
+        result = solve_spatial(posed)
+        if not result.solved:
+            raise InputError(f"presses at the start, and no equilibrium was found: {result.message}", where=("b",))
+        h, r = _split(result)
+        slip = np.where(np.tile(result.state == OPEN, 2), 0.0, h[n:])
+        spent = np.maximum(-(columns(r[n:]) * columns(slip)).sum(axis=1), 0.0)
+        return PathState(b=b, h=h, r=r, state=result.state, anchor=h[n:], slip=slip, dissipation=spent)
+    h = np.concatenate([np.maximum(h[:n], 0.0), h[n:]])
+    none = np.zeros(2 * n)
+    return PathState(b=b, h=h, r=np.zeros(3 * n), state=np.full(n, OPEN), anchor=h[n:], slip=none, dissipation=none[:n])
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Trial:
+    """An increment that was solved.
+
+    Attributes
+    ----------
+    step : part of the segment
+    after : the state at its end
+    result : of the solver
+    until : part of it up to which the law holds on a straight way
+    each : (n,) the same of every pair
+    turn : largest angle by which friction turns
+    """
+
+    step: float
+    after: PathState
+    result: SpatialResult
+    until: float
+    each: Array
+    turn: float
+
+
+class Walk(Way):
+    """One straight way of the load from a state in space, gone increment by increment.
+
+    Parameters
+    ----------
+    problem, start, b_end, settings : see `follow_stopping`
+    """
+
+    def __init__(self, problem: SpatialProblem, start: PathState, b_end: Array, settings: StopSettings) -> None:
+        check_loads(3 * problem.pairs, start=start.b, b_end=b_end)
+        super().__init__(start)
+        self.problem, self.start, self.b_end, self.settings = problem, start, b_end, settings
+        self.width = settings.width * (problem.scale or 1.0)
+        self.last, self.tried = _FIRST / _PROBE, 0
+        # up to where every event ends an increment; whether that failed; up to where no energy is missing
+        self.careful, self.trusting, self.balanced = 0.0, False, 0.0
+        self.smooth = bool(((problem.mu > 0).any(axis=1) & (problem.sides == 0)).any())
+        self.refused: SpatialResult | None = None
+        self.limited = False  # whether the load has a limit where motions run away
+        self._searched = False  # long, once in vain: shorter increments are near where they begin, or there are none
+        self.bearing = Bearing(problem, self.b_end)
+        # the load as rates see it; what smooth sections know of an event is less sharp
+        self.rate_problem = replace(problem, b=frozen(b_end - start.b))
+        self.near, self._astray = (_NEAR * (problem.scale or 1.0), 0.5) if self.smooth else (self.width, 1e-6)
+
+    def go_on(self) -> NoRates | None:
+        """One increment, found as it comes or by the rates; why there is none, or None."""
+        if self.factor >= self.reach and not self._crosses():
+            self._to_the_brink()
+            return NoRates(proof=OVERLOADED, proved=True)
+        stop = standstill(self.pieces, self.problem.scale or 1.0)
+        if stop is not None and (stop.proved or self.settings.shortest):  # events may be as many as they like
+            self.limited = stop.proved
+            return stop
+        words = self.advance(patience=_PATIENCE)
+        if not words:
+            return None
+        if self._leaves:
+            return NoRates(proof=words, proved=True)
+        found = find_rates(self.rate_problem, self.now, self.near)
+        if isinstance(found, SpatialRates):
+            return None if self.along(found) else NoRates(proof=f"{words}, though there are rates", proved=False)
+        if found.proved:
+            return replace(found, proof=f"{words}; {found.proof}")
+        words = self.advance(patience=_TRIES)
+        if words and self.careful > self.factor:
+            self.careful, self.trusting = 0.0, True
+            return self.go_on()
+        return NoRates(proof=f"{words}; {found.proof}", proved=False) if words else None
+
+    def again(self) -> bool:
+        """Whether an increment has passed over something: back to its beginning, to go through it event by event."""
+        k = passed_over(self.problem, self.start, self.pieces, self.balanced) if self.settings.shortest else None
+        if k is None:
+            return False
+        self.careful = self.balanced = self.pieces[k].factor
+        self.trusting, self.refused = False, None
+        self.pieces = self.pieces[:k]
+        self.now, self.factor = self.pieces[-1].state or self.start, self.pieces[-1].factor
+        self.last = self.careful - self.factor
+        self.events = [event for event in self.events if event.factor < self.factor]
+        return True
+
+    @property
+    def reach(self) -> float:
+        """Part of the way that increments do not go beyond, see `Bearing`."""
+        return self.bearing.reach(self.now, self.factor)
+
+    def _crosses(self) -> bool:
+        """Whether equilibrium goes on gradually beyond the reach: other pairs close as the bodies deform."""
+        gradually = self._near_by(self._trial(self.bearing.beyond - self.factor, 0.0)) is not None
+        if gradually:
+            self.bearing.cross()
+        return gradually
+
+    def _to_the_brink(self) -> None:
+        """The last increment, to the very load that can be held, where equilibrium at it is near by."""
+        trial = self._near_by(self._trial(self.bearing.limit - self.factor, 0.0))
+        if trial is not None and trial.until >= 1.0 - _LATE:
+            self._enter(trial, self._settled(trial, trial.after.state), 1)
+
+    def _near_by(self, trial: _Trial | SpatialResult) -> _Trial | None:
+        """An increment that moves no pair farther than the loads of the whole history deform the bodies."""
+        if isinstance(trial, SpatialResult) or np.abs(trial.after.h - self.now.h).max() > (self.problem.scale or 1.0):
+            return None
+        return trial
+
+    @property
+    def _leaves(self) -> bool:
+        """Whether an increment was refused with the proof that loads pull bodies away."""
+        return self.refused is not None and self.refused.outcome == "no_equilibrium"
+
+    def along(self, rates: SpatialRates) -> bool:
+        """One increment in the direction of rates, up to the next event; whether there is one."""
+        now, tried, n = self.now, self.tried, self.problem.pairs
+        short = 0.5 * self._pressed_for(rates)
+        piece = replace(now, h=now.h + short * rates.h, r=now.r + short * rates.r, state=rates.state)
+        step = min(short * lasts(self.problem, now, piece, self.width), self.reach - self.factor)
+        for _ in range(_TRIES):
+            if step < SHORTEST:
+                return False
+            h, r = step * rates.h, now.r + step * rates.r
+            # the law of the whole piece is that in its middle
+            trial = self._trial(step, step, 0.5 * (now.r + r - h) - np.concatenate([now.h[:n], np.zeros(2 * n)]))
+            if isinstance(trial, SpatialResult):
+                step /= 16.0
+                continue
+            off = np.abs(trial.after.h - now.h - h).max() + np.abs(trial.after.r - r).max()
+            if off > self._astray * step * (np.abs(rates.h).max() + np.abs(rates.r).max()) + self.width:
+                step /= 2.0
+            elif trial.turn > self._turn:
+                step *= _SHRINK * self._turn / trial.turn
+            else:
+                self._enter(trial, self._settled(trial, rates.state), self.tried - tried)
+                return True
+        return False
+
+    def cross(self, before: PathState) -> bool:
+        """One increment across a fold of the curve of equilibria that led here from ``before``; whether there is one.
+
+        On a smooth section friction turns until the load that goes back can go no farther: on with the same slip.
+        """
+        now, n = self.now, self.problem.pairs
+        h, r = now.h - before.h, now.r - before.r
+        for times in _ACROSS:
+            y = now.r + times * (r - h) - np.concatenate([now.h[:n], np.zeros(2 * n)])
+            trial = self._trial(_FOLD, _FOLD, y)
+            if isinstance(trial, SpatialResult) or trial.turn > _TURNED:
+                continue
+            moved = trial.after.h - now.h
+            if moved @ h > 0.5 * float(h @ h):
+                self._enter(trial, self._settled(trial, trial.after.state), 1)
+                return True
+        return False
+
+    def _pressed_for(self, rates: SpatialRates) -> float:
+        """How long no normal force vanishes or comes to a kink of the bound on friction, within the segment."""
+        p, rate = self.now.r[: self.problem.pairs], rates.r[: self.problem.pairs]
+        times = [self.reach - self.factor]
+        for kink in self.problem.bound.kinks[:-1]:
+            away = np.where(np.isfinite(kink), kink, np.inf) - p
+            comes = (away * rate > 0.0) & (np.abs(away) > self.width)
+            times.append(float((away[comes] / rate[comes]).min(initial=np.inf)))
+        return min(times)
+
+    def advance(self, *, patience: int) -> str:
+        """One increment; why there is none, or nothing. Given up where so many were tried, and pairs act in all."""
+        if len(self.pieces) > self.settings.most:
+            return f"{self.settings.most} increments end at factor {self.factor:.12g}"
+        self.refused = None
+        shortest = self._shortest
+        left = self.reach - self.factor
+        step = min(max(_PROBE * self.last, _LEAST, shortest), left)
+        tried, best = self.tried, None
+        inner: _Trial | None = None
+        words, longest = "", left
+        for number in range(_TRIES):
+            late = _LATE if self.smooth and number >= _PATIENCE else _SAME
+            trial = self._trial(step, shortest)
+            if isinstance(trial, SpatialResult):
+                words, longest = trial.message, step
+                if not self._leaves:
+                    self.refused = trial
+                if step <= _LOST or (best is not None and step <= best.step * (1.0 + _REFUSED)):
+                    break
+                step = step / 16.0 if best is None else 0.5 * (best.step + step)
+            elif trial.until >= 1.0 - late and trial.turn <= self._turn:
+                best, inner = trial, inner or trial
+                step = trial.step * self._room(trial, inner.after.state)
+                step = step if step < longest or longest >= left else 0.5 * (trial.step + longest)
+                if min(step, left) <= trial.step * (1.0 + late):
+                    break
+                step = min(step, left)
+            elif trial.step <= shortest and not self._grips(trial):
+                best = inner = trial
+                break
+            else:
+                if trial.step <= shortest:  # event by event
+                    self.careful, shortest = self.factor + trial.step, 0.0
+                words, longest = f"pairs {np.flatnonzero(trial.each <= trial.until).tolist()} act", step
+                if best is None and number >= patience:
+                    break
+                step = self._nearer(trial, shortest, best)
+                if best is not None and step <= best.step * (1.0 + late):
+                    break
+            if step < SHORTEST:
+                break
+        if best is None or inner is None:
+            return f"at factor {self.factor:.12g}: no increment, however short, goes on gradually ({words})"
+        exact = best.until >= 1.0 - _ROUNDING
+        after = self._settled(best, inner.after.state if exact else best.after.state)
+        self._enter(best, after, self.tried - tried)
+        return ""
+
+    def _nearer(self, trial: _Trial, shortest: float, best: _Trial | None) -> float:
+        """The part to try after one in which something has happened, or friction has turned too far."""
+        limit = self._turn
+        aim = _SHRINK * limit / trial.turn if trial.turn > limit else 1.0
+        if trial.until < 1.0:
+            aim = min(aim, trial.until * (_SHRINK if best is None else 1.0))
+        return max(aim * trial.step, shortest if best is None else best.step)
+
+    def _settled(self, trial: _Trial, state: IntArray) -> PathState:
+        """The end of a piece, where pairs may be on the verge of another state, in the states inside it.
+
+        What slips from an event in the piece on does so under the friction at its end.
+        """
+        now, end, n = self.now, trial.after, self.problem.pairs
+        closed, sticks = state != OPEN, np.tile(state == STICK, 2)
+        h = np.concatenate([np.where(closed, 0.0, end.h[:n]), np.where(sticks, now.h[n:], end.h[n:])])
+        r = np.where(np.tile(closed, 3), end.r, 0.0)
+        pressed = closed & (np.maximum(r[:n], now.r[:n]) > _IDLE * (self.problem.scale or 1.0))
+        moved = np.where(np.tile(pressed, 2), h[n:] - now.h[n:], 0.0)
+        late = (trial.each < 1.0 - _ROUNDING) & (now.state != OPEN)
+        rubbing = np.where(np.tile(late, 2), r[n:], 0.5 * (r[n:] + now.r[n:]))
+        lost = -(columns(rubbing) * columns(moved)).sum(axis=1)
+        return replace(
+            end, h=h, r=r, state=state, anchor=h[n:], slip=now.slip + moved, dissipation=now.dissipation + lost
+        )
+
+    def _grips(self, trial: _Trial) -> bool:
+        """Whether a pair that holds friction without pressure closes in it, which sticks where it touches, or opens."""
+        turns = (self.now.state == OPEN) != (trial.after.state == OPEN)
+        grips = turns & (self.problem.bound.slopes[0] >= STEEP) & (trial.each < 1.0 - _LATE)
+        return bool(grips.any()) and not self.trusting
+
+    def _room(self, trial: _Trial, state: IntArray) -> float:
+        """How much longer than the trial the increment may be: up to the next event, and to the turn allowed."""
+        times = max(1.0, lasts(self.problem, self.now, replace(trial.after, state=state), self.width))
+        if trial.turn > 0.0:
+            times = min(times, max(1.0, _SHRINK * self._turn / trial.turn))
+        return max(times, self._shortest / trial.step)
+
+    @property
+    def _turn(self) -> float:
+        """What friction may turn here: more of it where increments are short to find what happens, not to be sharp."""
+        return self.settings.turn * (_COARSER if self.factor < self.careful and self.settings.shortest else 1.0)
+
+    @property
+    def _shortest(self) -> float:
+        """What an increment need not undercut here: little at the beginning, where contact grows and friction turns."""
+        whole = 0.0 if self.factor < self.careful else self.settings.shortest
+        return min(whole, max(_GROWTH * self.factor, _FINER * whole), self.reach - self.factor)
+
+    def _trial(self, step: float, shortest: float, ahead: Array | None = None) -> _Trial | SpatialResult:
+        """The increment of a part of the segment, sought from where it is or ahead, or the answer that it has none."""
+        now, n, problem = self.now, self.problem.pairs, self.problem
+        factor = self.factor + step
+        if factor >= 1.0 - SHORTEST:
+            factor, step = 1.0, 1.0 - self.factor
+        b = self.b_end if factor == 1.0 else (1.0 - factor) * self.start.b + factor * self.b_end
+        origin = np.concatenate([np.zeros(n), now.h[n:]])
+        increment = replace(problem, b=frozen(problem.misfit(origin, np.zeros(3 * n), b)))
+        self.tried += 1
+        y = None if not now.r.any() else now.r - np.concatenate([now.h[:n], np.zeros(2 * n)])
+        long = step <= shortest and not self._searched
+        result = solve_spatial(increment, y if ahead is None else ahead, settings=None if long else _QUICK)
+        if not result.solved:
+            self._searched |= long
+            return result
+        h, r = _split(result)
+        slip = result.slip
+        until = held_until(increment, now, h, r, slip, self.width)
+        least = float(until.min(initial=1.0))
+        return _Trial(
+            step=step,
+            after=replace(now, b=b, h=h + origin, r=r, state=result.state),
+            result=result,
+            until=least,
+            each=until,
+            turn=turned(increment, now, r, slip, self.width),
+        )
+
+    def _enter(self, trial: _Trial, after: PathState, tried: int) -> None:
+        """Go on from the end of an increment; what is in another state than before changed at its beginning."""
+        old, new = self.now.state, after.state
+        self.happens(
+            {
+                "opens": (old != OPEN) & (new == OPEN),
+                "closes": (old == OPEN) & (new != OPEN),
+                "sticks": (old == SLIP) & (new == STICK),
+                "slips": (old == STICK) & (new == SLIP),
+            },
+            replace(self.now, state=new),
+        )
+        self.factor = 1.0 if self.factor + trial.step >= 1.0 - SHORTEST else self.factor + trial.step
+        self.now, self.last = after, trial.step
+        self.pieces.append(Breakpoint(factor=self.factor, h=after.h, r=after.r, state=after, tried=tried))
+        self.residual = max(self.residual, trial.result.residual)
+
+    def ended(self, lost: NoRates) -> Segment:
+        """The segment up to a jump, or to where nothing was found."""
+        if not lost.proved:
+            return self.segment("not_found", None, lost.proof)
+        n, r = self.problem.pairs, self.now.r
+        pressed = r[:n] > self.width
+        spent = pressed & (spare(self.problem, r) <= self.near)
+        leaves, refused = self._leaves, self.refused
+        acting = np.flatnonzero(spent) if leaves else acting_pairs(self.rate_problem, self.now, self.near)
+        if self.factor >= self.reach:
+            return self.segment("jump", self.bearing.jump(self.now, self.factor, pressed, lost.proof), lost.proof)
+        slide = sliding(self.problem, self.pieces[-2:], pressed) if self.limited else None
+        jump = Jump(
+            factor=self.factor,
+            pairs=tuple(int(k) for k in (acting if len(acting) else np.flatnonzero(spent))),
+            proof=refused.message if refused is not None and leaves else lost.proof,
+            margin=0.0 if leaves else lost.margin,
+            gross_sliding=bool(leaves and pressed.any() and spent[pressed].all()) or slide is not None,
+            escape=slide,
+        )
+        return self.segment("jump", jump, lost.proof)
+
+    @property
+    def effort(self) -> tuple[int, int, int]:
+        """Increments tried; nothing dense is kept between them."""
+        return self.tried, 0, 0
+
+
+def _split(result: SpatialResult) -> tuple[Array, Array]:
+    """Motions and forces of an answer, each (3n,)."""
+    h = np.concatenate([result.gap, result.slip.T.ravel()])
+    return h, np.concatenate([result.normal_force, result.tangential_force.T.ravel()])

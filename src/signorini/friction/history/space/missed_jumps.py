@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The energy balance of increments in space: one that misses too much for its length has passed over a jump.
+
+Between two equilibria the work of the loads by trapezoids is what bodies store less ``1/2 (r_0 + r_1) . (h_1 - h_0)``.
+Where the law holds all along a straight piece friction takes as much, the most that its sections allow at both ends.
+Where something happens on the way, a pair opens or friction turns, some is missing: no more than ``1/2 |r_1 - r_0|
+|h_1 - h_0|`` of the pairs that act, of second order in the length of the increment where the way is smooth. Across a
+jump both differences have a limit, and so has what is missing, however short the increment.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.friction.history.segment import Breakpoint
+from signorini.friction.history.state import PathState
+from signorini.friction.spatial.law import OPEN
+from signorini.friction.spatial.problem import SpatialProblem
+from signorini.friction.spatial.section import outermost
+
+_UNEVEN = 1.0  # of what increments would miss whose every pair acts; smooth ways of few pairs come up to it
+_ROUNDING = 1e-12  # of the energies compared
+
+
+def passed_over(problem: SpatialProblem, start: PathState, pieces: Sequence[Breakpoint], since: float) -> int | None:
+    """The first increment that misses more energy than smooth ones of its length do, if any.
+
+    Parameters
+    ----------
+    problem : its b is not used
+    start : of the way
+    pieces : the ends of its increments, the first its start
+    since : part of the way from which increments are looked at
+
+    Examples
+    --------
+    One pair that rubs under a pressure of 1, and then leaves at once for a gap of 1, in a tenth of the way:
+
+    >>> problem = SpatialProblem.of(
+    ...     W=0.5 * np.eye(3), b=np.zeros(3), friction=[1.0], motions=np.zeros((3, 0)), scale=1.0
+    ... )
+    >>> def at(h, r, lost):
+    ...     none = np.zeros(2)
+    ...     slip, state = np.array([h[1], h[2]]), np.array([2 if r[0] else 0])
+    ...     h, r = np.array(h), np.array(r)
+    ...     return PathState(b=h, h=h, r=r, state=state, anchor=none, slip=slip, dissipation=np.array([lost]))
+    >>> states = [at([0, 0, 0], [1, -1, 0], 0), at([0, 1, 0], [1, -1, 0], 1), at([1, 2, 0], [0, 0, 0], 1)]
+    >>> pieces = [Breakpoint(factor=s, h=now.h, r=now.r, state=now) for s, now in zip([0, 0.9, 1], states)]
+    >>> passed_over(problem, states[0], pieces, 0.0), passed_over(problem, states[0], pieces, 1.0)
+    (2, None)
+    """
+    states = [start, *(piece.state or start for piece in pieces[1:])]
+    factors = np.array([piece.factor for piece in pieces])
+    end, reached = states[-1], float(factors[-1])
+    if not reached:
+        return None
+    change = 0.5 * float((_sizes(end.r - start.r) * _sizes(end.h - start.h)).sum()) / reached**2
+    for k, (one, two) in enumerate(pairwise(states), start=1):
+        moved, missing = two.h - one.h, _missing(problem, one, two)
+        rounding = _ROUNDING * float(np.abs(one.r) @ np.abs(moved) + two.dissipation.sum())
+        allowed = _UNEVEN * change * max(float(factors[k] - factors[k - 1]) ** 2, _ROUNDING) + rounding
+        if factors[k] > since and missing > allowed:
+            return k
+    return None
+
+
+def _missing(problem: SpatialProblem, one: PathState, two: PathState) -> float:
+    """The energy that an increment misses, pair by pair; of one that slips what its first force lacks of the most."""
+    n, moved = problem.pairs, two.h - one.h
+    normal, *along = (0.5 * (one.r + two.r) * moved).reshape(3, n)
+    slip, force = moved[n:].reshape(2, n).T, one.r[n:].reshape(2, n).T
+    most = problem.bound.at(np.maximum(one.r[:n], 0.0))[:, None] * outermost(slip, problem.axes, problem.sides)
+    rubs = (one.state != OPEN) & (two.state != OPEN)
+    lacking = 0.5 * ((most + force) * slip).sum(axis=1)
+    friction = np.where(rubs, lacking, along[0] + along[1] + two.dissipation - one.dissipation)
+    return float((np.abs(normal) + np.abs(friction)).sum())
+
+
+def _sizes(rows: Array) -> Array:
+    """(n,) Of the three numbers of every pair."""
+    return np.asarray(np.linalg.norm(rows.reshape(3, -1), axis=0))

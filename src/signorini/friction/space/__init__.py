@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What space alone has: sweeps, proximal steps, overloads."""

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How much of the load pairs that nearly touch can hold on floating bodies, before increments are sought.
+
+Rigid equilibrium needs forces in the friction cones that balance the loads, however they are shared; where it ends a
+linear programme of a few rows tells (see `overload`). An equilibrium found beyond has moved a body as a whole until it
+met something else, which no history does gradually.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray
+from signorini.friction.history.segment import Breakpoint, Jump
+from signorini.friction.history.space.straight import spare
+from signorini.friction.history.state import PathState
+from signorini.friction.pull_away import GAIN
+from signorini.friction.space.overload import Overload, along_contact, overload
+from signorini.friction.spatial.problem import SpatialProblem
+
+OVERLOADED = (
+    "forces in the friction cones of the pairs that touch, or nearly do, cannot balance more load, however they are "
+    "shared"
+)
+
+_NEARLY = 0.1  # of the motions that the loads cause: a gap that bodies close by deforming a little more
+_CLOSE = 1e-3  # of the load that can be held: so near to it slip grows without bound, and nothing is gained
+_SPENT = 0.05  # of the friction of all pairs: what is left of it where bodies slide rather than tip
+
+
+class Bearing:
+    """Where on a way of the load floating bodies lose their hold; asked again only as other pairs come near.
+
+    Parameters
+    ----------
+    problem : its b is not used
+    b_end : (3n,) load at the end of the way
+    """
+
+    def __init__(self, problem: SpatialProblem, b_end: Array) -> None:
+        self.problem, self.b_end = problem, b_end
+        self._near: BoolArray = np.zeros(0, dtype=np.bool_)
+        self._found: Overload | None = None  # with the pairs that are near
+        self._least: Overload | None = None  # with those of any state since equilibrium was seen to go on beyond one
+        self._crossed = 0.0
+
+    def reach(self, now: PathState, factor: float) -> float:
+        """Part of the way just before the pairs that are near can hold the bodies no more, 1 while nothing presses."""
+        problem, n = self.problem, self.problem.pairs
+        if not problem.floating or not now.r.any():
+            return 1.0
+        near = now.h[:n] <= _NEARLY * (problem.scale or 1.0)
+        if not self._known(near):
+            found = overload(replace(problem, b=now.b), now.r, self.b_end, near=near)
+            self._near = near
+            self._found = found and replace(found, factor=_along(factor, found.factor))
+        ahead = self._found
+        if ahead is not None and ahead.factor > self._crossed:
+            self._least = ahead if self._least is None else min(self._least, ahead, key=lambda one: one.factor)
+        return 1.0 if self._least is None else (1.0 - _CLOSE) * self.limit
+
+    def _known(self, near: BoolArray) -> bool:
+        """Whether these pairs are known to hold as much; more of them hold no less."""
+        if len(near) != len(self._near):
+            return False
+        holds = self._found is None and bool((near >= self._near).all())
+        return holds or bool((near == self._near).all())
+
+    @property
+    def limit(self) -> float:
+        """Part of the way up to which, to the last digit, the pairs that are near can hold the bodies."""
+        return 1.0 if self._least is None else self._least.factor
+
+    @property
+    def beyond(self) -> float:
+        """Part of the way a little beyond that."""
+        return min(1.0, (1.0 + _CLOSE) * self.limit)
+
+    def cross(self) -> None:
+        """Take note that equilibrium goes on gradually beyond the reach."""
+        self._crossed, self._least = self.beyond, None
+
+    def jump(self, now: PathState, factor: float, pressed: BoolArray, proof: str) -> Jump:
+        """The loss of hold as a jump: at which load, along which motion, and from where on no pair whatever can hold.
+
+        Parameters
+        ----------
+        now, factor : a state within reach of it
+        pressed : (n,) pairs that carry load
+        """
+        assert self._least is not None
+        problem, over = replace(self.problem, b=now.b), self._least
+        every = overload(problem, now.r, self.b_end)
+        sure = every is not None and every.share > GAIN
+        who, share = ("nothing", every.share) if every is not None and sure else ("none of them", over.share)
+        return Jump(
+            factor=over.factor,
+            pairs=tuple(np.flatnonzero(pressed).tolist()),
+            proof=f"{proof}: {who} takes {share:.2g} of the load at the end, or more" if share > GAIN else proof,
+            gross_sliding=_spent(problem, now.r, pressed),
+            escape=along_contact(problem, over.motion, pressed),
+            hopeless=_along(factor, every.proved) if every is not None and sure else None,
+        )
+
+
+def _along(behind: float, part: float) -> float:
+    """Part of the whole way, of a part of what is left of it."""
+    return behind + part * (1.0 - behind)
+
+
+def sliding(problem: SpatialProblem, ends: Sequence[Breakpoint], pressed: BoolArray) -> Array | None:
+    """The rigid motion (3n,) of an increment in which a floating body slides on pressed pairs (n,) that hold no more.
+
+    Parameters
+    ----------
+    ends : of the increment
+    """
+    one, two = ends
+    if not problem.floating or not pressed.any() or not _spent(problem, two.r, pressed):
+        return None
+    R = problem.image.R
+    return along_contact(problem, R @ (R.T @ (two.h - one.h)), pressed)
+
+
+def _spent(problem: SpatialProblem, r: Array, pressed: BoolArray) -> bool:
+    """Whether next to nothing is left of the friction of pressed pairs, all of them together."""
+    most = problem.bound.at(np.maximum(r[: problem.pairs], 0.0))
+    return bool(spare(problem, r)[pressed].sum() <= _SPENT * most[pressed].sum())

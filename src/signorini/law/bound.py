@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The largest friction that a pair can carry under a normal force: known to the law of contact and to its results.
+
+Friction mu, adhesion c and shear limit L, all of them forces but mu, bound the tangential force of a closed pair by
+
+    F(p) = min(mu p + min(S p, c), L)
+
+with the steep slope S = 1e3 of adhesion: the whole of it acts from a normal force of 1e-3 of it on, and nothing is left
+where the pair opens. Without that F would drop from c to nothing, and a pair on the verge of opening could be in
+equilibrium neither closed nor open; with it F is continuous, and held bodies have an equilibrium under every load.
+
+F is concave and piecewise linear, ``min_j (start_j + slope_j p)``, of one branch (Coulomb), two or three.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from signorini.arrays import Array, IntArray
+from signorini.law.states import SLIP_MINUS, SLIP_PLUS, STICK
+
+STICKY = 1e6
+"""Friction that stands for ``inf``: without bound the law is not continuous, and need not have a solution."""
+
+STEEP = 1e3
+"""Slope with which adhesion begins; also that of a pair that sticks up to a shear limit."""
+
+SIGN = np.array([0.0, 0.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+"""Of the friction of a slipping pair, by code."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FrictionBound:
+    """Branches of F for n pairs, the first through zero; those that a pair does not have begin at infinity.
+
+    A pair that slips on branch j has the code ``SLIP_PLUS + 2 j`` or ``SLIP_MINUS + 2 j``.
+
+    Attributes
+    ----------
+    slopes, starts : (branches, n) of ``start + slope p``
+    kinks : (branches + 1, n) normal forces at which the branches begin, 0 and so on, at last infinity
+
+    Examples
+    --------
+    >>> bound = FrictionBound.of(0.5, limit=2.0)
+    >>> bound.at(np.array([3.0])).tolist(), bound.at(np.array([5.0])).tolist(), bound.kinks[1].tolist()
+    ([1.5], [2.0], [4.0])
+    """
+
+    slopes: Array
+    starts: Array
+    kinks: Array
+
+    @classmethod
+    def of(cls, friction: ArrayLike, *, adhesion: ArrayLike = 0.0, limit: ArrayLike = np.inf) -> FrictionBound:
+        """The bound of friction, adhesion and shear limit, (n,) each or one number.
+
+        Parameters
+        ----------
+        friction : mu >= 0; ``inf`` sticks up to the limit where there is one, and always where there is none
+        adhesion, limit : forces, >= 0; ``inf`` is no limit
+        """
+        mu, c, L = np.broadcast_arrays(
+            *(np.atleast_1d(np.asarray(part, float)) for part in (friction, adhesion, limit))
+        )
+        capped = np.isfinite(L)
+        if not capped.any() and not c.any():
+            return cls.coulomb(mu)
+        stick = np.isinf(mu)
+        m = np.where(stick, np.where(capped, 0.0, STICKY), mu)
+        c = np.where(stick, np.where(capped, L, 0.0), np.minimum(c, L))
+        first = m + np.where(c > 0, STEEP, 0.0)
+        ends = c + m * (c / STEEP) >= L  # the first branch reaches the limit
+        limited = capped & (m > 0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            second = np.where(ends | (c == 0), L / first, c / STEEP)
+            third = np.where(limited & ~ends & (c > 0), (L - c) / m, np.inf)
+        second = np.where((c > 0) | limited, second, np.inf)
+        flat = ends | (c == 0)
+        slopes = np.stack([first, np.where(np.isinf(second), first, np.where(flat, 0.0, m)), np.zeros_like(m)])
+        starts = np.stack([np.zeros_like(m), np.where(np.isinf(second), 0.0, np.where(flat, L, c)), L])
+        slopes[2], starts[2] = np.where(np.isinf(third), (slopes[1], starts[1]), (slopes[2], starts[2]))
+        count = 1 + int(np.isfinite(second).any()) + int(np.isfinite(third).any())
+        kinks = _between(np.stack([np.zeros_like(m), second, third])[:count])
+        return cls(slopes=slopes[:count], starts=starts[:count], kinks=kinks)
+
+    @classmethod
+    def coulomb(cls, friction: Array) -> FrictionBound:
+        """The bound of friction (n,) alone."""
+        zero = np.zeros((1, len(friction)))
+        return cls(slopes=np.minimum(friction, STICKY)[None], starts=zero, kinks=_between(zero))
+
+    @property
+    def branches(self) -> int:
+        """The most that a pair has."""
+        return len(self.slopes)
+
+    def at(self, p: Array) -> Array:
+        """(n,) F at normal forces p >= 0."""
+        if self.branches == 1:
+            return self.starts[0] + self.slopes[0] * p
+        return np.asarray((self.starts + self.slopes * p).min(axis=0))
+
+    def frozen(self, p: Array) -> FrictionBound:
+        """The bound that stays what it is at normal forces p."""
+        most = self.at(p)[None]
+        return FrictionBound(slopes=np.zeros_like(most), starts=most, kinks=_between(np.zeros_like(most)))
+
+    def branch(self, p: Array) -> IntArray:
+        """(n,) Number of the branch at normal forces p."""
+        return np.asarray((p > self.kinks[1:-1]).sum(axis=0), dtype=np.int64)
+
+    def coded(self, state: IntArray, p: Array) -> IntArray:
+        """(n,) Codes with the branch that p lies on, of states with or without one."""
+        if self.branches == 1:
+            return state
+        return np.where(state > STICK, plain(state) + 2 * self.branch(p), state)
+
+    def slope(self, state: IntArray) -> Array:
+        """(n,) Tangential force per normal force that slipping pairs gain, with its sign; 0 of others."""
+        return np.asarray(SIGN[state] * self._of(self.slopes, state), dtype=np.float64)
+
+    def start(self, state: IntArray) -> Array:
+        """(n,) Tangential force of slipping pairs that does not depend on the normal force, with its sign."""
+        return np.asarray(SIGN[state] * self._of(self.starts, state), dtype=np.float64)
+
+    def _of(self, table: Array, state: IntArray) -> Array:
+        if self.branches == 1:
+            return table[0]
+        branch = np.where(state > STICK, (state - SLIP_PLUS) // 2, 0)
+        return np.asarray(table[branch, np.arange(len(state))], dtype=np.float64)
+
+
+def plain(state: IntArray) -> IntArray:
+    """Codes of :mod:`signorini.law.states`, whatever the branch.
+
+    Examples
+    --------
+    >>> plain(np.array([0, 1, 2, 3, 4, 7])).tolist()
+    [0, 1, 2, 3, 2, 3]
+    """
+    if state.max(initial=0) <= SLIP_MINUS:
+        return state
+    return np.where(state > STICK, SLIP_PLUS + state % 2, state)
+
+
+def _between(kinks: Array) -> Array:
+    """Where branches begin, and where the last ends: nowhere."""
+    return np.concatenate([kinks, np.full((1, kinks.shape[1]), np.inf)])

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Meshes to files that keep every name and number."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from signorini.arrays import IntArray
+from signorini.meshing.read import NAMED, NODE_NUMBER
+from signorini.meshio_fixes import complete_meshio
+from signorini.model.mesh import Mesh
+
+_FACETS = {
+    2: {2: "line", 3: "line3"},
+    3: {3: "triangle", 4: "quad", 6: "triangle6", 8: "quad8", 9: "quad9"},
+}
+
+
+def write_mesh(mesh: Mesh, path: Path) -> None:
+    """Write a mesh as VTU: :func:`signorini.meshing.read.read_mesh` gives the same mesh.
+
+    Names are arrays of 0 and 1 called ``set:NAME``, on cells for bodies and boundaries, on points for node sets; facets
+    of boundaries are cells of their own. The arrays ``number`` hold the numbers of nodes and cells.
+
+    Parameters
+    ----------
+    path : of the file, ``*.vtu``
+    """
+    import meshio
+
+    complete_meshio()
+    blocks: list[tuple[str, IntArray]] = list(mesh.cells.items())
+    kinds = _FACETS[mesh.points.shape[1]]
+    named = [(name, facets) for name in mesh.boundaries for facets in mesh.facets(name)]
+    edges = [(kinds[facets.shape[1]], facets) for _, facets in named]
+    sizes = [len(nodes) for _, nodes in (*blocks, *edges)]
+    ends = np.cumsum(sizes)[:-1]
+    count = mesh.number_of_cells
+    data = {}
+    for name, cells in mesh.bodies.items():
+        flag = np.zeros(sum(sizes), np.int8)
+        flag[cells] = 1
+        data[NAMED + name] = np.split(flag, ends)
+    first = count
+    for name, facets in named:
+        flag = np.zeros(sum(sizes), np.int8)
+        flag[first : first + len(facets)] = 1
+        previous = data.get(NAMED + name)
+        data[NAMED + name] = (
+            np.split(flag, ends)
+            if previous is None
+            else [a | b for a, b in zip(previous, np.split(flag, ends), strict=True)]
+        )
+        first += len(facets)
+    point_data: dict[str, IntArray] = {}
+    for name, nodes in mesh.nodes.items():
+        flag = np.zeros(len(mesh.points), np.int8)
+        flag[nodes] = 1
+        point_data[NAMED + name] = flag
+    if mesh.node_numbers is not None:
+        point_data[NODE_NUMBER] = mesh.node_numbers
+    if mesh.cell_numbers is not None:
+        numbers = np.concatenate([mesh.cell_numbers, np.zeros(sum(sizes) - count, np.int64)])
+        data[NODE_NUMBER] = np.split(numbers, ends)
+    points = np.column_stack([mesh.points, np.zeros((len(mesh.points), 3 - mesh.points.shape[1]))])
+    meshio.write(path, meshio.Mesh(points, [*blocks, *edges], point_data=point_data, cell_data=data), file_format="vtu")
