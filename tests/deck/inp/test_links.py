@@ -28,7 +28,8 @@ def test_a_rigid_body_is_calculix(tmp_path: Path) -> None:
     printed = [[3.64e-3, -4.234286e-3], [3.64e-3, -3.714286e-3], [3.64e-3, -3.194286e-3], [3.12e-3, -3.714286e-3]]
     np.testing.assert_allclose(step.displacement[3:7], printed, atol=1e-9)
     assert step.rigid_bodies["rigid TOP"].rotation == pytest.approx(5.2e-4, abs=1e-10)
-    for node, direction in ((99, 4), (100, 1), (4, 3)):  # rotations out of the plane, none of them; a node has no third
+    # no directions at all; rotations out of the plane, none of them; a node has no third
+    for node, direction in ((99, 0), (99, -1), (99, 7), (99, 12), (99, 4), (100, 1), (4, 3)):
         path = deck(tmp_path, "*RIGIDBODY,NSET=TOP,REF NODE=99,ROT NODE=100\n", f"*CLOAD\n{node},{direction},1.\n")
         with pytest.raises(DeckError, match=rf"\*CLOAD: direction {direction}; expected 1 to 2"):
             load(path)

@@ -158,7 +158,8 @@ def _cload(item: Placed, known: Known, courses: Courses) -> None:
         value = row.number(2, "the force")
         slots, rest = rigid_slots(known.rigid, nodes, [axis])
         there = len(slots) > 0 and all(component(slot, known.dimension) is not None for slot in slots.tolist())
-        if not (1 <= axis <= known.dimension if len(rest) else there):
+        most = known.dimension if len(rest) else STRIDE
+        if not 1 <= axis <= most or not (len(rest) or there):
             turns = "" if len(rest) else ", or a rotation of the rigid body"
             raise row.error(f"*CLOAD: direction {axis}; expected 1 to {known.dimension}{turns}")
         slots = np.append(slots, STRIDE * rest + axis - 1)
