@@ -14,40 +14,16 @@ import pytest
 import signorini as sg
 from signorini.cli import main
 from signorini.output import folder as module
+from tests.helpers.block_deck import block_deck
 
-BLOCK = """\
-[mesh]
-generator = "rectangle"
-nx = 2
-
-[material.m]
-E = 100.0
-nu = 0.0
-
-[[body]]
-name = "block"
-material = "m"
-
-[[support]]
-on = "left"
-u = [0.0, "free"]
-
-[[load]]
-on = "top"
-force = [0.0, -3.0]
-
-[[contact]]
-nonmortar = "bottom"
-plane = { point = [0.0, 0.0], normal = [0.0, 1.0] }
-"""
 FILES = {"summary.json", "contact.csv", "history.csv", "state.npz", "solution.vtu", "solution.h5"}
-PULL = "\n[[step]]\nscale = { top = 1.0 }\n\n[[step]]\nname = 'pull'\nscale = { top = -1.0 }\n"
+UNLOADED = block_deck(steps=({"scale": {"top": 1.0}}, {"scale": {"top": 0.5}}))
 
 
 @pytest.fixture
 def deck(tmp_path: Path) -> Path:
     path = tmp_path / "block.toml"
-    path.write_text(BLOCK)
+    path.write_text(block_deck())
     return path
 
 
@@ -60,7 +36,7 @@ def test_a_body_pulled_away_leaves_its_motion(deck: Path, tmp_path: Path, capsys
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0
     assert main(["plot", str(out)]) == 0
     assert "contact.png" in names(out)
-    deck.write_text(BLOCK.replace("-3.0", "3.0"))
+    deck.write_text(block_deck({"force": [0.0, 3.0]}))
     capsys.readouterr()
     assert main(["run", str(deck), "-o", str(out)]) == 3
     assert names(out) == {"summary.json", "solution.h5"}
@@ -74,7 +50,7 @@ def test_a_body_pulled_away_leaves_its_motion(deck: Path, tmp_path: Path, capsys
 
 
 def test_what_was_finished_before_the_failure_stays(deck: Path, tmp_path: Path) -> None:
-    deck.write_text(BLOCK + PULL)
+    deck.write_text(block_deck(steps=({"scale": {"top": 1.0}}, {"name": "pull", "scale": {"top": -1.0}})))
     out = tmp_path / "out"
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 3
     assert names(out) == FILES
@@ -86,12 +62,12 @@ def test_what_was_finished_before_the_failure_stays(deck: Path, tmp_path: Path) 
 
 def test_a_shorter_series_replaces_a_longer_one_and_nothing_else(deck: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
-    deck.write_text(BLOCK + PULL.replace("-1.0", "0.5"))
+    deck.write_text(UNLOADED)
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0
     assert {"solution.pvd", "solution_0001.vtu", "solution_0002.vtu"} <= names(out)
     (out / "notes.txt").write_text("mine")
     (out / "solution_best.vtu").write_text("mine too")
-    deck.write_text(BLOCK)
+    deck.write_text(block_deck())
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0
     assert names(out) == {
         "summary.json",
@@ -118,7 +94,7 @@ def test_an_interrupted_write_leaves_the_earlier_run_whole(
         raise interruption
 
     monkeypatch.setattr(module, "write_step", broken)
-    deck.write_text(BLOCK.replace("-3.0", "-4.0"))
+    deck.write_text(block_deck({"force": [0.0, -4.0]}))
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == (130 if interruption is KeyboardInterrupt else 1)
     assert {file.name: file.read_bytes() for file in out.iterdir()} == before
 
@@ -135,7 +111,7 @@ def test_a_full_disk_is_told_and_the_run_goes_on(
         write(history, path)  # type: ignore[arg-type]
 
     monkeypatch.setattr(module, "write_rows", full)
-    deck.write_text(BLOCK + PULL.replace("-1.0", "0.5"))
+    deck.write_text(UNLOADED)
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0
     full_disk = f"cannot write results into '{out}': No space left on device; what it held before is still there"
     assert capsys.readouterr().err == f"signorini: {full_disk}; the run goes on\n"
@@ -149,7 +125,7 @@ def test_a_full_disk_is_told_and_the_run_goes_on(
 
 def test_a_folder_is_for_one_run_of_one_deck(deck: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out, other = tmp_path / "out", tmp_path / "other.toml"
-    other.write_text(BLOCK)
+    other.write_text(block_deck())
     with module.own_folder(out, deck.name):
         assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 2
     assert capsys.readouterr().err.startswith(f"signorini: another run writes into the folder '{out}'; expected")
@@ -165,8 +141,8 @@ def test_what_is_finished_is_on_disk_while_later_steps_run(
     deck: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Each time a whole result folder, from which the steps that are left go on to the same end."""
-    steps = [f"\n[[step]]\nscale = {{ top = {factor} }}\n" for factor in (1.0, 0.5, 0.8, 0.2)]
-    deck.write_text(BLOCK + "".join(steps))
+    steps = [{"scale": {"top": factor}} for factor in (1.0, 0.5, 0.8, 0.2)]
+    deck.write_text(block_deck(steps=steps))
     out, publish = tmp_path / "out", module.Publisher.publish
     monkeypatch.setattr(module, "_SHARE", 1e9)  # of the time: every step
 
@@ -183,7 +159,7 @@ def test_what_is_finished_is_on_disk_while_later_steps_run(
         folder = tmp_path / f"after{number}"
         assert json.loads((folder / "summary.json").read_text())["status"] == "running"
         assert names(folder) - names(out) == set()
-        (tmp_path / "rest.toml").write_text(BLOCK + "".join(steps[number:]))
+        (tmp_path / "rest.toml").write_text(block_deck(steps=steps[number:]))
         for start in (folder, folder / "solution.h5"):
             rest = tmp_path / f"rest{number}"
             assert main(["run", str(tmp_path / "rest.toml"), "-o", str(rest), "--quiet", "--from", str(start)]) == 0

@@ -10,41 +10,14 @@ import pytest
 
 from signorini.cli import main
 from signorini.output.archive import read_archive
+from tests.helpers.block_deck import block_deck
 
 NAME = "=1+1,\"<b>&amp;\\u0041\\t;|$(x)`'%s{0}"
-DECK = """
-title = {name}
-[mesh]
-generator = "rectangle"
-nx = 2
-[material.m]
-E = 100.0
-nu = 0.0
-[[body]]
-name = "block"
-material = "m"
-[[support]]
-on = "left"
-u = [0.0, "free"]
-name = {name}
-[[load]]
-on = "top"
-force = [0.0, -3.0]
-name = {name}
-[[contact]]
-name = {name}
-nonmortar = "bottom"
-plane = {{ point = [0.0, 0.0], normal = [0.0, 1.0] }}
-friction = 0.1
-[[step]]
-name = {name}
-at = [0.5]
-"""
 
 
 def test_names_are_quoted(tmp_path: Path) -> None:
     deck, out = tmp_path / "deck.toml", tmp_path / "out"
-    deck.write_text(DECK.format(name=json.dumps(NAME)))
+    deck.write_text(block_deck(title=NAME, name=NAME, friction=0.1, steps=({"at": [0.5]},)))
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0
     summary = json.loads((out / "summary.json").read_text())
     assert (summary["title"], summary["steps"][0]["name"]) == (NAME, NAME)
@@ -64,14 +37,12 @@ def test_names_are_quoted(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["a\nb", "\x1b[2J", "a\u202eb", "\u2028"])
-@pytest.mark.parametrize("where", ["contact", "title"])
+@pytest.mark.parametrize("where", ["name", "title"])
 def test_names_do_not_command_a_terminal(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str, where: str
 ) -> None:
     deck = tmp_path / "deck.toml"
-    head = "title = {name}" if where == "title" else "[[contact]]\nname = {name}"
-    text = DECK.replace(head, head.replace("{name}", "{other}"))
-    deck.write_text(text.format(name='"a"', other=json.dumps(name)))
+    deck.write_text(block_deck(**{"title": "a", "name": "a"} | {where: name}))
     assert main(["check", str(deck)]) == 2
     said = capsys.readouterr().err
     assert "expected a name without line ends and control characters" in said

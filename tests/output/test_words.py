@@ -10,6 +10,7 @@ import signorini as sg
 from signorini import lcp
 from signorini.cli.main import main
 from signorini.gallery.cylinder import zhu_cylinder
+from tests.helpers.block_deck import block_deck
 
 
 def test_data_are_said_in_a_few_words():
@@ -50,48 +51,11 @@ def test_a_failure_is_one_sentence_what_to_do_and_evidence(lifted):
     assert evidence == "  evidence: nothing takes 1 of the load on the body"
 
 
-DECK = """
-[mesh]
-generator = "rectangle"
-
-[material.m]
-E = 100.0
-nu = 0.0
-
-[[body]]
-name = "block"
-material = "m"
-
-[[support]]
-on = "left"
-u = [0.0, "free"]
-
-[[load]]
-name = "press"
-on = "top"
-pressure = 1.0
-
-[[load]]
-name = "lift"
-on = "top"
-traction = [0.0, 1.0]
-
-[[contact]]
-nonmortar = "bottom"
-plane = {point = [0.0, 0.0], normal = [0.0, 1.0]}
-
-[[step]]
-scale = {press = 1.0}
-
-[[step]]
-scale = {press = 0.0, lift = 1.0}
-"""
-
-
 def test_a_failure_is_printed_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     """Also where steps were finished before it, whose table is printed."""
     deck = tmp_path / "lifted.toml"
-    deck.write_text(DECK)
+    loads = {"name": "press", "pressure": 1.0}, {"name": "lift", "traction": [0.0, 1.0]}
+    deck.write_text(block_deck(*loads, steps=({"scale": {"press": 1.0}}, {"scale": {"press": 0.0, "lift": 1.0}})))
     assert main(["run", str(deck), "-o", str(tmp_path / "out")]) == 3
     said = capsys.readouterr()
     assert "step 1" in said.out
