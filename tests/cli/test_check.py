@@ -14,8 +14,8 @@ import signorini as sg
 from signorini.cli import main
 from signorini.cli.check_notes import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
 from signorini.engine import solve as engine
+from signorini.engine.duplicate_check import same_loads
 from signorini.engine.prepare import examine
-from signorini.engine.twice import same_loads
 
 DECK = Path(__file__).parents[1] / "deck" / "inp" / "decks" / "two_blocks.inp"
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.engine.patches import overlap_notes
+from signorini.engine.validity_notes import overlap_notes
 from signorini.gallery.blocks import block_on_foundation
 from signorini.gallery.press_fit import press_fit
 

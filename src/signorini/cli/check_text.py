@@ -8,10 +8,10 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.cli.check_notes import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
 from signorini.deck import Deck
-from signorini.engine.patches import overlap_notes
+from signorini.engine.duplicate_check import same_loads
 from signorini.engine.prepare import Examined
 from signorini.engine.report import finer_notes
-from signorini.engine.twice import same_loads
+from signorini.engine.validity_notes import overlap_notes
 from signorini.fem.locking import stiffened_bodies, thin_bodies
 from signorini.fem.rigid import describe_motions
 from signorini.model.contact import Contact

@@ -15,11 +15,10 @@ from typing import Literal
 
 import numpy as np
 
-from signorini.engine.exact import follow_to_events, stored_energy
+from signorini.engine.events import follow_to_events, stored_energy
 from signorini.engine.increments import follow_increments, is_straight
-from signorini.engine.leg import Leg
 from signorini.engine.prepare import Prepared
-from signorini.engine.stretch import Stretch
+from signorini.engine.step_parts import Leg, Stretch
 from signorini.errors import SolveFailed, told
 from signorini.iterative.bodies import Bodies
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.engine.leg import Leg
+from signorini.engine.step_parts import Leg
 from signorini.friction.law import OPEN
 from signorini.solution.results import Cycle
 from signorini.solution.scale import Scale

@@ -10,10 +10,9 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
 from signorini.attempt import MethodRun
-from signorini.engine.giving_way import given_way, has_another_way
-from signorini.engine.leg import Leg, Snapshot, keep
+from signorini.engine.multipliers import given_way, has_another_way
 from signorini.engine.prepare import Prepared
-from signorini.engine.stretch import Stretch
+from signorini.engine.step_parts import Leg, Snapshot, Stretch, keep
 from signorini.errors import SolveFailed, told
 from signorini.fem.rigid import describe_motion
 from signorini.friction.law import OPEN, STICK

@@ -15,10 +15,9 @@ from signorini.checks import number
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
 from signorini.condense.ties import Ties
-from signorini.engine.idle import refuse_idle
-from signorini.engine.room import iterates, refuse_unassembled
-from signorini.engine.twice import refuse_same_contacts
-from signorini.engine.unheld import refuse_free_motions, refuse_unheld
+from signorini.engine.duplicate_check import refuse_idle, refuse_same_contacts
+from signorini.engine.free_motion_check import refuse_free_motions, refuse_unheld
+from signorini.engine.memory_check import iterates, refuse_unassembled
 from signorini.errors import InputError, one_of
 from signorini.fem.links import linked_nodes
 from signorini.fem.loads import nodal_loads
@@ -86,7 +85,7 @@ class Prepared(Examined):
     clock : seconds spent so far
     backend : of the factorisation, or "iterative", as asked for
     absent : (n,) pairs whose contact is switched off
-    resting : (dofs,) rigid displacement of bodies that rest, see `engine.resting`; empty where none does
+    resting : (dofs,) rigid displacement of bodies that rest, see `engine.floating_bodies`; empty where none does
     softness : the farthest that any load moves the bodies, of its size, where springs hold the pairs: length per force
     """
 

@@ -11,14 +11,13 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
 from signorini.engine.cycles import judge, make_cycles
-from signorini.engine.exact import interface_energy, stored_energy
-from signorini.engine.heat import heat_of
+from signorini.engine.energy import heat_of
+from signorini.engine.events import interface_energy, stored_energy
 from signorini.engine.increments import applied
-from signorini.engine.leg import Leg
-from signorini.engine.patches import overlap_notes, patch_notes
 from signorini.engine.prepare import Examined, Prepared
-from signorini.engine.smallness import large_notes
-from signorini.engine.upheld import support_forces
+from signorini.engine.step_parts import Leg
+from signorini.engine.support_changes import support_forces
+from signorini.engine.validity_notes import large_notes, overlap_notes, patch_notes
 from signorini.fem.obstacles import arm
 from signorini.friction.law import OPEN, STICK
 from signorini.model.links import directions

@@ -11,23 +11,19 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.clock import Clock
-from signorini.engine.approach import approached
 from signorini.engine.automatic import follow_automatically
-from signorini.engine.enter import relaxed, switched
-from signorini.engine.exact import follow_exactly
-from signorini.engine.fields import refuse_fields
-from signorini.engine.footing import known
-from signorini.engine.giving_way import GIVEN_WAY, given_way, gives_way
+from signorini.engine.contact_changes import nominal_gap, relaxed, staged, switched
+from signorini.engine.events import follow_exactly
+from signorini.engine.floating_bodies import approached, resting
 from signorini.engine.increments import follow_increments, measured
-from signorini.engine.leg import Leg, Snapshot, joined, keep, lightened, reached
+from signorini.engine.jump_watch import follow_watchfully
+from signorini.engine.limit_load import known
+from signorini.engine.memory_check import refuse_fields
+from signorini.engine.multipliers import GIVEN_WAY, given_way, gives_way
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
-from signorini.engine.resting import resting
-from signorini.engine.slides import follow_watchfully
-from signorini.engine.span import Span, spans
-from signorini.engine.staged import nominal_gap, staged
-from signorini.engine.stretch import Stretch
-from signorini.engine.upheld import at_the_end, handed_over, refuse_moved
+from signorini.engine.step_parts import Leg, Snapshot, Span, Stretch, joined, keep, lightened, reached, spans
+from signorini.engine.support_changes import at_the_end, handed_over, refuse_moved
 from signorini.engine.wellposed import assess
 from signorini.errors import InputError, Interrupted, SolveFailed
 from signorini.fem.supports import Constraints, make_constraints
@@ -240,7 +236,7 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
         offset=offset,
     )
     at_events = stage.step.at == "events"
-    # the work of temperatures needs the displacements, see signorini.engine.heat
+    # the work of temperatures needs the displacements, see signorini.engine.energy
     heated = any(load.temperature is not None for load in prepared.model.loads)
     for span, point in spans(stage, state.point, end):
         stretch = Stretch(prepared=prepared, where=stage.name, span=span, before=state, end=point, whole=at_events)

@@ -6,10 +6,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from signorini.arrays import frozen
-from signorini.engine.exact import right_hand_side
+from signorini.engine.events import right_hand_side
 from signorini.engine.increments import leaving
-from signorini.engine.leg import reached
-from signorini.engine.stretch import Stretch
+from signorini.engine.step_parts import Stretch, reached
 from signorini.errors import SolveFailed, told
 from signorini.friction.space.overload import overload
 from signorini.friction.spatial import SpatialProblem

@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.attempt import MethodRun
-from signorini.engine.approach import approached
+from signorini.engine.floating_bodies import approached, resting, undisturbed
 from signorini.engine.increments import (
     applied,
     certified,
@@ -21,10 +21,8 @@ from signorini.engine.increments import (
     refuse_overlap,
     settled,
 )
-from signorini.engine.leg import Leg, Snapshot, joined, keep
 from signorini.engine.prepare import Prepared
-from signorini.engine.resting import resting, undisturbed
-from signorini.engine.stretch import Stretch
+from signorini.engine.step_parts import Leg, Snapshot, Stretch, joined, keep
 from signorini.errors import SolveFailed, told
 from signorini.friction.history.plane import Landing, PathState, Segment, follow, initial_state, land
 from signorini.friction.law import OPEN, STICK

@@ -1,21 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bodies that nothing holds yet: loads carry them through the air until they touch, before anything else happens."""
+"""Bodies that nothing holds: loads carry them until they touch; what nothing touches and no load drives, rests."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, extent
 from signorini.engine.increments import applied, certified, moving_away
-from signorini.engine.leg import Leg, Snapshot
-from signorini.engine.prepare import Prepared
-from signorini.engine.stretch import Stretch
+from signorini.engine.prepare import Prepared, contact_law
+from signorini.engine.step_parts import Leg, Snapshot, Stretch
 from signorini.errors import SolveFailed
 from signorini.fem.loads import nodal_volumes
 from signorini.fem.rigid import describe_approach
 from signorini.friction.answer import PULLED_AWAY
 from signorini.friction.approach import approach
+from signorini.friction.history.plane import Segment
 from signorini.friction.law import OPEN
+from signorini.iterative.bodies import Bodies
 from signorini.solution.state import State, next_state
 
 DRIVES = 1e-11
@@ -158,3 +161,59 @@ def _leg(stretch: Stretch, apart: BoolArray, motion: Array, loose: Array, relati
         snapshots=(Snapshot(load_factor=stretch.span.factor(0.0), what="approach", state=after),),
         notes=tuple(notes),
     )
+
+
+_FEELS = 1e-9  # of the largest motion of pairs: one that they feel
+
+
+def resting(stretch: Stretch) -> Stretch:
+    """The same stretch, in which bodies that nothing touches and no load drives do not move rigidly.
+
+    Up to where something touches one: what holds it until then is no part of the model, and is woken from then on. The
+    stretch itself where there is no such body, and where bodies are not condensed.
+    """
+    prepared, state = stretch.prepared, stretch.before
+    if not prepared.floating.shape[1] or isinstance(prepared.bodies, Bodies):
+        return stretch
+    presses, apart, width = standing(prepared, state)
+    touches = presses | (apart & (state.gap <= width))
+    moved = np.asarray((prepared.interface.B @ prepared.motions) @ prepared.floating)
+    loose = unfelt(moved[prepared.interface.rows(touches)])
+    change = change_of_loads(stretch)
+    work = prepared.floating.T @ (prepared.motions.T @ change)
+    if not loose.shape[1] or np.abs(loose.T @ work).max() > DRIVES * float(np.abs(change).sum()):
+        return stretch
+    seen = np.abs(moved @ loose).max(axis=1) > _FEELS * float(np.abs(moved).max())
+    ways = unfelt(loose.T)
+    bodies = prepared.bodies.moving(ways)
+    rigid = np.asarray(prepared.motions @ (prepared.floating @ loose))
+    place = np.linalg.lstsq(rigid, state.displacement - applied(prepared, state.point)[1])[0]
+    return replace(
+        stretch,
+        prepared=replace(
+            prepared,
+            bodies=bodies,
+            law_or_none=contact_law(prepared.interface, bodies, prepared.scale),
+            floating=prepared.floating @ ways,
+            resting=rigid @ place,
+        ),
+        awake=prepared,
+        waiting=seen.reshape(-1, len(touches)).any(axis=0),
+    )
+
+
+def undisturbed(stretch: Stretch, segment: Segment) -> Segment:
+    """The segment as far as nothing touches a body that rests."""
+    waits = stretch.waiting[stretch.prepared.condensed.active] if stretch.awake else np.zeros(0, np.bool_)
+    for event in segment.events if stretch.awake else ():
+        if event.what == "closes" and waits[list(event.pairs)].any():
+            return replace(
+                segment,
+                end=replace(event.state, state=np.where(waits, OPEN, event.state.state)),
+                events=tuple(earlier for earlier in segment.events if earlier.factor < event.factor),
+                pieces=tuple(piece for piece in segment.pieces if piece.factor <= event.factor),
+                outcome="disturbed",
+                jump=None,
+                message=f"something touches a body that rests at factor {event.factor:.12g}",
+            )
+    return segment

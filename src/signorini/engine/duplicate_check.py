@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is given twice: contacts between the same sides, which nothing would tell apart, and loads that are the same."""
+"""What is given twice, which nothing would tell apart, and what would never act."""
 
 from __future__ import annotations
 
@@ -69,3 +69,27 @@ def _side(model: Model, on: str | Obstacle, facets: dict[str, Side]) -> Side:
         kinds = model.mesh.facets(on)
         facets[on] = b"".join(np.unique(np.sort(rows, axis=1), axis=0).tobytes() for rows in kinds)
     return facets[on]
+
+
+def refuse_idle(model: Model, factors: Mapping[str, float]) -> None:
+    """A load that no step names, and that a history to go on from did not know, is a forgotten one.
+
+    Parameters
+    ----------
+    factors : load factors at the end of that history, empty where there is none
+
+    Raises
+    ------
+    InputError
+        The first of them.
+    """
+    names = model.scaled_names
+    used = set(factors)
+    for step in model.steps:
+        used |= set(names if step.scale is None else step.scale)
+    for name in names:
+        if name not in used:
+            raise InputError(
+                f"no step's scale names '{name}': it would never act. Expected a factor for it in a step",
+                where=("step",),
+            )

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What of a solution the mesh or the geometry does not bear out: patches of a few pairs, overlaps that nobody gave."""
+"""What of a solution the mesh, the geometry or small displacements do not bear out.
+
+Patches of a few pairs, overlaps that nobody gave, bodies that strain or turn far, contacts that slip far.
+"""
 
 from __future__ import annotations
 
@@ -9,9 +12,10 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from signorini.arrays import BoolArray, IntArray
+from signorini.arrays import BoolArray, IntArray, extent
 from signorini.engine.prepare import Examined, Prepared
 from signorini.fem.boundary import boundary
+from signorini.fem.rigid import Part
 from signorini.law.states import OPEN
 from signorini.solution.state import State
 
@@ -91,3 +95,32 @@ def _layers(facets: list[IntArray], one: IntArray, two: IntArray, closed: BoolAr
         inside = inside.copy()
         inside[one[outside[two]]] = False
     return np.minimum(across, _ACROSS)
+
+
+_STRAINED = 0.25  # of the size of a body
+_SLID = 0.1  # of the size of what touches
+
+
+def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
+    """Bodies that strain or turn by a quarter of their size, contacts that slip by a tenth of theirs."""
+    displacement = prepared.space.at_nodes(state.displacement)
+    for part in prepared.parts:
+        if part.kind == Part.kind:
+            change = float(np.linalg.norm(extent(displacement[part.nodes]))) / (2.0 * part.size)
+            if change > _STRAINED:
+                yield (
+                    f"{part.label} strains or turns by {change:.0%} of its size: equilibrium is that of the undeformed "
+                    "bodies, which holds for small displacements"
+                )
+    interface = prepared.interface
+    slip = np.where(state.status == OPEN, 0.0, interface.across(state.slip))
+    for i, contact in enumerate(prepared.model.contacts):
+        own = (interface.contact == i) & (state.status != OPEN)
+        if not own.any():
+            continue
+        across = float(np.linalg.norm(extent(prepared.space.mesh.points[interface.node[own]])))
+        if slip[own].max() > _SLID * across > 0.0:
+            yield (
+                f"contact '{contact.label}' slips by up to {slip[own].max():.4g}, and what touches is {across:.4g} "
+                "across: its sides are opposite each other as they were to begin with, which holds for small slips"
+            )

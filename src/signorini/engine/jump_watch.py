@@ -11,11 +11,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.engine.exact import follow_to_events
-from signorini.engine.footing import known
+from signorini.engine.events import follow_to_events
 from signorini.engine.increments import follow_increments
-from signorini.engine.leg import Leg, keep, reached
-from signorini.engine.stretch import Stretch
+from signorini.engine.limit_load import known
+from signorini.engine.step_parts import Leg, Stretch, keep, reached
 from signorini.errors import SolveFailed
 from signorini.friction.spatial import SpatialProblem
 from signorini.solution.state import State

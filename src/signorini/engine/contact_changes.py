@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a step changes of contacts: its law, what is switched on and off, friction that is lowered."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray
+from signorini.attempt import MethodRun
+from signorini.engine.events import set_free, stored_energy
+from signorini.engine.free_motion_check import left_out, refuse_free_motions
+from signorini.engine.increments import advance
+from signorini.engine.prepare import Prepared, contact_law
+from signorini.errors import InputError
+from signorini.friction.law import OPEN
+from signorini.interface.frames import along_tangents
+from signorini.interface.interface import pairs_of
+from signorini.iterative.bodies import Bodies
+from signorini.model.contact import ratios
+from signorini.model.stage import Stage
+from signorini.solution.certificate import Certificate
+from signorini.solution.scale import Loading, data_scale
+from signorini.solution.state import State
+
+_MORE = 1e-9  # of the friction bound: what counts as beyond it
+
+
+def switched(prepared: Prepared, state: State, absent: BoolArray) -> State:
+    """The state with the contacts of a step switched on and off.
+
+    A pair that is switched off keeps its forces as given ones, which the step takes to zero. One that is switched on
+    has no slip behind it; what overlaps there counts as touching, and the step presses it out.
+
+    Parameters
+    ----------
+    prepared : under the law of the step
+    state : at the end of the step before
+    absent : (n,) pairs that were switched off in it
+    """
+    off, on = prepared.absent & ~absent, absent & ~prepared.absent
+    if not off.any() and not on.any():
+        return state
+    given = np.where(prepared.interface.rows(off), state.forces, 0.0)
+    overlap = np.where(on, np.maximum(-state.gap, 0.0), 0.0)
+    # compliant interfaces let their energy go with the law
+    soft = stored_energy(replace(prepared, absent=absent), state) - stored_energy(prepared, state)
+    return replace(
+        state,
+        point=replace(state.point, gap=state.point.gap + overlap, given=given),
+        gap=state.gap + overlap,
+        slip=np.where(np.tile(on, prepared.interface.directions - 1), 0.0, state.slip),
+        status=np.where(off | on, OPEN, state.status),
+        released=state.released + soft,
+    )
+
+
+def relaxed(prepared: Prepared, state: State, where: str) -> tuple[State, Certificate, tuple[MethodRun, ...]] | None:
+    """The state after pairs whose friction was lowered below what they carry have slipped, at the same loads.
+
+    That is no gradual motion: the energy set free beyond what friction takes, by the mean of its forces before and
+    after, is counted as released. None where nothing slips.
+    """
+    n, interface = len(prepared.interface), prepared.interface
+    tangential, bound = interface.effort(state.forces[n:]), interface.most(state.forces[:n])
+    bound[interface.sticks] = np.inf
+    size = float(np.abs(state.forces).max(initial=0.0))
+    if not (~prepared.absent & (tangential > (1.0 + _MORE) * bound + 1e-12 * size)).any():
+        return None
+    after, certificate, result = advance(prepared, state, state.point, f"{where}, friction lowered")
+    spent = 0.5 * (state.forces + after.forces)[n:] * (after.slip - state.slip)
+    taken = np.where(prepared.absent, 0.0, np.maximum(-spent.reshape(-1, n).sum(axis=0), 0.0))
+    return set_free(prepared, state, after, taken=taken), certificate, result.trace
+
+
+def staged(prepared: Prepared, stage: Stage, loading: Loading) -> Prepared:
+    """The prepared model under the law of a step; nothing sparse is factorised again.
+
+    Parameters
+    ----------
+    prepared : with every contact switched on and the friction that the contacts themselves have
+    loading : the most that was imposed up to the end of the step: what its certificates refer to
+
+    Raises
+    ------
+    InputError
+        If the contacts that are left do not hold a body: it is named, with its motion.
+    """
+    labels = [contact.label for contact in prepared.model.contacts]
+    mu, anisotropy = prepared.interface.friction.copy(), prepared.interface.anisotropy.copy()
+    for name, value in stage.friction.items():
+        i = labels.index(name)
+        own = prepared.interface.contact == i
+        mu[own] = max(value) if isinstance(value, tuple) else value
+        anisotropy[own] = along_tangents(
+            ratios(value), prepared.model.contacts[i].friction_axis, prepared.interface.tangents[own]
+        )
+    absent = pairs_of(prepared.model, prepared.interface, stage.inactive)
+    interface = replace(prepared.interface, friction=mu, anisotropy=anisotropy)
+    scale = data_scale(prepared.space, prepared.model, loading, interface).bent(prepared.softness)
+    if not absent.any():
+        law = prepared.law_under(interface, scale)
+        return replace(prepared, interface=interface, scale=scale, law_or_none=law)
+    left = interface.among(~absent)
+    try:
+        refuse_free_motions(prepared.space, prepared.constraints, left, prepared.parts, prepared.motions)
+        bodies = prepared.bodies.among(~absent)
+    except InputError as error:
+        raise left_out(error, stage) from error
+    law = None if isinstance(bodies, Bodies) else contact_law(interface, bodies, scale)
+    return replace(prepared, interface=interface, scale=scale, bodies=bodies, law_or_none=law, absent=absent)
+
+
+def nominal_gap(prepared: Prepared, stage: Stage) -> Array:
+    """(n,) Initial gaps under the interferences at the end of a step."""
+    gap = prepared.interface.gap.copy()
+    for i, contact in enumerate(prepared.model.contacts):
+        if contact.label in stage.interference:
+            gap[prepared.interface.contact == i] += contact.interference - stage.interference[contact.label]
+    return gap

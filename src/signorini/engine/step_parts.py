@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Straight parts of a step, from one kink of its loads or time asked for to the next; and what following one gives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import chain
+from typing import Literal
+
+import numpy as np
+
+from signorini.arrays import BoolArray
+from signorini.attempt import MethodRun
+from signorini.engine.prepare import Prepared
+from signorini.errors import Interrupted, SolveFailed
+from signorini.model.stage import Stage
+from signorini.solution.certificate import Certificate
+from signorini.solution.results import PairEvent
+from signorini.solution.state import LoadPoint, State
+
+_SAME = 1e-9  # parts of a step closer than this are one
+
+
+@dataclass(frozen=True, kw_only=True)
+class Span:
+    """A straight part of step ``number``, between two parts of it.
+
+    Attributes
+    ----------
+    number : of the step, from 1
+    low, high : parts of the step, 0 .. 1
+    ends : what is at its end: "segment" of the loads, a time "asked" for, an "event" or a "jump"
+    cycle : number of the cycle that ends here, 0 where none does
+    asked : whether its end, not that of the step, was asked for
+    """
+
+    number: int
+    low: float
+    high: float
+    ends: Literal["segment", "asked", "event", "jump"]
+    cycle: int = 0
+    asked: bool = False
+
+    def part(self, t: float) -> float:
+        """Of the step, at the part t of this span."""
+        return self.high if t == 1.0 else self.low + t * (self.high - self.low)
+
+    def factor(self, t: float) -> float:
+        """Load factor at the part t of this span."""
+        return self.number - 1 + self.part(t)
+
+
+def spans(stage: Stage, start: LoadPoint, end: LoadPoint) -> Iterator[tuple[Span, LoadPoint]]:
+    """The straight parts of a step, each with the point at its end.
+
+    Parameters
+    ----------
+    start, end : points at the ends of the step; everything but factors changes linearly from one to the other
+    """
+    count, step = len(stage.ends), stage.step
+    kinks = [(j / count, "segment") for j in range(1, count + 1)]
+    asked = step.at if isinstance(step.at, tuple) else ()
+    between = tuple(part for part in asked if min(abs(part - kink) for kink, _ in kinks) > _SAME)
+    low = 0.0
+    for high, what in sorted([*kinks, *((part, "asked") for part in between)]):
+        j = min(int(np.ceil(high * count - _SAME)), count) - 1
+        first = stage.ends[j - 1] if j else start.factors
+        t = high * count - j if what == "asked" else 1.0
+        way = start.towards(end, high)
+        factors = {name: (1.0 - t) * first.get(name, 0.0) + t * value for name, value in stage.ends[j].items()}
+        point = replace(way, factors=stage.ends[j] if t == 1.0 else factors)
+        finished = what == "segment" and (j + 1) % step.segments == 0
+        cycle = (j + 1) // step.segments if finished else 0
+        yield (
+            Span(
+                number=stage.number,
+                low=low,
+                high=high,
+                ends="asked" if what == "asked" else "segment",
+                cycle=cycle,
+                asked=high < 1.0 and any(abs(part - high) <= _SAME for part in asked),
+            ),
+            point,
+        )
+        low = high
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Stretch:
+    """A straight part of a step, to be followed from a state to a point of the load history.
+
+    Attributes
+    ----------
+    prepared : the model, as it is in this step
+    where : name of the step, for messages
+    span : the part of the history that this is
+    before : the state that it begins in
+    end : the point at its end
+    whole : whether the displacement of the bodies is recovered at every event, not at the end alone
+    awake : the model in which bodies may move that rest in this stretch; None where none does
+    waiting : (n,) pairs of those bodies; empty where there is none
+    """
+
+    prepared: Prepared
+    where: str
+    span: Span
+    before: State
+    end: LoadPoint
+    whole: bool = False
+    awake: Prepared | None = None
+    waiting: BoolArray = field(default_factory=lambda: np.zeros(0, np.bool_))
+
+    def cut(self, factor: float, ends: Literal["event", "jump"]) -> Stretch:
+        """Up to an event or a jump at a part of it, 0 .. 1, from where on it is followed anew."""
+        end = self.before.point.towards(self.end, factor)
+        return replace(self, end=end, span=replace(self.span, high=self.span.part(factor), ends=ends))
+
+    @property
+    def woken(self) -> Stretch:
+        """The same with all bodies free to move."""
+        if self.awake is None:
+            return self
+        return replace(self, prepared=self.awake, awake=None, waiting=np.zeros(0, np.bool_))
+
+    def rest(self, cut: Stretch, state: State) -> Stretch:
+        """What is left behind a part that was cut off, from a state at its end."""
+        return replace(self, before=state, span=replace(self.span, low=cut.span.high))
+
+
+What = Literal["start", "event", "increment", "asked", "segment", "jump", "landing", "change", "approach"]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Snapshot:
+    """A state on the way.
+
+    Attributes
+    ----------
+    load_factor : step k goes from k - 1 to k
+    what : happens there
+    state : its displacement and external forces hold only where it is ``whole``, its work where it is ``worked``; gaps
+        of pairs that the law is not asked of are NaN where it is neither
+    whole : whether the displacement of the bodies is there
+    kept : whether it is one of the results
+    worked : whether it was recovered
+    """
+
+    load_factor: float
+    what: What
+    state: State
+    whole: bool = True
+    kept: bool = False
+    worked: bool = True
+
+    def light(self) -> Snapshot:
+        """Without the displacement of the bodies: a history may have thousands of snapshots."""
+        none = np.zeros(0)
+        point = replace(self.state.point, reaction=none, offset=none)
+        return replace(self, state=replace(self.state, point=point, displacement=none, external=none), whole=False)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Leg:
+    """From one state to another.
+
+    Attributes
+    ----------
+    path : "single" (one increment), "increments" or "exact"
+    before, after : states at the ends
+    certificates : of every state that was certified on the way
+    trace : for every increment the methods tried; on an exact path one entry for all of it; empty where nothing had to
+        be solved
+    snapshots : on the way, in order, the end last
+    events : of an exact path
+    notes : what a reader should know of the way
+    """
+
+    path: str
+    before: State
+    after: State
+    certificates: tuple[Certificate, ...]
+    trace: tuple[tuple[MethodRun, ...], ...]
+    snapshots: tuple[Snapshot, ...]
+    events: tuple[PairEvent, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+def lightened(leg: Leg, *, every: bool, end: bool, heated: bool) -> Leg:
+    """A leg that keeps the displacement of the bodies only where it was asked for, and where it ends.
+
+    Parameters
+    ----------
+    every : asked for wherever it is known
+    end : asked for at the end
+    heated : displacements that were not asked for are needed for the work of temperatures
+    """
+    shots = []
+    for i, shot in enumerate(leg.snapshots, start=1):
+        kept = shot.whole and (every or shot.what == "asked" or (end and i == len(leg.snapshots)))
+        shots.append(replace(shot, kept=True) if kept else shot if heated else shot.light())
+    return replace(leg, snapshots=tuple(shots))
+
+
+def joined(legs: Sequence[Leg]) -> Leg:
+    """Several legs, one after the other, as one; the way is that of those on which loads change or the law does."""
+    paths = [leg.path for leg in legs if leg.trace] or [leg.path for leg in legs]
+    exact = "exact" in paths and {*paths} <= {"exact", "single"}
+    return Leg(
+        path="exact" if exact else "increments" if len(paths) > 1 else paths[0],
+        before=legs[0].before,
+        after=legs[-1].after,
+        certificates=tuple(chain.from_iterable(leg.certificates for leg in legs)),
+        trace=tuple(chain.from_iterable(leg.trace for leg in legs)),
+        snapshots=tuple(chain.from_iterable(leg.snapshots for leg in legs)),
+        events=tuple(chain.from_iterable(leg.events for leg in legs)),
+        notes=tuple(dict.fromkeys(chain.from_iterable(leg.notes for leg in legs))),
+    )
+
+
+def keep(stop: SolveFailed | KeyboardInterrupt, legs: Sequence[Leg]) -> SolveFailed | KeyboardInterrupt:
+    """What stopped a step, with what was followed before: legs, and what it already carries."""
+    last = reached(stop)
+    every = [*legs, *([] if last is None else [last])]
+    if not every:
+        return stop
+    if isinstance(stop, KeyboardInterrupt):
+        return Interrupted(reached=joined(every))
+    stop.reached = joined(every)
+    return stop
+
+
+def reached(stop: SolveFailed | KeyboardInterrupt) -> Leg | None:
+    """The part of a step that was followed before it was stopped; None where that is nothing."""
+    found = stop.reached if isinstance(stop, (SolveFailed, Interrupted)) else None
+    return found if isinstance(found, Leg) else None
