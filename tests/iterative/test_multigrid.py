@@ -7,7 +7,7 @@ import scipy.sparse as sp
 
 from signorini.engine.prepare import prepare
 from signorini.gallery.cubes import cubes
-from signorini.iterative._kernels import sweep_back, sweep_from_zero
+from signorini.linalg._sweeps import sweep_back, sweep_from_zero
 from signorini.linalg.krylov import conjugate_gradients
 
 

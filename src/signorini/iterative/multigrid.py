@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Conjugate gradients with smoothed aggregation for elastic bodies and the springs of their contacts."""
+"""Smoothed aggregation for elastic bodies and the springs of their contacts."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -15,7 +14,7 @@ import scipy.sparse as sp
 from pyamg.util.utils import get_block_diag
 
 from signorini.arrays import Array
-from signorini.iterative._kernels import sweep_back, sweep_from_zero
+from signorini.linalg.vcycle import MultigridLevel, VCycle
 
 _SMALLEST = 100  # blocks that are solved for directly
 _NOTHING = 1e-13  # of the largest stiffness: motions that nothing resists
@@ -41,7 +40,7 @@ class Multigrid:
     def __init__(self, K: sp.bsr_array, near_null: Array) -> None:
         self._K, self._near_null = K, near_null
 
-    def under(self, springs: sp.csr_array) -> Cycle:
+    def under(self, springs: sp.csr_array) -> VCycle:
         """The cycle for the bodies and springs (n, n) between them.
 
         Parameters
@@ -52,14 +51,15 @@ class Multigrid:
         for K, P, R in self._finer:
             added.sort_indices()  # sorted alike they are added in order, as sweeps need them
             A = sp.bsr_matrix(K + added, blocksize=K.blocksize)
-            levels.append(Level(A=A, P=P, R=R, inverses=get_block_diag(A, A.blocksize[0], inv_flag=True)))
+            levels.append(MultigridLevel(A=A, P=P, R=R, inverses=get_block_diag(A, A.blocksize[0], inv_flag=True)))
             added = R @ (added @ P)
         whole = (self._levels[-1].A + added).toarray()
-        return Cycle(tuple(levels), np.linalg.pinv(whole, rcond=_NOTHING, hermitian=True))
+        inverse = np.linalg.pinv(whole, rcond=_NOTHING, hermitian=True)
+        return VCycle(levels=tuple(levels), coarsest=lambda b: np.asarray(inverse @ b))
 
     @cached_property
     def _levels(self) -> list[Any]:
-        """Those of the bodies alone, the finest first."""
+        """Levels of the bodies alone, the finest first."""
         with _repeatable():
             made = pyamg.smoothed_aggregation_solver(
                 sp.bsr_matrix(self._K),
@@ -85,57 +85,3 @@ def _repeatable() -> Iterator[None]:
         yield
     finally:
         np.random.set_state(before)  # noqa: NPY002
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Level:
-    """One of the grids.
-
-    Attributes
-    ----------
-    A : (m, m) stiffness, springs included
-    P, R : (m, k) and (k, m), from the next level and to it
-    inverses : of the blocks on the diagonal of A
-    """
-
-    A: sp.bsr_matrix
-    P: sp.bsr_matrix
-    R: sp.bsr_matrix
-    inverses: Array
-
-    def start(self, b: Array) -> tuple[Array, Array]:
-        """Solve roughly from zero, from the first block to the last: x and what is left of b, in blocks."""
-        A, d = self.A, self.A.blocksize[0]
-        return sweep_from_zero(d * (0,), A.indptr, A.indices, A.data, self.inverses, b.reshape(-1, d))
-
-    def finish(self, b: Array, x: Array) -> None:
-        """Improve x from the last block to the first, the transpose of the start."""
-        A, d = self.A, self.A.blocksize[0]
-        sweep_back(d * (0,), A.indptr, A.indices, A.data, self.inverses, b.reshape(-1, d), x.reshape(-1, d))
-
-
-class Cycle:
-    """A symmetric V-cycle from zero, Gauss-Seidel by blocks forward on the way down and backward on the way up.
-
-    Parameters
-    ----------
-    levels : all but the coarsest, the finest first
-    inverse : (m, m) of the coarsest
-    """
-
-    def __init__(self, levels: tuple[Level, ...], inverse: Array) -> None:
-        self._levels, self._inverse = levels, inverse
-
-    def __call__(self, b: Array) -> Array:
-        """An approximate solution x of ``A x = b``, symmetric in b."""
-        return self._descend(0, b)
-
-    def _descend(self, depth: int, b: Array) -> Array:
-        if depth == len(self._levels):
-            return self._inverse @ b
-        level = self._levels[depth]
-        blocks, left = level.start(b)
-        x: Array = blocks.ravel()
-        x += level.P @ self._descend(depth + 1, level.R @ left.ravel())
-        level.finish(b, x)
-        return x

@@ -3,106 +3,116 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
-from signorini.lcp.kernels import aggregate, compiled, sweeps
-from signorini.lcp.linear import Inverse, factorised
+from signorini.lcp.linear import factorised
+
+if TYPE_CHECKING:
+    from signorini.linalg.vcycle import VCycle
+
+COARSEST_SIZE = 300  # unknowns: the size at which a level is factorised
+SLOWEST_COARSENING = 0.7  # of the unknowns of a level: where the next one keeps more, it gains nothing
+STRENGTH = 0.08  # of sqrt(A_ii A_jj): entries above it make neighbours
 
 
 @dataclass(frozen=True, kw_only=True)
-class Level:
-    """One matrix of the hierarchy.
+class Hierarchy:
+    """Matrices from fine to coarse, each the Galerkin product of the one before.
 
     Attributes
     ----------
-    A : (n, n) CSR array
-    P : (n, coarse n) CSR array >= 0 for a Z-matrix, None on the coarsest level
-    inverse : solves with A on the coarsest level
+    matrices : (n, n) CSR arrays, columns sorted
+    prolongations : (n, coarse n) CSR arrays from every matrix to the one before, >= 0 for Z-matrices
+    cycle : an approximate inverse of the finest matrix, symmetric positive definite
     """
 
-    A: Any
-    P: Any | None
-    inverse: Inverse | None
+    matrices: tuple[Any, ...]
+    prolongations: tuple[Any, ...]
+    cycle: VCycle
 
-    def relax(self, q: Array, z: Array, *, lower: float, backwards: bool, count: int = 1) -> None:
-        """Gauss-Seidel sweeps for ``A z + q = 0`` in place, kept above ``lower``."""
-        A = self.A
-        compiled(sweeps)(A.indptr, A.indices, A.data, q, z, 1.0, lower, count, backwards)
+    @property
+    def coarser(self) -> Hierarchy:
+        """All but the finest level."""
+        cycle = replace(self.cycle, levels=self.cycle.levels[1:])
+        return Hierarchy(matrices=self.matrices[1:], prolongations=self.prolongations[1:], cycle=cycle)
+
+    def truncated(self, free: BoolArray) -> Hierarchy:
+        """The hierarchy of ``A x = r`` for the free unknowns (n,) alone, the others held at 0, same prolongations.
+
+        What is prolonged to unknowns that are held is cut off on the finest level, and the coarser matrices are made
+        anew: without that, coarse corrections carry from one side of a narrow contact to the other.
+
+        References
+        ----------
+        Kornhuber (1994), Monotone multigrid methods for elliptic variational inequalities I, Numer. Math. 69:167-184.
+        """
+        kept = sp.diags_array(free.astype(float))
+        A = _sorted(kept @ self.matrices[0] @ kept + sp.diags_array((~free).astype(float)))
+        prolongations = [(kept @ P).tocsr() if k == 0 else P for k, P in enumerate(self.prolongations)]
+        matrices = [A]
+        for P in prolongations:
+            A = P.T @ A @ P
+            A = _sorted(A + sp.diags_array((A.diagonal() <= 0).astype(float)))  # where nothing is left
+            matrices.append(A)
+        return _assembled(matrices, prolongations)
 
 
-def hierarchy(A: Any, *, coarsest: int = 300, strength: float = 0.08) -> list[Level]:
-    """Levels from fine to coarse, each the Galerkin product of the one before.
-
-    Parameters
-    ----------
-    A : (n, n) CSR array, symmetric, positive diagonal
-    coarsest : size at which a level is factorised
-    strength : neighbours couple where ``|A_ij| > strength sqrt(A_ii A_jj)``
+def hierarchy(A: Any) -> Hierarchy:
+    """Coarsen A, (n, n) CSR array, symmetric with positive diagonal, until a factorisation costs nothing.
 
     References
     ----------
     Vanek, Mandel, Brezina (1996), Algebraic multigrid by smoothed aggregation, Computing 56:179-196.
     """
-    levels = []
-    while A.shape[0] > coarsest:
-        P = _prolongation(A, strength)
-        if P.shape[1] > 0.7 * A.shape[0]:
+    matrices, prolongations = [_sorted(A)], []
+    while (size := matrices[-1].shape[0]) > COARSEST_SIZE:
+        P = _prolongation(matrices[-1])
+        if not 0 < P.shape[1] <= SLOWEST_COARSENING * size:
             break
-        levels.append(Level(A=A, P=P, inverse=None))
-        A = (P.T @ A @ P).tocsr()
-        A.sort_indices()
-    return [*levels, Level(A=A, P=None, inverse=factorised(A.tocsc()))]
+        prolongations.append(P)
+        matrices.append(_sorted(P.T @ matrices[-1] @ P))
+    return _assembled(matrices, prolongations)
 
 
-def truncated(levels: list[Level], free: BoolArray) -> list[Level]:
-    """The hierarchy of ``A x = r`` for the free unknowns alone, the others held at 0, with the prolongations given.
+def _assembled(matrices: list[Any], prolongations: list[Any]) -> Hierarchy:
+    """Matrices and prolongations with their V-cycle."""
+    from signorini.linalg.vcycle import MultigridLevel, VCycle  # Numba takes longer than most problems
 
-    What is prolonged to unknowns that are held is cut off on the finest level, and the coarser matrices are made anew:
-    without that, coarse corrections carry from one side of a narrow contact to the other.
-
-    References
-    ----------
-    Kornhuber (1994), Monotone multigrid methods for elliptic variational inequalities I, Numer. Math. 69:167-184.
-    """
-    kept = sp.diags_array(free.astype(float))
-    A = (kept @ levels[0].A @ kept + sp.diags_array((~free).astype(float))).tocsr()
-    cut: list[Level] = []
-    for level in levels:
-        A.sort_indices()
-        if level.P is None:
-            break
-        P = level.P if cut else (kept @ level.P).tocsr()
-        cut.append(Level(A=A, P=P, inverse=None))
-        A = (P.T @ A @ P).tocsr()
-        A = (A + sp.diags_array((A.diagonal() <= 0).astype(float))).tocsr()  # where nothing is left
-    return [*cut, Level(A=A, P=None, inverse=factorised(A.tocsc()))]
+    levels = tuple(
+        MultigridLevel(
+            A=sp.bsr_array((A.data[:, None, None], A.indices, A.indptr), shape=A.shape),
+            P=P,
+            R=P.T.tocsr(),
+            inverses=_inverted(A.diagonal())[:, None, None],
+        )
+        for A, P in zip(matrices[:-1], prolongations, strict=True)
+    )
+    diagonal = _inverted(matrices[-1].diagonal())
+    coarsest = factorised(matrices[-1].tocsc()) or (lambda r: diagonal * r)
+    cycle = VCycle(levels=levels, coarsest=coarsest)
+    return Hierarchy(matrices=tuple(matrices), prolongations=tuple(prolongations), cycle=cycle)
 
 
-def v_cycle(levels: list[Level], r: Array) -> Array:
-    """Approximate solution of ``A x = r``: a symmetric positive definite map of r."""
-    level = levels[0]
-    if level.P is None:
-        return r / level.A.diagonal() if level.inverse is None else level.inverse(r)
-    x = np.zeros(len(r))
-    level.relax(-r, x, lower=-np.inf, backwards=False)
-    x += level.P @ v_cycle(levels[1:], level.P.T @ (r - level.A @ x))
-    level.relax(-r, x, lower=-np.inf, backwards=True)
-    return x
-
-
-def _prolongation(A: Any, strength: float) -> Any:
+def _prolongation(A: Any) -> Any:
     """Piecewise constants on aggregates, smoothed by one damped Jacobi step."""
-    n = A.shape[0]
-    root = np.sqrt(A.diagonal())
-    graph = A.tocoo()
-    strong = np.abs(graph.data) > strength * root[graph.row] * root[graph.col]
-    pattern = sp.csr_array((np.ones(strong.sum()), (graph.row[strong], graph.col[strong])), shape=(n, n))
-    label = np.full(n, -1, dtype=np.int64)
-    groups = compiled(aggregate)(pattern.indptr, pattern.indices, label)
-    constant = sp.csr_array((np.ones(n), (np.arange(n), label)), shape=(n, groups))
-    return (constant - sp.diags_array(2.0 / 3.0 / A.diagonal()) @ (A @ constant)).tocsr()
+    from pyamg.aggregation import standard_aggregation  # takes longer to import than most problems to solve
+    from pyamg.strength import symmetric_strength_of_connection
+
+    constant = standard_aggregation(symmetric_strength_of_connection(sp.csr_matrix(A), theta=STRENGTH))[0]
+    return sp.csr_array(constant - sp.diags_array(2.0 / 3.0 / A.diagonal()) @ (A @ constant))
+
+
+def _sorted(A: Any) -> Any:
+    rows = sp.csr_array(A)
+    rows.sort_indices()
+    return rows
+
+
+def _inverted(diagonal: Array) -> Array:
+    """What a diagonal is divided by; nothing moves where it is not positive."""
+    return np.divide(1.0, diagonal, out=np.zeros(len(diagonal)), where=diagonal > 0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The compiled loops: relaxation sweeps, aggregation of a graph, and the pivot of a tableau."""
+"""The compiled loops: relaxation sweeps and the pivot of a tableau."""
 
 from __future__ import annotations
 
@@ -40,17 +40,15 @@ def sweeps(
     q: Array,
     z: Array,
     omega: float,
-    lower: float,
     count: int,
     backwards: bool,
 ) -> None:
-    """Relax z in place: ``z_i = max(lower, z_i - omega (M z + q)_i / M_ii)``, row after row.
+    """Relax z in place: ``z_i = max(0, z_i - omega (M z + q)_i / M_ii)``, row after row.
 
     Parameters
     ----------
     start, index, value : M by rows (CSR); a row without positive diagonal is passed over
     omega : relaxation factor
-    lower : 0, or minus infinity for a linear system
     count : number of sweeps
     backwards : whether they run from the last row to the first
     """
@@ -66,42 +64,7 @@ def sweeps(
                 if j == i:
                     diagonal = value[entry]
             if diagonal > 0.0:
-                z[i] = max(lower, z[i] - omega * w / diagonal)
-
-
-def aggregate(start: IntArray, index: IntArray, label: IntArray) -> int:
-    """Group the vertices of a graph into neighbourhoods; writes the group of every vertex, returns their number.
-
-    Vanek, Mandel, Brezina (1996), Computing 56:179-196, algorithm 5.1: whole free neighbourhoods first, then the rest
-    joins a neighbour's group.
-
-    Parameters
-    ----------
-    start, index : neighbours of every vertex (CSR), itself included or not
-    label : (n,) filled with -1 on entry
-    """
-    n = len(start) - 1
-    groups = 0
-    for i in range(n):
-        free = label[i] < 0
-        for entry in range(start[i], start[i + 1]):
-            free = free and label[index[entry]] < 0
-        if free:
-            label[i] = groups
-            for entry in range(start[i], start[i + 1]):
-                label[index[entry]] = groups
-            groups += 1
-    cores = groups
-    for i in range(n):
-        if label[i] < 0:
-            for entry in range(start[i], start[i + 1]):
-                if 0 <= label[index[entry]] < cores:
-                    label[i] = label[index[entry]]
-                    break
-        if label[i] < 0:
-            label[i] = groups
-            groups += 1
-    return groups
+                z[i] = max(0.0, z[i] - omega * w / diagonal)
 
 
 def exchange(T: Array, row: int, at: int) -> None:

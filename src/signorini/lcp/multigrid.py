@@ -8,16 +8,18 @@ from typing import Any, ClassVar
 
 import numpy as np
 import scipy.sparse as sp
+from scipy.sparse.linalg import LinearOperator, cg
 
 from signorini.arrays import Array, BoolArray
-from signorini.lcp.hierarchy import Level, hierarchy, truncated, v_cycle
+from signorini.lcp.hierarchy import Hierarchy, hierarchy
+from signorini.lcp.kernels import compiled, sweeps
 from signorini.lcp.mprgp import symmetric_in_products
 from signorini.lcp.problem import LCP
 from signorini.lcp.solution import Attempt
 from signorini.lcp.status import Status
 
-LITTLE = 0.5
-"""Of a residual: conjugate gradients that leave more of it have a preconditioner that is none."""
+USELESS_REDUCTION = 0.5  # of a residual: conjugate gradients that leave more of it have a preconditioner that is none
+COARSEST_SWEEPS = 500  # on at most some hundred unknowns: they cost nothing
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,16 +74,18 @@ class ProjectedMultigrid:
             z = self._round(levels, q, z)
         return Attempt(z=scale * z, ending=Status.MAX_ITERATIONS, iterations=self.max_rounds)
 
-    def _start(self, levels: list[Level], q: Array) -> Array:
+    def _start(self, levels: Hierarchy, q: Array) -> Array:
         """The answer of the next coarser level, prolonged; P >= 0 keeps it feasible for a Z-matrix."""
-        P = levels[0].P
-        return np.zeros(len(q)) if P is None else np.maximum(P @ self._coarse(levels[1:], P.T @ q), 0.0)
+        if not levels.prolongations:
+            return np.zeros(len(q))
+        P = levels.prolongations[0]
+        return np.maximum(P @ self._coarse(levels.coarser, P.T @ q), 0.0)
 
-    def _coarse(self, levels: list[Level], q: Array) -> Array:
+    def _coarse(self, levels: Hierarchy, q: Array) -> Array:
         """An approximate answer of a coarser level."""
         z = self._start(levels, q)
-        if levels[0].P is None:
-            levels[0].relax(q, z, lower=0.0, backwards=False, count=500)
+        if not levels.prolongations:
+            _relax(levels.matrices[0], q, z, count=COARSEST_SWEEPS)
             return z
         for _ in range(self.coarse_rounds):
             before, z = z, self._round(levels, q, z)
@@ -89,41 +93,37 @@ class ProjectedMultigrid:
                 break
         return z
 
-    def _round(self, levels: list[Level], q: Array, z: Array) -> Array:
-        fine, z = levels[0], z.copy()
+    def _round(self, levels: Hierarchy, q: Array, z: Array) -> Array:
+        A, z = levels.matrices[0], z.copy()
         for backwards in (False, True):
-            fine.relax(q, z, lower=0.0, backwards=backwards)
-        gradient = fine.A @ z + q
+            _relax(A, q, z, backwards=backwards)
+        gradient = A @ z + q
         free = z > 0
         ahead = np.maximum(z + self._correction(levels, -gradient * free, free), 0.0)
         move = ahead - z
-        curvature = float(move @ (fine.A @ move))
+        curvature = float(move @ (A @ move))
         if not curvature > 0:
             return z
         return z + min(1.0, max(0.0, -float(gradient @ move) / curvature)) * move
 
-    def _correction(self, levels: list[Level], r: Array, free: BoolArray) -> Array:
+    def _correction(self, levels: Hierarchy, r: Array, free: BoolArray) -> Array:
         """``A c = r`` on the free variables."""
-        c, left = _conjugate_gradients(levels[0].A, levels, r, free, self.inner)
-        if left > LITTLE:
-            c, _ = _conjugate_gradients(levels[0].A, truncated(levels, free), r, free, self.inner)
+        c, left = _conjugate_gradients(levels, r, free, self.inner)
+        if left > USELESS_REDUCTION:
+            c, _ = _conjugate_gradients(levels.truncated(free), r, free, self.inner)
         return c
 
 
-def _conjugate_gradients(A: Any, levels: list[Level], r: Array, free: BoolArray, steps: int) -> tuple[Array, float]:
+def _relax(A: Any, q: Array, z: Array, *, count: int = 1, backwards: bool = False) -> None:
+    """Projected Gauss-Seidel sweeps in place."""
+    compiled(sweeps)(A.indptr, A.indices, A.data, q, z, 1.0, count, backwards)
+
+
+def _conjugate_gradients(levels: Hierarchy, r: Array, free: BoolArray, steps: int) -> tuple[Array, float]:
     """c with ``A c = r`` on the free variables and 0 elsewhere to two digits, and what is left of r."""
-    c, p, energy = np.zeros(len(r)), np.zeros(len(r)), 0.0
+    A, shape = levels.matrices[0], levels.matrices[0].shape
+    product = LinearOperator(shape, matvec=lambda v: (A @ v) * free, dtype=np.float64)
+    cycle = LinearOperator(shape, matvec=lambda v: levels.cycle(v) * free, dtype=np.float64)
+    c, _ = cg(product, r, rtol=1e-2, maxiter=steps, M=cycle)
     first = float(np.linalg.norm(r))
-    for _ in range(steps):
-        if not np.linalg.norm(r) > 1e-2 * first:
-            break
-        y = v_cycle(levels, r) * free
-        before, energy = energy, float(r @ y)
-        p = y + (energy / before if before > 0 else 0.0) * p
-        Ap = (A @ p) * free
-        curvature = float(p @ Ap)
-        if not curvature > 0:
-            break
-        c = c + energy / curvature * p
-        r = r - energy / curvature * Ap
-    return c, float(np.linalg.norm(r)) / first if first > 0 else 0.0
+    return c, float(np.linalg.norm(r - product @ c)) / first if first > 0 else 0.0

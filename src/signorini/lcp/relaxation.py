@@ -64,7 +64,7 @@ class ProjectedSOR:
         while done < self.max_sweeps:
             count = min(self.every, self.max_sweeps - done)
             with np.errstate(over="ignore", invalid="ignore"):
-                relax(M.indptr, M.indices, M.data, problem.q, z, self.omega, 0.0, count, False)
+                relax(M.indptr, M.indices, M.data, problem.q, z, self.omega, count, False)
             done += count
             if not np.isfinite(z).all():
                 return Attempt(z=None, ending=Status.NONFINITE, iterations=done)
