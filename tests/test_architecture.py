@@ -291,7 +291,7 @@ PENDING = {
     #
     "short": "constants",
     #
-    "solution": "signatures nouns parameters classes constants",
+    "solution": "signatures nouns parameters constants",
     #
     "sources": "nouns",
     #
