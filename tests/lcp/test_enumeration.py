@@ -11,8 +11,8 @@ from signorini.lcp import problems, screening
 from signorini.lcp.kernels import loop_of_enumeration
 
 
-def everything(A, q, tolerance, maybe):  # noqa: ARG001
-    maybe[:] = True
+def everything(A, q, tolerance, lack):  # noqa: ARG001
+    lack[:] = 0.0
 
 
 def described(M, q):
@@ -47,9 +47,35 @@ def test_screening_loses_no_face_of_contact(monkeypatch):
 def test_screening_leaves_little():
     rng = np.random.default_rng(0)
     for posed in (problems.random_psd(10, 5, rng, skew=0.3), problems.gap_slip_contact(3, rng)):
-        maybe = np.zeros(2**posed.n, dtype=bool)
-        loop_of_enumeration()(posed.M, posed.q, 1e-11, maybe)
-        assert 1 <= maybe.sum() <= 2**posed.n // 16
+        lack = np.zeros(2**posed.n)
+        loop_of_enumeration()(posed.M, posed.q, 1e-11, lack)
+        assert (lack >= 0.0).all()
+        assert 1 <= (lack == 0.0).sum() <= 2**posed.n // 16
+
+
+@pytest.mark.parametrize(
+    ("M", "q", "margin", "screened"),
+    [
+        ([[-1.0]], [-2.0], 1.0, True),
+        ([[-1.0]], [-2.0], 0.5, False),
+        ([[1, -1], [-1, 1]], [-1, 0.5], 0.25, True),
+        ([[1, -1], [-1, 1]], [-1, 0.5], 0.25, False),
+        ([[1, -1], [-1, 1]], [-1, 1 - 4e-6], 2e-6, True),
+    ],
+)
+def test_a_proof_tells_its_margin(M, q, margin, screened, monkeypatch):
+    """What every support lacks as it is, or at the best with z and w both a little negative."""
+    if not screened:
+        monkeypatch.setattr("signorini.lcp.enumeration.loop_of_enumeration", lambda: everything)
+    solution = lcp.solve(M, q, method="enumeration")
+    assert solution.status is lcp.Status.NO_SOLUTION
+    assert f"lacks {margin:.2g} of the largest entry of q" in solution.message
+
+
+@pytest.mark.parametrize("method", [lcp.Enumeration(), lcp.Feasibility()])
+def test_what_lacks_no_more_than_rounding_is_no_proof(method):
+    solution = lcp.solve([[1, -1], [-1, 1]], [-1, 1 - 4e-10], method=method)
+    assert solution.status in (lcp.Status.BREAKDOWN, lcp.Status.STAGNATION)
 
 
 def test_elimination_has_the_rank_and_the_solution():

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The proof that no z >= 0 makes w >= 0."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -11,7 +13,9 @@ from signorini.lcp import problems
 @pytest.mark.parametrize("seed", range(3))
 def test_auto_names_an_infeasible_problem(seed):
     posed = problems.infeasible(50, np.random.default_rng(seed))
-    assert lcp.solve(posed.M, posed.q).status is lcp.Status.NO_SOLUTION
+    solution = lcp.solve(posed.M, posed.q)
+    assert solution.status is lcp.Status.NO_SOLUTION
+    assert re.search(r"Margin: -q\.y is 0\.\d+ of y\.\|q\|", solution.message)
 
 
 def test_a_ray_is_no_proof():

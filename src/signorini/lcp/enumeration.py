@@ -23,6 +23,12 @@ LARGEST = 20
 BATCH = 4096
 """Supports that are solved for at once."""
 
+MARGIN = 1e-9
+"""Of the largest entry of q, balanced: what every support must lack at least for a proof; less may be rounding."""
+
+_MOST_DOUBTFUL = 2000  # supports whose lack a linear programme tells, some milliseconds each
+_SHARP = 1e-10  # what such a programme may miss by
+
 
 @dataclass(frozen=True, kw_only=True)
 class Face:
@@ -66,10 +72,16 @@ class Enumeration:
         if problem.n > LARGEST or problem.dense() is None:
             note = f"It needs the entries of M and n <= {LARGEST}; n is {problem.n}."
             return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note=note)
-        faces = _faces(problem, self.tolerance, only_first=True)
-        if not faces:
-            return Attempt(z=None, ending=Status.NO_SOLUTION, iterations=2**problem.n)
-        return Attempt(z=faces[0].z, ending=Status.SOLVED, iterations=2**problem.n)
+        faces, lack = _faces(problem, self.tolerance, only_first=True)
+        if faces:
+            return Attempt(z=faces[0].z, ending=Status.SOLVED, iterations=2**problem.n)
+        margin = _margin(problem, lack)
+        words = (
+            f"What comes nearest of the 2^{problem.n} supports lacks {margin:.2g} of the largest entry of q, balanced"
+        )
+        if margin > MARGIN:
+            return Attempt(z=None, ending=Status.NO_SOLUTION, iterations=2**problem.n, note=f"{words}.")
+        return Attempt(z=None, ending=Status.BREAKDOWN, iterations=2**problem.n, note=f"{words}: no proof.")
 
 
 def all_solutions(M: Any, q: ArrayLike, *, tolerance: float = 1e-11) -> tuple[Face, ...]:
@@ -103,20 +115,54 @@ def all_solutions(M: Any, q: ArrayLike, *, tolerance: float = 1e-11) -> tuple[Fa
     problem = read_problem(M, q)
     if problem.n > LARGEST or problem.dense() is None:
         raise InputError(f"has n = {problem.n}; enumeration is offered to n = {LARGEST} with entries", where=("M",))
-    return tuple(sorted(_faces(problem, tolerance, only_first=False), key=lambda face: face.support))
+    return tuple(sorted(_faces(problem, tolerance, only_first=False)[0], key=lambda face: face.support))
 
 
-def _faces(problem: LCP, tolerance: float, *, only_first: bool) -> list[Face]:
+def _balanced(problem: LCP) -> tuple[Array, Array, Array]:
+    """M and q in units in which their entries are near 1, and what z is multiplied by to have its own again."""
     rows, columns = problem.sizes
     M = problem.dense()
     assert M is not None
-    A, q = M * columns / rows[:, None], problem.q / rows
+    q = problem.q / rows
     unit = float(np.abs(q).max()) or 1.0
-    q = q / unit
-    maybe = np.empty(2**problem.n, dtype=bool)
-    loop_of_enumeration()(A, q, tolerance, maybe)
-    masks = np.flatnonzero(maybe)
-    members = (masks[:, None] >> np.arange(problem.n)) & 1
+    return M * columns / rows[:, None], q / unit, columns * unit
+
+
+def _members(masks: IntArray, n: int) -> IntArray:
+    """(k, n) Which bits masks have."""
+    return np.asarray((masks[:, None] >> np.arange(n)) & 1)
+
+
+def _margin(problem: LCP, lack: Array) -> float:
+    """What every support lacks at least; of those that were not refused at once a linear programme tells it."""
+    A, q, _ = _balanced(problem)
+    doubtful = np.flatnonzero(lack == 0.0)
+    if len(doubtful) > _MOST_DOUBTFUL:
+        return 0.0
+    told = [_least_lack(A, q, members > 0) for members in _members(doubtful, problem.n)]
+    return float(min([*told, lack.min(where=lack > 0.0, initial=np.inf)]))
+
+
+def _least_lack(A: Array, q: Array, support: BoolArray) -> float:
+    """The least s with ``x >= -s`` on a support, ``|A x + q| <= s`` there and ``A x + q >= -s`` elsewhere."""
+    columns, size = A[:, support], int(support.sum())
+    upper = np.vstack([-columns, columns[support], -np.eye(size)])
+    found = linprog(
+        np.append(np.zeros(size), 1.0),
+        A_ub=np.column_stack([upper, -np.ones(len(upper))]),
+        b_ub=np.concatenate([q, -q[support], np.zeros(size)]),
+        bounds=[(None, None)] * size + [(0.0, None)],
+        options={"primal_feasibility_tolerance": _SHARP, "dual_feasibility_tolerance": _SHARP},
+    )
+    return float(found.x[-1]) if found.status == 0 else 0.0
+
+
+def _faces(problem: LCP, tolerance: float, *, only_first: bool) -> tuple[list[Face], Array]:
+    """Faces, and what supports lack that hold none at first sight, (2^n,)."""
+    A, q, own = _balanced(problem)
+    lack = np.empty(2**problem.n)
+    loop_of_enumeration()(A, q, tolerance, lack)
+    members = _members(np.flatnonzero(lack == 0.0), problem.n)
     sizes = members.sum(axis=1)
     faces = []
     for size in np.unique(sizes):
@@ -125,12 +171,11 @@ def _faces(problem: LCP, tolerance: float, *, only_first: bool) -> list[Face]:
             batch = remaining[k : k + BATCH]
             supports = np.nonzero(batch)[1].reshape(len(batch), size)
             for face in _on_supports(A, q, supports, tolerance):
-                z = columns * face.z * unit
-                directions = la.orth(columns[:, None] * face.directions) if face.dimension else face.directions
-                faces.append(Face(support=face.support, z=frozen(z), directions=frozen(directions)))
+                directions = la.orth(own[:, None] * face.directions) if face.dimension else face.directions
+                faces.append(Face(support=face.support, z=frozen(own * face.z), directions=frozen(directions)))
                 if only_first:
-                    return faces
-    return faces
+                    return faces, lack
+    return faces, lack
 
 
 def _on_supports(A: Array, q: Array, supports: IntArray, tolerance: float) -> list[Face]:

@@ -25,6 +25,7 @@ class Feasibility:
     Parameters
     ----------
     tolerance : positive entries of ``M^T y`` up to it, relative to ``|M|^T y``, count as rounding
+    margin : of ``|q| . y``, what ``-q . y`` must be at least; less may be rounding
 
     References
     ----------
@@ -33,14 +34,16 @@ class Feasibility:
     Examples
     --------
     >>> from signorini.lcp import solve
-    >>> print(solve([[0.0, 0.0], [1.0, 1.0]], [-1.0, 2.0], method=Feasibility()).status.name)
-    NO_SOLUTION
+    >>> found = solve([[0.0, 0.0], [1.0, 1.0]], [-1.0, 2.0], method=Feasibility())
+    >>> print(found.status.name, found.message.partition("Margin")[2], sep="")
+    NO_SOLUTION: -q.y is 1 of y.|q|, whatever z.
     """
 
     name: ClassVar[str] = "feasibility"
     matrices: ClassVar[str] = "any; proves that there is no solution where no z >= 0 makes w >= 0"
 
     tolerance: float = 1e-11
+    margin: float = 1e-9
 
     def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:  # noqa: ARG002
         """See ``Method.attempt``."""
@@ -51,10 +54,15 @@ class Feasibility:
         steps = int(getattr(found, "nit", 0))
         if found.status == 0:
             y = np.maximum(found.x, 0.0)
-            slack = self.tolerance * (np.abs(M).T @ y)
-            separated = problem.q @ y < -1e-9 * (np.abs(problem.q) @ y)
-            if separated and (M.T @ y <= slack).all():
-                note = "A vector y >= 0 with M'y <= 0 and q.y < 0 was found: no z >= 0 makes w >= 0."
+            sizes, size = np.abs(M).T @ y, float(np.abs(problem.q) @ y)
+            share = -float(problem.q @ y) / (size or 1.0)
+            against = float(np.divide(M.T @ y, sizes, out=np.zeros_like(y), where=sizes > 0).max(initial=0.0))
+            if share > self.margin and against <= self.tolerance:
+                reach = f"as long as y.|M|z < {share / against:.0e} y.|q|" if against > 0.0 else "whatever z"
+                note = (
+                    "A vector y >= 0 with M'y <= 0 and q.y < 0 was found: no z >= 0 makes w >= 0. "
+                    f"Margin: -q.y is {share:.2g} of y.|q|, {reach}."
+                )
                 return Attempt(z=None, ending=Status.NO_SOLUTION, iterations=steps, note=note)
         note = "There may be z >= 0 with w >= 0: nothing is proved."
         return Attempt(z=None, ending=Status.STAGNATION, iterations=steps, note=note)

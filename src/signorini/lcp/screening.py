@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, IntArray
 
 CLEARLY, BARELY, SINGULAR = 1e-9, 1e-13, 1e-6
 """Pivots over the first: trusted above, 0 below; and what may remain of q where the block is singular."""
@@ -65,11 +65,12 @@ def substitute_back(block: Array, size: int, rank: int) -> float:
     return scale
 
 
-def may_hold(A: Array, q: Array, support: IntArray, size: int, tolerance: float, block: Array, order: IntArray) -> bool:
-    """Whether a solution may have its positive components exactly on ``support[:size]``.
+def lack_of(A: Array, q: Array, support: IntArray, size: int, tolerance: float, block: Array, order: IntArray) -> float:
+    """What a solution with its positive components exactly on ``support[:size]`` lacks; 0 where there may be one.
 
-    A block is refused where q is far from its range, or where a z or w that its null space leaves alone is negative,
-    each by more than the rounding of so conditioned a block; a block that is barely regular is never refused.
+    In parts of its largest entry, or of 1 where that is more. A block is refused where q is far from its range, or
+    where a z or w that its null space leaves alone is negative, each by more than the rounding of so conditioned a
+    block; a block that is barely regular is never refused.
     """
     for i in range(size):
         for j in range(size):
@@ -78,20 +79,22 @@ def may_hold(A: Array, q: Array, support: IntArray, size: int, tolerance: float,
     rank = _eliminate(block, size, order)
     condition = abs(block[0, 0] / block[rank - 1, rank - 1]) if rank > 0 else 1.0
     if condition * CLEARLY >= 1.0:
-        return True
+        return 0.0
     scale = _substitute_back(block, size, rank)
     left = 0.0
     for i in range(rank, size):
         left = max(left, abs(block[i, size]))
     if left > SINGULAR * scale:
-        return False
-    room = (tolerance + 1e-14 * size * condition) * scale
+        return left / scale
+    room, lack = (tolerance + 1e-14 * size * condition) * scale, 0.0
     for k in range(rank):
         moved = 0.0
         for free in range(rank, size):
             moved = max(moved, abs(block[k, free]))
         if moved <= CLEARLY and block[k, size] < -room:
-            return False
+            lack = max(lack, -block[k, size])
+    if lack > 0.0:
+        return lack / scale
     for i in range(len(q)):
         w, sum_of_row, moved = q[i], 1.0, 0.0
         for k in range(rank):
@@ -104,18 +107,18 @@ def may_hold(A: Array, q: Array, support: IntArray, size: int, tolerance: float,
                 slope -= A[i, support[order[k]]] * block[k, free]
             moved = max(moved, abs(slope))
         if moved <= CLEARLY and w < -room * sum_of_row:
-            return False
-    return True
+            lack = max(lack, -w)
+    return lack / scale
 
 
-def screen(A: Array, q: Array, tolerance: float, maybe: BoolArray) -> None:
-    """Write into ``maybe[mask]`` whether a solution may have its positive components exactly on the bits of the mask.
+def screen(A: Array, q: Array, tolerance: float, lack: Array) -> None:
+    """Write into ``lack[mask]`` what a solution with its positive components exactly on the bits of the mask lacks.
 
     Parameters
     ----------
     A, q : balanced data of n rows, entries near 1
     tolerance : values below it, relative to the largest, may be 0
-    maybe : (2^n,)
+    lack : (2^n,) dimensionless, 0 where there may be one
     """
     n = len(q)
     block, support, order = np.empty((n, n + 1)), np.empty(n, np.int64), np.empty(n, np.int64)
@@ -125,12 +128,12 @@ def screen(A: Array, q: Array, tolerance: float, maybe: BoolArray) -> None:
             if (mask >> i) & 1:
                 support[size] = i
                 size += 1
-        maybe[mask] = _may_hold(A, q, support, size, tolerance, block, order)
+        lack[mask] = _lack_of(A, q, support, size, tolerance, block, order)
 
 
 _eliminate: Any = njit(eliminate, cache=True)
 _substitute_back: Any = njit(substitute_back, cache=True)
-_may_hold: Any = njit(may_hold, cache=True)
+_lack_of: Any = njit(lack_of, cache=True)
 
 machine_screen: Any = njit(screen, cache=True, nogil=True)
 """The machine code of the loop."""
