@@ -11,9 +11,8 @@ from typing import Any
 
 from signorini.checks import text
 from signorini.deck.error import DeckError
-from signorini.deck.inp.build import Built, located
+from signorini.deck.inp.build import Built, element_card, located, read_deck
 from signorini.deck.inp.card import Card
-from signorini.deck.inp.load import element_place, load_inp
 from signorini.deck.meshes import deck_mesh
 from signorini.deck.scan import line_of
 from signorini.deck.syntax import parse
@@ -95,7 +94,7 @@ class KeywordDeck(Deck):
 
     def locate(self, error: InputError) -> DeckError:
         """The same error with file and line of the keyword that caused it."""
-        return located(error, self.places, self.path, lambda cell: element_place(self.path, self.reach, cell))
+        return located(error, self.places, self.path, lambda cell: element_card(self.path, self.reach, cell))
 
 
 def read(
@@ -125,7 +124,7 @@ def load(
     path = Path(path)
     reach = Reach.of(path, allow)
     if path.suffix.lower() == ".inp":
-        built = load_inp(path, reach, small_strain=small_strain, deck_increments=deck_increments)
+        built = read_deck(path, reach, small_strain=small_strain, deck_increments=deck_increments)
         return _keywords(built, path, reach)
     data, lines = parse(path)
     try:

@@ -3,17 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from signorini.arrays import Array, frozen
 from signorini.deck.inp.card import Card
-from signorini.deck.inp.flatten import Placed
-from signorini.errors import one_of
+from signorini.deck.inp.keywords import of_keyword, referred
 
-_SMALL = 1e-9  # of a factor: how far it may leave a straight line
+_BEND_TOL = 1e-9  # of the largest factor: times and factors are written with ten digits
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -40,12 +39,12 @@ class Amplitude:
         """Times in between at which the factor turns away from the straight line from start to end."""
         inside = (self.times > start) & (self.times < end)
         line = np.interp(self.times, [start, end], [self.at(start), self.at(end)])
-        bent = np.abs(self.values - line) > _SMALL * max(np.abs(self.values).max(), 1e-300)
+        bent = np.abs(self.values - line) > _BEND_TOL * max(np.abs(self.values).max(), 1e-300)
         times: Array = self.times[inside] if (bent & inside).any() else np.empty(0)
         return times
 
 
-def make_amplitudes(placed: list[Placed]) -> Mapping[str, Amplitude]:
+def make_amplitudes(cards: Sequence[Card]) -> Mapping[str, Amplitude]:
     """Read all ``*AMPLITUDE`` keywords, by name in capitals.
 
     Raises
@@ -54,10 +53,7 @@ def make_amplitudes(placed: list[Placed]) -> Mapping[str, Amplitude]:
         If times do not ascend, the factor is not given as a table, or a name is given twice.
     """
     amplitudes = {}
-    for item in placed:
-        card = item.card
-        if card.keyword != "AMPLITUDE":
-            continue
+    for card in of_keyword(cards, "AMPLITUDE"):
         card.refuse_unknown(("NAME", "TIME", "DEFINITION", "VALUE", "INPUT"))
         card.choice("DEFINITION", ("TABULAR",), "TABULAR")
         card.choice("VALUE", ("RELATIVE",), "RELATIVE")  # ABSOLUTE would take the place of the load's own value
@@ -79,9 +75,4 @@ def make_amplitudes(placed: list[Placed]) -> Mapping[str, Amplitude]:
 
 def find_amplitude(card: Card, amplitudes: Mapping[str, Amplitude]) -> Amplitude | None:
     """The amplitude that a keyword names, if any."""
-    if "AMPLITUDE" not in card.parameters:
-        return None
-    name = card.value("AMPLITUDE")
-    if name.upper() not in amplitudes:
-        raise card.error(one_of(name, [a.name for a in amplitudes.values()], "amplitude"))
-    return amplitudes[name.upper()]
+    return referred(card, "AMPLITUDE", amplitudes, "amplitude") if "AMPLITUDE" in card.parameters else None

@@ -1,36 +1,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A model from the keywords of a deck."""
+"""From an Abaqus or CalculiX deck to a model."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from signorini.deck.error import DeckError
-from signorini.deck.inp.acting import Known
-from signorini.deck.inp.amplitudes import make_amplitudes
 from signorini.deck.inp.card import Card
-from signorini.deck.inp.changes import make_changes
 from signorini.deck.inp.conditions import Conditions, make_conditions
-from signorini.deck.inp.couplings import make_couplings
-from signorini.deck.inp.flatten import Placed
+from signorini.deck.inp.couplings import make_links
+from signorini.deck.inp.flatten import flatten
 from signorini.deck.inp.grid import DeckGrid, make_grid
-from signorini.deck.inp.interactions import make_interactions
-from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS
-from signorini.deck.inp.links import link_places, make_equations, make_rigid_bodies
+from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS, of_keyword, refuse_unsupported
+from signorini.deck.inp.known import Known, make_known
 from signorini.deck.inp.loading import follow_steps
-from signorini.deck.inp.materials import Section, Substance, make_materials, make_sections
-from signorini.deck.inp.pairs import Pair, make_contacts, make_ties
-from signorini.deck.inp.places import Places
+from signorini.deck.inp.materials import Section
+from signorini.deck.inp.pairs import Pair, make_changes, make_contacts
 from signorini.deck.inp.prints import make_prints
-from signorini.deck.inp.sets import make_sets
 from signorini.deck.inp.steps import DeckStep, split_steps
-from signorini.deck.inp.supported import refuse_unsupported
-from signorini.deck.inp.surfaces import ElementFaces, make_surfaces
+from signorini.deck.inp.syntax import read_cards
 from signorini.errors import InputError, Where
 from signorini.model.body import Body
 from signorini.model.material import Orthotropic
@@ -38,6 +32,7 @@ from signorini.model.mesh import NODES_PER_CELL, Mesh
 from signorini.model.model import Kind, Model
 from signorini.model.prints import Prints
 from signorini.model.step import Step
+from signorini.sources import Reach
 
 _SMALL_SLIDING = "contact is treated as small sliding: pairs are found on the undeformed bodies"
 _OWN_INCREMENTS = (
@@ -66,108 +61,110 @@ class Built:
     prints: Prints
 
 
-def build(placed: list[Placed], path: object, *, small_strain: bool, deck_increments: bool) -> Built:
-    """Build the model.
+def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: bool) -> Built:
+    """Read a deck of keywords: cards, then what has a number or a name, then parts, then what acts on them.
 
     Parameters
     ----------
-    placed : keywords of the deck, flattened
-    path : of the deck, for messages
+    path : of the deck
+    reach : files that it may include
     small_strain : solve with small displacements what asks for large ones (NLGEOM)
-    deck_increments : follow the deck's increments
+    deck_increments : follow the deck's increments instead of the package's rule
 
     Raises
     ------
     DeckError
-        For anything that is wrong, or that would change the answer and is not supported.
+        With file and line, for what is wrong, or would change the answer and is not supported.
     """
-    outside, steps = split_steps(placed)
+    cards = flatten(read_cards(path, reach))
+    outside, steps = split_steps(cards)
     ignored = _left_out(outside, steps)
     _refuse_incomplete(outside, steps, path)
     _refuse_large(steps, small_strain)
 
-    grid = make_grid(outside)
-    kind = _kind(grid)
-    nodes, elements = make_sets(placed, grid)
-    materials = make_materials(outside)
-    sections = make_sections(outside, elements, materials, grid)
-    edges = ElementFaces(grid)
-    surfaces = make_surfaces(outside, edges, nodes, elements)
-    interactions = make_interactions(outside)
-    contacts = make_contacts(outside, interactions, surfaces, nodes, edges)
-    contacts += make_ties(outside, surfaces, nodes, edges, contacts)
-    places = Places(edges, surfaces, nodes)
-    rigid = make_rigid_bodies(outside, nodes, elements, grid, places)
-    rigid, equations = make_couplings(outside, rigid, nodes, surfaces, edges, grid, places)
-    equations += make_equations(outside, nodes, rigid, kind)
-    known = Known(
-        nodes=nodes,
-        elements=elements,
-        surfaces=surfaces,
-        edges=edges,
-        sections=tuple(sections),
-        amplitudes=make_amplitudes(placed),
-        axisymmetric=kind == "axisymmetric",
-        dimension=3 if kind == "3d" else 2,
-        rigid=tuple(rigid),
-    )
-    courses = follow_steps(outside, steps, known)
-    conditions = make_conditions(courses, places, known)
-    changes = [make_changes(step, contacts, interactions, surfaces) for step in steps]
-    model_steps = [_step(k, steps, conditions, changes[k], deck_increments) for k in range(len(steps))]
-    where = _where(sections, contacts, conditions, steps) | link_places(rigid, equations)
+    known = make_known(cards, outside)
+    contacts = make_contacts(outside, known)
+    rigid, equations = make_links(outside, known)
+    conditions = make_conditions(follow_steps(outside, steps, known, rigid), known)
+    changes = [make_changes(step.cards, known, contacts) for step in steps]
+    kind, thickness = known.grid.kind, _thickness(known.sections[0], known.grid.kind)
+    made: list[tuple[str, str, list[tuple[Any, Card]]]] = [  # words for paths, fields of the model, parts and keywords
+        ("body", "bodies", [(_body(section, thickness, kind), section.card) for section in known.sections]),
+        ("support", "supports", [(support, conditions.cards[support.label]) for support in conditions.supports]),
+        ("load", "loads", [(load, conditions.cards[load.label]) for load in conditions.loads]),
+        ("contact", "contacts", [(pair.contact, pair.card) for pair in contacts]),
+        ("rigid_body", "rigid_bodies", [(item.body, item.card) for item in rigid]),
+        ("equation", "equations", [(item.equation, item.card) for item in equations]),
+        (
+            "step",
+            "steps",
+            [(_step(k, steps, conditions, changes[k], deck_increments), step.card) for k, step in enumerate(steps)],
+        ),
+    ]
+    places: dict[Where, Card] = {(word, i): card for word, _, found in made for i, (_, card) in enumerate(found)}
+    parts: dict[str, Any] = {field: [part for part, _ in found] for _, field, found in made}
     try:
-        model = Model(
-            _mesh(grid, sections, places),
-            kind=kind,
-            thickness=_thickness(sections[0], kind),
-            bodies=[_body(section, _thickness(sections[0], kind), kind) for section in sections],
-            supports=conditions.supports,
-            loads=conditions.loads,
-            contacts=[pair.contact for pair in contacts],
-            rigid_bodies=[item.body for item in rigid],
-            equations=[item.equation for item in equations],
-            steps=model_steps,
-            title=_title(outside),
-        )
+        model = Model(_mesh(known), kind=kind, thickness=thickness, title=_title(outside), **parts)
     except InputError as error:
-        raise located(error, where, path, lambda cell: grid.at(int(grid.elements_of_cells[cell]))) from error
+        raise located(error, places, path, known.grid.card_of_cell) from error
+    notes = _notes(known.grid, steps, contacts, small_strain, deck_increments)
     return Built(
         model=model,
-        places=where,
-        notes=(*courses.notes, *_notes(grid, steps, contacts, ignored, small_strain, deck_increments)),
-        prints=make_prints(steps, known, model.mesh, contacts),
-        unused_materials=_unused(materials, sections),
+        places=places,
+        notes=(*conditions.notes, *notes, *_ignored(ignored)),
+        prints=make_prints(steps, known, contacts, rigid, model.mesh),
+        unused_materials=known.unused_materials,
     )
 
 
-def located(error: InputError, places: Mapping[Where, Card], path: object, cell_at: Callable[[int], Card]) -> DeckError:
-    """The error with the line of the keyword that its place in the model comes from; of a cell, that of its element."""
+def element_card(path: Path, reach: Reach, cell: int) -> Card:
+    """The ``*ELEMENT`` keyword, at its line, of the element that a cell of the model is; reads the deck once more.
+
+    Parameters
+    ----------
+    path, reach : as :func:`read_deck` has them
+    cell : its number in the model's mesh
+    """
+    return make_grid(split_steps(flatten(read_cards(path, reach)))[0]).card_of_cell(cell)
+
+
+def located(
+    error: InputError, places: Mapping[Where, Card], path: Path, card_of_cell: Callable[[int], Card]
+) -> DeckError:
+    """The error with the line of the keyword that its place in the model comes from.
+
+    Parameters
+    ----------
+    error : found in the model
+    places : keyword of every part of the model, by its path
+    path : of the deck, for what has no place
+    card_of_cell : keyword and line of the element that a cell of the model is
+    """
     if isinstance(error, DeckError):
         return error
     if error.cell is not None:
-        return cell_at(error.cell).error(error.message)
+        return card_of_cell(error.cell).error(error.message)
     for end in range(len(error.where), 0, -1):
         card = places.get(error.where[:end])
         if card is not None:
             return card.error(error.message)
-    return DeckError(error.message, path=str(path), where=error.where)
+    return DeckError(error.message, path=path, where=error.where)
 
 
-def _left_out(outside: Sequence[Placed], steps: Sequence[DeckStep]) -> dict[str, int]:
+def _left_out(outside: Sequence[Card], steps: Sequence[DeckStep]) -> dict[str, int]:
     """Keywords without effect on the answer, each with its first line; others that are not read stop."""
     ignored = refuse_unsupported(outside, MODEL_WORDS, "outside a step")
     for step in steps:
-        ignored = refuse_unsupported(step.placed, STEP_WORDS, "inside a step") | ignored
+        ignored = refuse_unsupported(step.cards, STEP_WORDS, "inside a step") | ignored
     return ignored
 
 
-def _refuse_incomplete(outside: Sequence[Placed], steps: Sequence[DeckStep], path: object) -> None:
+def _refuse_incomplete(outside: Sequence[Card], steps: Sequence[DeckStep], path: Path) -> None:
     for needed in ("NODE", "ELEMENT", "SOLID SECTION"):
-        if not any(item.card.keyword == needed for item in outside):
-            raise DeckError(f"has no *{needed}; expected one", path=str(path))
+        if not any(of_keyword(outside, needed)):
+            raise DeckError(f"has no *{needed}; expected one", path=path)
     if not steps:
-        raise DeckError("has no *STEP; expected at least one", path=str(path))
+        raise DeckError("has no *STEP; expected at least one", path=path)
 
 
 def _refuse_large(steps: Sequence[DeckStep], small_strain: bool) -> None:
@@ -178,22 +175,9 @@ def _refuse_large(steps: Sequence[DeckStep], small_strain: bool) -> None:
             )
 
 
-def _kind(grid: DeckGrid) -> Kind:
-    first = grid.groups[0]
-    assert first.type.kind is not None
-    for group in grid.groups:
-        if group.type.kind != first.type.kind:
-            raise group.card.error(
-                f"{group.card.value('TYPE')} is {group.type.kind}, but {first.card.value('TYPE')} of line "
-                f"{first.card.line} {first.type.kind}; expected one of them for all elements"
-            )
-        if group.type.family not in NODES_PER_CELL:
-            raise group.card.error(f"TYPE={group.card.value('TYPE')} is not supported")
-    return first.type.kind
-
-
-def _mesh(grid: DeckGrid, sections: Sequence[Section], places: Places) -> Mesh:
+def _mesh(known: Known) -> Mesh:
     """Cells family by family; their numbers and the bodies follow."""
+    grid = known.grid
     families = {group.type.family for group in grid.groups}
     cells = {
         family: np.vstack([group.nodes for group in grid.groups if group.type.family == family])
@@ -204,11 +188,11 @@ def _mesh(grid: DeckGrid, sections: Sequence[Section], places: Places) -> Mesh:
     cell_of = np.empty(len(grid.elements.labels), np.int64)
     cell_of[element] = np.arange(len(element))
     return Mesh(
-        points=grid.points[:, : 3 if grid.groups[0].type.kind == "3d" else 2],
+        points=grid.points[:, : grid.dimension],
         cells=cells,
-        bodies={section.name: np.sort(cell_of[section.elements]) for section in sections},
-        boundaries=places.boundaries,
-        nodes=places.nodes,
+        bodies={section.name: np.sort(cell_of[section.elements]) for section in known.sections},
+        boundaries=known.places.boundaries,
+        nodes=known.places.nodes,
         node_numbers=grid.nodes.labels,
         cell_numbers=grid.elements.labels[element],
         cell_word="element",
@@ -249,28 +233,9 @@ def _step(
     return Step(name=steps[k].name, scale=scale, increments=increments, **changes, **conditions.switched(k))
 
 
-def _where(
-    sections: Sequence[Section],
-    contacts: Sequence[Pair],
-    conditions: Conditions,
-    steps: Sequence[DeckStep],
-) -> dict[Where, Card]:
-    places: dict[Where, Card] = {("body", i): section.card for i, section in enumerate(sections)}
-    places |= {("contact", i): pair.card for i, pair in enumerate(contacts)}
-    places |= {("support", i): conditions.cards[s.label] for i, s in enumerate(conditions.supports)}
-    places |= {("load", i): conditions.cards[load.label] for i, load in enumerate(conditions.loads)}
-    return places | {("step", i): step.card for i, step in enumerate(steps)}
-
-
-def _unused(materials: Mapping[str, Substance], sections: Sequence[Section]) -> tuple[str, ...]:
-    used = {id(section.substance) for section in sections}
-    return tuple(substance.card.value("NAME") for substance in materials.values() if id(substance) not in used)
-
-
-def _title(outside: Sequence[Placed]) -> str:
-    for item in outside:
-        if item.card.keyword == "HEADING":
-            return " ".join(", ".join(row.fields) for row in item.card.rows())[:200]
+def _title(outside: Sequence[Card]) -> str:
+    for card in of_keyword(outside, "HEADING"):
+        return " ".join(", ".join(row.fields) for row in card.rows())[:200]
     return ""
 
 
@@ -278,10 +243,10 @@ def _notes(
     grid: DeckGrid,
     steps: Sequence[DeckStep],
     contacts: Sequence[Pair],
-    ignored: dict[str, int],
     small_strain: bool,
     deck_increments: bool,
 ) -> list[str]:
+    """How the model differs from the deck."""
     notes = list(dict.fromkeys(group.type.note for group in grid.groups if group.type.note))
     if grid.skins:
         types = ", ".join(dict.fromkeys(group.type.name for group in grid.skins))
@@ -296,7 +261,11 @@ def _notes(
         notes.append(_OWN_INCREMENTS.format(", ".join(step.name for step in steps if step.increments > 1)))
     if grid.nodes.shifted:
         notes.append("instances share node numbers: those of later instances are raised to be unique")
-    if ignored:
-        words = ", ".join(f"*{keyword} (line {line})" for keyword, line in sorted(ignored.items(), key=lambda i: i[1]))
-        notes.append(f"ignored, without effect on the answer: {words}")
     return notes
+
+
+def _ignored(first: Mapping[str, int]) -> Iterator[str]:
+    """A note on keywords that are left out, with the first line of each."""
+    if first:
+        words = ", ".join(f"*{keyword} (line {line})" for keyword, line in sorted(first.items(), key=lambda i: i[1]))
+        yield f"ignored, without effect on the answer: {words}"

@@ -6,10 +6,13 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
+import numpy as np
+
+from signorini.arrays import Array
 from signorini.checks import LARGEST
 from signorini.deck.error import DeckError
 from signorini.errors import one_of
@@ -17,6 +20,28 @@ from signorini.errors import one_of
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([EeDd][+-]?\d+)?")
 MOST = 10**10
 """Numbers of nodes and elements are smaller: they have at most ten digits."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Scope:
+    """Where names and numbers are known: an instance, or the deck itself (name "").
+
+    Attributes
+    ----------
+    name : of the instance
+    turn, shift : an instance's points are ``turn @ x + shift``
+    """
+
+    name: str = ""
+    turn: Array = field(default_factory=lambda: np.eye(3))
+    shift: Array = field(default_factory=lambda: np.zeros(3))
+
+    def prefixed(self, name: str) -> str:
+        """A name of this scope as the whole deck knows it: ``INSTANCE.NAME``."""
+        return f"{self.name}.{name}" if self.name else name
+
+
+DECK = Scope()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -79,6 +104,7 @@ class Card:
     parameters : in capitals to their values as written, empty where there is none
     path, line : where the keyword stands, the line from 1
     chunks : the data lines as they stand, comments cut out: file, first line and bytes of each piece
+    scope : of its names and numbers
     """
 
     keyword: str
@@ -86,6 +112,7 @@ class Card:
     path: Path
     line: int
     chunks: tuple[tuple[Path, int, bytes], ...]
+    scope: Scope = DECK
 
     def error(self, message: str) -> DeckError:
         """The message with keyword and place."""

@@ -10,17 +10,16 @@ from typing import Any
 import numpy as np
 
 from signorini.arrays import Array, IntArray, distinct
-from signorini.deck.inp.acting import Courses, Known
 from signorini.deck.inp.card import Card
-from signorini.deck.inp.course import Course, Hold, Pattern, unique_label
-from signorini.deck.inp.links import STRIDE, DeckRigid, component
-from signorini.deck.inp.materials import Section
-from signorini.deck.inp.places import Places
+from signorini.deck.inp.course import Courses, Hold, Pattern
+from signorini.deck.inp.known import Known
+from signorini.deck.inp.links import DeckRigid, NodeSlots, rigid_motion
+from signorini.deck.inp.sets import unique_label
 from signorini.deck.inp.steps import DeckStep
 from signorini.model.conditions import Load, Support
 from signorini.model.links import directions
 
-_MOST = 1000  # loads of one kind: more would be a field, which takes memory for each
+_MAX_LOADS = 1000  # more would be a field, which takes memory for each of them
 
 
 @dataclass(kw_only=True)
@@ -33,6 +32,7 @@ class Conditions:
     cards : the keyword of each support and load, by label
     factors : label to its pattern, of what moves or loads
     holds : label of a support that some step takes away, brings or freezes to what it holds at, step by step
+    notes : where Abaqus and CalculiX differ, and which of them is followed
     """
 
     supports: list[Support] = field(default_factory=list)
@@ -40,6 +40,7 @@ class Conditions:
     cards: dict[str, Card] = field(default_factory=dict)
     factors: dict[str, Pattern] = field(default_factory=dict)
     holds: dict[str, tuple[Hold, ...]] = field(default_factory=dict)
+    notes: Sequence[str] = ()
 
     def label(self, name: str) -> str:
         """The name, or with a number behind it if another support or load bears it."""
@@ -57,8 +58,8 @@ class Conditions:
 
     def add_load(self, pattern: Pattern, **given: Any) -> None:
         """Add a load under a name of its own."""
-        if len(self.loads) >= _MOST:
-            raise pattern.card.error(f"makes more than {_MOST} different loads; expected uniform ones")
+        if len(self.loads) >= _MAX_LOADS:
+            raise pattern.card.error(f"makes more than {_MAX_LOADS} different loads; expected uniform ones")
         load = Load(name=self.label(given.pop("name")), **given)
         self.loads.append(load)
         self.cards[load.label] = pattern.card
@@ -89,16 +90,15 @@ class Conditions:
         return found
 
 
-def make_conditions(courses: Courses, places: Places, known: Known) -> Conditions:
+def make_conditions(courses: Courses, known: Known) -> Conditions:
     """Turn courses into supports and loads."""
-    conditions, sections = Conditions(), known.sections
-    number_of_nodes = len(known.nodes.numbering.labels)
-    _supports(courses.displacement, places, conditions, known)
-    _hold_idle(conditions, known)
-    _forces(courses.force, places, conditions, known)
+    conditions, sections = Conditions(notes=courses.notes), known.sections
+    _supports(courses, conditions, known)
+    _hold_idle(courses.rigid, conditions, known.dimension)
+    _forces(courses, conditions, known)
     for pattern in courses.pressure.patterns():
         for value, keys in _by_value(pattern):
-            for on in places.at_edges(keys, pattern.label) if value else ():
+            for on in known.places.at_faces(keys, pattern.label) if value else ():
                 conditions.add_load(pattern, on=on, pressure=value, name=on)
     for pattern in courses.volume.patterns():
         for slot, value in zip(pattern.slots.tolist(), pattern.values.tolist(), strict=True):
@@ -106,97 +106,105 @@ def make_conditions(courses: Courses, places: Places, known: Known) -> Condition
             if value:
                 conditions.add_load(pattern, on=sections[load.section].name, name=load.label, **load.given(value))
     for pattern in courses.temperature.patterns():
-        _heat(pattern, sections, number_of_nodes, conditions)
+        field = np.zeros(len(courses.initial))
+        field[pattern.slots] = pattern.values
+        for section in sections:  # temperatures act on every body that expands
+            if section.substance.expansion and field[section.nodes].any():
+                conditions.add_load(pattern, on=section.name, temperature=field, name=f"temperature {section.name}")
     return conditions
 
 
-def _heat(pattern: Pattern, sections: Sequence[Section], count: int, conditions: Conditions) -> None:
-    """Temperatures act on every body that expands."""
-    field = np.zeros(count)
-    field[pattern.slots] = pattern.values
-    for section in sections:
-        if section.substance.expansion and field[section.nodes].any():
-            conditions.add_load(pattern, on=section.name, temperature=field, name=f"temperature {section.name}")
-
-
-def _apart(pattern: Pattern, known: Known) -> tuple[Pattern, list[tuple[DeckRigid, int, float]]]:
-    """What a pattern has on nodes, and component and value of what it has on rigid bodies."""
-    found = []
+def _apart(
+    pattern: Pattern, rigid: Sequence[DeckRigid], dimension: int
+) -> tuple[Pattern, list[tuple[DeckRigid, int, float]]]:
+    """What a pattern has on nodes; and rigid bodies with the motion and the value that it has on them."""
+    found, packed = [], NodeSlots(pattern.slots)
     rest = np.ones(len(pattern.slots), bool)
-    for item in known.rigid:
-        own = pattern.slots // STRIDE == item.reference
+    for item in rigid:
+        own = packed.nodes == item.reference
         rest &= ~own
-        for slot, value in zip(pattern.slots[own].tolist(), pattern.values[own].tolist(), strict=True):
-            index = component(slot, known.dimension)
-            if index is not None:
-                found.append((item, index, value))
+        for axis, value in zip(packed.axes[own].tolist(), pattern.values[own].tolist(), strict=True):
+            motion = rigid_motion(axis, dimension)
+            if motion is not None:
+                found.append((item, motion, value))
     return (replace(pattern, slots=pattern.slots[rest], values=pattern.values[rest]) if found else pattern), found
 
 
-def _supports(course: Course, places: Places, conditions: Conditions, known: Known) -> None:
+def _only(which: int, value: float, count: int, rest: float | None = None) -> tuple[float | None, ...]:
+    """A value in one of so many directions."""
+    return tuple(value if i == which else rest for i in range(count))
+
+
+def _supports(courses: Courses, conditions: Conditions, known: Known) -> None:
     """Supports at rest hold all directions of a place at once; those that move are one a direction."""
-    dimension = known.dimension
+    dimension, words = known.dimension, directions(known.dimension)
     resting: dict[tuple[str, tuple[Hold, ...]], list[Pattern]] = {}
-    for whole in course.patterns():
-        pattern, rigid = _apart(whole, known)
-        for item, index, value in rigid:
-            words = directions(dimension)
-            u = tuple(value if i == index else None for i in range(len(words)))
-            name = item.body.name
-            conditions.add_support(pattern, on=name, u=u, name=f"{name} {words[index]}")
-        if not any(pattern.shares):
+    for whole in courses.displacement.patterns():
+        pattern, rigid = _apart(whole, courses.rigid, dimension)
+        for item, motion, value in rigid:
+            u, name = _only(motion, value, len(words)), item.body.name
+            conditions.add_support(pattern, on=name, u=u, name=f"{name} {words[motion]}")
+        if any(pattern.shares):
+            _moving(pattern, conditions, known)
+        else:
             resting.setdefault((pattern.label, pattern.holds), []).append(pattern)
-            continue
-        for value, slots in _by_value(pattern):
-            for axis in range(dimension):
-                nodes = slots[slots % STRIDE == axis] // STRIDE
-                if len(nodes):
-                    u = tuple(value if i == axis else None for i in range(dimension))
-                    on = places.at_nodes(nodes, pattern.label)
-                    conditions.add_support(pattern, on=on, u=u, name=f"{pattern.label} u{axis + 1}")
     for (label, _), patterns in resting.items():
         slots = distinct(np.concatenate([pattern.slots for pattern in patterns]))
-        nodes, where = np.unique(slots // STRIDE, return_inverse=True)
-        held = np.zeros((len(nodes), dimension), bool)
-        held[where, slots % STRIDE] = True
+        nodes, held = _by_node(slots, np.ones(len(slots)), dimension)
         for which in np.unique(held, axis=0)[::-1]:
-            own = nodes[(held == which).all(axis=1)]
-            u = tuple(0.0 if part else None for part in which)
-            conditions.add_support(patterns[0], on=places.at_nodes(own, label), u=u, name=label)
+            on = known.places.at_nodes(nodes[(held == which).all(axis=1)], label)
+            conditions.add_support(patterns[0], on=on, u=tuple(0.0 if part else None for part in which), name=label)
 
 
-def _hold_idle(conditions: Conditions, known: Known) -> None:
+def _moving(pattern: Pattern, conditions: Conditions, known: Known) -> None:
+    """Supports of nodes that are moved."""
+    for value, slots in _by_value(pattern):
+        packed = NodeSlots(slots)
+        for axis in range(known.dimension):
+            nodes = packed.nodes[packed.axes == axis]
+            if len(nodes):
+                on, u = known.places.at_nodes(nodes, pattern.label), _only(axis, value, known.dimension)
+                conditions.add_support(pattern, on=on, u=u, name=f"{pattern.label} u{axis + 1}")
+
+
+def _by_node(slots: IntArray, values: Array, dimension: int) -> tuple[IntArray, Array]:
+    """Sorted nodes of slots, and (nodes, dimension) the values in all directions, 0 where there is none."""
+    packed = NodeSlots(slots)
+    nodes, where = np.unique(packed.nodes, return_inverse=True)
+    table = np.zeros((len(nodes), dimension))
+    table[where, packed.axes] = values
+    return nodes, table
+
+
+def _hold_idle(rigid: Sequence[DeckRigid], conditions: Conditions, dimension: int) -> None:
     """What nothing follows of the motion of a reference node stays at rest, unless the deck moves or holds it."""
-    for item in known.rigid:
+    for item in rigid:
         held = [support.u for support in conditions.supports if support.on == item.body.name]
         idle = [i for i in item.idle if all(u[i] is None for u in held)]
         if idle:
             name = conditions.label(f"{item.body.name} idle")
-            u = tuple(0.0 if i in idle else None for i in range(len(directions(known.dimension))))
+            u = tuple(0.0 if i in idle else None for i in range(len(directions(dimension))))
             conditions.supports.append(Support(item.body.name, u=u, name=name))
             conditions.cards[name] = item.card
 
 
-def _forces(course: Course, places: Places, conditions: Conditions, known: Known) -> None:
-    dimension = known.dimension
-    for whole in course.patterns():
-        pattern, rigid = _apart(whole, known)
-        for item, index, value in rigid:
-            if value and index in item.idle:
+def _forces(courses: Courses, conditions: Conditions, known: Known) -> None:
+    dimension, words = known.dimension, directions(known.dimension)
+    for whole in courses.force.patterns():
+        pattern, rigid = _apart(whole, courses.rigid, dimension)
+        for item, motion, value in rigid:
+            if value and motion in item.idle:
                 raise pattern.card.error(
-                    f"acts on '{directions(known.dimension)[index]}' of the reference node of line {item.card.line}, "
-                    "which nothing follows; expected a load on what is coupled"
+                    f"acts on '{words[motion]}' of the reference node of line {item.card.line}, which nothing follows; "
+                    "expected a load on what is coupled"
                 )
             if value:
-                size, name = len(directions(dimension)), item.body.name
-                force = tuple(value if i == index else 0.0 for i in range(size))
-                conditions.add_load(pattern, on=name, force=force, name=name)
-        nodes, where = np.unique(pattern.slots // STRIDE, return_inverse=True)
-        forces: Array = np.zeros((len(nodes), dimension))
-        forces[where, pattern.slots % STRIDE] = pattern.values
+                name = item.body.name
+                conditions.add_load(pattern, on=name, force=_only(motion, value, len(words), 0.0), name=name)
+        nodes, forces = _by_node(pattern.slots, pattern.values, dimension)
         if not forces.any():
             continue
-        on = places.at_nodes(nodes, pattern.label)
+        on = known.places.at_nodes(nodes, pattern.label)
         if (forces == forces[0]).all():
             total = tuple(float(part) * len(nodes) for part in forces[0])
             conditions.add_load(pattern, on=on, force=total, name=pattern.label)

@@ -3,42 +3,43 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from signorini.arrays import Array, distinct
+from signorini.arrays import Array, IntArray, distinct
 from signorini.deck.inp.card import Card
-from signorini.deck.inp.flatten import Placed
-from signorini.deck.inp.grid import DeckGrid
-from signorini.deck.inp.links import DeckEquation, DeckRigid, named_node, refuse_shared
-from signorini.deck.inp.places import Places
-from signorini.deck.inp.sets import Sets
-from signorini.deck.inp.surfaces import ElementFaces, Surfaces
+from signorini.deck.inp.known import Known
+from signorini.deck.inp.links import (
+    DeckEquation,
+    DeckRigid,
+    make_equations,
+    make_rigid_bodies,
+    named_node,
+    refuse_shared,
+    rigid_body,
+)
 from signorini.model.links import AXES, Equation, RigidBody, Term, directions
 
-_ROUNDING = 1e-12  # of the longest arm: shorter ones are none
+_ARM_TOL = 1e-12  # of the longest arm: shorter ones are rounding of the coordinates
 COUPLINGS = ("KINEMATIC", "DISTRIBUTING")
 """Keywords that say how the ``*COUPLING`` before them couples."""
 
 
-def make_couplings(
-    placed: Sequence[Placed],
-    rigid: list[DeckRigid],
-    nodes: Sets,
-    surfaces: Surfaces,
-    edges: ElementFaces,
-    grid: DeckGrid,
-    places: Places,
+def make_links(cards: Sequence[Card], known: Known) -> tuple[list[DeckRigid], list[DeckEquation]]:
+    """Read all ``*RIGID BODY``, ``*COUPLING`` and ``*EQUATION`` keywords: what couples displacements."""
+    rigid, equations = _couplings(cards, known, make_rigid_bodies(cards, known))
+    return rigid, equations + make_equations(cards, known, rigid)
+
+
+def _couplings(
+    cards: Sequence[Card], known: Known, rigid: Sequence[DeckRigid]
 ) -> tuple[list[DeckRigid], list[DeckEquation]]:
     """Read all ``*COUPLING`` keywords: rigid bodies where they couple all directions, otherwise equations too.
 
     ``u_i(x) = u_i + (theta x (x - point))_i`` in every direction i that is coupled, with the displacement u and the
     rotation theta of the reference node at ``point``.
-
-    Parameters
-    ----------
-    rigid : the rigid bodies of the deck, whose nodes and names are taken
 
     Returns
     -------
@@ -51,58 +52,46 @@ def make_couplings(
     """
     bodies = list(rigid)
     equations: list[DeckEquation] = []
-    dimension = 3 if grid.groups[0].type.kind == "3d" else 2
-    for item, kinematic in _pairs(placed):
-        card = item.card
+    for card, kinematic in _pairs(cards):
         card.refuse_unknown(("REF NODE", "SURFACE"), ("CONSTRAINT NAME",))
-        surface = surfaces.find(card.value("SURFACE"), item.scope, card)
-        faces = edges.ends[surfaces.keys[surface.upper()]]
-        members = distinct(surfaces.nodes.get(surface.upper(), faces[faces >= 0]))
+        surface = known.surfaces.find(card.value("SURFACE"), card.scope, card)
         card.value("REF NODE", "a node")
-        reference = named_node(item, "REF NODE", nodes)
+        reference = named_node(card, "REF NODE", known)
         refuse_shared(card, (reference,), bodies)
-        members = members[members != reference]
+        members = surface.nodes[surface.nodes != reference]
         if not len(members):
-            raise card.error(f"surface '{surface}' holds no node but the reference node")
-        coupled = _directions(kinematic, dimension)
-        whole = len(coupled) == dimension
-        own = np.array([reference])
-        on = places.at_nodes(distinct(np.append(members, own)) if whole else own, f"coupling {surface}")
-        name = places.unused(f"rigid {surface}", [other.body.name for other in bodies])
-        point = grid.points[reference, :dimension]
-        body = RigidBody(name, on, tuple(float(x) for x in point))
-        followed = set(directions(dimension))
+            raise card.error(f"surface '{surface.name}' holds no node but the reference node")
+        coupled = _directions(kinematic, known.dimension)
+        whole = len(coupled) == known.dimension
+        nodes = distinct(np.append(members, reference)) if whole else np.array([reference])
+        body = rigid_body(surface.name, f"coupling {surface.name}", nodes, reference, known, bodies)
+        idle: tuple[int, ...] = ()
         if not whole:
-            at = kinematic.row("directions")
-            labels = nodes.numbering.labels[members].tolist()
-            own_terms = list(_followed(name, labels, grid.points[members, :dimension] - point, coupled))
-            followed = {direction for terms in own_terms for place, direction, _ in terms if place == name}
-            equations += [DeckEquation(equation=Equation(terms), row=at, card=card) for terms in own_terms]
-        idle = tuple(i for i, direction in enumerate(directions(dimension)) if direction not in followed)
+            line = card.at(kinematic.row("directions"))
+            terms = list(_followed(body, members, known, coupled))
+            equations += [DeckEquation(equation=Equation(each), card=line) for each in terms]
+            followed = {direction for each in terms for place, direction, _ in each if place == body.name}
+            idle = tuple(i for i, word in enumerate(directions(known.dimension)) if word not in followed)
         bodies.append(DeckRigid(body=body, reference=reference, turning=-1, card=card, idle=idle))
     return bodies, equations
 
 
-def _pairs(placed: Sequence[Placed]) -> Iterator[tuple[Placed, Card]]:
+def _pairs(cards: Sequence[Card]) -> Iterator[tuple[Card, Card]]:
     """Every ``*COUPLING`` and the keyword behind it that says how."""
-    before: Placed | None = None
-    for item in placed:
-        asked = before is not None and before.card.keyword == "COUPLING"
-        if item.card.keyword in COUPLINGS:
-            if before is None or not asked:
-                raise item.card.error("stands without *COUPLING before it")
-            if item.card.keyword == "DISTRIBUTING":
-                raise item.card.error("is not supported; expected *KINEMATIC")
-            yield before, item.card
-        elif before is not None and asked:
-            raise before.card.error("expected *KINEMATIC behind it")
-        before = item
-    if before is not None and before.card.keyword == "COUPLING":
-        raise before.card.error("expected *KINEMATIC behind it")
+    for before, card in itertools.pairwise((None, *cards, None)):
+        open_ = before if before is not None and before.keyword == "COUPLING" else None
+        if card is not None and card.keyword in COUPLINGS:
+            if open_ is None:
+                raise card.error("stands without *COUPLING before it")
+            if card.keyword == "DISTRIBUTING":
+                raise card.error("is not supported; expected *KINEMATIC")
+            yield open_, card
+        elif open_ is not None:
+            raise open_.error("expected *KINEMATIC behind it")
 
 
 def _directions(card: Card, dimension: int) -> list[int]:
-    """Coupled directions from 0: ranges of 1 to 6 in the data lines, all without any; rotations have no say here."""
+    """Coupled displacements from 0: data lines are ranges of 1 to 6, whose rotations say nothing; all without lines."""
     card.refuse_unknown(())
     found: set[int] = set() if card.has_data else set(range(dimension))
     for row in card.rows():
@@ -116,16 +105,17 @@ def _directions(card: Card, dimension: int) -> list[int]:
     return sorted(found)
 
 
-def _followed(name: str, labels: Sequence[int], arms: Array, coupled: Sequence[int]) -> Iterator[list[Term]]:
-    """``u_i(k) - u_i - (theta x r_k)_i = 0`` for every node k with the arm r_k, (nodes, d), and direction i."""
-    dimension = arms.shape[1]
-    turns = directions(dimension)[dimension:]
+def _followed(body: RigidBody, members: IntArray, known: Known, coupled: Sequence[int]) -> Iterator[list[Term]]:
+    """``u_i(k) - u_i - (theta x r_k)_i = 0`` for every node k at r_k from the body's point, and direction i."""
+    arms = known.grid.points[members, : known.dimension] - body.point
+    labels = known.nodes.numbering.labels[members].tolist()
+    turns = directions(known.dimension)[known.dimension :]
     for axis in coupled:
         shares = _turned(arms, axis)
-        shares[np.abs(shares) <= _ROUNDING * np.abs(arms).max()] = 0.0
+        shares[np.abs(shares) <= _ARM_TOL * np.abs(arms).max()] = 0.0
         for label, share in zip(labels, shares.tolist(), strict=True):
-            turning = [(name, turn, -value) for turn, value in zip(turns, share, strict=True) if value]
-            yield [(label, AXES[axis], 1.0), (name, AXES[axis], -1.0), *turning]
+            turning = [(body.name, turn, -value) for turn, value in zip(turns, share, strict=True) if value]
+            yield [(label, AXES[axis], 1.0), (body.name, AXES[axis], -1.0), *turning]
 
 
 def _turned(arms: Array, axis: int) -> Array:

@@ -1,20 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How values on nodes, edges or bodies change from step to step."""
+"""How values on nodes, faces or bodies change from step to step, a course for every kind of them."""
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Sequence
-from dataclasses import dataclass
-from typing import Literal
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.deck.inp.amplitudes import Amplitude
 from signorini.deck.inp.card import Card
+from signorini.deck.inp.links import DeckRigid
 from signorini.deck.inp.steps import DeckStep
 
-_SAME = 1e-9  # of a factor: a smaller jump is none
+_JUMP_TOL = 1e-9  # of a factor: less is rounding of times and factors with ten digits
+_SAME_VECTOR_TOL = 1e-9  # of an axis or a direction, as written with ten digits
 
 Hold = Literal["", "value", "place"]
 """What a slot is held at in a step: nothing, a value, or the place where the step finds it."""
@@ -62,7 +65,7 @@ class Pattern:
     def turns(self, k: int, steps: Sequence[DeckStep]) -> list[float]:
         """Times in step k at which the factor leaves a straight line: its start, if it jumps there, and breaks."""
         step, amplitude = steps[k], self.amplitudes[k]
-        jumps = abs(self.factor(k, steps, step.start) - self.at_end(k - 1, steps)) > _SAME
+        jumps = abs(self.factor(k, steps, step.start) - self.at_end(k - 1, steps)) > _JUMP_TOL
         found = [step.start] if jumps else []
         if amplitude is not None:
             shift = 0.0 if amplitude.total else step.start
@@ -203,14 +206,87 @@ class Course:
         return self._amplitudes.index(amplitude)
 
 
-def unique_label(label: str, taken: Container[str]) -> str:
-    """The label, or with a number behind it if another bears it.
+@dataclass(frozen=True, kw_only=True)
+class VolumeLoad:
+    """What acts on the whole of a section when its value is 1.
 
-    >>> unique_label("top", {"top"})
-    'top (2)'
+    Attributes
+    ----------
+    kind : as decks call it: GRAV, CENTRIF, BX, BY or BZ
+    place : the set or element as the deck names it, in capitals; empty where loads of other names are the same
+    section : index
+    label : what the model calls it
+    direction : force per volume; of CENTRIF the unit vector along the axis in space, empty in the plane
+    centre : of CENTRIF a point on the axis, empty where the y axis is meant; its value is the square of the angular
+        velocity
     """
-    number, name = 1, label
-    while name in taken:
-        number += 1
-        name = f"{label} ({number})"
-    return name
+
+    kind: str
+    place: str
+    section: int
+    label: str
+    direction: tuple[float, ...]
+    centre: tuple[float, ...] = ()
+
+    def is_same(self, other: VolumeLoad) -> bool:
+        """Whether a value of the other replaces a value of this, or is added to it: same place, direction and axis."""
+        if (self.kind, self.place, self.section) != (other.kind, other.place, other.section):
+            return False
+        mine, its = np.array(self.direction), np.array(other.direction)
+        apart = np.subtract(self.centre, other.centre)
+        if len(apart) == 3:
+            apart = apart - (apart @ mine) * mine  # points of an axis are as good as each other
+        far = _largest(np.array([*self.centre, *other.centre]))
+        return _largest(mine - its) <= _SAME_VECTOR_TOL * _largest(mine) and _largest(apart) <= _SAME_VECTOR_TOL * far
+
+    def given(self, value: float) -> dict[str, Any]:
+        """The load of a value, as a model has it."""
+        if self.kind != "CENTRIF":
+            return {"body_force": tuple(value * part for part in self.direction)}
+        line = {"centre": self.centre, "axis": self.direction}
+        return {"centrifugal": math.sqrt(value), **{key: part for key, part in line.items() if part}}
+
+
+def _largest(parts: Array) -> float:
+    return float(np.abs(parts).max(initial=0.0))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Courses:
+    """How everything that acts on the bodies changes with the steps.
+
+    Attributes
+    ----------
+    rigid : what has reference nodes
+    initial : (n,) temperature of every node at the beginning
+    displacement : slots of nodes (:class:`signorini.deck.inp.links.NodeSlots`), length
+    force : slots of nodes, force
+    pressure : slots are keys of faces, force per area
+    volume : slots are indices of volume_loads
+    temperature : slots are nodes, above the initial temperature
+    volume_loads : what acts on whole sections
+    notes : where Abaqus and CalculiX differ, and which of them is followed
+    """
+
+    rigid: Sequence[DeckRigid]
+    initial: Array
+    displacement: Course = field(default_factory=Course)
+    force: Course = field(default_factory=Course)
+    pressure: Course = field(default_factory=Course)
+    volume: Course = field(default_factory=Course)
+    temperature: Course = field(default_factory=Course)
+    volume_loads: list[VolumeLoad] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def all(self) -> tuple[Course, ...]:
+        """Every course."""
+        return self.displacement, self.force, self.pressure, self.volume, self.temperature
+
+    def volume_slot(self, load: VolumeLoad) -> int:
+        """The slot of a load on a section, new if there is none like it."""
+        for slot, other in enumerate(self.volume_loads):
+            if other.is_same(load):
+                return slot
+        self.volume_loads.append(load)
+        return len(self.volume_loads) - 1

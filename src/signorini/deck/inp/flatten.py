@@ -4,47 +4,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import replace
 
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.deck.inp.card import Card, Row
+from signorini.deck.inp.card import Card, Row, Scope
 
 _OUTSIDE = ("ASSEMBLY", "END ASSEMBLY", "END PART", "END INSTANCE")
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Scope:
-    """Where names and numbers are known: an instance, or the deck itself (name "").
-
-    Attributes
-    ----------
-    name : of the instance
-    turn, shift : an instance's points are ``turn @ x + shift``
-    """
-
-    name: str = ""
-    turn: Array = field(default_factory=lambda: np.eye(3))
-    shift: Array = field(default_factory=lambda: np.zeros(3))
-
-    def prefixed(self, name: str) -> str:
-        """A name of this scope as the whole deck knows it: ``INSTANCE.NAME``."""
-        return f"{self.name}.{name}" if self.name else name
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Placed:
-    """A keyword and the scope of its names and numbers."""
-
-    card: Card
-    scope: Scope
-
-
-DECK = Scope()
-
-
-def flatten(cards: list[Card]) -> list[Placed]:
+def flatten(cards: list[Card]) -> list[Card]:
     """Put the keywords of a part wherever an instance of it stands.
 
     Raises
@@ -53,7 +23,7 @@ def flatten(cards: list[Card]) -> list[Placed]:
         If an instance names no part, a part or an instance is not ended, or its motion is malformed.
     """
     parts: dict[str, list[Card]] = {}
-    placed: list[Placed] = []
+    flat: list[Card] = []
     stream = iter(cards)
     for card in stream:
         if card.keyword == "PART":
@@ -65,10 +35,10 @@ def flatten(cards: list[Card]) -> list[Placed]:
                 raise card.error(f"there is no part '{name}' before it")
             scope = _scope(card)
             inner = list(_until(stream, "END INSTANCE", card))
-            placed += [Placed(card=part, scope=scope) for part in (*parts[name], *inner)]
+            flat += [replace(part, scope=scope) for part in (*parts[name], *inner)]
         elif card.keyword not in _OUTSIDE:
-            placed.append(Placed(card=card, scope=DECK))
-    return placed
+            flat.append(card)
+    return flat
 
 
 def _until(stream: Iterator[Card], end: str, start: Card) -> Iterator[Card]:

@@ -3,20 +3,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import cast
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray, distinct
-from signorini.deck.inp.card import MOST, Card
+from signorini.deck.inp.card import MOST, Card, Scope
 from signorini.deck.inp.elements import ElementType, element_type, unknown_type
-from signorini.deck.inp.flatten import Placed, Scope
+from signorini.deck.inp.keywords import of_keyword
 from signorini.deck.inp.numbering import Numbering
 from signorini.deck.inp.numbers import number_table, record_table
 from signorini.model.mesh import NODES_PER_CELL
+from signorini.model.model import Kind
 
-_FLAT = 1e-9  # of the size: how far a plane mesh may leave its plane
+_PLANE_TOL = 1e-9  # of the size of the mesh: coordinates are written with ten digits
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -28,7 +31,7 @@ class DeckGrid:
     points : (n, 3) coordinates
     nodes, elements : numberings
     groups : one for every ``*ELEMENT`` keyword: its type, its elements' indices and their nodes
-    skins : the same of lower dimension: faces and lines that meshers write beside the cells, for sets and surfaces
+    skins : faces and lines that meshers write beside the cells, of lower dimension, for sets and surfaces
     """
 
     points: Array
@@ -42,6 +45,16 @@ class DeckGrid:
         """Those of cells and of skins."""
         return self.groups + self.skins
 
+    @property
+    def kind(self) -> Kind:
+        """Of the model: that of all cells."""
+        return cast(Kind, self.groups[0].type.kind)
+
+    @property
+    def dimension(self) -> int:
+        """Directions of the model's space."""
+        return self.groups[0].type.dimension
+
     @cached_property
     def elements_of_cells(self) -> IntArray:
         """(m,) the element that every cell of the model is: cells are ordered by their families."""
@@ -53,13 +66,16 @@ class DeckGrid:
         group = next(group for group in self.all_groups if element in group.index)
         return group.at(int(np.nonzero(group.index == element)[0][0]))
 
+    def card_of_cell(self, cell: int) -> Card:
+        """The ``*ELEMENT`` keyword, at its line, of the element that a cell of the model is."""
+        return self.at(int(self.elements_of_cells[cell]))
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ElementGroup:
     """Elements of one keyword: ``index`` (m,) counts elements, ``nodes`` (m, k) points."""
 
     card: Card
-    scope: Scope
     type: ElementType
     index: IntArray
     nodes: IntArray
@@ -69,7 +85,7 @@ class ElementGroup:
         return _at_record(self.card, element, self.type)
 
 
-def make_grid(placed: list[Placed]) -> DeckGrid:
+def make_grid(cards: Sequence[Card]) -> DeckGrid:
     """Read all ``*NODE`` and ``*ELEMENT`` keywords.
 
     Raises
@@ -77,11 +93,11 @@ def make_grid(placed: list[Placed]) -> DeckGrid:
     DeckError
         For a number that is used twice or for nothing, a type that is not supported, or a mesh that is not plane.
     """
-    nodes, points = _nodes([item for item in placed if item.card.keyword == "NODE"])
+    nodes, points = _nodes(cards)
     elements, groups = Numbering("element"), []
-    for scope, cards in _by_scope([item for item in placed if item.card.keyword == "ELEMENT"]):
+    for scope, own in _by_scope(cards, "ELEMENT"):
         tables = []
-        for card in cards:
+        for card in own:
             card.refuse_unknown(("TYPE", "ELSET", "INPUT"))
             kind = element_type(card)
             tables.append((card, kind, record_table(card, kind.nodes + 1, f"a number and {kind.nodes} nodes")))
@@ -91,10 +107,9 @@ def make_grid(placed: list[Placed]) -> DeckGrid:
             groups.append(
                 ElementGroup(
                     card=card,
-                    scope=scope,
                     type=kind,
                     index=elements.index(scope, table[:, 0], card),
-                    nodes=_members(card, kind, table, nodes, scope),
+                    nodes=_members(card, kind, table, nodes),
                 )
             )
     top = max((group.type.dimension for group in groups), default=0)
@@ -103,16 +118,27 @@ def make_grid(placed: list[Placed]) -> DeckGrid:
         if group.type.kind is None:
             raise unknown_type(group.card)
     _refuse_space(points, cells, nodes, elements)
+    for group in cells:
+        _refuse_other_kind(group, cells[0])
     skins = tuple(group for group in groups if group.type.dimension < top)
     return DeckGrid(points=points, nodes=nodes, elements=elements, groups=cells, skins=skins)
 
 
-def _members(card: Card, kind: ElementType, table: IntArray, nodes: Numbering, scope: Scope) -> IntArray:
+def _refuse_other_kind(group: ElementGroup, first: ElementGroup) -> None:
+    """All cells are of one kind of model, and of families that a model has."""
+    if group.type.kind != first.type.kind:
+        raise group.card.error(
+            f"{group.card.value('TYPE')} is {group.type.kind}, but {first.card.value('TYPE')} of line "
+            f"{first.card.line} {first.type.kind}; expected one of them for all elements"
+        )
+    if group.type.family not in NODES_PER_CELL:
+        raise group.card.error(f"TYPE={group.card.value('TYPE')} is not supported")
+
+
+def _members(card: Card, kind: ElementType, table: IntArray, nodes: Numbering) -> IntArray:
     """(m, k) nodes of elements."""
-    numbers = table[:, 1:].ravel()
-    return nodes.index(scope, numbers, lambda place: _at_record(card, place // kind.nodes, kind)).reshape(
-        -1, kind.nodes
-    )
+    found = nodes.index(card.scope, table[:, 1:].ravel(), lambda i: _at_record(card, i // kind.nodes, kind))
+    return found.reshape(-1, kind.nodes)
 
 
 def _at_record(card: Card, record: int, kind: ElementType) -> Card:
@@ -126,23 +152,23 @@ def nodes_of(grid: DeckGrid, elements: IntArray) -> IntArray:
     return distinct(np.concatenate([np.empty(0, np.int64), *pieces]))
 
 
-def _nodes(placed: list[Placed]) -> tuple[Numbering, Array]:
+def _nodes(cards: Sequence[Card]) -> tuple[Numbering, Array]:
     nodes, points = Numbering("node"), [np.empty((0, 3))]
-    for scope, cards in _by_scope(placed):
+    for scope, own in _by_scope(cards, "NODE"):
         tables = []
-        for card in cards:
+        for card in own:
             card.refuse_unknown(("NSET", "INPUT"))
             tables.append(number_table(card, "a number and up to 3 coordinates", least=1, most=7)[:, :4])
         table = np.vstack(tables)
         wrong = (table[:, 0] != np.rint(table[:, 0])) | (table[:, 0] < 1) | (table[:, 0] >= MOST)
         if wrong.any():
-            raise _at_node(cards, tables, int(np.argmax(wrong))).error(
+            raise _at_node(own, tables, int(np.argmax(wrong))).error(
                 f"a node has the number {table[wrong, 0][0]:g}; expected a whole number >= 1 of at most ten digits"
             )
         _, where, again = np.unique(table[:, 0].astype(np.int64), return_index=True, return_inverse=True)
         moved = np.nonzero((table[:, 1:] != table[where[again], 1:]).any(axis=1))[0]
         if len(moved):
-            raise _at_node(cards, tables, int(moved[0])).error(
+            raise _at_node(own, tables, int(moved[0])).error(
                 f"node {table[moved[0], 0]:.0f} is there twice, at different places"
             )
         first = np.sort(where)
@@ -151,14 +177,15 @@ def _nodes(placed: list[Placed]) -> tuple[Numbering, Array]:
     return nodes, np.vstack(points)
 
 
-def _by_scope(placed: list[Placed]) -> list[tuple[Scope, list[Card]]]:
+def _by_scope(cards: Sequence[Card], keyword: str) -> list[tuple[Scope, list[Card]]]:
+    """Cards of a keyword by the instance that they belong to."""
     scopes: dict[str, tuple[Scope, list[Card]]] = {}
-    for item in placed:
-        scopes.setdefault(item.scope.name, (item.scope, []))[1].append(item.card)
+    for card in of_keyword(cards, keyword):
+        scopes.setdefault(card.scope.name, (card.scope, []))[1].append(card)
     return list(scopes.values())
 
 
-def _at_node(cards: list[Card], tables: list[Array], record: int) -> Card:
+def _at_node(cards: Sequence[Card], tables: list[Array], record: int) -> Card:
     """The ``*NODE`` keyword of a node, at its line; nodes are counted through all of them."""
     for card, table in zip(cards, tables, strict=True):
         if record < len(table):
@@ -191,7 +218,7 @@ def _refuse_space(points: Array, groups: tuple[ElementGroup, ...], nodes: Number
             continue
         used = points[group.nodes]
         plane = float(np.median(used[..., 2]))
-        far = np.abs(used[..., 2] - plane) > _FLAT * max(float(np.ptp(used[..., :2], axis=(0, 1)).max()), 1e-300)
+        far = np.abs(used[..., 2] - plane) > _PLANE_TOL * max(float(np.ptp(used[..., :2], axis=(0, 1)).max()), 1e-300)
         if far.any():
             place, corner = (int(i) for i in np.argwhere(far)[0])
             raise group.at(place).error(

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
 from signorini.deck.inp.card import Card, Row, to_number
-from signorini.deck.inp.flatten import Placed
-from signorini.deck.inp.named import gathered
+from signorini.deck.inp.keywords import gathered
 
 INTERACTION_WORDS = ("SURFACE BEHAVIOR", "FRICTION")
 """Keywords that belong to the ``*SURFACE INTERACTION`` before them and that are read here."""
@@ -34,8 +34,13 @@ class Interaction:
     shear_limit: float | None = None
     tied: bool = False
 
+    @property
+    def name(self) -> str:
+        """As the deck spells it."""
+        return self.card.value("NAME")
 
-def make_interactions(placed: list[Placed]) -> dict[str, Interaction]:
+
+def make_interactions(cards: Sequence[Card]) -> dict[str, Interaction]:
     """Read all ``*SURFACE INTERACTION`` keywords with what follows them, by name in capitals.
 
     Raises
@@ -43,7 +48,7 @@ def make_interactions(placed: list[Placed]) -> dict[str, Interaction]:
     DeckError
         For laws that are not Signorini's and Coulomb's, possibly with a linear compliance.
     """
-    return gathered(placed, "SURFACE INTERACTION", INTERACTION_WORDS, _begun, _with)
+    return gathered(cards, "SURFACE INTERACTION", INTERACTION_WORDS, _begun, _with)
 
 
 def _begun(card: Card) -> Interaction:

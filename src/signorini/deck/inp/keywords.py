@@ -3,6 +3,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Protocol, TypeVar
+
+from signorini.deck.inp.card import Card
+from signorini.errors import one_of
+
 OUTPUT = (
     "CONTACT OUTPUT",
     "ELEMENT OUTPUT",
@@ -95,7 +101,6 @@ STEP_WORDS = (
 )
 """What is read inside the steps."""
 
-
 STRUCTURE = (
     "ASSEMBLY",
     "END ASSEMBLY",
@@ -108,3 +113,135 @@ STRUCTURE = (
     "STEP",
 )
 """What orders the others."""
+
+_PARAMETERS = (
+    "AUGMENTED LAGRANGE",
+    "CONSTRAINT NAME",
+    "CONVERT SDI",
+    "ELASTIC SLIP",
+    "EXTENSION ZONE",
+    "LOAD CASE",
+    "LONG TERM",
+    "PIN NSET",
+    "POSITION TOLERANCE",
+    "REF NODE",
+    "ROT NODE",
+    "MECHANICAL CONSTRAINT",
+    "SLIP TOLERANCE",
+    "SMALL SLIDING",
+    "TIE NSET",
+    "TIME RESET",
+    "TOTAL TIME AT START",
+)
+_KNOWN = {word.replace(" ", ""): word for word in (*HARMLESS, *MODEL_WORDS, *STEP_WORDS, *STRUCTURE, *_PARAMETERS)}
+
+
+def canonical(word: str) -> str:
+    """A keyword or parameter in capitals with single blanks where its parts meet.
+
+    >>> canonical(" solidSection"), canonical("unknown  word")
+    ('SOLID SECTION', 'UNKNOWN WORD')
+    """
+    parts = word.upper().split()
+    return _KNOWN.get("".join(parts), " ".join(parts))
+
+
+class _WithName(Protocol):
+    @property
+    def name(self) -> str: ...
+
+
+Named = TypeVar("Named", bound=_WithName)
+
+
+def of_keyword(cards: Sequence[Card], keyword: str) -> Iterator[Card]:
+    """Cards of one keyword."""
+    return (card for card in cards if card.keyword == keyword)
+
+
+def referred(card: Card, key: str, found: Mapping[str, Named], what: str) -> Named:
+    """What a parameter of a card names.
+
+    Parameters
+    ----------
+    card, key : the keyword and its parameter
+    found : what there is, by name in capitals
+    what : a word for it in messages
+
+    Raises
+    ------
+    DeckError
+        If there is nothing of that name.
+    """
+    name = card.value(key)
+    if name.upper() not in found:
+        raise card.error(one_of(name, [item.name for item in found.values()], what))
+    return found[name.upper()]
+
+
+def refuse_unsupported(cards: Sequence[Card], known: Sequence[str], where: str) -> dict[str, int]:
+    """Stop at the first keyword among the cards that changes the answer and is not read.
+
+    Parameters
+    ----------
+    known : keywords that are read here
+    where : words for the place, as "in a step"
+
+    Returns
+    -------
+    Keywords that are left out and the line of the first of each
+
+    Raises
+    ------
+    DeckError
+        With the line of the keyword.
+    """
+    ignored: dict[str, int] = {}
+    for card in cards:
+        keyword = card.keyword
+        if keyword in PRINTED:
+            continue
+        if keyword in HARMLESS:
+            ignored.setdefault(keyword, card.line)
+        elif keyword not in known:
+            elsewhere = keyword in MODEL_WORDS or keyword in STEP_WORDS
+            what = f"is not supported {where}" if elsewhere else "is not supported, and it may change the answer"
+            raise card.error(what)
+    return ignored
+
+
+def gathered(
+    cards: Sequence[Card],
+    opening: str,
+    words: Sequence[str],
+    begun: Callable[[Card], Named],
+    extended: Callable[[Named, Card], Named],
+) -> dict[str, Named]:
+    """All that a keyword begins, by name in capitals.
+
+    Parameters
+    ----------
+    cards : of the deck, outside its steps
+    opening : the keyword, with a NAME
+    words : keywords that belong to the last one before them
+    begun : what the keyword alone says
+    extended : what it says with one of the words
+
+    Raises
+    ------
+    DeckError
+        Where a name is given twice, or a word stands before anything that it could belong to.
+    """
+    found: dict[str, Named] = {}
+    current = ""
+    for card in cards:
+        if card.keyword == opening:
+            first, current = begun(card), card.value("NAME").upper()
+            if current in found:
+                raise card.error(f"there is another {opening.lower()} '{card.value('NAME')}'")
+            found[current] = first
+        elif card.keyword in words:
+            if not current:
+                raise card.error(f"stands before any *{opening}")
+            found[current] = extended(found[current], card)
+    return found

@@ -4,23 +4,55 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from signorini.arrays import IntArray, distinct
 from signorini.deck.inp.card import Card, Row
-from signorini.deck.inp.flatten import Placed
-from signorini.deck.inp.grid import DeckGrid, nodes_of
-from signorini.deck.inp.places import Places
-from signorini.deck.inp.sets import Sets
-from signorini.errors import Where
-from signorini.model.links import Equation, RigidBody, Term, directions
+from signorini.deck.inp.grid import nodes_of
+from signorini.deck.inp.keywords import of_keyword
+from signorini.deck.inp.known import Known
+from signorini.model.links import AXES, Equation, RigidBody, Term, directions
 
-STRIDE = 6
-"""Slots of a node or section: three directions, also in the plane, and three rotations."""
+SLOTS_PER_NODE = 6
+"""Three displacements and three rotations, also in the plane."""
 
-_MOST = 100_000  # terms of an equation times its nodes
+_MAX_TERMS = 100_000  # of an equation times its nodes: each is a row of numbers in the model
+_PLANE_MOTIONS = {0: 0, 1: 1, 5: 2}  # of the six directions those of a plane model, as `directions` counts them
+
+
+@dataclass(frozen=True, eq=False)
+class NodeSlots:
+    """Directions of nodes as one number each: SLOTS_PER_NODE of them a node.
+
+    Attributes
+    ----------
+    slots : (m,)
+
+    Examples
+    --------
+    >>> packed = NodeSlots.pack(np.array([7, 9]), 2)
+    >>> packed, NodeSlots(packed).nodes, NodeSlots(packed).axes
+    (array([44, 56]), array([7, 9]), array([2, 2]))
+    """
+
+    slots: IntArray
+
+    @staticmethod
+    def pack(nodes: int | IntArray, axes: int | IntArray) -> IntArray:
+        """Slots of nodes in directions from 0."""
+        return np.asarray(SLOTS_PER_NODE * nodes + axes, np.int64)
+
+    @property
+    def nodes(self) -> IntArray:
+        """(m,)"""
+        return self.slots // SLOTS_PER_NODE
+
+    @property
+    def axes(self) -> IntArray:
+        """(m,) directions from 0: 3 to 5 are rotations."""
+        return self.slots % SLOTS_PER_NODE
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -31,7 +63,7 @@ class DeckRigid:
     ----------
     body : its counterpart in the model
     reference, turning : its REF NODE and its ROT NODE, -1 where it has none
-    card : the keyword
+    card : where it stands
     idle : displacements and rotations that nothing follows, where single directions are coupled
     """
 
@@ -44,44 +76,43 @@ class DeckRigid:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class DeckEquation:
-    """One equation and the line that it begins at."""
+    """One equation and its keyword, at the line that it begins at."""
 
     equation: Equation
-    row: Row
     card: Card
 
 
 def rigid_slots(rigid: Sequence[DeckRigid], nodes: IntArray, axes: Sequence[int]) -> tuple[IntArray, IntArray]:
-    """Of nodes with directions 1 .. 6: slots of the reference nodes among them, and the other nodes.
+    """Slots of the reference nodes among some nodes, and the other nodes; directions of a ROT NODE are rotations.
 
-    Directions of a ROT NODE are rotations of its body.
+    Parameters
+    ----------
+    rigid : what has reference nodes
+    nodes : (m,)
+    axes : directions of the deck, 1 .. 6
     """
-    given = np.array(axes, np.int64)
-    slots, rest = [np.empty(0, np.int64)], nodes
+    given = np.array(axes, np.int64) - 1
+    slots: list[IntArray] = [np.empty(0, np.int64)]
+    rest = nodes
     for item in rigid:
         if item.reference in rest:
-            slots.append(STRIDE * item.reference + given - 1)
+            slots.append(NodeSlots.pack(item.reference, given))
         if item.turning in rest:
-            slots.append(STRIDE * item.reference + given[given <= 3] + 2)
+            slots.append(NodeSlots.pack(item.reference, given[given < 3] + 3))
         rest = rest[(rest != item.reference) & (rest != item.turning)]
     return np.concatenate(slots), rest
 
 
-def component(slot: int, dimension: int) -> int | None:
-    """Which displacement or rotation of a rigid body a slot is, None where the plane has none.
+def rigid_motion(axis: int, dimension: int) -> int | None:
+    """Which displacement or rotation of a rigid body a direction from 0 is, None where the plane has none.
 
-    >>> component(STRIDE * 7 + 5, 2), component(STRIDE * 7 + 5, 3), component(STRIDE * 7 + 2, 2)
+    >>> rigid_motion(5, 2), rigid_motion(5, 3), rigid_motion(2, 2)
     (2, 5, None)
     """
-    axis = slot % STRIDE
-    if dimension == 3:
-        return axis
-    return {0: 0, 1: 1, 5: 2}.get(axis)
+    return axis if dimension == 3 else _PLANE_MOTIONS.get(axis)
 
 
-def make_rigid_bodies(
-    placed: Sequence[Placed], nodes: Sets, elements: Sets, grid: DeckGrid, places: Places
-) -> list[DeckRigid]:
+def make_rigid_bodies(cards: Sequence[Card], known: Known) -> list[DeckRigid]:
     """Read all ``*RIGID BODY`` keywords.
 
     Raises
@@ -90,61 +121,65 @@ def make_rigid_bodies(
         For an unknown set or node, a reference node that two bodies have, or a position that is to be computed.
     """
     found: list[DeckRigid] = []
-    for item in placed:
-        card = item.card
-        if card.keyword != "RIGID BODY":
-            continue
-        card.refuse_unknown(
-            ("NSET", "TIE NSET", "PIN NSET", "ELSET", "REF NODE", "ROT NODE", "POSITION"), ("ISOTHERMAL",)
-        )
+    for card in of_keyword(cards, "RIGID BODY"):
+        card.refuse_unknown((*_MEMBERS, "REF NODE", "ROT NODE", "POSITION"), ("ISOTHERMAL",))
         card.choice("POSITION", ("INPUT",), "INPUT")
-        label, members = _members(item, nodes, elements, grid)
+        label, members = _members(card, known)
         card.value("REF NODE", "a node")
-        reference, turning = (named_node(item, key, nodes) for key in ("REF NODE", "ROT NODE"))
+        reference, turning = (named_node(card, key, known) for key in ("REF NODE", "ROT NODE"))
         refuse_shared(card, (reference, turning), found)
-        if turning in members:
-            members = members[members != turning]
-        on = places.at_nodes(distinct(np.append(members, reference)), label)
-        point = tuple(float(x) for x in grid.points[reference, : 3 if grid.groups[0].type.kind == "3d" else 2])
-        body = RigidBody(places.unused(f"rigid {label}", [other.body.name for other in found]), on, point)
+        nodes = distinct(np.append(members[members != turning], reference))
+        body = rigid_body(label, label, nodes, reference, known, found)
         found.append(DeckRigid(body=body, reference=reference, turning=turning, card=card))
     return found
 
 
-def link_places(rigid: Sequence[DeckRigid], equations: Sequence[DeckEquation]) -> dict[Where, Card]:
-    """The keyword of every rigid body, and of every equation with its own line, by the place in the model."""
-    places: dict[Where, Card] = {("rigid_body", j): item.card for j, item in enumerate(rigid)}
-    return places | {
-        ("equation", i): replace(item.card, path=item.row.path, line=item.row.line) for i, item in enumerate(equations)
-    }
+def rigid_body(
+    label: str, place: str, nodes: IntArray, reference: int, known: Known, others: Sequence[DeckRigid]
+) -> RigidBody:
+    """A rigid body of the model, under a name of its own.
+
+    Parameters
+    ----------
+    label : what the deck calls it
+    place : a name for its nodes
+    nodes : sorted; they follow it
+    reference : the node at its point
+    known : what has names already
+    others : rigid bodies, which have names too
+    """
+    on = known.places.at_nodes(nodes, place)
+    name = known.places.unused(f"rigid {label}", [other.body.name for other in others])
+    return RigidBody(name, on, tuple(known.grid.points[reference, : known.dimension].tolist()))
 
 
-def _members(item: Placed, nodes: Sets, elements: Sets, grid: DeckGrid) -> tuple[str, IntArray]:
-    card = item.card
-    given = [key for key in ("NSET", "TIE NSET", "PIN NSET", "ELSET") if key in card.parameters]
+_MEMBERS = ("NSET", "TIE NSET", "PIN NSET", "ELSET")
+
+
+def _members(card: Card, known: Known) -> tuple[str, IntArray]:
+    given = [key for key in _MEMBERS if key in card.parameters]
     if not given:
         raise card.error("names no nodes; expected NSET= or ELSET=")
     found = []
     for key in given:
-        sets = elements if key == "ELSET" else nodes
-        label, members = sets.find(card.value(key), item.scope, card)
-        found.append((label, nodes_of(grid, members) if key == "ELSET" else members))
+        sets = known.elements if key == "ELSET" else known.nodes
+        label, members = sets.find(card.value(key), card.scope, card)
+        found.append((label, nodes_of(known.grid, members) if key == "ELSET" else members))
     return found[0][0], distinct(np.concatenate([members for _, members in found]))
 
 
-def named_node(item: Placed, key: str, nodes: Sets) -> int:
-    """The node that a parameter names, -1 without it."""
-    card = item.card
+def named_node(card: Card, key: str, known: Known) -> int:
+    """The node that a parameter of a card names, -1 without the parameter."""
     if key not in card.parameters:
         return -1
-    label, members = nodes.find(card.value(key, "a node"), item.scope, card)
+    label, members = known.nodes.find(card.value(key, "a node"), card.scope, card)
     if len(members) != 1:
         raise card.error(f"{key}: '{label}' holds {len(members)} nodes; expected one")
     return int(members[0])
 
 
 def refuse_shared(card: Card, own: tuple[int, ...], others: Sequence[DeckRigid]) -> None:
-    """Reference nodes, -1 for none, that another rigid body or coupling has too, stop."""
+    """Reference nodes of a card, -1 for none, that another rigid body or coupling has too, stop."""
     for other in others:
         if set(own) & {other.reference, other.turning} - {-1}:
             raise card.error(
@@ -152,8 +187,13 @@ def refuse_shared(card: Card, own: tuple[int, ...], others: Sequence[DeckRigid])
             )
 
 
-def make_equations(placed: Sequence[Placed], nodes: Sets, rigid: Sequence[DeckRigid], kind: str) -> list[DeckEquation]:
-    """Read all ``*EQUATION`` keywords; sets of n nodes make n equations.
+def make_equations(cards: Sequence[Card], known: Known, rigid: Sequence[DeckRigid]) -> list[DeckEquation]:
+    """Read all ``*EQUATION`` keywords among the cards; sets of n nodes make n equations.
+
+    Parameters
+    ----------
+    known : nodes and their sets
+    rigid : rigid bodies, whose reference nodes may be in equations
 
     Raises
     ------
@@ -161,20 +201,17 @@ def make_equations(placed: Sequence[Placed], nodes: Sets, rigid: Sequence[DeckRi
         For what is malformed: numbers of terms, directions, sets of different sizes.
     """
     found: list[DeckEquation] = []
-    for item in placed:
-        card = item.card
-        if card.keyword != "EQUATION":
-            continue
+    for card in of_keyword(cards, "EQUATION"):
         card.refuse_unknown((), ("LOAD CASE",))
         rows = card.rows()
         for row in rows:
-            for terms in _spread(_terms(row, rows, item, nodes, rigid, kind), row):
-                found.append(DeckEquation(equation=Equation(terms), row=row, card=card))
+            for terms in _spread(_terms(row, rows, card, known, rigid), row):
+                found.append(DeckEquation(equation=Equation(terms), card=card.at(row)))
     return found
 
 
 def _terms(
-    row: Row, rows: Iterator[Row], item: Placed, nodes: Sets, rigid: Sequence[DeckRigid], kind: str
+    row: Row, rows: Iterator[Row], card: Card, known: Known, rigid: Sequence[DeckRigid]
 ) -> list[tuple[list[str | int], str, float]]:
     """Places, direction and coefficient of every term of an equation; they follow the line with their number."""
     count = row.whole(0, "the number of terms")
@@ -188,35 +225,35 @@ def _terms(
         if len(line.fields) > 3 * (count - len(terms)) or not line.fields:
             raise line.error(f"*EQUATION: has {len(line.fields)} fields; expected 3 for each of {count} terms")
         for start in range(0, len(line.fields), 3):
-            members = nodes.find(line.text(start, "a node or a node set"), item.scope, line)[1]
+            members = known.nodes.find(line.text(start, "a node or a node set"), card.scope, line)[1]
             axis = line.whole(start + 1, "a direction")
             value = line.number(start + 2, "a coefficient")
             if value == 0.0:
                 raise line.error("*EQUATION: has the coefficient 0; expected another, or no such term")
             if not len(members):
                 raise line.error(f"*EQUATION: '{line.fields[start]}' holds no node")
-            places, word = _place(members, axis, nodes, rigid, kind, line)
+            places, word = _place(members, axis, known, rigid, line)
             terms.append((places, word, value))
     return terms
 
 
 def _place(
-    members: IntArray, axis: int, nodes: Sets, rigid: Sequence[DeckRigid], kind: str, row: Row
+    members: IntArray, axis: int, known: Known, rigid: Sequence[DeckRigid], row: Row
 ) -> tuple[list[str | int], str]:
     """Places and the direction as the model calls them."""
-    dimension = 3 if kind == "3d" else 2
     slots, rest = rigid_slots(rigid, members, [axis])
     if len(slots) and len(members) == 1:
-        index = component(int(slots[0]), dimension)
-        if index is None:
+        packed = NodeSlots(slots[:1])
+        motion = rigid_motion(int(packed.axes[0]), known.dimension)
+        if motion is None:
             raise row.error(f"*EQUATION: direction {axis} is not one of a plane model")
-        reference = int(slots[0]) // STRIDE
-        return [next(item.body.name for item in rigid if item.reference == reference)], directions(dimension)[index]
+        name = next(item.body.name for item in rigid if item.reference == packed.nodes[0])
+        return [name], directions(known.dimension)[motion]
     if len(rest) < len(members):
         raise row.error("*EQUATION: a set holds the node of a rigid body; expected its number")
-    if not 1 <= axis <= dimension:
-        raise row.error(f"*EQUATION: direction {axis}; expected 1 to {dimension}")
-    return nodes.numbering.labels[members].tolist(), "xyz"[axis - 1]
+    if not 1 <= axis <= known.dimension:
+        raise row.error(f"*EQUATION: direction {axis}; expected 1 to {known.dimension}")
+    return known.nodes.numbering.labels[members].tolist(), AXES[axis - 1]
 
 
 def _spread(terms: list[tuple[list[str | int], str, float]], row: Row) -> Iterator[list[Term]]:
@@ -225,7 +262,7 @@ def _spread(terms: list[tuple[list[str | int], str, float]], row: Row) -> Iterat
     for places, _, _ in terms:
         if len(places) not in (1, count):
             raise row.error(f"*EQUATION: one set has {len(places)} nodes, another {count}; expected as many, or one")
-    if count * len(terms) > _MOST:
-        raise row.error(f"*EQUATION: has {len(terms)} terms of up to {count} nodes; expected at most {_MOST}")
+    if count * len(terms) > _MAX_TERMS:
+        raise row.error(f"*EQUATION: has {len(terms)} terms of up to {count} nodes; expected at most {_MAX_TERMS}")
     for i in range(count):
         yield [(places[i if len(places) > 1 else 0], axis, value) for places, axis, value in terms]

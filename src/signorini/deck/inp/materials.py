@@ -3,19 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
 from signorini.arrays import IntArray, distinct
 from signorini.deck.inp.card import Card
-from signorini.deck.inp.course import unique_label
-from signorini.deck.inp.flatten import Placed
 from signorini.deck.inp.grid import DeckGrid, nodes_of
-from signorini.deck.inp.named import gathered
-from signorini.deck.inp.sets import Sets
+from signorini.deck.inp.keywords import gathered, of_keyword, referred
+from signorini.deck.inp.sets import Sets, unique_label
 from signorini.errors import InputError, one_of
 from signorini.model.material import Elastic, Material, Orthotropic
 
@@ -39,6 +36,11 @@ class Substance:
     elastic: Material | None = None
     density: float | None = None
     expansion: float | None = None
+
+    @property
+    def name(self) -> str:
+        """As the deck spells it."""
+        return self.card.value("NAME")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -66,7 +68,7 @@ class Section:
     incompatible: bool
 
 
-def make_materials(placed: list[Placed]) -> dict[str, Substance]:
+def make_materials(cards: Sequence[Card]) -> dict[str, Substance]:
     """Read all ``*MATERIAL`` keywords with what follows them, by name in capitals.
 
     Raises
@@ -74,7 +76,7 @@ def make_materials(placed: list[Placed]) -> dict[str, Substance]:
     DeckError
         For laws that are not linear elasticity with constant moduli.
     """
-    return gathered(placed, "MATERIAL", MATERIAL_WORDS, lambda card: Substance(card=card), _with)
+    return gathered(cards, "MATERIAL", MATERIAL_WORDS, lambda card: Substance(card=card), _with)
 
 
 def _with(substance: Substance, card: Card) -> Substance:
@@ -124,25 +126,30 @@ def _constant(card: Card, what: str) -> float:
 
 
 def make_sections(
-    placed: list[Placed], elements: Sets, materials: dict[str, Substance], grid: DeckGrid
+    cards: Sequence[Card], grid: DeckGrid, elements: Sets, materials: Mapping[str, Substance]
 ) -> list[Section]:
-    """Read all ``*SOLID SECTION`` keywords; every element has exactly one, and bodies are of one formulation."""
+    """Read all ``*SOLID SECTION`` keywords; every element has exactly one, and bodies are of one formulation.
+
+    Parameters
+    ----------
+    cards : of the deck, outside its steps
+    grid, elements : nodes and elements, and sets of these
+    materials : by name in capitals
+
+    Raises
+    ------
+    DeckError
+        For an unknown set or material, an element with two sections or none, a section of faces.
+    """
     sections: list[Section] = []
-    taken: set[str] = set()
-    angles = make_orientations(placed)
+    angles = make_orientations(cards)
     owner = np.full(len(grid.elements.labels), -1)
-    for item in placed:
-        card = item.card
-        if card.keyword != "SOLID SECTION":
-            continue
+    for card in of_keyword(cards, "SOLID SECTION"):
         card.refuse_unknown(("ELSET", "MATERIAL", "ORIENTATION"), ("CONTROLS", "OFFSET"))
-        material = card.value("MATERIAL")
-        if material.upper() not in materials:
-            raise card.error(one_of(material, [m.card.value("NAME") for m in materials.values()], "material"))
-        substance = materials[material.upper()]
+        substance = referred(card, "MATERIAL", materials, "material")
         if substance.elastic is None:
-            raise substance.card.error(f"'{material}' has no *ELASTIC")
-        name, members = elements.find(card.value("ELSET"), item.scope, card)
+            raise substance.card.error(f"'{card.value('MATERIAL')}' has no *ELASTIC")
+        name, members = elements.find(card.value("ELSET"), card.scope, card)
         members = distinct(members)
         if not len(members):
             raise card.error(f"element set '{name}' is empty")
@@ -151,16 +158,21 @@ def make_sections(
             first = members[owner[members] >= 0][0]
             number = elements.numbering.labels[first]
             raise card.error(f"element {number} has the section of '{sections[owner[first]].name}' already")
-        given: dict[str, Any] = {"substance": substance, "angle": _angle(card, angles), "thickness": _thickness(card)}
+        angle, thickness = _angle(card, angles), _thickness(card)
         for kind, own in _by_formulation(members, grid):
             owner[own] = len(sections)
-            label = unique_label(f"{name} {kind}" if kind and len(own) < len(members) else name, taken)
-            taken.add(label)
-            sections.append(
-                Section(
-                    card=card, name=label, elements=own, nodes=nodes_of(grid, own), incompatible=bool(kind), **given
-                )
+            label = f"{name} {kind}" if kind and len(own) < len(members) else name
+            section = Section(
+                card=card,
+                name=unique_label(label, [section.name for section in sections]),
+                elements=own,
+                nodes=nodes_of(grid, own),
+                substance=substance,
+                angle=angle,
+                thickness=thickness,
+                incompatible=bool(kind),
             )
+            sections.append(section)
     bodies = grid.elements_of_cells
     if (owner[bodies] < 0).any():
         bare = int(bodies[owner[bodies] < 0].min())
@@ -187,7 +199,7 @@ def _by_formulation(members: IntArray, grid: DeckGrid) -> Iterator[tuple[str, In
         yield groups[0].card.value("TYPE").upper(), members[modes]
 
 
-def make_orientations(placed: list[Placed]) -> dict[str, float]:
+def make_orientations(cards: Sequence[Card]) -> dict[str, float]:
     """Angle of every ``*ORIENTATION`` from the x axis, degrees, by name in capitals.
 
     Raises
@@ -196,10 +208,7 @@ def make_orientations(placed: list[Placed]) -> dict[str, float]:
         For systems that are not rectangular, or turn out of the plane.
     """
     angles: dict[str, float] = {}
-    for item in placed:
-        card = item.card
-        if card.keyword != "ORIENTATION":
-            continue
+    for card in of_keyword(cards, "ORIENTATION"):
         card.refuse_unknown(("NAME", "SYSTEM", "DEFINITION"))
         card.choice("SYSTEM", ("RECTANGULAR",), "RECTANGULAR")
         card.choice("DEFINITION", ("COORDINATES",), "COORDINATES")

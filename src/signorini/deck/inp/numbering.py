@@ -8,8 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from signorini.arrays import IntArray
-from signorini.deck.inp.card import Card, Row
-from signorini.deck.inp.flatten import Scope
+from signorini.deck.inp.card import Card, Row, Scope
 
 
 class Numbering:

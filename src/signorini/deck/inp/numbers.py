@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -110,9 +111,8 @@ def whole_numbers(card: Card) -> IntArray | None:
 
 
 def _parts(card: Card) -> Iterator[Card]:
-    """The card, one piece of its data at a time."""
-    for chunk in card.chunks:
-        yield Card(keyword=card.keyword, parameters=card.parameters, path=card.path, line=card.line, chunks=(chunk,))
+    """The card with one piece of its data at a time."""
+    return (replace(card, chunks=(chunk,)) for chunk in card.chunks)
 
 
 def _by_line(card: Card, what: str, least: int, most: int) -> Array:

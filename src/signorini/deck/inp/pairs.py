@@ -1,21 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contact pairs."""
+"""Contact pairs, and what steps change of them: friction, and pairs that are switched off and on."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from signorini.arrays import IntArray, distinct
+from signorini.deck.error import DeckError
 from signorini.deck.inp.card import Card, Row, to_number
-from signorini.deck.inp.flatten import Placed
-from signorini.deck.inp.interactions import Interaction
-from signorini.deck.inp.sets import Sets
-from signorini.deck.inp.surfaces import ElementFaces, Surfaces
-from signorini.errors import one_of
+from signorini.deck.inp.interactions import Interaction, read_friction
+from signorini.deck.inp.keywords import of_keyword, referred
+from signorini.deck.inp.known import Known
+from signorini.deck.inp.surfaces import DeckSurface
 from signorini.model.contact import Contact
 
 _TYPES = ("", "NODE TO SURFACE", "SURFACE TO SURFACE", "MORTAR", "LINMORTAR", "PGLINMORTAR", "MASSLESS")
@@ -38,69 +37,43 @@ class Pair:
     interaction: str = ""
 
 
-def make_contacts(
-    placed: list[Placed], interactions: Mapping[str, Interaction], surfaces: Surfaces, nodes: Sets, edges: ElementFaces
-) -> list[Pair]:
-    """Read all ``*CONTACT PAIR`` keywords: the slave side is nonmortar.
+def make_contacts(cards: Sequence[Card], known: Known) -> list[Pair]:
+    """Read all ``*CONTACT PAIR`` keywords, whose slave side is nonmortar, and then all ``*TIE`` keywords.
 
     Raises
     ------
     DeckError
-        For an unknown surface or interaction, or a surface without edges.
+        For an unknown surface or interaction, a surface without edges, or what is not tied by its edges.
     """
-    clearances = _clearances(placed, surfaces)
+    clearances = _clearances(cards, known)
     found: list[Pair] = []
-    for item in placed:
-        card = item.card
-        if card.keyword != "CONTACT PAIR":
-            continue
+    for card in of_keyword(cards, "CONTACT PAIR"):
         card.refuse_unknown(("INTERACTION", "TYPE", "ADJUST"), IGNORED)
         card.choice("TYPE", _TYPES, "")
-        name = card.value("INTERACTION")
-        if name.upper() not in interactions:
-            known = [law.card.value("NAME") for law in interactions.values()]
-            raise card.error(one_of(name, known, "surface interaction"))
-        law = interactions[name.upper()]
-        card.row("the slave and the master surface")
-        for row in card.rows():
-            slave, master = (_side(item, row, i, surfaces, edges, nodes) for i in (0, 1))
-            faces = edges.ends[surfaces.keys[slave.upper()]]
-            given = _adjusted(card, nodes, item, distinct(faces[faces >= 0]))
-            if (slave, master) in clearances:
-                given = {"gap": clearances[slave, master][0]}
-            contact = Contact(
-                slave,
-                master,
-                friction="tied" if law.tied else law.friction,
-                normal_compliance=0.0 if law.tied else law.normal_compliance,
-                tangential_compliance=0.0 if law.tied else law.tangential_compliance,
-                shear_limit=None if law.tied else law.shear_limit,
-                name=_label(slave, master, found),
-                **given,
-            )
-            found.append(Pair(contact=contact, card=card.at(row), interaction=name.upper()))
+        law = referred(card, "INTERACTION", known.interactions, "surface interaction")
+        for row, slave, master in _sides(card, known):
+            given = _adjusted(card, slave, known)
+            if (slave.name, master.name) in clearances:
+                given = {"gap": clearances[slave.name, master.name][0]}
+            if not law.tied:
+                given |= {
+                    "normal_compliance": law.normal_compliance,
+                    "tangential_compliance": law.tangential_compliance,
+                    "shear_limit": law.shear_limit,
+                }
+            found.append(_pair(card.at(row), slave, master, found, law, **given))
     sides = {(pair.contact.nonmortar, pair.contact.mortar) for pair in found}
-    for (slave, master), (_, card) in clearances.items():
-        if (slave, master) not in sides:
-            raise card.error(f"there is no contact pair of '{slave}' and '{master}'")
+    for (slave_name, master_name), (_, card) in clearances.items():
+        if (slave_name, master_name) not in sides:
+            raise _no_pair(card, (slave_name, master_name))
+    for card, slave, master, reach in _ties(cards, known):
+        found.append(_pair(card, slave, master, found, None, **reach))
     return found
 
 
-def make_ties(
-    placed: list[Placed], surfaces: Surfaces, nodes: Sets, edges: ElementFaces, contacts: Sequence[Pair]
-) -> list[Pair]:
-    """Read all ``*TIE`` keywords: surfaces that neither slip nor open; initial gaps count as filled.
-
-    Raises
-    ------
-    DeckError
-        For an unknown surface, or what is not tied by its edges.
-    """
-    found: list[Pair] = []
-    for item in placed:
-        card = item.card
-        if card.keyword != "TIE":
-            continue
+def _ties(cards: Sequence[Card], known: Known) -> Iterator[tuple[Card, DeckSurface, DeckSurface, dict[str, Any]]]:
+    """Surfaces that neither slip nor open, with how far initial gaps count as filled."""
+    for card in of_keyword(cards, "TIE"):
         card.refuse_unknown(("NAME", "POSITION TOLERANCE", "ADJUST"), ("TYPE", "CONSTRAINT RATIO"))
         given: dict[str, Any] = {}
         if "POSITION TOLERANCE" in card.parameters:
@@ -108,39 +81,54 @@ def make_ties(
             if reach is None or not reach > 0.0:
                 raise card.error("POSITION TOLERANCE: expected a distance > 0")
             given["search"] = reach
-        card.row("the slave and the master surface")
-        for row in card.rows():
-            slave, master = (_side(item, row, i, surfaces, edges, nodes) for i in (0, 1))
-            name = _label(slave, master, [*contacts, *found])
-            found.append(Pair(contact=Contact(slave, master, friction="tied", name=name, **given), card=card.at(row)))
-    return found
+        for row, slave, master in _sides(card, known):
+            yield card.at(row), slave, master, given
 
 
-def _label(slave: str, master: str, others: Sequence[Pair]) -> str:
-    """The slave surface's name, or both if it has another partner too."""
-    return slave if not any(other.contact.nonmortar == slave for other in others) else f"{slave} on {master}"
+def _pair(
+    card: Card, slave: DeckSurface, master: DeckSurface, others: Sequence[Pair], law: Interaction | None, **given: Any
+) -> Pair:
+    """A pair with its name: the slave surface's, or both if that has another partner too; tied without a law."""
+    taken = any(other.contact.nonmortar == slave.name for other in others)
+    contact = Contact(
+        slave.name,
+        master.name,
+        friction="tied" if law is None or law.tied else law.friction,
+        name=f"{slave.name} on {master.name}" if taken else slave.name,
+        **given,
+    )
+    return Pair(contact=contact, card=card, interaction="" if law is None else law.name.upper())
 
 
-def _side(item: Placed, row: Row, i: int, surfaces: Surfaces, edges: ElementFaces, nodes: Sets) -> str:
-    name = surfaces.find(row.text(i, "a surface"), item.scope, row)
-    keys = surfaces.keys[name.upper()]
-    surfaces.refuse_bare(name, edges, nodes, row)
-    if not len(keys):
-        raise row.error(f"surface '{name}' has no edge of an element")
-    if len(edges.facets(keys)) > 1:
-        raise row.error(f"surface '{name}' has faces of linear and of quadratic elements; expected a pair for each")
-    return name
+def _sides(card: Card, known: Known) -> Iterator[tuple[Row, DeckSurface, DeckSurface]]:
+    """Slave and master surface of every data line."""
+    card.row("the slave and the master surface")
+    for row in card.rows():
+        slave, master = (_side(card, row, i, known) for i in (0, 1))
+        yield row, slave, master
 
 
-def _adjusted(card: Card, nodes: Sets, item: Placed, slave: IntArray) -> dict[str, Any]:
+def _side(card: Card, row: Row, i: int, known: Known) -> DeckSurface:
+    surface = known.surfaces.find(row.text(i, "a surface"), card.scope, row)
+    surface.refuse_bare(row)
+    if not len(surface.keys):
+        raise row.error(f"surface '{surface.name}' has no edge of an element")
+    if len(known.faces.facets(surface.keys)) > 1:
+        raise row.error(
+            f"surface '{surface.name}' has faces of linear and of quadratic elements; expected a pair for each"
+        )
+    return surface
+
+
+def _adjusted(card: Card, slave: DeckSurface, known: Known) -> dict[str, Any]:
     """``ADJUST``: gaps up to a distance are closed; or those of a node set, if it holds all slave nodes."""
     if "ADJUST" not in card.parameters:
         return {}
     word = card.value("ADJUST", "a distance or a node set")
     distance = to_number(word)
     if distance is None:
-        name, members = nodes.find(word, item.scope, card)
-        if not np.isin(slave, members).all():
+        name, members = known.nodes.find(word, card.scope, card)
+        if not np.isin(slave.nodes, members).all():
             raise card.error(f"ADJUST={name} does not hold all nodes of the slave surface, which is not supported")
         return {"gap": "zero"}
     if distance < 0.0:
@@ -148,16 +136,103 @@ def _adjusted(card: Card, nodes: Sets, item: Placed, slave: IntArray) -> dict[st
     return {"adjust": distance}
 
 
-def _clearances(placed: list[Placed], surfaces: Surfaces) -> dict[tuple[str, str], tuple[float, Card]]:
+def _clearances(cards: Sequence[Card], known: Known) -> dict[tuple[str, str], tuple[float, Card]]:
     """Gap of every pair of slave and master surface, and where it stands."""
     found = {}
-    for item in placed:
-        if item.card.keyword == "CLEARANCE":
-            card = item.card
-            card.refuse_unknown(("MASTER", "SLAVE", "VALUE"))
-            value = to_number(card.value("VALUE", "a distance"))
-            if value is None:
-                raise card.error(f"VALUE is '{card.value('VALUE')}'; expected a number")
-            slave, master = (surfaces.find(card.value(key), item.scope, card) for key in ("SLAVE", "MASTER"))
-            found[slave, master] = value, card
+    for card in of_keyword(cards, "CLEARANCE"):
+        card.refuse_unknown(("MASTER", "SLAVE", "VALUE"))
+        value = to_number(card.value("VALUE", "a distance"))
+        if value is None:
+            raise card.error(f"VALUE is '{card.value('VALUE')}'; expected a number")
+        slave, master = named_sides(card, known, "a name")
+        found[slave, master] = value, card
+    return found
+
+
+def named_sides(card: Card, known: Known, what: str) -> tuple[str, str]:
+    """Names of the surfaces that a card has as SLAVE and MASTER; what is expected there in words."""
+    slave, master = (known.surfaces.find(card.value(key, what), card.scope, card) for key in ("SLAVE", "MASTER"))
+    return slave.name, master.name
+
+
+def pairs_between(pairs: Sequence[Pair], sides: tuple[str, str], at: Card | Row) -> list[int]:
+    """Indices of the contacts of a slave and a master surface.
+
+    Parameters
+    ----------
+    pairs : all contacts
+    sides : names of the surfaces
+    at : what is blamed where there is none
+
+    Raises
+    ------
+    DeckError
+        If there is none.
+    """
+    found = [i for i, pair in enumerate(pairs) if (pair.contact.nonmortar, pair.contact.mortar) == sides]
+    if not found:
+        raise _no_pair(at, sides)
+    return found
+
+
+def _no_pair(at: Card | Row, sides: tuple[str, str]) -> DeckError:
+    return at.error(f"there is no contact pair of '{sides[0]}' and '{sides[1]}'")
+
+
+def make_changes(cards: Sequence[Card], known: Known, pairs: Sequence[Pair]) -> dict[str, Any]:
+    """Read ``*CHANGE FRICTION`` with its ``*FRICTION``, and ``*MODEL CHANGE`` or ``*CHANGE CONTACT PAIR`` of a step.
+
+    Parameters
+    ----------
+    cards : of the step
+    known : surfaces and laws of contact
+    pairs : all contacts
+
+    Returns
+    -------
+    Keywords of the model's step
+
+    Raises
+    ------
+    DeckError
+        For unknown interactions and surfaces, and changes of anything else.
+    """
+    friction: dict[str, Any] = {}
+    switched: dict[str, bool] = {}
+    changed: Interaction | None = None
+    for card in cards:
+        if card.keyword == "CHANGE FRICTION":
+            card.refuse_unknown(("INTERACTION",))
+            changed = referred(card, "INTERACTION", known.interactions, "surface interaction")
+        elif card.keyword == "FRICTION":
+            if changed is None:
+                raise card.error("stands in a step without *CHANGE FRICTION before it")
+            coefficient, compliance = read_friction(card)
+            if "TAUMAX" in card.parameters or changed.shear_limit is not None:
+                raise card.error("changes friction with a largest traction, which is not supported")
+            if compliance != changed.tangential_compliance:
+                raise card.error("changes the stick slope, which is not supported; expected that of the model")
+            friction |= {pair.contact.label: coefficient for pair in pairs if pair.interaction == changed.name.upper()}
+        elif card.keyword in ("MODEL CHANGE", "CHANGE CONTACT PAIR"):
+            switched |= _switched(card, known, pairs)
+    found: dict[str, Any] = {"friction": friction} if friction else {}
+    for key, on in (("active", True), ("inactive", False)):
+        names = tuple(name for name, state in switched.items() if state is on)
+        if names:
+            found[key] = names
+    return found
+
+
+def _switched(card: Card, known: Known, pairs: Sequence[Pair]) -> dict[str, bool]:
+    card.refuse_unknown(("TYPE", "ADD", "REMOVE"))
+    if card.choice("TYPE", ("CONTACT PAIR", "ELEMENT"), "CONTACT PAIR") == "ELEMENT":
+        raise card.error("TYPE=ELEMENT is not supported; expected CONTACT PAIR")
+    if ("ADD" in card.parameters) == ("REMOVE" in card.parameters):
+        raise card.error("expected either ADD or REMOVE")
+    found: dict[str, bool] = {}
+    card.row("the slave and the master surface")
+    for row in card.rows():
+        slave, master = (known.surfaces.find(row.text(i, "a surface"), card.scope, row).name for i in (0, 1))
+        names = [pairs[i].contact.label for i in pairs_between(pairs, (slave, master), row)]
+        found |= dict.fromkeys(names, "ADD" in card.parameters)
     return found

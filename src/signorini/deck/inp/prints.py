@@ -4,34 +4,44 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 
 from signorini.arrays import IntArray
-from signorini.deck.inp.acting import Known
 from signorini.deck.inp.card import Card
-from signorini.deck.inp.flatten import Placed
-from signorini.deck.inp.pairs import Pair
+from signorini.deck.inp.known import Known
+from signorini.deck.inp.links import DeckRigid
+from signorini.deck.inp.pairs import Pair, named_sides, pairs_between
 from signorini.deck.inp.sets import Sets
 from signorini.deck.inp.steps import DeckStep
 from signorini.model.mesh import Mesh
 from signorini.model.prints import Prints, Table
 
-_OF: dict[str, Literal["nodes", "cells", "contacts"]] = {
+_TABLES_OF: dict[str, Literal["nodes", "cells", "contacts"]] = {
     "NODE PRINT": "nodes",
     "EL PRINT": "cells",
     "CONTACT PRINT": "contacts",
 }
 _KNOWN = {"nodes": ("U", "RF"), "cells": ("S",), "contacts": ("CDIS", "CSTR", "CELS", "CF", "CFN", "CFS")}
 _FORCES = ("CF", "CFN", "CFS")
-_SAME = {"CDISP": "CDIS", "CSTRESS": "CSTR"}
+_CALCULIX_WORDS = {"CDISP": "CDIS", "CSTRESS": "CSTR"}
 
 
-def make_prints(steps: Sequence[DeckStep], known: Known, mesh: Mesh, contacts: Sequence[Pair]) -> Prints:
+def make_prints(
+    steps: Sequence[DeckStep], known: Known, contacts: Sequence[Pair], rigid: Sequence[DeckRigid], mesh: Mesh
+) -> Prints:
     """``*NODE PRINT`` (U, RF), ``*EL PRINT`` (S) and ``*CONTACT PRINT`` (CDIS, CSTR, CELS, CF, CFN, CFS).
 
     In the order in which CalculiX prints them: as asked for, forces of contacts last. Other quantities are left out.
+
+    Parameters
+    ----------
+    steps : whose keywords ask
+    known : nodes and elements with their sets, surfaces
+    contacts, rigid : contact pairs before ties, and what has reference nodes
+    mesh : of the model, whose cells are elements in another order
 
     Raises
     ------
@@ -42,72 +52,62 @@ def make_prints(steps: Sequence[DeckStep], known: Known, mesh: Mesh, contacts: S
     order = np.argsort(cells)
     near = order[np.minimum(np.searchsorted(cells[order], labels), len(cells) - 1)]
     cell_of = np.where(cells[near] == labels, near, -1)  # faces and lines beside the cells are none
-    asked: list[Placed] = []
+    asked: list[Card] = []
     tables: list[Table] = []
+    pairs = [pair for pair in contacts if pair.card.keyword == "CONTACT PAIR"]  # ties are behind them
     for k, step in enumerate(steps):
-        anew = [item for item in step.placed if item.card.keyword in _OF]
-        words = {item.card.keyword for item in anew}
-        asked = [item for item in asked if item.card.keyword not in words] + anew
-        own = [table for item in asked for table in _tables(k, item, known, cell_of, contacts)]
+        anew = [card for card in step.cards if card.keyword in _TABLES_OF]
+        words = {card.keyword for card in anew}
+        asked = [card for card in asked if card.keyword not in words] + anew
+        own = [table for card in asked for table in _tables(k, card, known, pairs, cell_of)]
         tables += sorted(own, key=lambda table: bool(set(table.quantities) & set(_FORCES)))
+    turning = {item.turning: item.body.name for item in rigid if item.turning >= 0}
+    tables = [replace(table, rotations=turning) if table.of == "nodes" else table for table in tables]
     return Prints(tables=tuple(tables), times=tuple(step.end for step in steps))
 
 
-def _tables(k: int, item: Placed, known: Known, cell_of: IntArray, contacts: Sequence[Pair]) -> Iterator[Table]:
+def _tables(k: int, card: Card, known: Known, pairs: Sequence[Pair], cell_of: IntArray) -> Iterator[Table]:
     """What one keyword asks for in step k."""
-    of = _OF[item.card.keyword]
-    quantities = _quantities(item.card, _KNOWN[of])
+    of = _TABLES_OF[card.keyword]
+    quantities = _quantities(card, _KNOWN[of])
     if of == "contacts":
-        yield from _contact_tables(k, item, quantities, known, contacts)
+        yield from _contact_tables(k, card, quantities, known, pairs)
     elif quantities:
         nodes = of == "nodes"
-        place, members = _members(item, "NSET" if nodes else "ELSET", known.nodes if nodes else known.elements)
+        place, members = _members(card, "NSET" if nodes else "ELSET", known.nodes if nodes else known.elements)
         yield Table(
             step=k,
             of=of,
             place=place.upper(),
             members=members if nodes else np.sort(cell_of[members][cell_of[members] >= 0]),
             quantities=quantities,
-            totals=_totals(item.card),
-            rotations={rigid.turning: rigid.body.name for rigid in known.rigid if nodes and rigid.turning >= 0},
+            totals=_totals(card),
         )
 
 
 def _contact_tables(
-    k: int, item: Placed, quantities: Sequence[str], known: Known, contacts: Sequence[Pair]
+    k: int, card: Card, quantities: Sequence[str], known: Known, pairs: Sequence[Pair]
 ) -> Iterator[Table]:
     """Nodal values of all contact pairs in one table each, and the forces of the pair that is named, or of all."""
-    every = [i for i, pair in enumerate(contacts) if pair.card.keyword == "CONTACT PAIR"]
     nodal = tuple(word for word in quantities if word not in _FORCES)
     forces = tuple(word for word in quantities if word in _FORCES)
-    if every and nodal:
-        members = np.array(every)
-        totals = _totals(item.card)
+    if pairs and nodal:
+        members = np.arange(len(pairs))
+        totals = _totals(card)
         yield Table(step=k, of="contacts", place="all", members=members, quantities=nodal, totals=totals)
-    named = _named(item, known, every, contacts) if forces else []
+    named: Sequence[int] = range(len(pairs))
+    if forces and any(key in card.parameters for key in ("SLAVE", "MASTER")):
+        named = pairs_between(pairs, named_sides(card, known, "a surface"), card)
     for quantity in forces:
         for i in named:
-            sides = contacts[i].contact.nonmortar.upper(), str(contacts[i].contact.mortar).upper()
+            sides = pairs[i].contact.nonmortar.upper(), str(pairs[i].contact.mortar).upper()
             place = "slave set {}, master set {}".format(*sides)
             yield Table(step=k, of="contacts", place=place, members=np.array([i]), quantities=(quantity,))
 
 
-def _named(item: Placed, known: Known, every: Sequence[int], contacts: Sequence[Pair]) -> Sequence[int]:
-    """Contact pairs of ``SLAVE=`` and ``MASTER=``; without them all."""
-    card = item.card
-    given = [key for key in ("SLAVE", "MASTER") if key in card.parameters]
-    if not given:
-        return every
-    sides = tuple(known.surfaces.find(card.value(key, "a surface"), item.scope, card) for key in ("SLAVE", "MASTER"))
-    found = [i for i in every if (contacts[i].contact.nonmortar, contacts[i].contact.mortar) == sides]
-    if not found:
-        raise card.error(f"there is no contact pair of '{sides[0]}' and '{sides[1]}'")
-    return found
-
-
-def _members(item: Placed, key: str, sets: Sets) -> tuple[str, IntArray]:
-    if item.card.parameters.get(key):
-        return sets.find(item.card.parameters[key], item.scope, item.card)
+def _members(card: Card, key: str, sets: Sets) -> tuple[str, IntArray]:
+    if card.parameters.get(key):
+        return sets.find(card.parameters[key], card.scope, card)
     return "all", np.arange(len(sets.numbering.labels))
 
 
@@ -117,5 +117,5 @@ def _totals(card: Card) -> Literal["no", "yes", "only"]:
 
 
 def _quantities(card: Card, known: tuple[str, ...]) -> tuple[str, ...]:
-    found = [_SAME.get(word.upper(), word.upper()) for row in card.rows() for word in row.fields]
+    found = [_CALCULIX_WORDS.get(word.upper(), word.upper()) for row in card.rows() for word in row.fields]
     return tuple(dict.fromkeys(word for word in found if word in known))

@@ -1,21 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Node sets and element sets by name."""
+"""Node sets and element sets by name, and names that nothing else has."""
 
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Container, Sequence
 
 import numpy as np
 
 from signorini.arrays import IntArray, distinct
-from signorini.deck.inp.card import MOST, Card, Row, to_number
-from signorini.deck.inp.flatten import Placed, Scope
+from signorini.deck.inp.card import MOST, Card, Row, Scope, to_number
 from signorini.deck.inp.grid import DeckGrid, nodes_of
+from signorini.deck.inp.keywords import of_keyword
 from signorini.deck.inp.numbering import Numbering
 from signorini.deck.inp.numbers import number_table, whole_numbers
 from signorini.errors import one_of
 
-_MOST = 10_000_000  # members of a generated set
+_MAX_GENERATED = 10_000_000  # members of a range: more than any mesh here has
 
 
 class Sets:
@@ -80,25 +81,36 @@ class Sets:
         return f"{self.numbering.what} {word}", members
 
 
+def unique_label(label: str, taken: Container[str]) -> str:
+    """The label, or with a number behind it if another bears it.
+
+    >>> unique_label("top", {"top"})
+    'top (2)'
+    """
+    number, name = 1, label
+    while name in taken:
+        number += 1
+        name = f"{label} ({number})"
+    return name
+
+
 def _ascending(members: IntArray) -> bool:
     return bool((np.diff(members) > 0).all())
 
 
-def make_sets(placed: list[Placed], grid: DeckGrid) -> tuple[Sets, Sets]:
+def make_sets(cards: Sequence[Card], grid: DeckGrid) -> tuple[Sets, Sets]:
     """Node sets and element sets of a deck, in the order of their definitions."""
     nodes, elements = Sets(grid.nodes), Sets(grid.elements)
     for group in grid.all_groups:
         if group.card.parameters.get("ELSET"):
-            elements.add(group.scope.prefixed(group.card.parameters["ELSET"]), group.index)
-    node_scopes = [item for item in placed if item.card.keyword == "NODE" and item.card.parameters.get("NSET")]
-    for item in node_scopes:
-        numbers = _numbers_of_nodes(item.card)
-        nodes.add(item.scope.prefixed(item.card.parameters["NSET"]), grid.nodes.index(item.scope, numbers, item.card))
-    for item in placed:
-        if item.card.keyword == "NSET":
-            _define(item, "NSET", nodes, elements, grid)
-        elif item.card.keyword == "ELSET":
-            _define(item, "ELSET", elements, elements, grid)
+            elements.add(group.card.scope.prefixed(group.card.parameters["ELSET"]), group.index)
+    for card in of_keyword(cards, "NODE"):
+        if card.parameters.get("NSET"):
+            numbers = _numbers_of_nodes(card)
+            nodes.add(card.scope.prefixed(card.parameters["NSET"]), grid.nodes.index(card.scope, numbers, card))
+    for card in cards:
+        if card.keyword in ("NSET", "ELSET"):
+            _define(card, nodes if card.keyword == "NSET" else elements, elements, grid)
     return nodes, elements
 
 
@@ -106,11 +118,11 @@ def _numbers_of_nodes(card: Card) -> IntArray:
     return number_table(card, "a number and up to 3 coordinates", least=1, most=7)[:, 0].astype(np.int64)
 
 
-def _define(item: Placed, key: str, sets: Sets, elements: Sets, grid: DeckGrid) -> None:
-    card = item.card
+def _define(card: Card, sets: Sets, elements: Sets, grid: DeckGrid) -> None:
+    key = card.keyword
     card.refuse_unknown((key, "GENERATE", "INSTANCE", "ELSET", "INPUT"), ("INTERNAL", "UNSORTED", "FREQUENCY"))
-    name = item.scope.prefixed(card.value(key))
-    inside = Scope(name=card.parameters["INSTANCE"].upper()) if card.parameters.get("INSTANCE") else item.scope
+    name = card.scope.prefixed(card.value(key))
+    inside = Scope(name=card.parameters["INSTANCE"].upper()) if card.parameters.get("INSTANCE") else card.scope
     if key == "NSET" and card.parameters.get("ELSET"):
         members = elements.find(card.parameters["ELSET"], inside, card)[1]
         sets.add(name, nodes_of(grid, members))
@@ -135,7 +147,7 @@ def _generated(card: Card, numbering: Numbering, scope: Scope) -> IntArray:
     for row in card.rows():
         first, last = row.whole(0, "the first number"), row.whole(1, "the last number", row.whole(0, "a number"))
         step = row.whole(2, "the step", 1)
-        if step < 1 or last < first or (last - first) // step > _MOST:
+        if step < 1 or last < first or (last - first) // step > _MAX_GENERATED:
             raise row.error(f"*{card.keyword}: goes from {first} to {last} by {step}; expected an ascending range")
         pieces.append(numbering.find(scope.name, np.arange(first, last + 1, step))[0])
     return np.concatenate(pieces)

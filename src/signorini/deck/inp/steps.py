@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from signorini.deck.inp.card import Card, to_number
-from signorini.deck.inp.flatten import Placed
-from signorini.deck.inp.keywords import HARMLESS, STEP_WORDS
+from signorini.deck.inp.keywords import HARMLESS, STEP_WORDS, of_keyword
 
-_MOST = 100_000  # increments of a step
+_MAX_INCREMENTS = 100_000  # of a step: more are no path but a mistake in the units of time
 IGNORED = ("INC", "INCF", "NAME", "UNSYMM", "SOLVER", "CONVERT SDI", "EXTRAPOLATION", "PERTURBATION MASS")
 
 
@@ -26,7 +26,7 @@ class DeckStep:
     increments : that the deck asks for at first: its period over its first increment
     held : loads without an amplitude act at once (``AMPLITUDE=STEP``)
     nlgeom : large displacements are asked for
-    placed : the keywords in it
+    cards : the keywords in it
     """
 
     card: Card
@@ -36,7 +36,7 @@ class DeckStep:
     increments: int
     held: bool
     nlgeom: bool
-    placed: tuple[Placed, ...]
+    cards: tuple[Card, ...]
 
     @property
     def period(self) -> float:
@@ -44,7 +44,7 @@ class DeckStep:
         return self.end - self.start
 
 
-def split_steps(placed: list[Placed]) -> tuple[list[Placed], list[DeckStep]]:
+def split_steps(cards: list[Card]) -> tuple[list[Card], list[DeckStep]]:
     """Keywords before and between the steps, and the steps.
 
     Raises
@@ -52,36 +52,34 @@ def split_steps(placed: list[Placed]) -> tuple[list[Placed], list[DeckStep]]:
     DeckError
         If a step is not ended or is anything but static.
     """
-    model: list[Placed] = []
-    inside: list[tuple[Placed, list[Placed]]] = []
-    open_ = False
-    for item in placed:
-        keyword = item.card.keyword
-        if keyword == "STEP":
-            if open_:
-                raise item.card.error("begins before the step before it has ended; expected *END STEP")
-            inside.append((item, []))
-            open_ = True
-        elif keyword == "END STEP":
-            if not open_:
-                raise item.card.error("ends no step")
-            open_ = False
+    outside: list[Card] = []
+    inside: list[tuple[Card, list[Card]]] = []
+    members = outside
+    for card in cards:
+        if card.keyword == "STEP":
+            if members is not outside:
+                raise card.error("begins before the step before it has ended; expected *END STEP")
+            members = []
+            inside.append((card, members))
+        elif card.keyword == "END STEP":
+            if members is outside:
+                raise card.error("ends no step")
+            members = outside
         else:
-            (inside[-1][1] if open_ else model).append(item)
-    if open_:
-        raise inside[-1][0].card.error("is not ended; expected *END STEP")
+            members.append(card)
+    if members is not outside:
+        raise inside[-1][0].error("is not ended; expected *END STEP")
     steps: list[DeckStep] = []
-    for number, (item, members) in enumerate(inside, start=1):
-        start = steps[-1].end if steps else 0.0
-        steps.append(_step(item.card, number, members, start, steps[-1] if steps else None))
-    return model, steps
+    for card, members in inside:
+        steps.append(_step(card, members, steps))
+    return outside, steps
 
 
-def _step(card: Card, number: int, members: list[Placed], start: float, before: DeckStep | None) -> DeckStep:
+def _step(card: Card, members: list[Card], before: Sequence[DeckStep]) -> DeckStep:
     card.refuse_unknown(("NLGEOM", "AMPLITUDE"), IGNORED)
-    statics = [item.card for item in members if item.card.keyword == "STATIC"]
+    statics = list(of_keyword(members, "STATIC"))
     if len(statics) != 1:
-        other = next((m.card for m in members if m.card.keyword not in (*STEP_WORDS, *HARMLESS)), None)
+        other = next((other for other in members if other.keyword not in (*STEP_WORDS, *HARMLESS)), None)
         if not statics and other is not None:
             raise other.error("is not supported; expected *STATIC")
         found = "no *STATIC" if not statics else "two *STATIC"
@@ -97,6 +95,7 @@ def _step(card: Card, number: int, members: list[Placed], start: float, before: 
     first, period = first or 1.0, period or 1.0
     if not (first > 0.0 and period > 0.0):
         raise static.error(f"has the increment {first:g} and the period {period:g}; expected numbers > 0")
+    start = before[-1].end if before else 0.0
     if "TOTAL TIME AT START" in static.parameters:
         given = to_number(static.value("TOTAL TIME AT START", "a time"))
         if given is None:
@@ -107,15 +106,15 @@ def _step(card: Card, number: int, members: list[Placed], start: float, before: 
     if not start < start + period < math.inf:
         raise static.error(f"has the period {period:g} after {start:g}; expected one that can be added to that")
     nlgeom = "NLGEOM" in card.parameters and card.get("NLGEOM") != "NO"
-    if "NLGEOM" not in card.parameters and before is not None:
-        nlgeom = before.nlgeom
+    if "NLGEOM" not in card.parameters and before:
+        nlgeom = before[-1].nlgeom
     return DeckStep(
         card=card,
-        name=card.parameters.get("NAME", "") or f"step {number}",
+        name=card.parameters.get("NAME", "") or f"step {len(before) + 1}",
         start=start,
         end=start + period,
-        increments=max(1, math.ceil(min(period / first, _MOST) - 1e-6)),
+        increments=max(1, math.ceil(min(period / first, _MAX_INCREMENTS) - 1e-6)),
         held=card.choice("AMPLITUDE", ("RAMP", "STEP"), "RAMP") == "STEP",
         nlgeom=nlgeom,
-        placed=tuple(members),
+        cards=tuple(members),
     )

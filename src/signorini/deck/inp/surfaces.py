@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Surfaces by name: edges of elements, from faces, element sets or nodes."""
+"""Surfaces by name: faces of elements (edges in the plane), from faces, element sets or nodes."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from signorini.arrays import IntArray, distinct
-from signorini.deck.inp.card import Card, Row
-from signorini.deck.inp.flatten import Placed, Scope
+from signorini.deck.inp.card import Card, Row, Scope
 from signorini.deck.inp.grid import DeckGrid
+from signorini.deck.inp.keywords import of_keyword
 from signorini.deck.inp.sets import Sets
 from signorini.errors import one_of
 from signorini.model.mesh import CORNERS
@@ -18,8 +19,8 @@ from signorini.model.mesh import CORNERS
 FACES = 6
 """Room for the faces of an element: face k of element e has the key ``FACES * e + k - 1``."""
 
-_WIDEST = 8  # nodes of a face
-_NAMED = 5  # nodes that a message names
+_MAX_FACE_NODES = 8  # of a quadratic quadrilateral
+_NODES_NAMED = 5  # in a message: more would hide what is expected
 
 
 class ElementFaces:
@@ -29,13 +30,14 @@ class ElementFaces:
     ----------
     ends : (FACES * elements, 8) nodes by key, corners first; -1 where there are fewer
     outer : (FACES * elements,) whether no other element has the face
+    grid : the elements
     """
 
     def __init__(self, grid: DeckGrid) -> None:
-        self._skins = grid.skins
+        self.grid = grid
         count = len(grid.elements.labels)
         self._quadratic = np.zeros(count, bool)
-        self.ends = np.full((FACES * count, _WIDEST if grid.groups[0].type.kind == "3d" else 2), -1)
+        self.ends = np.full((FACES * count, _MAX_FACE_NODES if grid.dimension == 3 else 2), -1)
         for group in grid.groups:
             self._quadratic[group.index] = CORNERS[group.type.family] < group.type.nodes
             for face, places in enumerate(group.type.faces):
@@ -48,6 +50,11 @@ class ElementFaces:
         shared[order[1:][same]] = shared[order[:-1][same]] = True
         self.outer = np.zeros(len(self.ends), bool)
         self.outer[there] = ~shared
+
+    def nodes(self, keys: IntArray) -> IntArray:
+        """Sorted nodes of faces."""
+        ends = self.ends[keys]
+        return distinct(ends[ends >= 0])
 
     def facets(self, keys: IntArray) -> list[tuple[IntArray, ...]]:
         """Nodes of faces, (m, k) for each number k of nodes; apart by the order of their elements."""
@@ -74,7 +81,7 @@ class ElementFaces:
 
     def under(self, elements: IntArray) -> IntArray:
         """Keys of the faces of cells that have the nodes of faces or lines among the elements."""
-        wanted = _padded([group.nodes[np.isin(group.index, elements)] for group in self._skins])
+        wanted = _padded([group.nodes[np.isin(group.index, elements)] for group in self.grid.skins])
         if not len(wanted):
             return np.empty(0, np.int64)
         known = np.zeros(int(max(self.ends.max(), wanted.max())) + 2, bool)
@@ -100,55 +107,78 @@ def _padded(tables: list[IntArray]) -> IntArray:
     return np.concatenate([np.empty((0, width), np.int64), *rows])
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class DeckSurface:
+    """A surface of a deck.
+
+    Attributes
+    ----------
+    name : as the deck first spells it
+    keys : of its faces
+    given : the nodes of a surface that is made of nodes, None of others
+    faces : of all elements
+    """
+
+    name: str
+    keys: IntArray
+    given: IntArray | None
+    faces: ElementFaces
+
+    @property
+    def nodes(self) -> IntArray:
+        """Its sorted nodes."""
+        return self.faces.nodes(self.keys) if self.given is None else self.given
+
+    def refuse_bare(self, at: Row) -> None:
+        """A surface of nodes stands for the faces that it holds as a whole: nodes of none would be left out."""
+        bare = np.setdiff1d(self.nodes, self.faces.nodes(self.keys))
+        if len(bare):
+            labels = ", ".join(str(label) for label in self.faces.grid.nodes.labels[bare[:_NODES_NAMED]])
+            more = f" and {len(bare) - _NODES_NAMED} more" if len(bare) > _NODES_NAMED else ""
+            raise at.error(
+                f"surface '{self.name}' has nodes of no face that it holds as a whole: {labels}{more}; expected all "
+                "nodes of faces, or TYPE=ELEMENT"
+            )
+
+
 class Surfaces:
-    """Keys of edges by the name of a surface, and the nodes of surfaces that are made of nodes."""
+    """Surfaces by name, in any case."""
 
     def __init__(self) -> None:
-        self.keys: dict[str, IntArray] = {}
-        self.nodes: dict[str, IntArray] = {}
-        self._spelled: dict[str, str] = {}
-        self.cards: dict[str, Card] = {}
+        self._by_name: dict[str, DeckSurface] = {}
 
-    def add(self, name: str, keys: IntArray, card: Card) -> None:
-        """Add a surface."""
-        if name.upper() in self.keys:
-            raise card.error(f"there is another surface '{name}'")
-        self.keys[name.upper()] = keys
-        self._spelled[name.upper()] = name
-        self.cards[name.upper()] = card
+    def add(self, surface: DeckSurface, card: Card) -> None:
+        """Add the surface of a card."""
+        if surface.name.upper() in self._by_name:
+            raise card.error(f"there is another surface '{surface.name}'")
+        self._by_name[surface.name.upper()] = surface
 
-    def find(self, word: str, scope: Scope, at: Card | Row) -> str:
-        """The name by which the deck knows a surface, as first spelled.
+    def find(self, word: str, scope: Scope, at: Card | Row) -> DeckSurface:
+        """The surface that is called ``word`` in a scope.
 
         Raises
         ------
         DeckError
-            If there is no such surface.
+            At ``at``, if there is no such surface.
         """
         for name in (scope.prefixed(word).upper(), word.upper()):
-            if name in self.keys:
-                return self._spelled[name]
-        raise at.error(one_of(word, self._spelled.values(), "surface"))
+            if name in self._by_name:
+                return self._by_name[name]
+        raise at.error(one_of(word, [surface.name for surface in self._by_name.values()], "surface"))
 
-    def refuse_bare(self, name: str, edges: ElementFaces, nodes: Sets, at: Row) -> None:
-        """A surface of nodes stands for the faces that it holds as a whole: nodes of none would be left out."""
-        bare = np.setdiff1d(self.nodes.get(name.upper(), ()), edges.ends[self.keys[name.upper()]]).astype(np.int64)
-        if len(bare):
-            labels = ", ".join(str(label) for label in nodes.numbering.labels[bare[:_NAMED]])
-            more = f" and {len(bare) - _NAMED} more" if len(bare) > _NAMED else ""
-            raise at.error(
-                f"surface '{name}' has nodes of no face that it holds as a whole: {labels}{more}; expected all nodes "
-                "of faces, or TYPE=ELEMENT"
-            )
-
-    def facets(self, edges: ElementFaces) -> Mapping[str, tuple[IntArray, ...]]:
+    def facets(self) -> dict[str, tuple[IntArray, ...]]:
         """Nodes of the faces of every surface that has any, all of linear or all of quadratic elements."""
-        found = {name: edges.facets(self.keys[key]) for key, name in self._spelled.items()}
+        found = {surface.name: surface.faces.facets(surface.keys) for surface in self._by_name.values()}
         return {name: parts[0] for name, parts in found.items() if len(parts) == 1}
 
 
-def make_surfaces(placed: list[Placed], edges: ElementFaces, nodes: Sets, elements: Sets) -> Surfaces:
-    """Read all ``*SURFACE`` keywords.
+def make_surfaces(cards: Sequence[Card], faces: ElementFaces, nodes: Sets, elements: Sets) -> Surfaces:
+    """Read all ``*SURFACE`` keywords among the cards.
+
+    Parameters
+    ----------
+    faces : of all elements of the deck
+    nodes, elements : sets that surfaces are made of
 
     Raises
     ------
@@ -156,32 +186,28 @@ def make_surfaces(placed: list[Placed], edges: ElementFaces, nodes: Sets, elemen
         For faces that do not exist, or a kind of surface that is not supported.
     """
     surfaces = Surfaces()
-    for item in placed:
-        card = item.card
-        if card.keyword != "SURFACE":
-            continue
+    for card in of_keyword(cards, "SURFACE"):
         card.refuse_unknown(("NAME", "TYPE"), ("INTERNAL", "TRIM"))
-        name = item.scope.prefixed(card.value("NAME"))
+        name = card.scope.prefixed(card.value("NAME"))
+        given = None
         if card.choice("TYPE", ("ELEMENT", "NODE"), "ELEMENT") == "NODE":
-            members = [nodes.find(row.text(0, "a node or a node set"), item.scope, row)[1] for row in card.rows()]
-            found = distinct(np.concatenate([np.empty(0, np.int64), *members]))
-            surfaces.add(name, edges.between(found), card)
-            surfaces.nodes[name.upper()] = found
-        else:
-            surfaces.add(name, _of_elements(item, edges, elements), card)
+            members = [nodes.find(row.text(0, "a node or a node set"), card.scope, row)[1] for row in card.rows()]
+            given = distinct(np.concatenate([np.empty(0, np.int64), *members]))
+        keys = _of_elements(card, faces, elements) if given is None else faces.between(given)
+        surfaces.add(DeckSurface(name=name, keys=keys, given=given, faces=faces), card)
     return surfaces
 
 
-def _of_elements(item: Placed, edges: ElementFaces, elements: Sets) -> IntArray:
+def _of_elements(card: Card, faces: ElementFaces, elements: Sets) -> IntArray:
     pieces: list[IntArray] = [np.empty(0, np.int64)]
-    for row in item.card.rows():
-        members = elements.find(row.text(0, "an element or an element set"), item.scope, row)[1]
+    for row in card.rows():
+        members = elements.find(row.text(0, "an element or an element set"), card.scope, row)[1]
         face = row.fields[1].upper() if len(row.fields) > 1 else ""
         if not face:
-            pieces += [edges.outer_of(members), edges.under(members)]
+            pieces += [faces.outer_of(members), faces.under(members)]
         elif face[:1] != "S":
             raise row.error(f"*SURFACE: face '{face}' is not supported; expected S1, S2, ...")
         else:
-            pieces.append(edges.keys(members, face, row, "*SURFACE"))
+            pieces.append(faces.keys(members, face, row, "*SURFACE"))
     keys: IntArray = distinct(np.concatenate(pieces))
     return keys

@@ -14,13 +14,13 @@ from pathlib import Path
 
 from signorini.deck.error import DeckError
 from signorini.deck.inp.card import Card, decode
-from signorini.deck.inp.words import canonical
+from signorini.deck.inp.keywords import canonical
 from signorini.errors import InputError
 from signorini.sources import Reach
 
-_DEPTH = 10  # of files that include files
-_MOST = 1000  # includes of a deck: ten files that each include the next one ten times are ten thousand million
-_SHOWN = 60  # characters of a line in messages
+_MAX_DEPTH = 10  # of files that include files: more include themselves
+_MAX_INCLUDES = 1000  # of a deck: ten files that each include the next one ten times are ten thousand million
+_SHOWN_CHARACTERS = 60  # of a line, in messages
 
 
 def read_cards(path: Path, reach: Reach | None = None) -> list[Card]:
@@ -67,11 +67,13 @@ def _read(path: Path, reach: Reach, cards: list[_Open], included: list[Path], de
             continue
         opened = _keyword(data, path, line)
         if opened.keyword == "INCLUDE":
-            if depth == _DEPTH:
-                raise _error(opened, f"is the {_DEPTH + 1}th file inside another; does a file include itself?")
+            if depth == _MAX_DEPTH:
+                raise _error(opened, f"is the {_MAX_DEPTH + 1}th file inside another; does a file include itself?")
             included.append(_named(opened, reach))
-            if len(included) > _MOST:
-                raise _error(opened, f"is the {_MOST + 1}th file that is included; expected at most {_MOST}")
+            if len(included) > _MAX_INCLUDES:
+                raise _error(
+                    opened, f"is the {_MAX_INCLUDES + 1}th file that is included; expected at most {_MAX_INCLUDES}"
+                )
             _read(included[-1], reach, cards, included, depth + 1, opened)
             continue
         cards.append(opened)
@@ -157,7 +159,7 @@ def _keyword(data: bytes, path: Path, line: int) -> _Open:
                 raise _error(opened, f"has {key} twice")
             opened.parameters[key] = _unquoted(value.strip())
         elif value:
-            raise _error(opened, f"has '{word.strip()[:_SHOWN]}'; expected NAME=value")
+            raise _error(opened, f"has '{word.strip()[:_SHOWN_CHARACTERS]}'; expected NAME=value")
     return opened
 
 

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What keywords refer to, and the names that a model has for it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.arrays import IntArray
+from signorini.deck.inp.amplitudes import Amplitude, make_amplitudes
+from signorini.deck.inp.card import Card
+from signorini.deck.inp.grid import DeckGrid, make_grid
+from signorini.deck.inp.interactions import Interaction, make_interactions
+from signorini.deck.inp.materials import Section, make_materials, make_sections
+from signorini.deck.inp.sets import Sets, make_sets, unique_label
+from signorini.deck.inp.surfaces import ElementFaces, Surfaces, make_surfaces
+
+
+class Places:
+    """Boundaries and node sets of the model's mesh.
+
+    Attributes
+    ----------
+    boundaries : name to nodes of edges or faces, as a mesh has them
+    nodes : name to sorted nodes; no name is that of a boundary
+    """
+
+    def __init__(self, faces: ElementFaces, surfaces: Surfaces, sets: Sets) -> None:
+        self._faces = faces
+        self.boundaries: dict[str, tuple[IntArray, ...]] = surfaces.facets()
+        self.nodes: dict[str, IntArray] = {}
+        self._by_nodes: dict[bytes, str] = {}
+        for name in sets.names:
+            members = sets[name]
+            if len(members):
+                label = unique_label(name, self.boundaries)
+                self.nodes[label] = members
+                self._by_nodes[f"{name}".upper().encode() + members.tobytes()] = label
+
+    def at_nodes(self, nodes: IntArray, label: str) -> str:
+        """A name for sorted nodes: that of the set ``label`` if it has just these."""
+        key = label.upper().encode() + nodes.tobytes()
+        if key not in self._by_nodes:
+            name = unique_label(label, {*self.boundaries, *self.nodes})
+            self.nodes[name] = nodes
+            self._by_nodes[key] = name
+        return self._by_nodes[key]
+
+    def unused(self, label: str, others: Sequence[str]) -> str:
+        """The label, or with a number behind it where a place or one of the others has that name."""
+        return unique_label(label, {*self.boundaries, *self.nodes, *others})
+
+    def at_faces(self, keys: IntArray, label: str) -> list[str]:
+        """Names for faces, one for each order of elements: that of the surface ``label`` if it has just these."""
+        names = []
+        for kinds in self._faces.facets(keys):
+            known = self.boundaries.get(label, ())
+            same = len(known) == len(kinds) and all(map(np.array_equal, known, kinds))
+            names.append(label if same else unique_label(label, {*self.boundaries, *self.nodes}))
+            self.boundaries[names[-1]] = kinds
+        return names
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Known:
+    """Everything of a deck that has a number or a name.
+
+    Attributes
+    ----------
+    grid : nodes and elements
+    nodes, elements : their sets
+    sections : bodies
+    faces : of the elements
+    surfaces : by name
+    interactions : laws of contact by name in capitals
+    amplitudes : by name in capitals
+    places : names of the model's boundaries and node sets; it grows as they are needed
+    unused_materials : names of materials that no section has
+    """
+
+    grid: DeckGrid
+    nodes: Sets
+    elements: Sets
+    sections: Sequence[Section]
+    faces: ElementFaces
+    surfaces: Surfaces
+    interactions: Mapping[str, Interaction]
+    amplitudes: Mapping[str, Amplitude]
+    places: Places
+    unused_materials: tuple[str, ...]
+
+    @property
+    def dimension(self) -> int:
+        """Directions of the model's space."""
+        return self.grid.dimension
+
+
+def make_known(cards: Sequence[Card], outside: Sequence[Card]) -> Known:
+    """Read nodes, elements, sets, materials, sections, surfaces, laws of contact and amplitudes.
+
+    Parameters
+    ----------
+    cards : of the deck; sets and amplitudes stand in steps too
+    outside : those outside the steps
+
+    Raises
+    ------
+    DeckError
+        For what is malformed, is there twice, or refers to what is not there.
+    """
+    grid = make_grid(outside)
+    nodes, elements = make_sets(cards, grid)
+    materials = make_materials(outside)
+    sections = make_sections(outside, grid, elements, materials)
+    used = {section.substance.card for section in sections}
+    faces = ElementFaces(grid)
+    surfaces = make_surfaces(outside, faces, nodes, elements)
+    return Known(
+        grid=grid,
+        nodes=nodes,
+        elements=elements,
+        sections=sections,
+        faces=faces,
+        surfaces=surfaces,
+        interactions=make_interactions(outside),
+        amplitudes=make_amplitudes(cards),
+        places=Places(faces, surfaces, nodes),
+        unused_materials=tuple(each.name for each in materials.values() if each.card not in used),
+    )
