@@ -10,8 +10,7 @@ from signorini.cli.check_notes import far_notes, held_notes, idle_notes, mesh_no
 from signorini.deck import Deck
 from signorini.engine.duplicate_check import same_loads
 from signorini.engine.prepare import Examined
-from signorini.engine.report import finer_notes
-from signorini.engine.validity_notes import overlap_notes
+from signorini.engine.validity_notes import finer_notes, overlap_notes
 from signorini.fem.locking import stiffened_bodies, thin_bodies
 from signorini.fem.rigid import describe_motions
 from signorini.model.contact import Contact

@@ -18,7 +18,7 @@ import numpy as np
 from signorini.engine.events import follow_to_events, stored_energy
 from signorini.engine.increments import follow_increments, is_straight
 from signorini.engine.prepare import Prepared
-from signorini.engine.step_parts import Leg, Stretch
+from signorini.engine.step_parts import FollowedPart, StepPart
 from signorini.errors import SolveFailed, told
 from signorini.iterative.bodies import Bodies
 
@@ -31,12 +31,12 @@ _MORE = 'expected less? Give the step increments = "auto" or their number'
 
 
 def follow_automatically(
-    stretch: Stretch,
+    part: StepPart,
     tolerance: float,
     *,
     enough: int | None = None,
     jump: Literal["stop", "follow"] | None = None,
-) -> Leg:
+) -> FollowedPart:
     """Follow a straight part of a step in more and more increments, each time from its beginning.
 
     Parameters
@@ -52,8 +52,8 @@ def follow_automatically(
         If an increment has no certified solution however short, 4096 are not enough, or 16 times as many change the
         answer no less; in space 4 times ``enough`` are tried where fewer are lost.
     """
-    coarse: Leg | None = None
-    prepared = stretch.prepared
+    coarse: FollowedPart | None = None
+    prepared = part.prepared
     changes, number, why = "the answer, where one is found", 1, ""
     seen: dict[int, float] = {}
     more, fewer = (2, "half as many") if prepared.interface.directions == 2 else (4, "a quarter as many")
@@ -61,7 +61,7 @@ def follow_automatically(
     while number <= MOST:
         try:
             with prepared.clock.again(why):
-                fine, words = _followed(stretch, number, jump)
+                fine, words = _followed(part, number, jump)
         except SolveFailed as failure:
             certain = failure.hopeless or (jump == "stop" and failure.status == "jump" and number >= _CERTAIN)
             if certain or more * number > most:
@@ -86,7 +86,7 @@ def follow_automatically(
         why = f"once more, in up to {number} increments: whether the answer stays"
     raise SolveFailed(
         told(
-            f"{stretch.where}: {min(number, MOST)} increments still change {changes}",
+            f"{part.where}: {min(number, MOST)} increments still change {changes}",
             remedy='a larger tolerance, or path = "exact" where sections are polygons or the model is plane',
             evidence=""
             if number > MOST
@@ -96,7 +96,7 @@ def follow_automatically(
     )
 
 
-def _change(coarse: Leg, fine: Leg) -> tuple[float, str]:
+def _change(coarse: FollowedPart, fine: FollowedPart) -> tuple[float, str]:
     """By how much two ways between the same loads differ at most, and in words."""
     forces, size = fine.after.forces - coarse.after.forces, np.abs(fine.after.forces).max(initial=0.0)
     spent, work = (fine.after.dissipation - coarse.after.dissipation).sum(), fine.after.work - fine.before.work
@@ -105,38 +105,38 @@ def _change(coarse: Leg, fine: Leg) -> tuple[float, str]:
     return max(change, lost), f"{words} and dissipation by {lost:.1e} of the work" if lost > change else words
 
 
-def _defect(prepared: Prepared, leg: Leg) -> float:
+def _defect(prepared: Prepared, followed: FollowedPart) -> float:
     """Energy that a way in space neither stores nor dissipates, of its work: much where something was passed over."""
     if prepared.interface.directions == 2:
         return 0.0
-    before, after = leg.before, leg.after
+    before, after = followed.before, followed.after
     work = after.work - before.work
     stored = stored_energy(prepared, after) - stored_energy(prepared, before)
     lost = float((after.dissipation - before.dissipation).sum()) + after.released - before.released
     return abs(work - stored - lost) / (abs(work) or 1.0)
 
 
-def _followed(stretch: Stretch, number: int, jump: Literal["stop", "follow"] | None) -> tuple[Leg, str]:
+def _followed(part: StepPart, number: int, jump: Literal["stop", "follow"] | None) -> tuple[FollowedPart, str]:
     """A way in at most so many increments, and their number in words; equal ones where those to events are lost."""
-    if stretch.prepared.interface.directions == 2 or isinstance(stretch.prepared.bodies, Bodies):
-        return follow_increments(stretch, number), _counted(number)
+    if part.prepared.interface.directions == 2 or isinstance(part.prepared.bodies, Bodies):
+        return follow_increments(part, number), _counted(number)
     try:
-        leg = follow_to_events(stretch, number, jumps=jump == "follow")
-        return leg, f"{_counted(len(leg.trace))} to events, none needs to be shorter than 1/{number}"
+        followed = follow_to_events(part, number, jumps=jump == "follow")
+        return followed, f"{_counted(len(followed.trace))} to events, none needs to be shorter than 1/{number}"
     except SolveFailed as failure:
         if failure.status == "jump" and jump == "stop":
             raise
         if failure.hopeless:
             raise _told(failure, str(failure), "no_equilibrium") from failure
         try:
-            leg = follow_increments(stretch, number)
+            followed = follow_increments(part, number)
         except SolveFailed as nothing:
             words = f"{failure.sentence}; nor do {_counted(number)} go on: {nothing.sentence}"
             words = f"{words}{failure.details}{nothing.details}"
             status = failure.status if nothing.status == "not_found" else nothing.status  # a jump is one all the same
             raise _told(failure, words, status, nothing) from failure
         note = f"{failure.sentence}; followed in {number} increments to what is a candidate"
-        return replace(leg, notes=(note,) if failure.status == "jump" else ()), _counted(number)
+        return replace(followed, notes=(note,) if failure.status == "jump" else ()), _counted(number)
 
 
 def _told(failure: SolveFailed, words: str, status: str, last: SolveFailed | None = None) -> SolveFailed:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.engine.step_parts import Leg
+from signorini.engine.step_parts import FollowedPart
 from signorini.friction.law import OPEN
 from signorini.solution.results import Cycle
 from signorini.solution.scale import Scale
@@ -18,19 +18,19 @@ SAME = 1e-8
 """Forces of the largest, and slips of the size of the data, that count as equal."""
 
 
-def make_cycles(leg: Leg, ends: Sequence[float]) -> tuple[Cycle, ...]:
+def make_cycles(followed: FollowedPart, ends: Sequence[float]) -> tuple[Cycle, ...]:
     """The cycles of a step.
 
     Parameters
     ----------
-    leg : all of the step
+    followed : all of the step
     ends : load factors at which cycles end
     """
     found: list[Cycle] = []
-    begin, last = leg.before, leg.before.slip
+    begin, last = followed.before, followed.before.slip
     n = len(begin.status)
     sliding = np.zeros(n)
-    for snapshot in leg.snapshots:
+    for snapshot in followed.snapshots:
         state = snapshot.state
         sliding, last = sliding + _across(state.slip - last, n), state.slip
         if snapshot.load_factor != ends[len(found)]:

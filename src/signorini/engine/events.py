@@ -22,7 +22,7 @@ from signorini.engine.increments import (
     settled,
 )
 from signorini.engine.prepare import Prepared
-from signorini.engine.step_parts import Leg, Snapshot, Stretch, joined, keep
+from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, joined, keep
 from signorini.errors import SolveFailed, told
 from signorini.friction.history.plane import Landing, PathState, Segment, follow, initial_state, land
 from signorini.friction.law import OPEN, STICK
@@ -43,8 +43,8 @@ _SPENT = 1e-9  # of the friction bound: what a slipping pair may lack of it
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class _Followed:
-    """A stretch as it was followed on the condensed interface.
+class _Path:
+    """A part of a step as it was followed on the condensed interface.
 
     Attributes
     ----------
@@ -52,24 +52,24 @@ class _Followed:
     stops : how increments were chosen, None on an exact path
     """
 
-    stretch: Stretch
+    part: StepPart
     start: PathState
     segment: Segment
     stops: StopSettings | None
 
     @property
     def reached(self) -> float:
-        """Part of the stretch that is behind, 0 .. 1."""
+        """How much of the part is behind, 0 .. 1."""
         return self.segment.pieces[-1].factor
 
     @property
-    def cut(self) -> _Followed:
-        """The same where the stretch ends as far as it was followed."""
+    def cut(self) -> _Path:
+        """This path, of a part that ends where it was followed to."""
         ends: Literal["event", "jump"] = "event" if self.segment.outcome == "disturbed" else "jump"
-        return replace(self, stretch=self.stretch.cut(self.reached, ends))
+        return replace(self, part=self.part.cut(self.reached, ends))
 
 
-def follow_exactly(stretch: Stretch, *, jumps: bool = False) -> Leg:
+def follow_exactly(part: StepPart, *, jumps: bool = False) -> FollowedPart:
     """Follow a straight part of a step from event to event.
 
     Parameters
@@ -81,15 +81,15 @@ def follow_exactly(stretch: Stretch, *, jumps: bool = False) -> Leg:
     SolveFailed
         With status "jump" where the history cannot go on gradually, or not at all; "not_found" where the path was lost.
     """
-    return _beyond_jumps(stretch, "event by event", jumps=jumps)
+    return _beyond_jumps(part, "event by event", jumps=jumps)
 
 
-def follow_to_events(stretch: Stretch, number: int, *, jumps: bool = False) -> Leg:
+def follow_to_events(part: StepPart, number: int, *, jumps: bool = False) -> FollowedPart:
     """Follow a straight part of a step in space in increments that end at events.
 
     Parameters
     ----------
-    number : an increment need not be shorter than 1 / number of the span, whatever happens in it
+    number : an increment need not be shorter than 1 / number of the part, whatever happens in it
     jumps : see `follow_exactly`
 
     Raises
@@ -98,100 +98,100 @@ def follow_to_events(stretch: Stretch, number: int, *, jumps: bool = False) -> L
         As `follow_exactly` does.
     """
     stops = StopSettings(shortest=1.0 / number, turn=_TURN / number**0.5)
-    return _beyond_jumps(stretch, "increments to events", jumps=jumps, stops=stops)
+    return _beyond_jumps(part, "increments to events", jumps=jumps, stops=stops)
 
 
-def _beyond_jumps(stretch: Stretch, how: str, *, jumps: bool, stops: StopSettings | None = None) -> Leg:
-    """Leg after leg, from one jump to the next; ``how`` for the clock, the others as of `_Followed`."""
-    prepared = stretch.prepared
-    prepared.clock.increment(f"{stretch.where}, {how}")
-    refuse_overlap(prepared, _offset(prepared, stretch.end)[: len(prepared.interface)], stretch.where)
-    legs: list[Leg] = []
+def _beyond_jumps(part: StepPart, how: str, *, jumps: bool, stops: StopSettings | None = None) -> FollowedPart:
+    """Part after part, from one jump to the next; ``how`` for the clock, the others as of `_Path`."""
+    prepared = part.prepared
+    prepared.clock.increment(f"{part.where}, {how}")
+    refuse_overlap(prepared, _offset(prepared, part.end)[: len(prepared.interface)], part.where)
+    behind: list[FollowedPart] = []
     while True:
-        followed = _follow(stretch, stops)
-        jump = followed.segment.jump
-        if followed.segment.followed:
-            return joined([*legs, _leg(followed)])
-        if followed.segment.outcome == "disturbed":
-            found = [_leg(followed.cut)] if followed.reached > 0.0 else []
-            legs += found
-            stretch = resting(stretch.woken.rest(followed.cut.stretch, found[0].after if found else stretch.before))
+        path = _follow(part, stops)
+        jump = path.segment.jump
+        if path.segment.followed:
+            return joined([*behind, _part_along(path)])
+        if path.segment.outcome == "disturbed":
+            found = [_part_along(path.cut)] if path.reached > 0.0 else []
+            behind += found
+            part = resting(part.woken.rest(path.cut.part, found[0].after if found else part.before))
             continue
-        lost = _lost(followed, follows=jumps)
-        begun = _anew(followed, legs) if len(legs) < _JUMPS else []
+        lost = _lost(path, follows=jumps)
+        begun = _anew(path, behind) if len(behind) < _JUMPS else []
         if begun:
-            legs += begun
-            stretch = stretch.rest(followed.cut.stretch, legs[-1].after)
+            behind += begun
+            part = part.rest(path.cut.part, behind[-1].after)
             continue
-        landing = _landing(followed) if jumps and len(legs) < _JUMPS else None
+        landing = _landing(path) if jumps and len(behind) < _JUMPS else None
         if jump is None or landing is None:
             if jumps and jump is not None and not lost.hopeless:
                 lost = SolveFailed(f"{lost.sentence}; {_NO_LANDING}{lost.details}", status="jump", motion=lost.motion)
-            raise keep(lost, [*legs, *_so_far(followed)])
-        cut = followed.cut
-        leg = _leg(cut)
-        legs += [leg, _landed(cut.stretch, leg.after, landing)]
-        stretch = stretch.rest(cut.stretch, legs[-1].after)
+            raise keep(lost, [*behind, *_so_far(path)])
+        cut = path.cut
+        followed = _part_along(cut)
+        behind += [followed, _landed(cut.part, followed.after, landing)]
+        part = part.rest(cut.part, behind[-1].after)
 
 
-def _anew(followed: _Followed, legs: list[Leg]) -> list[Leg]:
+def _anew(path: _Path, behind: list[FollowedPart]) -> list[FollowedPart]:
     """Up to where bodies lose at no load what held them, and where loads carry them from there; nothing where not so.
 
     Raises
     ------
     SolveFailed
-        Where loads pull a body away from there on; it carries the legs before.
+        Where loads pull a body away from there on; it carries what is behind.
     """
-    stretch = followed.stretch
-    if followed.reached == 0.0 or not stretch.prepared.floating.shape[1]:
+    part = path.part
+    if path.reached == 0.0 or not part.prepared.floating.shape[1]:
         return []
-    followed = replace(followed, segment=replace(followed.segment, outcome="disturbed"))
-    found = _so_far(followed)
+    path = replace(path, segment=replace(path.segment, outcome="disturbed"))
+    found = _so_far(path)
     try:
-        approach = approached(stretch.rest(followed.cut.stretch, found[0].after)) if found else None
+        approach = approached(part.rest(path.cut.part, found[0].after)) if found else None
     except SolveFailed as gone:
-        raise keep(gone, [*legs, *found]) from None
+        raise keep(gone, [*behind, *found]) from None
     return [] if approach is None else [*found, approach]
 
 
-def _so_far(followed: _Followed) -> list[Leg]:
+def _so_far(path: _Path) -> list[FollowedPart]:
     """What was followed of a segment that does not go on; nothing where that does not pass the certificate."""
-    if followed.reached == 0.0:
+    if path.reached == 0.0:
         return []
     try:
-        return [_leg(followed.cut)]
+        return [_part_along(path.cut)]
     except SolveFailed:
         return []
 
 
-def _follow(stretch: Stretch, stops: StopSettings | None) -> _Followed:
+def _follow(part: StepPart, stops: StopSettings | None) -> _Path:
     """The history up to a load, in the plane or in space."""
-    prepared = stretch.prepared
+    prepared = part.prepared
     with prepared.clock.phase("complementarity"):
-        start, b = _start(prepared, stretch.before), right_hand_side(prepared, stretch.end)
+        start, b = _start(prepared, part.before), right_hand_side(prepared, part.end)
         if isinstance(prepared.law, SpatialProblem):
 
-            def tell(part: float) -> None:
-                prepared.clock.says(f"{stretch.where} at {stretch.span.part(part):.1%}")
+            def tell(done: float) -> None:
+                prepared.clock.says(f"{part.where} at {part.interval.fraction(done):.1%}")
 
             segment = follow_stopping(prepared.law, start, b, settings=stops, tell=tell)
         else:
             segment = follow(prepared.law, start, b)
-    return _Followed(stretch=stretch, start=start, segment=undisturbed(stretch, segment), stops=stops)
+    return _Path(part=part, start=start, segment=undisturbed(part, segment), stops=stops)
 
 
-def _landing(followed: _Followed) -> Landing | None:
+def _landing(path: _Path) -> Landing | None:
     """Where a jump lands, in the plane or in space."""
-    law = followed.stretch.prepared.law
+    law = path.part.prepared.law
     if isinstance(law, SpatialProblem):
-        return land_spatial(law, followed.start, followed.segment, settings=followed.stops)
-    return land(law, followed.start, followed.segment)
+        return land_spatial(law, path.start, path.segment, settings=path.stops)
+    return land(law, path.start, path.segment)
 
 
-def _trace(followed: _Followed) -> tuple[tuple[MethodRun, ...], ...]:
+def _trace(path: _Path) -> tuple[tuple[MethodRun, ...], ...]:
     """What was tried: for an exact path in one entry, in increments for each of them."""
-    segment = followed.segment
-    if followed.stops is None:
+    segment = path.segment
+    if path.stops is None:
         return ((MethodRun(method="exact path", iterations=segment.pivots, end=segment.message),),)
     return tuple(
         (MethodRun(method="increments to events", iterations=piece.tried, end="certified"),)
@@ -199,50 +199,50 @@ def _trace(followed: _Followed) -> tuple[tuple[MethodRun, ...], ...]:
     )
 
 
-def _leg(followed: _Followed) -> Leg:
-    """A segment that was followed as far as the end of its stretch."""
-    stretch, segment = followed.stretch, followed.segment
-    prepared = stretch.prepared
+def _part_along(path: _Path) -> FollowedPart:
+    """A segment that was followed as far as the end of its part, certified."""
+    part, segment = path.part, path.segment
+    prepared = part.prepared
     with prepared.clock.phase("recovery"):
-        visited = _visited(followed)
+        visited = _visited(path)
         after = visited[-1].state
     last = max(0, len(segment.pieces) - 2)
-    before = stretch.before.tangential.copy()
+    before = part.before.tangential.copy()
     before[_along(prepared)] = _tangential(prepared, segment.pieces[last].h)
     # the law of the rate, on the last piece, is the law of the increment from where the piece began
-    certificate = certified(prepared, after, before, stretch.where)
-    return Leg(
-        path="exact" if followed.stops is None else "increments",
-        before=stretch.before,
+    certificate = certified(prepared, after, before, part.where)
+    return FollowedPart(
+        path="exact" if path.stops is None else "increments",
+        before=part.before,
         after=after,
         certificates=(certificate,),
-        trace=_trace(followed),
+        trace=_trace(path),
         snapshots=visited,
-        events=_events(followed),
+        events=_events(path),
     )
 
 
-def _landed(stretch: Stretch, state: State, landing: Landing) -> Leg:
-    """From a jump at the end of a stretch to where it lands, at the same load."""
-    prepared, span = stretch.prepared, stretch.span
+def _landed(part: StepPart, state: State, landing: Landing) -> FollowedPart:
+    """From a jump at the end of a part to where it lands, at the same load."""
+    prepared, interval = part.prepared, part.interval
     with prepared.clock.phase("recovery"):
         recovered = _recovered(prepared, state, state.point, landing.state)
         after = set_free(prepared, state, recovered, taken=recovered.dissipation - state.dissipation)
     # its slip is that of a whole curve: the law is asked of its last state alone
-    certificate = certified(prepared, after, after.tangential, stretch.where)
+    certificate = certified(prepared, after, after.tangential, part.where)
     freed = after.released - state.released
     note = (
-        f"{stretch.where} at {span.high:.6%}: a jump, followed through {landing.events} events to the next equilibrium "
-        f"at that load; it sets energy {freed:.6g} free and is a candidate: inertia may lead elsewhere"
+        f"{part.where} at {interval.high:.6%}: a jump, followed through {landing.events} events to the next "
+        f"equilibrium at that load; it sets energy {freed:.6g} free and is a candidate: inertia may lead elsewhere"
     )
     attempt = MethodRun(method="beyond a jump", iterations=landing.events, end="landed")
-    return Leg(
+    return FollowedPart(
         path="exact",
         before=state,
         after=after,
         certificates=(certificate,),
         trace=((attempt,),),
-        snapshots=(Snapshot(load_factor=span.factor(1.0), what="landing", state=after),),
+        snapshots=(Snapshot(load_factor=interval.factor(1.0), what="landing", state=after),),
         notes=(note,),
     )
 
@@ -314,37 +314,37 @@ def _start(prepared: Prepared, state: State) -> PathState:
     return PathState(b=b, h=h, r=r, state=status, anchor=h[n:], slip=slip, dissipation=dissipation)
 
 
-def _visited(followed: _Followed) -> tuple[Snapshot, ...]:
+def _visited(path: _Path) -> tuple[Snapshot, ...]:
     """The states at the start, at every event and at the end, with work and displacement where they are whole.
 
     Where pieces are increments their ends are shown too.
     """
-    stretch, start, segment = followed.stretch, followed.start, followed.segment
-    prepared, span, state = stretch.prepared, stretch.span, stretch.before
-    whole = stretch.whole or bool(state.point.given.any())
+    part, start, segment = path.part, path.start, path.segment
+    prepared, interval, state = part.prepared, part.interval, part.before
+    whole = part.whole or bool(state.point.given.any())
     last, since, losses, found = state, 0.0, _losses(segment), []
     if start.r.any() and not state.forces.any():
         pressed = _recovered(prepared, state, state.point, start)
         lost = float(pressed.dissipation.sum() - state.dissipation.sum())
         last = _balanced(prepared, state, pressed, lost)
-        found.append(Snapshot(load_factor=span.factor(0.0), what="start", state=last))
-    reached = followed.reached
+        found.append(Snapshot(load_factor=interval.factor(0.0), what="start", state=last))
+    reached = path.reached
     visited = {event.factor: event.state for event in segment.events if 0.0 < event.factor < reached}
     happens = set(visited)
-    if followed.stops is not None:
+    if path.stops is not None:
         ends = {piece.factor: piece.state for piece in segment.pieces[1:-1] if piece.state is not None}
         visited = dict(sorted((ends | visited).items()))
     for factor, now in {**visited, reached: segment.end}.items():
         s = 1.0 if factor == reached else factor / reached
-        point, recovered = state.point.towards(stretch.end, s), whole or s == 1.0
+        point, recovered = state.point.towards(part.end, s), whole or s == 1.0
         if recovered:
             lost = sum(loss for t, loss in losses if since < t <= factor)
             here = _balanced(prepared, last, _recovered(prepared, last, point, now), lost)
             last, since = here, factor
         else:
             here = _on_the_way(prepared, last, point, now)
-        what = span.ends if s == 1.0 else "event" if factor in happens else "increment"
-        found.append(Snapshot(load_factor=span.factor(s), what=what, state=here, whole=recovered, worked=recovered))
+        what = interval.ends if s == 1.0 else "event" if factor in happens else "increment"
+        found.append(Snapshot(load_factor=interval.factor(s), what=what, state=here, whole=recovered, worked=recovered))
     return tuple(found)
 
 
@@ -428,19 +428,19 @@ def _along(prepared: Prepared) -> BoolArray:
     return np.tile(prepared.condensed.active, prepared.interface.directions - 1)
 
 
-def _events(followed: _Followed) -> tuple[PairEvent, ...]:
+def _events(path: _Path) -> tuple[PairEvent, ...]:
     """The events by contact and node."""
-    prepared, reached = followed.stretch.prepared, followed.reached
+    prepared, reached = path.part.prepared, path.reached
     interface, labels = prepared.interface, [contact.label for contact in prepared.model.contacts]
     pairs = np.nonzero(prepared.condensed.active)[0]
     found = []
-    for event in followed.segment.events:
+    for event in path.segment.events:
         own = pairs[list(event.pairs)]
         for contact in np.unique(interface.contact[own]):
             nodes = interface.node[own[interface.contact[own] == contact]]
             found.append(
                 PairEvent(
-                    load_factor=followed.stretch.span.factor(event.factor / reached if reached else 0.0),
+                    load_factor=path.part.interval.factor(event.factor / reached if reached else 0.0),
                     contact=labels[contact],
                     nodes=tuple(int(node) for node in nodes),
                     what=event.what,
@@ -449,10 +449,10 @@ def _events(followed: _Followed) -> tuple[PairEvent, ...]:
     return tuple(found)
 
 
-def _lost(followed: _Followed, *, follows: bool) -> SolveFailed:
+def _lost(path: _Path, *, follows: bool) -> SolveFailed:
     """Why the path does not go on, with the load and the acting nodes; ``follows``: jumps are followed anyway."""
-    stretch, segment = followed.stretch, followed.segment
-    prepared, where = stretch.prepared, stretch.where
+    part, segment = path.part, path.segment
+    prepared, where = part.prepared, part.where
     if segment.jump is None:
         lost = told(
             f"{where}: the exact path was lost", remedy="follow the step in increments", evidence=segment.message
@@ -463,14 +463,14 @@ def _lost(followed: _Followed, *, follows: bool) -> SolveFailed:
     if len(pairs) > _NAMED:
         nodes += f" and {len(pairs) - _NAMED} more"
     what, remedy = ("gross sliding", _HOLD) if segment.jump.gross_sliding else ("a jump", _LESS if follows else _FOLLOW)
-    where = f"{where} at {stretch.span.part(segment.jump.factor):.6%}"
+    where = f"{where} at {part.interval.fraction(segment.jump.factor):.6%}"
     motion = None
     if segment.jump.escape is not None:
         words, motion = leaving(prepared, segment.jump.escape)
         what = f"{what}: {words}"
     words = f"{where}: {what}: no equilibrium continues the history gradually"
     if segment.jump.hopeless is not None:
-        words += f", and beyond {stretch.span.part(segment.jump.hopeless):.6%} there is none at all"
+        words += f", and beyond {part.interval.fraction(segment.jump.hopeless):.6%} there is none at all"
     evidence = f"acting nodes {nodes}; {segment.jump.proof}"
     failure = SolveFailed(told(words, remedy=remedy, evidence=evidence), status="jump", motion=motion)
     failure.hopeless = segment.jump.hopeless is not None

@@ -10,7 +10,7 @@ import numpy as np
 from signorini.arrays import Array, BoolArray, extent
 from signorini.engine.increments import applied, certified, moving_away
 from signorini.engine.prepare import Prepared, contact_law
-from signorini.engine.step_parts import Leg, Snapshot, Stretch
+from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart
 from signorini.errors import SolveFailed
 from signorini.fem.loads import nodal_volumes
 from signorini.fem.rigid import describe_approach
@@ -25,15 +25,16 @@ DRIVES = 1e-11
 """Of all forces that change: their work along a rigid motion that they drive."""
 
 _TOUCHES = 1e-10  # of the size of displacements: a gap
-_ROUNDING = 1e-4  # of the largest gap: what counts as the size of displacements where gaps are far larger
+_LENGTH_PER_GAP = 1e-4  # of the largest gap: what counts as the size of displacements where gaps are far larger
 _PRESSES = 1e-9  # of the size of forces: a force
-_STIFF = 1e-9  # of the largest motion of pairs that press: one that they do not feel
-_LIGHT = 1e-3  # of the volume of all bodies: what resists the motion of an obstacle or a node of no cell
+_UNFELT = 1e-9  # of the largest motion of pairs that press: one that they do not feel
+_BARE_VOLUME = 1e-3  # of the volume of all bodies: what resists the motion of an obstacle or a node of no cell
+_FEELS = 1e-9  # of the largest motion of pairs: one that they feel
 _SEEN = 1e-9  # of the size of the model: a motion that anyone would want to know of
 
 
-def approached(stretch: Stretch) -> Leg | None:
-    """What happens before the loads of a stretch can press: bodies move rigidly until contact can bear the loads.
+def approached(part: StepPart) -> FollowedPart | None:
+    """What happens before the loads of a part can press: bodies move rigidly until contact can bear the loads.
 
     Only motions that no contact feels that presses already, and along which the loads work, however small: nothing
     resists them, and they take no energy. None where there is no such motion.
@@ -43,12 +44,12 @@ def approached(stretch: Stretch) -> Leg | None:
     SolveFailed
         Where such a motion has no end, and it is proved that the loads pull a body away, which is named.
     """
-    prepared, state = stretch.prepared, stretch.before
+    prepared, state = part.prepared, part.before
     interface, n = prepared.interface, len(prepared.interface)
     floating, motions = prepared.floating, prepared.motions
     if not floating.shape[1] or not n:
         return None
-    change = change_of_loads(stretch)
+    change = change_of_loads(part)
     work, enough = floating.T @ (motions.T @ change), DRIVES * float(np.abs(change).sum())
     if np.abs(work).max() <= enough:
         return None
@@ -70,25 +71,25 @@ def approached(stretch: Stretch) -> Leg | None:
     )
     if found is not None and found.escape is not None:
         share = float(work @ basis @ found.escape / np.linalg.norm(basis.T @ work) / np.linalg.norm(found.escape))
-        raise _pulled_away(stretch, floating @ basis @ found.escape, share)
+        raise _pulled_away(part, floating @ basis @ found.escape, share)
     if found is None or not found.motion.any():
         return None
     relative = moved @ (basis @ found.motion)
     relative[interface.rows(presses)] = 0.0
     relative[np.flatnonzero(apart)] = found.gap - state.gap[apart]
-    return _leg(stretch, apart, floating @ basis @ found.motion, floating @ basis @ found.loose, relative)
+    return _approach(part, apart, floating @ basis @ found.motion, floating @ basis @ found.loose, relative)
 
 
-def _pulled_away(stretch: Stretch, motion: Array, share: float) -> SolveFailed:
+def _pulled_away(part: StepPart, motion: Array, share: float) -> SolveFailed:
     """Loads pull bodies away along a motion of the parts, with a share of what they do on rigid motions."""
-    said, moved = moving_away(stretch.prepared, motion)
-    words = f"{stretch.where} at {100.0 * stretch.span.low:.6g}%: {said}: {PULLED_AWAY.format(margin=share)}"
+    said, moved = moving_away(part.prepared, motion)
+    words = f"{part.where} at {100.0 * part.interval.low:.6g}%: {said}: {PULLED_AWAY.format(margin=share)}"
     return SolveFailed(words, status="no_equilibrium", motion=moved)
 
 
-def change_of_loads(stretch: Stretch) -> Array:
-    """(dofs,) By how much nodal forces change in a stretch, those of contacts that are switched off with them."""
-    prepared, begin, end = stretch.prepared, stretch.before.point, stretch.end
+def change_of_loads(part: StepPart) -> Array:
+    """(dofs,) Change of the nodal forces in a part of a step, with those of contacts that are switched off."""
+    prepared, begin, end = part.prepared, part.before.point, part.end
     loads = applied(prepared, end)[0] - applied(prepared, begin)[0]
     return np.asarray(loads + prepared.interface.B.T @ (end.given - begin.given))
 
@@ -99,7 +100,7 @@ def standing(prepared: Prepared, state: State) -> tuple[BoolArray, BoolArray, fl
     there = ~prepared.absent & ~prepared.interface.tied & ~prepared.bodies.held
     presses = there & (state.forces[:n] > _PRESSES * prepared.scale.force)
     apart = there & ~presses
-    size = max(prepared.scale.length, _ROUNDING * float(np.abs(state.gap[apart]).max(initial=0.0)))
+    size = max(prepared.scale.length, _LENGTH_PER_GAP * float(np.abs(state.gap[apart]).max(initial=0.0)))
     return presses, apart, _TOUCHES * size
 
 
@@ -107,7 +108,7 @@ def unfelt(felt: Array) -> Array:
     """(k, m) Orthonormal combinations of k motions that nothing feels; ``felt`` (rows, k) is what is felt of each."""
     k = felt.shape[1]
     _, values, vectors = np.linalg.svd(np.concatenate([felt, np.zeros((k, k))]), full_matrices=False)
-    rank = int((values > _STIFF * values[0]).sum())
+    rank = int((values > _UNFELT * values[0]).sum())
     return np.asarray(vectors[rank:].T)
 
 
@@ -115,18 +116,18 @@ def _alike(prepared: Prepared, motions: Array) -> Array:
     """(m, m) Combinations of motions (all parts, m) that bodies of one density resist alike, each on its own."""
     space, volumes = prepared.space, nodal_volumes(prepared.space, prepared.model)
     everything = float(volumes.sum())
-    weights = np.full(space.number_of_dofs, _LIGHT * everything)
+    weights = np.full(space.number_of_dofs, _BARE_VOLUME * everything)
     weights[: space.mesh.points.size] = np.where(
         np.repeat(space.used, space.dimension),
         np.repeat(volumes, space.dimension),
-        _LIGHT * everything,
+        _BARE_VOLUME * everything,
     )
     resisted = motions.T @ (prepared.motions.T @ (weights[:, None] * (prepared.motions @ motions)))
     factor = np.linalg.cholesky(resisted / everything)
     return np.linalg.inv(factor).T
 
 
-def _leg(stretch: Stretch, apart: BoolArray, motion: Array, loose: Array, relative: Array) -> Leg:
+def _approach(part: StepPart, apart: BoolArray, motion: Array, loose: Array, relative: Array) -> FollowedPart:
     """A rigid motion of the parts, with what of it the loads did not fix, as something that happens at once.
 
     Parameters
@@ -134,7 +135,7 @@ def _leg(stretch: Stretch, apart: BoolArray, motion: Array, loose: Array, relati
     apart : (n,) pairs that do not press
     relative : (d n,) motions of the pairs
     """
-    prepared, state, n = stretch.prepared, stretch.before, len(apart)
+    prepared, state, n = part.prepared, part.before, len(apart)
     interface = prepared.interface
     after = next_state(
         state,
@@ -150,46 +151,43 @@ def _leg(stretch: Stretch, apart: BoolArray, motion: Array, loose: Array, relati
     )
     notes = []
     if np.abs(motion).max() > _SEEN * float(extent(prepared.space.mesh.points).max()):
-        where = f"{stretch.where} at {100.0 * stretch.span.low:.6g}%" if stretch.span.low else stretch.where
+        where = f"{part.where} at {100.0 * part.interval.low:.6g}%" if part.interval.low else part.where
         notes = [f"{where}: {words}" for words in describe_approach(prepared.parts, motion, loose)]
-    return Leg(
+    return FollowedPart(
         path="exact",
         before=state,
         after=after,
-        certificates=(certified(prepared, after, after.tangential, stretch.where),),
+        certificates=(certified(prepared, after, after.tangential, part.where),),
         trace=(),
-        snapshots=(Snapshot(load_factor=stretch.span.factor(0.0), what="approach", state=after),),
+        snapshots=(Snapshot(load_factor=part.interval.factor(0.0), what="approach", state=after),),
         notes=tuple(notes),
     )
 
 
-_FEELS = 1e-9  # of the largest motion of pairs: one that they feel
-
-
-def resting(stretch: Stretch) -> Stretch:
-    """The same stretch, in which bodies that nothing touches and no load drives do not move rigidly.
+def resting(part: StepPart) -> StepPart:
+    """A part of a step in which bodies that nothing touches and no load drives do not move rigidly.
 
     Up to where something touches one: what holds it until then is no part of the model, and is woken from then on. The
-    stretch itself where there is no such body, and where bodies are not condensed.
+    part as given where there is no such body, and where bodies are not condensed.
     """
-    prepared, state = stretch.prepared, stretch.before
+    prepared, state = part.prepared, part.before
     if not prepared.floating.shape[1] or isinstance(prepared.bodies, Bodies):
-        return stretch
+        return part
     presses, apart, width = standing(prepared, state)
     touches = presses | (apart & (state.gap <= width))
     moved = np.asarray((prepared.interface.B @ prepared.motions) @ prepared.floating)
     loose = unfelt(moved[prepared.interface.rows(touches)])
-    change = change_of_loads(stretch)
+    change = change_of_loads(part)
     work = prepared.floating.T @ (prepared.motions.T @ change)
     if not loose.shape[1] or np.abs(loose.T @ work).max() > DRIVES * float(np.abs(change).sum()):
-        return stretch
+        return part
     seen = np.abs(moved @ loose).max(axis=1) > _FEELS * float(np.abs(moved).max())
     ways = unfelt(loose.T)
     bodies = prepared.bodies.moving(ways)
     rigid = np.asarray(prepared.motions @ (prepared.floating @ loose))
     place = np.linalg.lstsq(rigid, state.displacement - applied(prepared, state.point)[1])[0]
     return replace(
-        stretch,
+        part,
         prepared=replace(
             prepared,
             bodies=bodies,
@@ -202,10 +200,10 @@ def resting(stretch: Stretch) -> Stretch:
     )
 
 
-def undisturbed(stretch: Stretch, segment: Segment) -> Segment:
+def undisturbed(part: StepPart, segment: Segment) -> Segment:
     """The segment as far as nothing touches a body that rests."""
-    waits = stretch.waiting[stretch.prepared.condensed.active] if stretch.awake else np.zeros(0, np.bool_)
-    for event in segment.events if stretch.awake else ():
+    waits = part.waiting[part.prepared.condensed.active] if part.awake else np.zeros(0, np.bool_)
+    for event in segment.events if part.awake else ():
         if event.what == "closes" and waits[list(event.pairs)].any():
             return replace(
                 segment,

@@ -12,7 +12,7 @@ from signorini.arrays import Array, IntArray, frozen
 from signorini.attempt import MethodRun
 from signorini.engine.multipliers import given_way, has_another_way
 from signorini.engine.prepare import Prepared
-from signorini.engine.step_parts import Leg, Snapshot, Stretch, keep
+from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, keep
 from signorini.errors import SolveFailed, told
 from signorini.fem.rigid import describe_motion
 from signorini.friction.law import OPEN, STICK
@@ -34,7 +34,7 @@ _UNLOADED = 1e-12  # of the size of forces: a normal force that rounding leaves 
 _CANCELLED = 1e-14  # of the largest displacement that supports impose: less between two sides is rounding
 
 
-def follow_increments(stretch: Stretch, number: int) -> Leg:
+def follow_increments(part: StepPart, number: int) -> FollowedPart:
     """Follow a straight part of a step in equal increments.
 
     Where bodies are not condensed every increment starts from where the last one leads if it is repeated.
@@ -48,16 +48,16 @@ def follow_increments(stretch: Stretch, number: int) -> Leg:
     SolveFailed
         If an increment has no certified solution; it carries the increments before.
     """
-    prepared, span, state = stretch.prepared, stretch.span, stretch.before
+    prepared, interval, state = part.prepared, part.interval, part.before
     path = "single" if number == 1 else "increments"
     certificates: list[Certificate] = []
     trace: list[tuple[MethodRun, ...]] = []
     snapshots: list[Snapshot] = []
 
-    def followed() -> Leg:
-        return Leg(
+    def so_far() -> FollowedPart:
+        return FollowedPart(
             path=path,
-            before=stretch.before,
+            before=part.before,
             after=state,
             certificates=tuple(certificates),
             trace=tuple(trace),
@@ -66,19 +66,19 @@ def follow_increments(stretch: Stretch, number: int) -> Leg:
 
     last: State | None = None
     for k in range(1, number + 1):
-        words = f"{stretch.where} at {span.part(k / number):.0%}"
-        point = stretch.before.point.towards(stretch.end, k / number)
+        words = f"{part.where} at {interval.fraction(k / number):.0%}"
+        point = part.before.point.towards(part.end, k / number)
         prepared.clock.increment(words)
         try:
             new, certificate, result = advance(prepared, state, point, words, last=last)
         except (SolveFailed, KeyboardInterrupt) as stop:
-            raise keep(stop, [followed()] if snapshots else []) from None
+            raise keep(stop, [so_far()] if snapshots else []) from None
         last, state = state, new
         certificates.append(certificate)
         trace.append(result.trace)
-        what = span.ends if k == number else "increment"
-        snapshots.append(Snapshot(load_factor=span.factor(k / number), what=what, state=state))
-    return followed()
+        what = interval.ends if k == number else "increment"
+        snapshots.append(Snapshot(load_factor=interval.factor(k / number), what=what, state=state))
+    return so_far()
 
 
 def advance(
@@ -190,8 +190,8 @@ def free_load(prepared: Prepared, point: LoadPoint) -> Array:
     return force
 
 
-def is_straight(prepared: Prepared, leg: Leg) -> bool:
-    """Whether the law of contact holds all along the increments of a leg, so that more of them change nothing.
+def is_straight(prepared: Prepared, followed: FollowedPart) -> bool:
+    """Whether the law of contact holds all along the increments of a part, so that more of them change nothing.
 
     Between two states in which it holds it does so everywhere if it does in the middle: gaps and forces are linear
     there and never negative, their product vanishes in between only where one of them does throughout; sections of
@@ -200,11 +200,11 @@ def is_straight(prepared: Prepared, leg: Leg) -> bool:
 
     Parameters
     ----------
-    leg : as it was followed; nothing is known of one whose displacements on the way were not recovered
+    followed : as it was followed; nothing is known of one whose displacements on the way were not recovered
     """
-    if not all(shot.whole for shot in leg.snapshots):
+    if not all(shot.whole for shot in followed.snapshots):
         return False
-    ways = pairwise([leg.before, *(shot.state for shot in leg.snapshots)])
+    ways = pairwise([followed.before, *(shot.state for shot in followed.snapshots)])
     return all(measured(prepared, _half_way(one, two), one.tangential).passed for one, two in ways)
 
 

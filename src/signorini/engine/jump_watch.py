@@ -14,7 +14,7 @@ import numpy as np
 from signorini.engine.events import follow_to_events
 from signorini.engine.increments import follow_increments
 from signorini.engine.limit_load import known
-from signorini.engine.step_parts import Leg, Stretch, keep, reached
+from signorini.engine.step_parts import FollowedPart, StepPart, keep, reached
 from signorini.errors import SolveFailed
 from signorini.friction.spatial import SpatialProblem
 from signorini.solution.state import State
@@ -22,7 +22,7 @@ from signorini.solution.state import State
 _SAME_LOAD = 1e-9  # part of a step: how far behind the end of an increment a jump at its very end may be seen
 
 
-def follow_watchfully(stretch: Stretch, number: int, *, stops: bool = False) -> Leg:
+def follow_watchfully(part: StepPart, number: int, *, stops: bool = False) -> FollowedPart:
     """Follow a straight part of a step in equal increments, and say where bodies lose their hold on the way.
 
     Parameters
@@ -36,32 +36,32 @@ def follow_watchfully(stretch: Stretch, number: int, *, stops: bool = False) -> 
         If an increment has no certified solution; with status "jump" where the history does not lead there gradually.
     """
     try:
-        leg = follow_increments(stretch, number)
+        followed = follow_increments(part, number)
     except SolveFailed as failure:
-        lost, found = known(failure, stretch), reached(failure)
+        lost, found = known(failure, part), reached(failure)
         if lost.status != "not_found":
             raise lost from None
-        jump = _jump(stretch, found.after if found else stretch.before, _part(stretch, found), 1.0)
+        jump = _jump(part, found.after if found else part.before, _done(part, found), 1.0)
         if jump is None:
             raise
         raise keep(jump, [] if found is None else [found]) from lost
-    notes, before = [], stretch.before
-    for k, shot in enumerate(leg.snapshots, start=1):
-        if _far(stretch, before, shot.state):
-            jump = _jump(stretch, before, (k - 1) / number, min(1.0, (k + 1) / number))
+    notes, before = [], part.before
+    for k, shot in enumerate(followed.snapshots, start=1):
+        if _far(part, before, shot.state):
+            jump = _jump(part, before, (k - 1) / number, min(1.0, (k + 1) / number))
             here = None if jump is None else reached(jump)
             if jump is not None and (here is None or here.snapshots[-1].load_factor <= shot.load_factor + _SAME_LOAD):
                 if stops:
-                    raise keep(jump, [_up_to(leg, k - 1)] if k > 1 else [])
+                    raise keep(jump, [_up_to(followed, k - 1)] if k > 1 else [])
                 words = f"{number} increment{'s' if number > 1 else ''}"
                 notes.append(f"{jump.sentence}; followed in {words} to what is a candidate")
         before = shot.state
-    return replace(leg, notes=(*leg.notes, *notes))
+    return replace(followed, notes=(*followed.notes, *notes))
 
 
-def _far(stretch: Stretch, before: State, after: State) -> bool:
+def _far(part: StepPart, before: State, after: State) -> bool:
     """Whether an increment moves a pair farther than all loads compress bodies that contact alone holds."""
-    prepared, law = stretch.prepared, stretch.prepared.law_or_none
+    prepared, law = part.prepared, part.prepared.law_or_none
     if not isinstance(law, SpatialProblem) or not law.floating or not before.forces.any():
         return False
     rows = prepared.condensed.active_rows
@@ -69,34 +69,34 @@ def _far(stretch: Stretch, before: State, after: State) -> bool:
     return bool(np.abs(prepared.condensed.root * moved).max(initial=0.0) > (law.scale or 1.0))
 
 
-def _part(stretch: Stretch, leg: Leg | None) -> float:
-    """Part of a stretch that a leg has followed of it."""
-    if leg is None:
+def _done(part: StepPart, followed: FollowedPart | None) -> float:
+    """How much of a part was followed, 0 .. 1."""
+    if followed is None:
         return 0.0
-    span = stretch.span
-    return (leg.snapshots[-1].load_factor - span.factor(0.0)) / (span.high - span.low)
+    interval = part.interval
+    return (followed.snapshots[-1].load_factor - interval.factor(0.0)) / (interval.high - interval.low)
 
 
-def _jump(stretch: Stretch, state: State, low: float, high: float) -> SolveFailed | None:
-    """The first jump between two parts of a stretch, from the state at the first; None where none is seen."""
-    if not isinstance(stretch.prepared.law_or_none, SpatialProblem):
+def _jump(part: StepPart, state: State, low: float, high: float) -> SolveFailed | None:
+    """The first jump between the fractions low and high of a part, from the state at low; None where none is seen."""
+    if not isinstance(part.prepared.law_or_none, SpatialProblem):
         return None
-    begin = stretch.before.point
-    span = replace(stretch.span, low=stretch.span.part(low), high=stretch.span.part(high), ends="jump")
-    part = replace(stretch, before=state, end=begin.towards(stretch.end, high), span=span)
+    begin = part.before.point
+    interval = replace(part.interval, low=part.interval.fraction(low), high=part.interval.fraction(high), ends="jump")
+    between = replace(part, before=state, end=begin.towards(part.end, high), interval=interval)
     try:
-        follow_to_events(part, 1)
+        follow_to_events(between, 1)
     except SolveFailed as failure:
         return failure if failure.status == "jump" else None
     return None
 
 
-def _up_to(leg: Leg, count: int) -> Leg:
-    """The first increments of a leg."""
+def _up_to(followed: FollowedPart, count: int) -> FollowedPart:
+    """The first increments of a part."""
     return replace(
-        leg,
-        after=leg.snapshots[count - 1].state,
-        certificates=leg.certificates[:count],
-        trace=leg.trace[:count],
-        snapshots=leg.snapshots[:count],
+        followed,
+        after=followed.snapshots[count - 1].state,
+        certificates=followed.certificates[:count],
+        trace=followed.trace[:count],
+        snapshots=followed.snapshots[:count],
     )

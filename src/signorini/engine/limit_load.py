@@ -8,7 +8,7 @@ from dataclasses import replace
 from signorini.arrays import frozen
 from signorini.engine.events import right_hand_side
 from signorini.engine.increments import leaving
-from signorini.engine.step_parts import Stretch, reached
+from signorini.engine.step_parts import StepPart, reached
 from signorini.errors import SolveFailed, told
 from signorini.friction.space.overload import overload
 from signorini.friction.spatial import SpatialProblem
@@ -16,30 +16,30 @@ from signorini.friction.spatial import SpatialProblem
 _WORDS = "forces in the friction cones of all pairs cannot balance more load, however they are shared"
 
 
-def known(stop: SolveFailed, stretch: Stretch) -> SolveFailed:
-    """What stopped a stretch, as the proof that its end has no equilibrium where nothing was found and there is one.
+def known(stop: SolveFailed, part: StepPart) -> SolveFailed:
+    """What stopped a part, as the proof that its end has no equilibrium where nothing was found and there is one.
 
     Methods end without a solution where increments step beyond what contact can hold, and where the path is lost
     before; the load from which on there is none is a fact of the loads and the friction alone (see `overload`).
 
     Parameters
     ----------
-    stretch : to which it came; what was followed of it is in ``stop.reached``
+    part : to which it came; what was followed of it is in ``stop.reached``
     """
-    prepared, law, span = stretch.prepared, stretch.prepared.law_or_none, stretch.span
+    prepared, law, interval = part.prepared, part.prepared.law_or_none, part.interval
     if stop.status != "not_found" or not isinstance(law, SpatialProblem):
         return stop
-    leg = reached(stop)
-    state = stretch.before if leg is None else leg.after
-    low = span.low if leg is None else leg.snapshots[-1].load_factor - span.factor(0.0) + span.low
+    followed = reached(stop)
+    state = part.before if followed is None else followed.after
+    low = interval.low if followed is None else followed.snapshots[-1].load_factor - interval.factor(0.0) + interval.low
     held = state.forces[prepared.condensed.active_rows] / prepared.condensed.root
     problem = replace(law, b=frozen(right_hand_side(prepared, state.point)))
-    found = overload(problem, held, right_hand_side(prepared, stretch.end))
+    found = overload(problem, held, right_hand_side(prepared, part.end))
     if found is None:
         return stop
     words, motion = leaving(prepared, found.motion)
-    limit = low + found.factor * (span.high - low)
-    where = f"{stretch.where}: no equilibrium beyond {100.0 * limit:.6g}%, up to {100.0 * low:.6g}% it was followed"
+    limit = low + found.factor * (interval.high - low)
+    where = f"{part.where}: no equilibrium beyond {100.0 * limit:.6g}%, up to {100.0 * low:.6g}% it was followed"
     proof = SolveFailed(
         told(
             f"{where}: {words}: {_WORDS}",

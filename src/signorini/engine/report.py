@@ -14,10 +14,10 @@ from signorini.engine.cycles import judge, make_cycles
 from signorini.engine.energy import heat_of
 from signorini.engine.events import interface_energy, stored_energy
 from signorini.engine.increments import applied
-from signorini.engine.prepare import Examined, Prepared
-from signorini.engine.step_parts import Leg
+from signorini.engine.prepare import Prepared
+from signorini.engine.step_parts import FollowedPart
 from signorini.engine.support_changes import support_forces
-from signorini.engine.validity_notes import large_notes, overlap_notes, patch_notes
+from signorini.engine.validity_notes import step_notes
 from signorini.fem.obstacles import arm
 from signorini.friction.law import OPEN, STICK
 from signorini.model.links import directions
@@ -27,29 +27,23 @@ from signorini.solution.certificate import Certificate
 from signorini.solution.results import ContactResult, Instant, ObstacleResult, StepResult
 from signorini.solution.state import State
 
-ONE_INCREMENT = "one increment: assumes that the final state was reached from zero slip"
-"""What a step with friction says when it was solved in one increment (METHOD 5)."""
-
-GROWN = "the contact grew under friction: in one increment tractions can be off by tens of percent, take more"
-"""What it says further where pairs closed that were open before."""
-
 
 def step_result(
-    prepared: Prepared, stage: Stage, leg: Leg, cycle_ends: Sequence[float], *, finished: bool = True
+    prepared: Prepared, stage: Stage, followed: FollowedPart, cycle_ends: Sequence[float], *, finished: bool = True
 ) -> StepResult:
     """Results at the end of a step.
 
     Parameters
     ----------
     prepared : under the law of the step
-    leg : all of the step
+    followed : all of the step
     cycle_ends : load factors at which its cycles end; one where it does not repeat
-    finished : whether the leg goes to the end of the step
+    finished : whether it goes to the end of the step
     """
-    before, state, certificates = leg.before, leg.after, leg.certificates
+    before, state, certificates = followed.before, followed.after, followed.certificates
     heat = heat_of(prepared)
-    instants = tuple(_instants(prepared, leg, cycle_ends, heat))
-    cycles = make_cycles(leg, cycle_ends) if len(cycle_ends) > 1 else ()
+    instants = tuple(_instants(prepared, followed, cycle_ends, heat))
+    cycles = make_cycles(followed, cycle_ends) if len(cycle_ends) > 1 else ()
     steadiness, words = judge(cycles, prepared.scale) if cycles else ("", "")
     stored, dissipated = stored_energy(prepared, state), (state.dissipation - before.dissipation).sum()
     spent = stored - stored_energy(prepared, before) + float(dissipated) + state.released - before.released
@@ -57,11 +51,11 @@ def step_result(
     springs = -0.5 * float(state.displacement @ prepared.constraints.foundation_forces(state.displacement))
     return StepResult(
         name=stage.title,
-        path=leg.path,
-        load_factor=leg.snapshots[-1].load_factor,
+        path=followed.path,
+        load_factor=followed.snapshots[-1].load_factor,
         finished=finished,
-        increments=0 if leg.path == "exact" else len(leg.trace),
-        events=leg.events,
+        increments=0 if followed.path == "exact" else len(followed.trace),
+        events=followed.events,
         displacement=frozen(prepared.space.at_nodes(state.displacement)),
         factors=dict(state.point.factors),
         external=frozen(_external(prepared, state)),
@@ -77,65 +71,12 @@ def step_result(
             **{key: max(getattr(c, key) for c in certificates) for key in Certificate.__dataclass_fields__}
         ),
         contacts=instants[-1].contacts,
-        trace=leg.trace,
+        trace=followed.trace,
         instants=instants,
         cycles=cycles,
         steadiness=steadiness,
-        notes=(
-            *_notes(prepared, leg),
-            *_facet_notes(prepared),
-            *finer_notes(prepared),
-            *_open_notes(prepared, leg),
-            *(() if before.forces.any() or before.displacement.any() else overlap_notes(prepared)),
-            *patch_notes(prepared, state),
-            *large_notes(prepared, state),
-            *((words,) if words else ()),
-        ),
+        notes=(*step_notes(prepared, followed), *((words,) if words else ())),
     )
-
-
-def _notes(prepared: Prepared, leg: Leg) -> tuple[str, ...]:
-    """What a reader should know of how the step was followed."""
-    rubbing = prepared.interface.rubs & ~prepared.interface.sticks
-    if leg.path != "single" or not rubbing.any():
-        return leg.notes
-    # what has happened before the loads of the step is no growth
-    begun = [shot.state for shot in leg.snapshots if shot.what in ("change", "approach")]
-    gap = (begun[-1] if begun else leg.before).gap
-    closed = rubbing & (leg.after.status != OPEN) & (gap > 1e-9 * prepared.scale.length)
-    return (*leg.notes, ONE_INCREMENT, *((GROWN,) if closed.any() else ()))
-
-
-def _facet_notes(prepared: Prepared) -> tuple[str, ...]:
-    """Contacts whose friction cone is not the exact one."""
-    return tuple(
-        f"contact '{contact.label}': solved and certified on a cone of {contact.facets} facets, not on the exact one"
-        for contact in prepared.model.contacts
-        if contact.facets
-    )
-
-
-def finer_notes(examined: Examined) -> tuple[str, ...]:
-    """Contacts whose nonmortar side is the finer one."""
-    return tuple(
-        f"contact '{contact.label}': the nonmortar side is the finer one, its pressures can oscillate; name the sides "
-        "the other way round, or take side = 'coarser'"
-        for contact, sides in zip(examined.model.contacts, examined.interface.sides, strict=True)
-        if sides.finer and not contact.tied
-    )
-
-
-def _open_notes(prepared: Prepared, leg: Leg) -> tuple[str, ...]:
-    """Contacts that nothing brings together: a wrong place, or a wrong direction of a load."""
-    interface, notes = prepared.interface, []
-    for i, contact in enumerate(prepared.model.contacts):
-        own = interface.contact == i
-        if all((state.status[own] == OPEN).all() for state in (leg.before, *(shot.state for shot in leg.snapshots))):
-            notes.append(
-                f"contact '{contact.label}' is open everywhere: its sides are {leg.after.gap[own].min():.4g} apart, "
-                f"{interface.gap[own].min():.4g} to begin with"
-            )
-    return tuple(notes)
 
 
 def _reactions(prepared: Prepared, state: State) -> dict[str, Array]:
@@ -234,26 +175,28 @@ def contacts_of(prepared: Prepared, before: State, state: State) -> tuple[Contac
 
 
 def _instants(
-    prepared: Prepared, leg: Leg, cycle_ends: Sequence[float], heat: Callable[[State], float]
+    prepared: Prepared, followed: FollowedPart, cycle_ends: Sequence[float], heat: Callable[[State], float]
 ) -> Iterator[Instant]:
     """The contacts at every snapshot, with what they slid since the beginning of the step and of the cycle."""
     surfaces = [_surface(prepared, i) for i in range(len(prepared.model.contacts))]
-    last, sliding = leg.before.slip, np.zeros(len(prepared.interface))
+    last, sliding = followed.before.slip, np.zeros(len(prepared.interface))
     low, high, cycle = last, last, 0
-    begun = heat(leg.before)
-    for snapshot in leg.snapshots:
+    begun = heat(followed.before)
+    for snapshot in followed.snapshots:
         slip, across = snapshot.state.slip, prepared.interface.across
         sliding = sliding + across(slip - last)
         low, high, last = np.minimum(low, slip), np.maximum(high, slip), slip
         contacts = tuple(
-            _contact_result(prepared, surface, leg.before, snapshot.state, sliding, across(high - low))
+            _contact_result(prepared, surface, followed.before, snapshot.state, sliding, across(high - low))
             for surface in surfaces
         )
         yield Instant(
             load_factor=snapshot.load_factor,
             what=snapshot.what,
             contacts=contacts,
-            work=snapshot.state.work - leg.before.work + heat(snapshot.state) - begun if snapshot.worked else np.nan,
+            work=snapshot.state.work - followed.before.work + heat(snapshot.state) - begun
+            if snapshot.worked
+            else np.nan,
             displacement=frozen(prepared.space.at_nodes(snapshot.state.displacement)) if snapshot.kept else None,
             factors=dict(snapshot.state.point.factors),
         )

@@ -22,7 +22,17 @@ from signorini.engine.memory_check import refuse_fields
 from signorini.engine.multipliers import GIVEN_WAY, given_way, gives_way
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
-from signorini.engine.step_parts import Leg, Snapshot, Span, Stretch, joined, keep, lightened, reached, spans
+from signorini.engine.step_parts import (
+    FollowedPart,
+    Interval,
+    Snapshot,
+    StepPart,
+    joined,
+    keep,
+    lightened,
+    reached,
+    straight_parts,
+)
 from signorini.engine.support_changes import at_the_end, handed_over, refuse_moved
 from signorini.engine.wellposed import assess
 from signorini.errors import InputError, Interrupted, SolveFailed
@@ -155,7 +165,7 @@ def _follow(
                 try:
                     with prepared.clock.again(why):
                         now = staged(prepared, stage, loading)
-                        leg, cycle_ends = _from(before, now, stage, end.state)
+                        followed, cycle_ends = _from(before, now, stage, end.state)
                     break
                 except SolveFailed:
                     if not prepared.limited:
@@ -163,8 +173,8 @@ def _follow(
                     why = "once more, with the pairs that seemed too far apart"
                     with prepared.clock.again(why):
                         prepared = prepared.widened()
-            result = step_result(now, stage, leg, cycle_ends)
-            after = Checkpoint.of(model, interface, leg.after, stage.standing, loading, _near(prepared))
+            result = step_result(now, stage, followed, cycle_ends)
+            after = Checkpoint.of(model, interface, followed.after, stage.standing, loading, _near(prepared))
             steps, end, before = [*steps, result], after, now  # at once, whenever an interruption comes
             if after_step is not None and len(steps) < len(schedule):
                 words = f"{len(steps)} of {len(schedule)} steps are finished"
@@ -184,7 +194,7 @@ def _follow(
     return replace(history, wellposedness=assess(now, end.state)) if wellposed else history
 
 
-def _from(before: Prepared, now: Prepared, stage: Stage, state: State) -> tuple[Leg, list[float]]:
+def _from(before: Prepared, now: Prepared, stage: Stage, state: State) -> tuple[FollowedPart, list[float]]:
     """A step from the end of the one before it, with the supports and contacts that it changes."""
     handed = handed_over(now, before.constraints, state)
     return _step(now, stage, switched(now, handed, before.absent))
@@ -207,16 +217,16 @@ def _constraints(prepared: Prepared, released: frozenset[str]) -> Constraints:
     return make_constraints(prepared.space, prepared.model, without=released)
 
 
-def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[float]]:
+def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[FollowedPart, list[float]]:
     """A step from what it changes at once through all its straight parts; and the load factors at its cycles' ends."""
-    legs: list[Leg] = []
+    behind: list[FollowedPart] = []
     cycle_ends: list[float] = []
     begin = float(stage.number - 1)
     change = relaxed(prepared, state, stage.name)
     if change is not None:
         after, certificate, trace = change
-        legs.append(
-            Leg(
+        behind.append(
+            FollowedPart(
                 path="single",
                 before=state,
                 after=after,
@@ -238,76 +248,78 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[Leg, list[flo
     at_events = stage.step.at == "events"
     # the work of temperatures needs the displacements, see signorini.engine.energy
     heated = any(load.temperature is not None for load in prepared.model.loads)
-    for span, point in spans(stage, state.point, end):
-        stretch = Stretch(prepared=prepared, where=stage.name, span=span, before=state, end=point, whole=at_events)
-        begun: list[Leg] = []
+    for interval, point in straight_parts(stage, state.point, end):
+        part = StepPart(
+            prepared=prepared, where=stage.name, interval=interval, before=state, end=point, whole=at_events
+        )
+        begun: list[FollowedPart] = []
         try:
-            first = approached(stretch)
+            first = approached(part)
             begun = [] if first is None else [first]
-            stretch = stretch if first is None else replace(stretch, before=first.after)
-            leg = joined([*begun, _on_interface_or_bodies(stage, stretch)])
+            part = part if first is None else replace(part, before=first.after)
+            followed = joined([*begun, _on_interface_or_bodies(stage, part)])
         except (SolveFailed, KeyboardInterrupt) as stop:
-            raise keep(stop, [*legs, *(begun if reached(stop) is not None else [])]) from None
-        leg = lightened(leg, every=at_events, end=span.asked, heated=heated)
-        legs = [joined([*legs, leg])]
-        state = leg.after
-        if span.cycle:
-            cycle_ends.append(span.factor(1.0))
-    return legs[0], cycle_ends
+            raise keep(stop, [*behind, *(begun if reached(stop) is not None else [])]) from None
+        followed = lightened(followed, every=at_events, end=interval.asked, heated=heated)
+        behind = [joined([*behind, followed])]
+        state = followed.after
+        if interval.cycle:
+            cycle_ends.append(interval.factor(1.0))
+    return behind[0], cycle_ends
 
 
-def _on_interface_or_bodies(stage: Stage, stretch: Stretch) -> Leg:
+def _on_interface_or_bodies(stage: Stage, part: StepPart) -> FollowedPart:
     """Follow a straight part of a step on the condensed interface; where that is lost, on the bodies as they are."""
     try:
-        return _with_bodies_at_rest(stage, stretch)
+        return _with_bodies_at_rest(stage, part)
     except SolveFailed as failure:
-        lost = known(failure, stretch)
-        if lost.status != "not_found" or lost.hopeless or not gives_way(stretch.prepared, stage.step):
+        lost = known(failure, part)
+        if lost.status != "not_found" or lost.hopeless or not gives_way(part.prepared, stage.step):
             raise lost from None
-    clock = stretch.prepared.clock
+    clock = part.prepared.clock
     try:
         with clock.again("once more, on the bodies as they are"):
-            leg = _iterated(stage, replace(stretch, prepared=given_way(stretch.prepared)))
+            followed = _iterated(stage, replace(part, prepared=given_way(part.prepared)))
     except (SolveFailed, NotPositiveDefinite):
         raise lost from None
-    return replace(leg, notes=(*leg.notes, GIVEN_WAY))
+    return replace(followed, notes=(*followed.notes, GIVEN_WAY))
 
 
-def _with_bodies_at_rest(stage: Stage, stretch: Stretch) -> Leg:
+def _with_bodies_at_rest(stage: Stage, part: StepPart) -> FollowedPart:
     """Follow a straight part of a step while bodies that nothing touches rest; if something does, wherever they go."""
-    calm = resting(stretch)
+    calm = resting(part)
     try:
-        return _leg(stage, calm)
+        return _as_asked(stage, calm)
     except SolveFailed:
-        if calm is stretch:
+        if calm is part:
             raise
-    return _leg(stage, stretch)
+    return _as_asked(stage, part)
 
 
-def _leg(stage: Stage, stretch: Stretch) -> Leg:
+def _as_asked(stage: Stage, part: StepPart) -> FollowedPart:
     """Follow a straight part of a step as asked; where nothing was asked, exactly if there is Coulomb friction.
 
     In space, where the exact cone has no exact path, in increments to events, more of them until the answer stays.
     Where the exact path that nobody asked for ends in a jump or is lost, it is followed in increments, and the notes
     say so: what they reach behind a jump is a candidate.
     """
-    step, interface = stage.step, stretch.prepared.interface
+    step, interface = stage.step, part.prepared.interface
     jump = "follow" if step.follows_jumps else step.jump
-    rubbing = bool((interface.rubs & ~interface.sticks & ~stretch.prepared.absent).any())
+    rubbing = bool((interface.rubs & ~interface.sticks & ~part.prepared.absent).any())
     if step.path != "exact" and (step.path is not None or step.increments is not None or not rubbing):
         if step.increments == "auto":
-            return follow_automatically(stretch, step.tolerance, jump=jump)
-        number = _increments(step, stretch.span, stage)
-        return follow_watchfully(stretch, number, stops=step.jump == "stop")
+            return follow_automatically(part, step.tolerance, jump=jump)
+        number = _increments(step, part.interval, stage)
+        return follow_watchfully(part, number, stops=step.jump == "stop")
     if step.path is None and interface.directions == 3:
-        return follow_automatically(stretch, step.tolerance, enough=_ENOUGH, jump=jump)
+        return follow_automatically(part, step.tolerance, enough=_ENOUGH, jump=jump)
     try:
-        return follow_exactly(stretch, jumps=step.follows_jumps)
+        return follow_exactly(part, jumps=step.follows_jumps)
     except SolveFailed as failure:
         if step.path == "exact" or step.jump == "stop":
             raise
         try:
-            leg = follow_increments(stretch, _BEHIND_A_JUMP)
+            followed = follow_increments(part, _BEHIND_A_JUMP)
         except SolveFailed as nothing:
             words = f"{failure.sentence}; nor do increments go on: {nothing.sentence}{nothing.details}"
             status = failure.status if nothing.status == "not_found" else nothing.status  # a jump is proved
@@ -315,23 +327,23 @@ def _leg(stage: Stage, stretch: Stretch) -> Leg:
             worse.reached = failure.reached  # the exact path goes farther
             raise worse from failure
         return replace(
-            leg, notes=(f"{failure.sentence}; followed in {_BEHIND_A_JUMP} increments to what is a candidate",)
+            followed, notes=(f"{failure.sentence}; followed in {_BEHIND_A_JUMP} increments to what is a candidate",)
         )
 
 
-def _iterated(stage: Stage, stretch: Stretch) -> Leg:
+def _iterated(stage: Stage, part: StepPart) -> FollowedPart:
     """Follow a straight part of a step in increments: as many as asked for; as behind a jump where a path was lost."""
-    interface = stretch.prepared.interface
+    interface = part.prepared.interface
     rubbing = bool((interface.rubs & ~interface.sticks).any())
     if interface.directions == 2 and stage.step.path is None and stage.step.increments is None and rubbing:
-        return follow_increments(stretch, _BEHIND_A_JUMP)
-    return _leg(stage, stretch)
+        return follow_increments(part, _BEHIND_A_JUMP)
+    return _as_asked(stage, part)
 
 
-def _increments(step: Step, span: Span, stage: Stage) -> int:
+def _increments(step: Step, interval: Interval, stage: Stage) -> int:
     """Of a straight part: those of its whole segment, as far as they go."""
     number = step.increments if isinstance(step.increments, int) else 1
-    return max(1, ceil(number * (span.high - span.low) * len(stage.ends) - 1e-9))
+    return max(1, ceil(number * (interval.high - interval.low) * len(stage.ends) - 1e-9))
 
 
 def _history(

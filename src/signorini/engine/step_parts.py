@@ -23,7 +23,7 @@ _SAME = 1e-9  # parts of a step closer than this are one
 
 
 @dataclass(frozen=True, kw_only=True)
-class Span:
+class Interval:
     """A straight part of step ``number``, between two parts of it.
 
     Attributes
@@ -42,16 +42,16 @@ class Span:
     cycle: int = 0
     asked: bool = False
 
-    def part(self, t: float) -> float:
-        """Of the step, at the part t of this span."""
+    def fraction(self, t: float) -> float:
+        """Of the step, at the fraction t of this interval."""
         return self.high if t == 1.0 else self.low + t * (self.high - self.low)
 
     def factor(self, t: float) -> float:
-        """Load factor at the part t of this span."""
-        return self.number - 1 + self.part(t)
+        """Load factor at the fraction t of this interval."""
+        return self.number - 1 + self.fraction(t)
 
 
-def spans(stage: Stage, start: LoadPoint, end: LoadPoint) -> Iterator[tuple[Span, LoadPoint]]:
+def straight_parts(stage: Stage, start: LoadPoint, end: LoadPoint) -> Iterator[tuple[Interval, LoadPoint]]:
     """The straight parts of a step, each with the point at its end.
 
     Parameters
@@ -73,7 +73,7 @@ def spans(stage: Stage, start: LoadPoint, end: LoadPoint) -> Iterator[tuple[Span
         finished = what == "segment" and (j + 1) % step.segments == 0
         cycle = (j + 1) // step.segments if finished else 0
         yield (
-            Span(
+            Interval(
                 number=stage.number,
                 low=low,
                 high=high,
@@ -87,45 +87,45 @@ def spans(stage: Stage, start: LoadPoint, end: LoadPoint) -> Iterator[tuple[Span
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Stretch:
+class StepPart:
     """A straight part of a step, to be followed from a state to a point of the load history.
 
     Attributes
     ----------
     prepared : the model, as it is in this step
     where : name of the step, for messages
-    span : the part of the history that this is
+    interval : the part of the history that this is
     before : the state that it begins in
     end : the point at its end
     whole : whether the displacement of the bodies is recovered at every event, not at the end alone
-    awake : the model in which bodies may move that rest in this stretch; None where none does
+    awake : the model in which bodies may move that rest in this part; None where none does
     waiting : (n,) pairs of those bodies; empty where there is none
     """
 
     prepared: Prepared
     where: str
-    span: Span
+    interval: Interval
     before: State
     end: LoadPoint
     whole: bool = False
     awake: Prepared | None = None
     waiting: BoolArray = field(default_factory=lambda: np.zeros(0, np.bool_))
 
-    def cut(self, factor: float, ends: Literal["event", "jump"]) -> Stretch:
+    def cut(self, factor: float, ends: Literal["event", "jump"]) -> StepPart:
         """Up to an event or a jump at a part of it, 0 .. 1, from where on it is followed anew."""
         end = self.before.point.towards(self.end, factor)
-        return replace(self, end=end, span=replace(self.span, high=self.span.part(factor), ends=ends))
+        return replace(self, end=end, interval=replace(self.interval, high=self.interval.fraction(factor), ends=ends))
 
     @property
-    def woken(self) -> Stretch:
+    def woken(self) -> StepPart:
         """The same with all bodies free to move."""
         if self.awake is None:
             return self
         return replace(self, prepared=self.awake, awake=None, waiting=np.zeros(0, np.bool_))
 
-    def rest(self, cut: Stretch, state: State) -> Stretch:
+    def rest(self, cut: StepPart, state: State) -> StepPart:
         """What is left behind a part that was cut off, from a state at its end."""
-        return replace(self, before=state, span=replace(self.span, low=cut.span.high))
+        return replace(self, before=state, interval=replace(self.interval, low=cut.interval.high))
 
 
 What = Literal["start", "event", "increment", "asked", "segment", "jump", "landing", "change", "approach"]
@@ -161,7 +161,7 @@ class Snapshot:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Leg:
+class FollowedPart:
     """From one state to another.
 
     Attributes
@@ -186,8 +186,8 @@ class Leg:
     notes: tuple[str, ...] = ()
 
 
-def lightened(leg: Leg, *, every: bool, end: bool, heated: bool) -> Leg:
-    """A leg that keeps the displacement of the bodies only where it was asked for, and where it ends.
+def lightened(followed: FollowedPart, *, every: bool, end: bool, heated: bool) -> FollowedPart:
+    """What was followed, with the displacement of the bodies only where it was asked for, and at its end.
 
     Parameters
     ----------
@@ -196,32 +196,32 @@ def lightened(leg: Leg, *, every: bool, end: bool, heated: bool) -> Leg:
     heated : displacements that were not asked for are needed for the work of temperatures
     """
     shots = []
-    for i, shot in enumerate(leg.snapshots, start=1):
-        kept = shot.whole and (every or shot.what == "asked" or (end and i == len(leg.snapshots)))
+    for i, shot in enumerate(followed.snapshots, start=1):
+        kept = shot.whole and (every or shot.what == "asked" or (end and i == len(followed.snapshots)))
         shots.append(replace(shot, kept=True) if kept else shot if heated else shot.light())
-    return replace(leg, snapshots=tuple(shots))
+    return replace(followed, snapshots=tuple(shots))
 
 
-def joined(legs: Sequence[Leg]) -> Leg:
-    """Several legs, one after the other, as one; the way is that of those on which loads change or the law does."""
-    paths = [leg.path for leg in legs if leg.trace] or [leg.path for leg in legs]
+def joined(behind: Sequence[FollowedPart]) -> FollowedPart:
+    """Several parts, one after the other, as one; the way is that of those on which loads change or the law does."""
+    paths = [followed.path for followed in behind if followed.trace] or [followed.path for followed in behind]
     exact = "exact" in paths and {*paths} <= {"exact", "single"}
-    return Leg(
+    return FollowedPart(
         path="exact" if exact else "increments" if len(paths) > 1 else paths[0],
-        before=legs[0].before,
-        after=legs[-1].after,
-        certificates=tuple(chain.from_iterable(leg.certificates for leg in legs)),
-        trace=tuple(chain.from_iterable(leg.trace for leg in legs)),
-        snapshots=tuple(chain.from_iterable(leg.snapshots for leg in legs)),
-        events=tuple(chain.from_iterable(leg.events for leg in legs)),
-        notes=tuple(dict.fromkeys(chain.from_iterable(leg.notes for leg in legs))),
+        before=behind[0].before,
+        after=behind[-1].after,
+        certificates=tuple(chain.from_iterable(followed.certificates for followed in behind)),
+        trace=tuple(chain.from_iterable(followed.trace for followed in behind)),
+        snapshots=tuple(chain.from_iterable(followed.snapshots for followed in behind)),
+        events=tuple(chain.from_iterable(followed.events for followed in behind)),
+        notes=tuple(dict.fromkeys(chain.from_iterable(followed.notes for followed in behind))),
     )
 
 
-def keep(stop: SolveFailed | KeyboardInterrupt, legs: Sequence[Leg]) -> SolveFailed | KeyboardInterrupt:
-    """What stopped a step, with what was followed before: legs, and what it already carries."""
+def keep(stop: SolveFailed | KeyboardInterrupt, behind: Sequence[FollowedPart]) -> SolveFailed | KeyboardInterrupt:
+    """What stopped a step, with what was followed before: ``behind``, and what it already carries."""
     last = reached(stop)
-    every = [*legs, *([] if last is None else [last])]
+    every = [*behind, *([] if last is None else [last])]
     if not every:
         return stop
     if isinstance(stop, KeyboardInterrupt):
@@ -230,7 +230,7 @@ def keep(stop: SolveFailed | KeyboardInterrupt, legs: Sequence[Leg]) -> SolveFai
     return stop
 
 
-def reached(stop: SolveFailed | KeyboardInterrupt) -> Leg | None:
+def reached(stop: SolveFailed | KeyboardInterrupt) -> FollowedPart | None:
     """The part of a step that was followed before it was stopped; None where that is nothing."""
     found = stop.reached if isinstance(stop, (SolveFailed, Interrupted)) else None
-    return found if isinstance(found, Leg) else None
+    return found if isinstance(found, FollowedPart) else None

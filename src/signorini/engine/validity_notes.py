@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What of a solution the mesh, the geometry or small displacements do not bear out.
+"""What a reader should know of a step: how it was followed, and what of it the model does not bear out.
 
-Patches of a few pairs, overlaps that nobody gave, bodies that strain or turn far, contacts that slip far.
+One increment with friction, contacts that stay open, patches of a few pairs, overlaps that nobody gave, bodies that
+strain or turn far, contacts that slip far.
 """
 
 from __future__ import annotations
@@ -14,13 +15,82 @@ from scipy.sparse.csgraph import connected_components
 
 from signorini.arrays import BoolArray, IntArray, extent
 from signorini.engine.prepare import Examined, Prepared
+from signorini.engine.step_parts import FollowedPart
 from signorini.fem.boundary import boundary
 from signorini.fem.rigid import Part
 from signorini.law.states import OPEN
 from signorini.solution.state import State
 
-_ACROSS = 4  # closed pairs: with fewer the pressure is a matter of the mesh
-_NONE = 1e-9  # of the size of the model: less is no overlap
+ONE_INCREMENT = "one increment: assumes that the final state was reached from zero slip"
+"""What a step with friction says when it was solved in one increment (METHOD 5)."""
+
+GROWN = "the contact grew under friction: in one increment tractions can be off by tens of percent, take more"
+"""What it says further where pairs closed that were open before."""
+
+_PAIRS_ACROSS = 4  # closed pairs: with fewer the pressure is a matter of the mesh
+_OVERLAP_TOL = 1e-9  # of the size of the model: less is no overlap
+_STRAINED = 0.25  # of the size of a body
+_SLID = 0.1  # of the size of what touches
+
+
+def step_notes(prepared: Prepared, followed: FollowedPart) -> Iterator[str]:
+    """All notes on a step that was followed."""
+    before, state = followed.before, followed.after
+    yield from followed.notes
+    yield from _friction_notes(prepared, followed)
+    yield from _facet_notes(prepared)
+    yield from finer_notes(prepared)
+    yield from _open_notes(prepared, followed)
+    if not before.forces.any() and not before.displacement.any():
+        yield from overlap_notes(prepared)
+    yield from patch_notes(prepared, state)
+    yield from large_notes(prepared, state)
+
+
+def _friction_notes(prepared: Prepared, followed: FollowedPart) -> Iterator[str]:
+    """Friction in one increment, which knows nothing of the way to its end."""
+    rubbing = prepared.interface.rubs & ~prepared.interface.sticks
+    if followed.path != "single" or not rubbing.any():
+        return
+    yield ONE_INCREMENT
+    # what has happened before the loads of the step is no growth
+    begun = [shot.state for shot in followed.snapshots if shot.what in ("change", "approach")]
+    gap = (begun[-1] if begun else followed.before).gap
+    if (rubbing & (followed.after.status != OPEN) & (gap > 1e-9 * prepared.scale.length)).any():
+        yield GROWN
+
+
+def _facet_notes(prepared: Prepared) -> Iterator[str]:
+    """Contacts whose friction cone is not the exact one."""
+    for contact in prepared.model.contacts:
+        if contact.facets:
+            yield (
+                f"contact '{contact.label}': solved and certified on a cone of {contact.facets} facets, not on the "
+                "exact one"
+            )
+
+
+def finer_notes(examined: Examined) -> Iterator[str]:
+    """Contacts whose nonmortar side is the finer one."""
+    for contact, sides in zip(examined.model.contacts, examined.interface.sides, strict=True):
+        if sides.finer and not contact.tied:
+            yield (
+                f"contact '{contact.label}': the nonmortar side is the finer one, its pressures can oscillate; name "
+                "the sides the other way round, or take side = 'coarser'"
+            )
+
+
+def _open_notes(prepared: Prepared, followed: FollowedPart) -> Iterator[str]:
+    """Contacts that nothing brings together: a wrong place, or a wrong direction of a load."""
+    interface, gap = prepared.interface, followed.after.gap
+    states = (followed.before, *(shot.state for shot in followed.snapshots))
+    for i, contact in enumerate(prepared.model.contacts):
+        own = interface.contact == i
+        if all((state.status[own] == OPEN).all() for state in states):
+            yield (
+                f"contact '{contact.label}' is open everywhere: its sides are {gap[own].min():.4g} apart, "
+                f"{interface.gap[own].min():.4g} to begin with"
+            )
 
 
 def overlap_notes(examined: Examined) -> Iterator[str]:
@@ -29,7 +99,7 @@ def overlap_notes(examined: Examined) -> Iterator[str]:
     size = float(np.ptp(model.mesh.points, axis=0).max())
     for i, contact in enumerate(model.contacts):
         gap = interface.gap[interface.contact == i]
-        if gap.min(initial=0.0) < -_NONE * size and contact.interference == 0.0 and contact.gap == "geometry":
+        if gap.min(initial=0.0) < -_OVERLAP_TOL * size and contact.interference == 0.0 and contact.gap == "geometry":
             yield f"contact '{contact.label}' overlaps by up to {-gap.min():.4g} at the start; it will be pressed"
 
 
@@ -45,8 +115,8 @@ def patch_notes(prepared: Prepared, state: State) -> Iterator[str]:
         if contact.tied or not len(own):
             continue
         closed = state.status[own] != OPEN
-        few = _fewest(prepared, i, interface.node[own], closed) if closed.any() and not closed.all() else _ACROSS
-        if few < _ACROSS:
+        few = _fewest(prepared, i, interface.node[own], closed) if closed.any() and not closed.all() else _PAIRS_ACROSS
+        if few < _PAIRS_ACROSS:
             yield (
                 f"contact '{contact.label}' touches with {few} pair{'s' if few > 1 else ''} across, between open ones: "
                 "too few to tell its size and largest pressure; a finer mesh there would, if units and loads are right"
@@ -69,10 +139,10 @@ def _fewest(prepared: Prepared, i: int, nodes: IntArray, closed: BoolArray) -> i
     ends = np.unique(np.column_stack([one, two])[closed[one] & ~closed[two]], axis=0)
     ended = np.unique(patch[ends[:, 0]])
     if space.dimension == 3:
-        return int(_layers(facets, one, two, closed, patch)[ended].min(initial=_ACROSS))
+        return int(_layers(facets, one, two, closed, patch)[ended].min(initial=_PAIRS_ACROSS))
     size = np.bincount(patch[closed], minlength=len(nodes))[ended]
     half = np.bincount(patch[ends[:, 0]], minlength=len(nodes))[ended] == 1
-    return int(np.where(half, 2 * size - 1, size).min(initial=_ACROSS))
+    return int(np.where(half, 2 * size - 1, size).min(initial=_PAIRS_ACROSS))
 
 
 def _layers(facets: list[IntArray], one: IntArray, two: IntArray, closed: BoolArray, patch: IntArray) -> IntArray:
@@ -86,7 +156,7 @@ def _layers(facets: list[IntArray], one: IntArray, two: IntArray, closed: BoolAr
     """
     across = np.zeros(len(closed), dtype=np.int64)
     inside = closed.copy()
-    for layer in range(_ACROSS // 2 + 1):
+    for layer in range(_PAIRS_ACROSS // 2 + 1):
         across[patch[inside]] = 2 * layer + 1
         for at in facets:
             filled = ((at >= 0) & inside[at]).all(axis=1)
@@ -94,11 +164,7 @@ def _layers(facets: list[IntArray], one: IntArray, two: IntArray, closed: BoolAr
         outside = ~inside
         inside = inside.copy()
         inside[one[outside[two]]] = False
-    return np.minimum(across, _ACROSS)
-
-
-_STRAINED = 0.25  # of the size of a body
-_SLID = 0.1  # of the size of what touches
+    return np.minimum(across, _PAIRS_ACROSS)
 
 
 def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
