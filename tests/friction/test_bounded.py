@@ -288,6 +288,8 @@ def test_equal_bodies_slide_when_every_pair_is_at_its_bound(friction):
     most = np.minimum(np.minimum(friction, STEEP) * p, limit)
     assert sheared.outcome == "jump"
     assert sheared.jump.gross_sliding
+    assert sheared.jump.margin > 0.0
+    assert "nothing takes" in sheared.jump.proof
     assert sheared.jump.factor == pytest.approx(most.sum(), abs=1e-12)
     np.testing.assert_allclose(sheared.end.r[:12], p, rtol=0, atol=1e-12)
     np.testing.assert_allclose(np.abs(sheared.end.r[12:]), most, rtol=0, atol=1e-12)

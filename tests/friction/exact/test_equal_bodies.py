@@ -80,6 +80,7 @@ def test_full_sliding_is_named():
     assert slide.outcome == "jump"
     assert slide.jump.factor == pytest.approx(0.5, abs=1e-12)
     assert slide.jump.gross_sliding
+    assert slide.jump.margin > 0.0
     assert "gross sliding" in slide.message
     assert slide.end.r[30:].sum() == pytest.approx(-MU * P, abs=1e-12)
 
@@ -89,4 +90,5 @@ def test_loads_that_lift_the_body_end_the_path():
     assert lift.outcome == "jump"
     assert lift.jump.factor == pytest.approx(0.5, abs=1e-12)
     assert not lift.jump.gross_sliding
+    assert lift.jump.margin > 0.0
     assert lift.end.r == pytest.approx(0.0, abs=1e-12)

@@ -159,8 +159,23 @@ def test_a_block_pulled_along_a_corner_slides_at_the_friction_of_its_weight(face
     assert second.outcome == "jump"
     assert second.jump.gross_sliding
     assert second.jump.factor == pytest.approx(0.3 / 0.5, abs=1e-9)
+    # of the load (-1, 0.5) friction 0.3 leaves 0.5 - 0.3 along (0.3, 1); across a corner the octagon leaves less
+    most = (0.5 - 0.3) / np.sqrt((1 + 0.25) * (1 + 0.09))
+    assert 0.9 * most < second.jump.margin < (1 + 1e-9) * most
     Q = R.T @ second.end.r
     assert Q[1] == pytest.approx(-0.3 * Q[0], abs=1e-9)
+
+
+def test_a_block_that_is_lifted_leaves_and_says_how_sure_that_is():
+    pressed, _ = block_on_floor((-1.0, 0, 0, 0, 0, 0), 0.3, facets=8)
+    first = follow_stopping(
+        pressed, at_rest(pressed, np.zeros_like(pressed.b), motion=np.zeros_like(pressed.b)), pressed.b
+    )
+    second = follow_stopping(pressed, first.end, -2.0 * pressed.b)
+    assert second.outcome == "jump"
+    assert second.jump.factor == pytest.approx(1.0 / 3.0, abs=1e-6)
+    assert not second.jump.gross_sliding
+    assert second.jump.margin == pytest.approx(1.0, rel=1e-6)
 
 
 @pytest.mark.parametrize(

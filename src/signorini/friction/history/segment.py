@@ -61,7 +61,8 @@ class Jump:
     pairs : those whose event has no continuation
     proof : what shows it: that no combination of states has rates, or a rigid motion; a ray of Lemke's method alone
         (too many combinations to try) is strong evidence, no proof
-    margin : what rates lack at least, of the data; 0 where nothing but a rigid motion or strong evidence shows it
+    margin : what rates lack at least, of the data; where a rigid motion shows it, what nothing takes of the load, at
+        the end of the segment in space; 0 where there is strong evidence alone
     gross_sliding : whether bodies slide as a whole: every closed pair has used up its friction and the loads go on
     escape : rows of pairs, rigid motion along which bodies leave, largest entry 1, where it is known
     hopeless : part of the segment beyond which it is proved that no load has any equilibrium, where it is known

@@ -100,7 +100,8 @@ class Bearing:
             factor=over.factor,
             pairs=tuple(np.flatnonzero(pressed).tolist()),
             proof=f"{proof}: {who} takes {share:.2g} of the load at the end, or more" if share > GAIN else proof,
-            gross_sliding=_spent(problem, now.r, pressed),
+            margin=share if share > GAIN else 0.0,
+            gross_sliding=bool(pressed.any()) and _spent(problem, now.r, pressed),
             escape=along_contact(problem, over.motion, pressed),
             hopeless=_along(factor, every.proved) if every is not None and sure else None,
         )

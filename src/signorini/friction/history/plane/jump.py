@@ -47,15 +47,16 @@ def explain(
     pressed = now.r[:n] > width
     slides = problem.floating and bool(pressed.any() and spent[pressed].all())
     # friction that is not in proportion to the pressures depends on how they are shared
-    limited = slides and not leaves and pulled_away(further, problem.bound.frozen(now.r[:n])) is not None
+    limit = pulled_away(further, problem.bound.frozen(now.r[:n])) if slides and not leaves else None
     pairs = acting if len(acting) else np.flatnonzero(spent)
-    reason = (SLIDING if slides else LEAVING) if leaves else LIMITED if limited else ""
-    if pull is not None:
-        reason += f": {BEYOND:g} of the way further nothing takes {pull.share:.2g} of the load on the bodies"
+    reason = (SLIDING if slides else LEAVING) if leaves else LIMITED if limit is not None else ""
+    shown = limit if pull is None else pull
+    if shown is not None:
+        reason += f": {BEYOND:g} of the way further nothing takes {shown.share:.2g} of the load on the bodies"
     return Jump(
         factor=factor,
         pairs=tuple(int(k) for k in pairs),
         proof=f"{lost.proof}; {reason}" if reason else lost.proof,
-        margin=lost.margin,
-        gross_sliding=(leaves and slides) or limited,
+        margin=lost.margin or (0.0 if shown is None else shown.share),
+        gross_sliding=(leaves and slides) or limit is not None,
     )

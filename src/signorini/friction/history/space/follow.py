@@ -30,6 +30,7 @@ from signorini.friction.space.standstill import standstill
 from signorini.friction.spatial.law import OPEN, SLIP, STICK
 from signorini.friction.spatial.problem import SpatialProblem
 from signorini.friction.spatial.result import SpatialResult
+from signorini.friction.spatial.rigid import pulled_away
 from signorini.friction.spatial.solve import SpatialSettings, solve_spatial
 from signorini.law.bound import STEEP
 
@@ -195,6 +196,7 @@ class Walk(Way):
         self.refused: SpatialResult | None = None
         self.limited = False  # whether the load has a limit where motions run away
         self._searched = False  # long, once in vain: shorter increments are near where they begin, or there are none
+        self._overloaded = False  # whether the pairs that are near hold the bodies no more
         self.bearing = Bearing(problem, self.b_end)
         # the load as rates see it; what smooth sections know of an event is less sharp
         self.rate_problem = replace(problem, b=frozen(b_end - start.b))
@@ -203,6 +205,7 @@ class Walk(Way):
     def go_on(self) -> NoRates | None:
         """One increment, found as it comes or by the rates; why there is none, or None."""
         if self.factor >= self.reach and not self._crosses():
+            self._overloaded = True
             self._to_the_brink()
             return NoRates(proof=OVERLOADED, proved=True)
         stop = standstill(self.pieces, self.problem.scale or 1.0)
@@ -231,7 +234,7 @@ class Walk(Way):
         if k is None:
             return False
         self.careful = self.balanced = self.pieces[k].factor
-        self.trusting, self.refused = False, None
+        self.trusting, self.refused, self._overloaded = False, None, False
         self.pieces = self.pieces[:k]
         self.now, self.factor = self.pieces[-1].state or self.start, self.pieces[-1].factor
         self.last = self.careful - self.factor
@@ -474,14 +477,14 @@ class Walk(Way):
         spent = pressed & (spare(self.problem, r) <= self.near)
         leaves, refused = self._leaves, self.refused
         acting = np.flatnonzero(spent) if leaves else acting_pairs(self.rate_problem, self.now, self.near)
-        if self.factor >= self.reach:
+        if self._overloaded:
             return self.segment("jump", self.bearing.jump(self.now, self.factor, pressed, lost.proof), lost.proof)
         slide = sliding(self.problem, self.pieces[-2:], pressed) if self.limited else None
         jump = Jump(
             factor=self.factor,
             pairs=tuple(int(k) for k in (acting if len(acting) else np.flatnonzero(spent))),
             proof=refused.message if refused is not None and leaves else lost.proof,
-            margin=0.0 if leaves else lost.margin,
+            margin=_share(self.problem, self.b_end) if leaves else lost.margin,
             gross_sliding=bool(leaves and pressed.any() and spent[pressed].all()) or slide is not None,
             escape=slide,
         )
@@ -491,6 +494,12 @@ class Walk(Way):
     def effort(self) -> tuple[int, int, int]:
         """Increments tried; nothing dense is kept between them."""
         return self.tried, 0, 0
+
+
+def _share(problem: SpatialProblem, b: Array) -> float:
+    """What of a load (3n,) on rigid motions no forces of the pairs take; 0 where they take all."""
+    pull = pulled_away(replace(problem, b=frozen(b)))
+    return 0.0 if pull is None else pull.share
 
 
 def _split(result: SpatialResult) -> tuple[Array, Array]:
