@@ -271,7 +271,7 @@ PENDING = {
     #
     "law": "constants",
     #
-    "lcp": "signatures nouns parameters classes constants",
+    "lcp": "nouns parameters classes constants",
     #
     "linalg": "signatures nouns parameters constants",
     #

@@ -8,7 +8,6 @@ import pytest
 
 from signorini import lcp
 from signorini.lcp import problems, screening
-from signorini.lcp.kernels import loop_of_enumeration
 
 
 def everything(A, q, tolerance, lack):  # noqa: ARG001
@@ -32,7 +31,7 @@ def small_integers(rng: np.random.Generator, kind: int) -> tuple[np.ndarray, np.
 def test_screening_loses_no_face(seed, kind, monkeypatch):
     M, q = small_integers(np.random.default_rng(seed), kind)
     screened = described(M, q)
-    monkeypatch.setattr("signorini.lcp.enumeration.loop_of_enumeration", lambda: everything)
+    monkeypatch.setattr(screening, "screen", everything)
     assert screened == described(M, q)
 
 
@@ -40,7 +39,7 @@ def test_screening_loses_no_face_of_contact(monkeypatch):
     posed = problems.gap_slip_contact(3, np.random.default_rng(2), friction=1.2)
     screened = described(posed.M, posed.q)
     assert screened
-    monkeypatch.setattr("signorini.lcp.enumeration.loop_of_enumeration", lambda: everything)
+    monkeypatch.setattr(screening, "screen", everything)
     assert screened == described(posed.M, posed.q)
 
 
@@ -48,7 +47,7 @@ def test_screening_leaves_little():
     rng = np.random.default_rng(0)
     for posed in (problems.random_psd(10, 5, rng, skew=0.3), problems.gap_slip_contact(3, rng)):
         lack = np.zeros(2**posed.n)
-        loop_of_enumeration()(posed.M, posed.q, 1e-11, lack)
+        screening.screen(posed.M, posed.q, 1e-11, lack)
         assert (lack >= 0.0).all()
         assert 1 <= (lack == 0.0).sum() <= 2**posed.n // 16
 
@@ -66,7 +65,7 @@ def test_screening_leaves_little():
 def test_a_proof_tells_its_margin(M, q, margin, screened, monkeypatch):
     """What every support lacks as it is, or at the best with z and w both a little negative."""
     if not screened:
-        monkeypatch.setattr("signorini.lcp.enumeration.loop_of_enumeration", lambda: everything)
+        monkeypatch.setattr(screening, "screen", everything)
     solution = lcp.solve(M, q, method="enumeration")
     assert solution.status is lcp.Status.NO_SOLUTION
     assert f"lacks {margin:.2g} of the largest entry of q" in solution.message

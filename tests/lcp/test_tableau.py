@@ -8,7 +8,7 @@ import pytest
 
 from signorini import lcp
 from signorini.lcp import problems, walk
-from signorini.lcp.reason import SOLVED
+from signorini.lcp.delayed import SOLVED, DelayedTableau, Tolerances
 from signorini.lcp.tableau import DELAYED, Tableau
 
 
@@ -25,7 +25,7 @@ def test_delayed_updates_are_the_updates(limit):
     entering = int(tableau.nonbasic[-1]) + 60
     for _ in range(4):
         reason, entering, _, pivots = tableau.walk(
-            entering, limit, theta_stays=False, pivot_tolerance=1e-11, tie_tolerance=1e-12, size=1.0
+            entering, limit, Tolerances(pivot=1e-11, tie=1e-12, size=1.0), theta_stays=False
         )
         assert pivots == min(limit, DELAYED) or reason == SOLVED
         walked = tableau.T.copy()
@@ -64,6 +64,8 @@ def test_the_lexicographic_row_of_a_tie(seed):
     rates = rng.integers(1, 3, n).astype(float)
     rows = np.sort(rng.permutation(n)[:5])
     expected = min(rows, key=lambda i: tuple(inverse[i] / rates[i]))
-    for run in (walk.least_lexicographic, walk._least_lexicographic):
-        got = run(T, U, V, used, tableau.basic, tableau.column_of, rates, rows.copy(), len(rows), 1e-12)
-        assert got == expected
+    for run in (walk.least_lexicographic, walk.least_lexicographic.py_func):
+        arrays = DelayedTableau(
+            T, U, V, tableau.basic, tableau.nonbasic, tableau.column_of, tableau.row_of, rows.copy()
+        )
+        assert run(arrays, used, rates, len(rows), 1e-12) == expected

@@ -13,7 +13,6 @@ from scipy.optimize import linprog
 
 from signorini.arrays import Array, BoolArray, IntArray, frozen
 from signorini.errors import InputError
-from signorini.lcp.kernels import loop_of_enumeration
 from signorini.lcp.problem import LCP, read_problem
 from signorini.lcp.solution import Attempt
 from signorini.lcp.status import Status
@@ -159,9 +158,11 @@ def _least_lack(A: Array, q: Array, support: BoolArray) -> float:
 
 def _faces(problem: LCP, tolerance: float, *, only_first: bool) -> tuple[list[Face], Array]:
     """Faces, and what supports lack that hold none at first sight, (2^n,)."""
+    from signorini.lcp.screening import screen  # Numba takes longer to import than most problems to solve
+
     A, q, own = _balanced(problem)
     lack = np.empty(2**problem.n)
-    loop_of_enumeration()(A, q, tolerance, lack)
+    screen(A, q, tolerance, lack)
     members = _members(np.flatnonzero(lack == 0.0), problem.n)
     sizes = members.sum(axis=1)
     faces = []

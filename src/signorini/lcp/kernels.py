@@ -1,38 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The compiled loops: relaxation sweeps and the pivot of a tableau."""
+"""The compiled loops: relaxation sweeps and the pivot of a tableau.
+
+Those who use them import them where they do, since Numba takes longer to import than most problems to solve.
+"""
 
 from __future__ import annotations
 
-from functools import cache
-from typing import Any
+from numba import njit
 
 from signorini.arrays import Array, IntArray
 
 
-@cache
-def compiled(loop: Any) -> Any:
-    """The machine code of a loop of this file; Numba is imported here because that takes longer than most problems."""
-    from numba import njit
-
-    return njit(cache=True, nogil=True)(loop)
-
-
-@cache
-def loop_of_lemke() -> Any:
-    """The machine code of ``lcp.walk.walk``, imported here for the same reason."""
-    from signorini.lcp.walk import machine_walk
-
-    return machine_walk
-
-
-@cache
-def loop_of_enumeration() -> Any:
-    """The machine code of ``lcp.screening.screen``, imported here for the same reason."""
-    from signorini.lcp.screening import machine_screen
-
-    return machine_screen
-
-
+@njit(cache=True, nogil=True)
 def sweeps(
     start: IntArray,
     index: IntArray,
@@ -67,6 +46,7 @@ def sweeps(
                 z[i] = max(0.0, z[i] - omega * w / diagonal)
 
 
+@njit(cache=True, nogil=True)
 def exchange(T: Array, row: int, at: int) -> None:
     """Pivot a Fortran-ordered condensed tableau in place on ``T[row, at]``.
 

@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
 from signorini.lcp.active import polish
+from signorini.lcp.delayed import DOUBT, RAY, SOLVED, Tolerances
 from signorini.lcp.problem import LCP, read_vector
-from signorini.lcp.reason import DOUBT, RAY, SOLVED
 from signorini.lcp.scaling import Equilibrated, equilibrate
 from signorini.lcp.solution import Attempt, Ray
 from signorini.lcp.status import Status
@@ -138,13 +138,9 @@ class Path:
                 checked = self.pivots
                 if not self._sound():
                     return self.ended(Status.BREAKDOWN, note)
+            tolerances = Tolerances(self.options.pivot_tolerance, self.options.tie_tolerance, self.largest_theta)
             reason, entering, row, pivots = tableau.walk(
-                entering,
-                limit - self.pivots,
-                theta_stays=theta_stays,
-                pivot_tolerance=self.options.pivot_tolerance,
-                tie_tolerance=self.options.tie_tolerance,
-                size=self.largest_theta,
+                entering, limit - self.pivots, tolerances, theta_stays=theta_stays
             )
             self.pivots += pivots
             if reason == RAY:

@@ -12,7 +12,6 @@ from scipy.sparse.linalg import LinearOperator, cg
 
 from signorini.arrays import Array, BoolArray
 from signorini.lcp.hierarchy import Hierarchy, hierarchy
-from signorini.lcp.kernels import compiled, sweeps
 from signorini.lcp.mprgp import symmetric_in_products
 from signorini.lcp.problem import LCP
 from signorini.lcp.solution import Attempt
@@ -116,7 +115,9 @@ class ProjectedMultigrid:
 
 def _relax(A: Any, q: Array, z: Array, *, count: int = 1, backwards: bool = False) -> None:
     """Projected Gauss-Seidel sweeps in place."""
-    compiled(sweeps)(A.indptr, A.indices, A.data, q, z, 1.0, count, backwards)
+    from signorini.lcp.kernels import sweeps
+
+    sweeps(A.indptr, A.indices, A.data, q, z, 1.0, count, backwards)
 
 
 def _conjugate_gradients(levels: Hierarchy, r: Array, free: BoolArray, steps: int) -> tuple[Array, float]:

@@ -12,7 +12,6 @@ from scipy.sparse.linalg import LinearOperator
 
 from signorini.arrays import Array
 from signorini.lcp.active import polish
-from signorini.lcp.kernels import compiled, sweeps
 from signorini.lcp.problem import LCP
 from signorini.lcp.solution import Attempt
 from signorini.lcp.status import Status
@@ -53,18 +52,19 @@ class ProjectedSOR:
 
     def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:
         """See ``Method.attempt``."""
+        from signorini.lcp.kernels import sweeps
+
         if isinstance(problem.M, LinearOperator):
             return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note="It needs the rows of M.")
         M = sp.csr_array(problem.M)
         if not (M.diagonal() > 0).all():
             return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note="It needs a positive diagonal.")
-        relax = compiled(sweeps)
         z = np.zeros(problem.n) if z0 is None else np.maximum(z0, 0.0)
         ending, done = Status.MAX_ITERATIONS, 0
         while done < self.max_sweeps:
             count = min(self.every, self.max_sweeps - done)
             with np.errstate(over="ignore", invalid="ignore"):
-                relax(M.indptr, M.indices, M.data, problem.q, z, self.omega, count, False)
+                sweeps(M.indptr, M.indices, M.data, problem.q, z, self.omega, count, False)
             done += count
             if not np.isfinite(z).all():
                 return Attempt(z=None, ending=Status.NONFINITE, iterations=done)

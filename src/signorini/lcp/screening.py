@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numba import njit
 
@@ -14,6 +12,7 @@ CLEARLY, BARELY, SINGULAR = 1e-9, 1e-13, 1e-6
 """Pivots over the first: trusted above, 0 below; and what may remain of q where the block is singular."""
 
 
+@njit(cache=True)
 def eliminate(block: Array, size: int, order: IntArray) -> int:
     """Gauss elimination of ``block[:size, :size + 1]`` with complete pivoting; returns the rank.
 
@@ -48,6 +47,7 @@ def eliminate(block: Array, size: int, order: IntArray) -> int:
     return size
 
 
+@njit(cache=True)
 def substitute_back(block: Array, size: int, rank: int) -> float:
     """Solve for the first ``rank`` unknowns after ``eliminate``; returns the largest of them with the others 0, or 1.
 
@@ -65,6 +65,7 @@ def substitute_back(block: Array, size: int, rank: int) -> float:
     return scale
 
 
+@njit(cache=True)
 def lack_of(A: Array, q: Array, support: IntArray, size: int, tolerance: float, block: Array, order: IntArray) -> float:
     """What a solution with its positive components exactly on ``support[:size]`` lacks; 0 where there may be one.
 
@@ -76,11 +77,11 @@ def lack_of(A: Array, q: Array, support: IntArray, size: int, tolerance: float, 
         for j in range(size):
             block[i, j] = A[support[i], support[j]]
         block[i, size] = -q[support[i]]
-    rank = _eliminate(block, size, order)
+    rank = eliminate(block, size, order)
     condition = abs(block[0, 0] / block[rank - 1, rank - 1]) if rank > 0 else 1.0
     if condition * CLEARLY >= 1.0:
         return 0.0
-    scale = _substitute_back(block, size, rank)
+    scale = substitute_back(block, size, rank)
     left = 0.0
     for i in range(rank, size):
         left = max(left, abs(block[i, size]))
@@ -111,6 +112,7 @@ def lack_of(A: Array, q: Array, support: IntArray, size: int, tolerance: float, 
     return lack / scale
 
 
+@njit(cache=True, nogil=True)
 def screen(A: Array, q: Array, tolerance: float, lack: Array) -> None:
     """Write into ``lack[mask]`` what a solution with its positive components exactly on the bits of the mask lacks.
 
@@ -128,12 +130,4 @@ def screen(A: Array, q: Array, tolerance: float, lack: Array) -> None:
             if (mask >> i) & 1:
                 support[size] = i
                 size += 1
-        lack[mask] = _lack_of(A, q, support, size, tolerance, block, order)
-
-
-_eliminate: Any = njit(eliminate, cache=True)
-_substitute_back: Any = njit(substitute_back, cache=True)
-_lack_of: Any = njit(lack_of, cache=True)
-
-machine_screen: Any = njit(screen, cache=True, nogil=True)
-"""The machine code of the loop."""
+        lack[mask] = lack_of(A, q, support, size, tolerance, block, order)

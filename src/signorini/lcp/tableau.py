@@ -12,7 +12,7 @@ import scipy.linalg as la
 from scipy.linalg.blas import dgemm
 
 from signorini.arrays import Array, IntArray
-from signorini.lcp.kernels import compiled, exchange, loop_of_lemke
+from signorini.lcp.delayed import DelayedTableau, Tolerances
 
 DELAYED = 32
 """Pivots whose updates are applied together."""
@@ -53,40 +53,31 @@ class Tableau:
         return self.T[:, self.column_of[variable]]
 
     def walk(
-        self,
-        entering: int,
-        limit: int,
-        *,
-        theta_stays: bool,
-        pivot_tolerance: float,
-        tie_tolerance: float,
-        size: float,
+        self, entering: int, limit: int, tolerances: Tolerances, *, theta_stays: bool
     ) -> tuple[int, int, int, int]:
-        """Pivot along the complementary path, at most ``limit`` times (``lcp.walk.walk``)."""
-        reason, entering, row, pivots = loop_of_lemke()(
-            self.T,
-            self._U,
-            self._V,
-            self.basic,
-            self.nonbasic,
-            self.column_of,
-            self.row_of,
-            self._rows,
-            entering,
-            limit,
-            theta_stays,
-            pivot_tolerance,
-            tie_tolerance,
-            size,
+        """Pivot along the complementary path.
+
+        Parameters
+        ----------
+        entering : the variable that enters first
+        limit, tolerances, theta_stays : see ``lcp.walk.walk``
+        """
+        from signorini.lcp.walk import walk  # Numba takes longer to import than most problems to solve
+
+        arrays = DelayedTableau(
+            self.T, self._U, self._V, self.basic, self.nonbasic, self.column_of, self.row_of, self._rows
         )
+        reason, entering, row, pivots = walk(arrays, entering, limit, theta_stays, tolerances)
         if pivots:
             dgemm(-1.0, self._U[:, :pivots], self._V[:pivots].T, 1.0, self.T, trans_b=True, overwrite_c=True)
         return reason, entering, row, pivots
 
     def pivot(self, row: int, variable: int) -> int:
         """Exchange the basic variable of the row with a nonbasic one; returns the variable that left."""
+        from signorini.lcp.kernels import exchange
+
         at = int(self.column_of[variable])
-        compiled(exchange)(self.T, row, at)
+        exchange(self.T, row, at)
         left = int(self.basic[row])
         self.basic[row], self.nonbasic[at] = variable, left
         self.row_of[variable], self.row_of[left] = row, -1

@@ -9,31 +9,28 @@ the columns of U and the rows of V from the last few pivots: a pivot needs one c
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from numba import njit
 
 from signorini.arrays import Array, IntArray
-from signorini.lcp.reason import DOUBT, MORE, RAY, SOLVED
+from signorini.lcp.delayed import DOUBT, MORE, RAY, SOLVED, DelayedTableau, Tolerances
 
 
-def blocking(
-    column: Array, rhs: Array, pivot_tolerance: float, tie_tolerance: float, size: float, rows: IntArray
-) -> tuple[int, float]:
+@njit(cache=True)
+def blocking(column: Array, rhs: Array, tolerances: Tolerances, rows: IntArray) -> tuple[int, float]:
     """Write the rows that stop the entering variable first, ties included; returns their number and the step.
 
     Parameters
     ----------
     column, rhs : (n,) rates at which the basic variables fall, and their values
-    pivot_tolerance : rates below it, relative to the largest, do not count
-    tie_tolerance, size : values left over below their product, less at small rates, are ties
+    tolerances : of rates and ties
     rows : (n,) filled from the front
     """
-    largest, highest = 1.0, size
+    largest, highest = 1.0, tolerances.size
     for i in range(len(column)):
         largest = max(largest, abs(column[i]))
         highest = max(highest, abs(rhs[i]))
-    least = pivot_tolerance * largest
+    least = tolerances.pivot * largest
     step = math.inf
     for i in range(len(column)):
         if column[i] > least and rhs[i] < step * column[i]:
@@ -41,29 +38,27 @@ def blocking(
     count = 0
     for i in range(len(column)):
         rate = column[i]
-        if rate > least and max(rhs[i], 0.0) - step * rate <= tie_tolerance * highest * min(1.0, rate):
+        if rate > least and max(rhs[i], 0.0) - step * rate <= tolerances.tie * highest * min(1.0, rate):
             rows[count] = i
             count += 1
     return count, step
 
 
-def least_lexicographic(
-    T: Array,
-    U: Array,
-    V: Array,
-    used: int,
-    basic: IntArray,
-    column_of: IntArray,
-    rates: Array,
-    rows: IntArray,
-    count: int,
-    tolerance: float,
-) -> int:
-    """Row, of the first ``count`` in rows, whose row of the basis inverse over its rate is lexicographically least.
+@njit(cache=True)
+def least_lexicographic(tableau: DelayedTableau, used: int, rates: Array, count: int, tolerance: float) -> int:
+    """Row of the basis inverse that, over its rate, is lexicographically least.
 
-    Column j of the basis inverse is the column of w_j, a unit vector where w_j is basic. Entries closer than the
-    tolerance count as equal.
+    Column j of the basis inverse is the column of w_j, a unit vector where w_j is basic.
+
+    Parameters
+    ----------
+    tableau : with the candidates in front of its ``rows``
+    used : columns of U in use
+    rates : (n,) what every row is divided by
+    count : number of candidates
+    tolerance : entries closer than it count as equal
     """
+    T, U, V, basic, _, column_of, _, rows = tableau
     for j in range(len(T)):
         if count == 1:
             break
@@ -88,8 +83,10 @@ def least_lexicographic(
     return rows[0]
 
 
-def current_column(T: Array, U: Array, V: Array, used: int, at: int) -> None:
-    """Write column ``at`` of ``T - U V`` into column ``used`` of U."""
+@njit(cache=True)
+def current_column(tableau: DelayedTableau, used: int, at: int) -> None:
+    """Write column ``at`` of ``T - U V`` into column ``used`` of U, those before it of the tableau in use."""
+    T, U, V = tableau.T, tableau.U, tableau.V
     for i in range(len(T)):
         U[i, used] = T[i, at]
     for delayed in range(used):
@@ -99,8 +96,17 @@ def current_column(T: Array, U: Array, V: Array, used: int, at: int) -> None:
                 U[i, used] -= factor * U[i, delayed]
 
 
-def exchange_delayed(T: Array, U: Array, V: Array, used: int, row: int, at: int) -> None:
-    """Pivot on entry (row, at) of ``T - U V``, whose column is in column ``used`` of U; V receives its row there."""
+@njit(cache=True)
+def exchange_delayed(tableau: DelayedTableau, used: int, row: int, at: int) -> None:
+    """Pivot on an entry of ``T - U V``, whose column is in U; V receives its row.
+
+    Parameters
+    ----------
+    tableau : edited in place
+    used : the column of U, and the row of V, of this pivot
+    row, at : of the entry
+    """
+    T, U, V = tableau.T, tableau.U, tableau.V
     n, m = T.shape
     column, fresh = U[:, used], V[used]
     pivot = column[row]
@@ -125,46 +131,32 @@ def exchange_delayed(T: Array, U: Array, V: Array, used: int, row: int, at: int)
     fresh[m - 1] = fresh[at] = 0.0
 
 
+@njit(cache=True, nogil=True)
 def walk(
-    T: Array,
-    U: Array,
-    V: Array,
-    basic: IntArray,
-    nonbasic: IntArray,
-    column_of: IntArray,
-    row_of: IntArray,
-    rows: IntArray,
-    entering: int,
-    limit: int,
-    theta_stays: bool,
-    pivot_tolerance: float,
-    tie_tolerance: float,
-    size: float,
+    tableau: DelayedTableau, entering: int, limit: int, theta_stays: bool, tolerances: Tolerances
 ) -> tuple[int, int, int, int]:
     """Pivot along the complementary path until U is full or there is something to say.
 
     Parameters
     ----------
-    T : (n, n + 2) Fortran-ordered tableau, the values in its last column
-    U, V : (n, k) Fortran-ordered and (k, n + 2), not yet in use
-    basic, nonbasic, column_of, row_of : see ``Tableau``
-    rows : (n,) to work in
+    tableau : edited in place, U and V not yet in use
     entering : the variable that enters first
     limit : of pivots
     theta_stays : whether the tie of the first pivot is to be broken without theta
-    pivot_tolerance, tie_tolerance, size : see ``blocking``
+    tolerances : of rates and ties
 
     Returns
     -------
     reason, entering, row, pivots : why it returned, the variable to enter next, the row of theta in doubt, pivots done
     """
+    T, U, V, basic, nonbasic, column_of, row_of, rows = tableau
     n = len(T)
     theta = 2 * n
     for used in range(min(V.shape[0], limit)):
         at = column_of[entering]
-        _current_column(T, U, V, used, at)
+        current_column(tableau, used, at)
         column, rhs = U[:, used], T[:, n + 1]
-        count, step = _blocking(column, rhs, pivot_tolerance, tie_tolerance, size, rows)
+        count, step = blocking(column, rhs, tolerances, rows)
         if count == 0:
             return RAY, entering, -1, used
         row = rows[0]
@@ -176,10 +168,10 @@ def walk(
                     rows[kept] = rows[k]
                     kept += 1
             if kept == count or (theta_stays and used == 0):  # kept < count where theta is tied
-                row = _least_lexicographic(T, U, V, used, basic, column_of, column, rows, kept, tie_tolerance)
+                row = least_lexicographic(tableau, used, column, kept, tolerances.tie)
             elif max(rhs[row], 0.0) > step * column[row]:
                 return DOUBT, entering, row, used
-        _exchange_delayed(T, U, V, used, row, at)
+        exchange_delayed(tableau, used, row, at)
         left = basic[row]
         basic[row], nonbasic[at] = entering, left
         row_of[entering], row_of[left] = row, -1
@@ -188,12 +180,3 @@ def walk(
             return SOLVED, left, row, used + 1
         entering = left + n if left < n else left - n
     return MORE, entering, -1, min(V.shape[0], limit)
-
-
-_blocking: Any = njit(blocking, cache=True)
-_least_lexicographic: Any = njit(least_lexicographic, cache=True)
-_current_column: Any = njit(current_column, cache=True)
-_exchange_delayed: Any = njit(exchange_delayed, cache=True)
-
-machine_walk: Any = njit(walk, cache=True, nogil=True)
-"""The machine code of the loop."""
