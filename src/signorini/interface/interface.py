@@ -15,13 +15,13 @@ from signorini.errors import InputError
 from signorini.fem.obstacles import carried
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
-from signorini.interface.cone import effort
 from signorini.interface.coupling import along
 from signorini.interface.frames import along_tangents, tangents
 from signorini.interface.moments import moments_of_rows
 from signorini.interface.pairing import Pairs, Sides, make_pairs
 from signorini.interface.spatial.frames import ALONG
 from signorini.law.bound import FrictionBound
+from signorini.law.section import Section
 from signorini.model.contact import ratios
 from signorini.model.model import Model
 
@@ -135,13 +135,14 @@ class Interface:
         bound = self.bound(np.ones(len(self), dtype=np.bool_)).at(np.maximum(normal, 0.0))
         return np.where(self.sticks & (normal > 0), np.inf, bound)
 
-    def by_pair(self, tangential: Array) -> Array:
-        """(n, d - 1) tangential vectors that are given row by row, ((d - 1) n,)."""
-        return tangential.reshape(self.directions - 1, len(self)).T
+    @property
+    def section(self) -> Section:
+        """Of the friction cone of every pair, for a largest coefficient of 1."""
+        return Section(axes=self.anisotropy.T, sides=self.facets)
 
     def effort(self, tangential: Array) -> Array:
-        """(n,) size of tangential forces ((d - 1) n,) as friction feels it, see `signorini.interface.cone.effort`."""
-        return effort(self.by_pair(tangential), self.anisotropy, self.facets)
+        """(n,) size of tangential forces ((d - 1) n,) as friction feels it, see `law.section`."""
+        return self.section.effort(tangential.reshape(self.directions - 1, len(self)))
 
     def across(self, tangential: Array) -> Array:
         """(n,) length of tangential vectors that are given row by row, ((d - 1) n,)."""

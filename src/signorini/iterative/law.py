@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The law of contact with a known friction bound, Tresca's: the projection on its forces, and its slope.
+"""The law of contact with friction bounds that are known, Tresca's, and with ties: the projection on its forces.
 
 Forces and motions are (d, a): the normal in the first row, tangents below, one column a pair.
 """
@@ -12,34 +12,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK
-
-
-def project(y: Array, bound: Array, tied: BoolArray) -> Array:
-    """Forces nearest to y: a normal that presses, a tangent no longer than the bound.
-
-    Parameters
-    ----------
-    y : (d, a) trial forces
-    bound : (a,) of friction, force; may be infinite
-    tied : (a,) pairs that carry any force
-
-    Examples
-    --------
-    >>> project(np.array([[2.0, -1.0], [3.0, 0.5]]), np.array([1.0, 1.0]), np.array([False, False])).tolist()
-    [[2.0, 0.0], [1.0, 0.5]]
-    """
-    r = y * np.concatenate([np.ones((1, y.shape[1])), np.broadcast_to(_share(y, bound), (len(y) - 1, y.shape[1]))])
-    r[0] = np.maximum(r[0], 0.0)
-    return np.where(tied, y, r)
-
-
-def states(y: Array, bound: Array, tied: BoolArray) -> IntArray:
-    """(a,) What each pair does, codes of :mod:`signorini.law.states`; without friction a closed pair slips."""
-    stick = (np.linalg.norm(y[1:], axis=0) <= bound) & (bound > 0)
-    slip = np.where(y[1] >= 0, SLIP_PLUS, SLIP_MINUS) if len(y) == 2 else SLIP_PLUS
-    found = np.where(y[0] <= 0, OPEN, np.where(stick, STICK, slip))
-    return np.where(tied, STICK, found).astype(np.int64)
+from signorini.law.section import Section
+from signorini.law.states import OPEN, SLIP, SLIP_MINUS, SLIP_PLUS, STICK
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -66,25 +40,49 @@ class Slope:
         return sp.csr_array(sp.block_diag([sp.diags_array(self.normal), sp.block_array(rows)]))
 
 
-def slope(y: Array, bound: Array, tied: BoolArray, stiffness: Array, floor: float) -> Slope:
-    """The slope at y.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class BoundedLaw:
+    """The law of pairs under friction bounds, (a,) forces that may be infinite, which every method takes.
 
-    Parameters
+    Attributes
     ----------
-    stiffness : (d, a) that trial forces lose per motion, the same for both tangents
-    floor : part of it that every row keeps, so that bodies which nothing holds yet do not run away
+    section : of the friction of every pair
+    tied : (a,) pairs that carry any force
+
+    Examples
+    --------
+    >>> law = BoundedLaw(section=Section.round(1, 2), tied=np.array([False, False]))
+    >>> law.project(np.array([[2.0, -1.0], [3.0, 0.5]]), np.array([1.0, 1.0])).tolist()
+    [[2.0, 0.0], [1.0, 0.5]]
     """
-    size = np.linalg.norm(y[1:], axis=0)
-    tau = np.divide(y[1:], size, out=np.zeros_like(y[1:]), where=size > 0)
-    slips = (size > bound) & ~tied
-    share = np.where(tied, 1.0, _share(y, bound))
-    one = np.eye(len(tau))[:, :, None]
-    across = share * (one - np.where(slips, 1.0, 0.0) * tau[:, None] * tau[None, :])
-    closed = np.where((y[0] >= 0) | tied, 1.0, 0.0)
-    return Slope(normal=stiffness[0] * (closed + floor), tangent=stiffness[1:] * (across + floor * one))
 
+    section: Section
+    tied: BoolArray
 
-def _share(y: Array, bound: Array) -> Array:
-    """(a,) Part of the tangential trial force that friction carries."""
-    size = np.linalg.norm(y[1:], axis=0)
-    return np.divide(bound, size, out=np.where(bound > 0, 1.0, 0.0), where=size > bound)
+    def project(self, y: Array, bound: Array) -> Array:
+        """(d, a) Forces nearest to trial forces y, (d, a): a normal that presses, a tangent within its section."""
+        r = np.empty_like(y)
+        r[0] = np.maximum(y[0], 0.0)
+        r[1:] = self.section.nearest(y[1:], bound)
+        return np.where(self.tied, y, r)
+
+    def states(self, y: Array, bound: Array) -> IntArray:
+        """(a,) What each pair does, codes of :mod:`signorini.law.states`; without friction a closed pair slips."""
+        stick = self.section.project(y[1:], bound).inside
+        slip = np.where(y[1] >= 0, SLIP_PLUS, SLIP_MINUS) if len(y) == 2 else SLIP
+        found = np.where(y[0] <= 0, OPEN, np.where(stick, STICK, slip))
+        return np.where(self.tied, STICK, found).astype(np.int64)
+
+    def slope(self, y: Array, bound: Array, stiffness: Array, floor: float) -> Slope:
+        """The slope at trial forces y, (d, a).
+
+        Parameters
+        ----------
+        y, bound : (d, a) trial forces, (a,) friction bounds
+        stiffness : (d, a) that trial forces lose per motion, alike for both tangents
+        floor : part of it that every row keeps, so that bodies which nothing holds yet do not run away
+        """
+        one = np.eye(len(y) - 1)[:, :, None]
+        across = np.where(self.tied, one, self.section.project(y[1:], bound).slope)
+        closed = np.where((y[0] >= 0) | self.tied, 1.0, 0.0)
+        return Slope(normal=stiffness[0] * (closed + floor), tangent=stiffness[1:] * (across + floor * one))

@@ -29,8 +29,9 @@ from signorini.arrays import Array, IntArray
 from signorini.attempt import MethodRun
 from signorini.errors import told
 from signorini.iterative.bodies import Bodies
-from signorini.iterative.law import Slope, project, slope, states
+from signorini.iterative.law import BoundedLaw, Slope
 from signorini.law.bound import FrictionBound
+from signorini.law.section import Section
 from signorini.law.states import OPEN, STICK
 from signorini.linalg.krylov import conjugate_gradients
 
@@ -142,7 +143,8 @@ class _Rounds:
         self.E = 1.0 / (1.0 + self.D * self.C)
         self.softened = self.E * self.D
         self.transposed = bodies.B.T.tocsr()
-        self.rubs = load.bound.slopes[0] > 0
+        self.law = BoundedLaw(section=Section.round(d - 1, a), tied=bodies.tied)
+        self.rubs = load.bound.steepest > 0
         self.moves = np.diff(bodies.B.indptr).reshape(d, a) > 0
         self.internal = bodies.K @ self.z
         self.relative = self._seen(self.z) + load.offset
@@ -155,7 +157,7 @@ class _Rounds:
 
     def newton(self) -> None:
         """Approach equilibrium under the multipliers and bounds of this round."""
-        bodies, load = self.bodies, self.load
+        load = self.load
         for _ in range(_NEWTON):
             forces = self._project(self.y)
             g = load.f + self.transposed @ forces.ravel() - self.internal
@@ -163,7 +165,7 @@ class _Rounds:
             left = float(np.linalg.norm(g))
             if left <= _ENOUGH * float(np.linalg.norm(lag)) or left <= 0.1 * TOLERANCE * load.force:
                 return
-            law = slope(self.y, self.bound, bodies.tied, self.softened, _FLOOR if load.floating else 0.0)
+            law = self.law.slope(self.y, self.bound, self.softened, _FLOOR if load.floating else 0.0)
             step, count = self._step(law, g)
             self._go(step, forces)
             self.iterations.append(count)
@@ -184,7 +186,7 @@ class _Rounds:
 
     @property
     def state(self) -> IntArray:
-        return states(self.y, self.bound, self.bodies.tied)
+        return self.law.states(self.y, self.bound)
 
     def answer(self, worst: float) -> Answer:
         bodies = self.bodies
@@ -224,7 +226,7 @@ class _Rounds:
         return y
 
     def _project(self, y: Array) -> Array:
-        return project(y, self.bound, self.bodies.tied)
+        return self.law.project(y, self.bound)
 
     def _step(self, law: Slope, g: Array) -> tuple[Array, int]:
         bodies, springs = self.bodies, self.transposed @ law.matrix() @ self.bodies.B

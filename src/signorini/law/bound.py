@@ -9,17 +9,21 @@ with the steep slope S = 1e3 of adhesion: the whole of it acts from a normal for
 where the pair opens. Without that F would drop from c to nothing, and a pair on the verge of opening could be in
 equilibrium neither closed nor open; with it F is continuous, and held bodies have an equilibrium under every load.
 
-F is concave and piecewise linear, ``min_j (start_j + slope_j p)``, of one branch (Coulomb), two or three.
+F is concave and piecewise linear, ``min_j (start_j + slope_j p)``, of one branch (Coulomb), two or three. Other laws
+are other kinds of `Bound`: what they need is their value, their tangent and their steepest slope. The methods of the
+plane that follow pieces (covering paths, the tree of states, exact histories) take a `FrictionBound` alone.
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.law.states import SLIP_MINUS, SLIP_PLUS, STICK
 
 STICKY = 1e6
@@ -32,8 +36,33 @@ SIGN = np.array([0.0, 0.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
 """Of the friction of a slipping pair, by code."""
 
 
+class Bound(ABC):
+    """The largest friction F of n pairs as a function of their normal forces p >= 0: not negative, concave."""
+
+    @abstractmethod
+    def at(self, p: Array) -> Array:
+        """(n,) F at normal forces p >= 0."""
+
+    @abstractmethod
+    def tangent(self, p: Array) -> tuple[Array, Array]:
+        """Slope and start, each (n,), of the line ``start + slope p`` that F is near normal forces p."""
+
+    @property
+    @abstractmethod
+    def steepest(self) -> Array:
+        """(n,) The largest slope, at p = 0: Coulomb's coefficient where there is no other law."""
+
+    @abstractmethod
+    def among(self, kept: BoolArray) -> Self:
+        """The bound of the kept pairs, (n,)."""
+
+    def frozen(self, p: Array) -> FrictionBound:
+        """The bound that stays what it is at normal forces p, as in Tresca's law."""
+        return FrictionBound.constant(self.at(p))
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
-class FrictionBound:
+class FrictionBound(Bound):
     """Branches of F for n pairs, the first through zero; those that a pair does not have begin at infinity.
 
     A pair that slips on branch j has the code ``SLIP_PLUS + 2 j`` or ``SLIP_MINUS + 2 j``.
@@ -93,6 +122,11 @@ class FrictionBound:
         zero = np.zeros((1, len(friction)))
         return cls(slopes=np.minimum(friction, STICKY)[None], starts=zero, kinks=_between(zero))
 
+    @classmethod
+    def constant(cls, size: Array) -> FrictionBound:
+        """The bound that does not depend on the normal force, (n,)."""
+        return cls(slopes=np.zeros((1, len(size))), starts=size[None], kinks=_between(np.zeros((1, len(size)))))
+
     @property
     def branches(self) -> int:
         """The most that a pair has."""
@@ -104,10 +138,21 @@ class FrictionBound:
             return self.starts[0] + self.slopes[0] * p
         return np.asarray((self.starts + self.slopes * p).min(axis=0))
 
-    def frozen(self, p: Array) -> FrictionBound:
-        """The bound that stays what it is at normal forces p."""
-        most = self.at(p)[None]
-        return FrictionBound(slopes=np.zeros_like(most), starts=most, kinks=_between(np.zeros_like(most)))
+    def tangent(self, p: Array) -> tuple[Array, Array]:
+        """Slope and start, each (n,), of the branch that normal forces p lie on."""
+        if self.branches == 1:
+            return self.slopes[0], self.starts[0]
+        branch, pairs = self.branch(p), np.arange(len(p))
+        return self.slopes[branch, pairs], self.starts[branch, pairs]
+
+    @property
+    def steepest(self) -> Array:
+        """(n,) Slope of the first branch."""
+        return self.slopes[0]
+
+    def among(self, kept: BoolArray) -> FrictionBound:
+        """The bound of the kept pairs, (n,)."""
+        return FrictionBound(slopes=self.slopes[:, kept], starts=self.starts[:, kept], kinks=self.kinks[:, kept])
 
     def branch(self, p: Array) -> IntArray:
         """(n,) Number of the branch at normal forces p."""

@@ -8,3 +8,8 @@ OPEN, STICK, SLIP_PLUS, SLIP_MINUS = 0, 1, 2, 3
 
 UNDECIDED = -1
 """A state that the solution decides."""
+
+SLIP = SLIP_PLUS
+"""Closed and slipping: in space the direction is that of the tangential force."""
+
+STATE_NAMES = ("open", "stick", "slip, friction +", "slip, friction -")

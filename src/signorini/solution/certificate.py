@@ -11,7 +11,6 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
 from signorini.fem.supports import Constraints
-from signorini.interface.cone import farthest
 from signorini.interface.interface import Interface
 from signorini.solution.scale import Scale
 from signorini.solution.state import State
@@ -157,28 +156,27 @@ def _friction(interface: Interface, bound: Array, tangential: Array, sliding: Ar
 
     Where a pair is open, slip is free: its section is a point and has no room.
     """
-    n = len(bound)
-    slip, size = interface.across(sliding), interface.across(tangential)
+    shape = interface.directions - 1, len(bound)
+    r, s = tangential.reshape(shape), sliding.reshape(shape)
+    slip, size = np.linalg.norm(s, axis=0), np.linalg.norm(r, axis=0)
     # 0 where friction opposes the slip, 2 where it goes with it
-    turned = interface.across(_directions(tangential, n) + _directions(sliding, n))
+    turned = np.linalg.norm(_directions(r, size) + _directions(s, slip), axis=0)
     found = np.maximum(np.minimum(slip, np.maximum(room, 0.0)), 0.5 * turned * np.minimum(size, slip))
     polygon = (interface.facets > 0) & np.isfinite(bound)
     special = polygon | (interface.anisotropy != 1.0).any(axis=1)
     if special.any():
-        r, s = interface.by_pair(tangential)[special], interface.by_pair(sliding)[special]
-        most = -bound[special, None] * farthest(s, interface.anisotropy[special], interface.facets[special])
-        off = np.minimum(slip[special], np.linalg.norm(r - most, axis=1))
-        more = np.sum((r - most) * s, axis=1)
+        r, s = r[:, special], s[:, special]
+        most = -bound[special] * interface.section.among(special).farthest(s)
+        off = np.minimum(slip[special], np.linalg.norm(r - most, axis=0))
+        more = np.sum((r - most) * s, axis=0)
         more = more / np.maximum(np.maximum(slip, bound)[special], 1e-300)
         found[special] = np.where(polygon[special], np.maximum(more, 0.0), off)
     return found
 
 
-def _directions(vectors: Array, n: int) -> Array:
-    """Of tangential vectors row by row, ((d - 1) n,); 0 where there is none."""
-    rows = vectors.reshape(-1, n) if n else np.zeros((1, 0))
-    length = np.linalg.norm(rows, axis=0)
-    unit: Array = np.divide(rows, length, out=np.zeros_like(rows), where=length > 0).ravel()
+def _directions(vectors: Array, length: Array) -> Array:
+    """(d - 1, n) Tangential vectors over their length, (n,); 0 where there is none."""
+    unit: Array = np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
     return unit
 
 
