@@ -21,7 +21,7 @@ from signorini.interface.moments import moments_of_rows
 from signorini.interface.pairing import Pairs, Sides, make_pairs
 from signorini.interface.spatial.frames import ALONG
 from signorini.law.bound import FrictionBound
-from signorini.law.section import Section
+from signorini.law.section import FrictionSection
 from signorini.model.contact import ratios
 from signorini.model.model import Model
 
@@ -136,9 +136,9 @@ class Interface:
         return np.where(self.sticks & (normal > 0), np.inf, bound)
 
     @property
-    def section(self) -> Section:
+    def section(self) -> FrictionSection:
         """Of the friction cone of every pair, for a largest coefficient of 1."""
-        return Section(axes=self.anisotropy.T, sides=self.facets)
+        return FrictionSection(axes=self.anisotropy.T, sides=self.facets)
 
     def effort(self, tangential: Array) -> Array:
         """(n,) size of tangential forces ((d - 1) n,) as friction feels it, see `law.section`."""

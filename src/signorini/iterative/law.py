@@ -12,7 +12,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.law.section import Section
+from signorini.law.section import FrictionSection
 from signorini.law.states import OPEN, SLIP, SLIP_MINUS, SLIP_PLUS, STICK
 
 
@@ -51,12 +51,12 @@ class BoundedLaw:
 
     Examples
     --------
-    >>> law = BoundedLaw(section=Section.round(1, 2), tied=np.array([False, False]))
+    >>> law = BoundedLaw(section=FrictionSection.round(1, 2), tied=np.array([False, False]))
     >>> law.project(np.array([[2.0, -1.0], [3.0, 0.5]]), np.array([1.0, 1.0])).tolist()
     [[2.0, 0.0], [1.0, 0.5]]
     """
 
-    section: Section
+    section: FrictionSection
     tied: BoolArray
 
     def project(self, y: Array, bound: Array) -> Array:

@@ -31,7 +31,7 @@ from signorini.errors import told
 from signorini.iterative.bodies import Bodies
 from signorini.iterative.law import BoundedLaw, Slope
 from signorini.law.bound import FrictionBound
-from signorini.law.section import Section
+from signorini.law.section import FrictionSection
 from signorini.law.states import OPEN, STICK
 from signorini.linalg.krylov import conjugate_gradients
 
@@ -143,7 +143,7 @@ class _Rounds:
         self.E = 1.0 / (1.0 + self.D * self.C)
         self.softened = self.E * self.D
         self.transposed = bodies.B.T.tocsr()
-        self.law = BoundedLaw(section=Section.round(d - 1, a), tied=bodies.tied)
+        self.law = BoundedLaw(section=FrictionSection.round(d - 1, a), tied=bodies.tied)
         self.rubs = load.bound.steepest > 0
         self.moves = np.diff(bodies.B.indptr).reshape(d, a) > 0
         self.internal = bodies.K @ self.z

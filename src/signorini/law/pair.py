@@ -20,7 +20,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.law.bound import Bound, FrictionBound
-from signorini.law.section import Projection, Section
+from signorini.law.section import FrictionSection, Projection
 from signorini.law.states import OPEN, SLIP, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 _BEYOND = 1e12  # of the friction: a trial force along which a dragged pair slips, whatever else acts on it
@@ -78,18 +78,18 @@ class PairLaw:
 
     Examples
     --------
-    >>> law = PairLaw(bound=FrictionBound.of([0.5, 0.5]), section=Section.round(1, 2))
+    >>> law = PairLaw(bound=FrictionBound.of([0.5, 0.5]), section=FrictionSection.round(1, 2))
     >>> h, r = law.split(np.array([[2.0, -3.0], [1.5, 4.0]]))
     >>> h.tolist(), r.tolist()
     ([[0.0, 3.0], [-0.5, -4.0]], [[2.0, 0.0], [1.0, 0.0]])
-    >>> law = PairLaw(bound=FrictionBound.of([0.5]), section=Section.round(2, 1))
+    >>> law = PairLaw(bound=FrictionBound.of([0.5]), section=FrictionSection.round(2, 1))
     >>> h, r = law.split(np.array([[2.0], [3.0], [4.0]]))
     >>> h.round(12).tolist(), r.round(12).tolist()
     ([[0.0], [-2.4], [-3.2]], [[2.0], [0.6], [0.8]])
     """
 
     bound: Bound
-    section: Section
+    section: FrictionSection
     drag: Array | None = None
 
     @cached_property
@@ -107,7 +107,7 @@ class PairLaw:
         Examples
         --------
         >>> bound, drag = FrictionBound.of([0.0, 0.3, 0.3]), np.array([[0.0, 0.1, 0.0]])
-        >>> PairLaw(bound=bound, section=Section.round(1, 3), drag=drag).closed.tolist()
+        >>> PairLaw(bound=bound, section=FrictionSection.round(1, 3), drag=drag).closed.tolist()
         [2, 3, -1]
         """
         closed = np.where(self.dragged, SLIP_PLUS, UNDECIDED)
@@ -159,7 +159,7 @@ class PairLaw:
 
         Examples
         --------
-        >>> law = PairLaw(bound=FrictionBound.of([0.5, 0.5]), section=Section.round(1, 2))
+        >>> law = PairLaw(bound=FrictionBound.of([0.5, 0.5]), section=FrictionSection.round(1, 2))
         >>> law.states(np.array([[2.0, -3.0], [0.5, 4.0]])).tolist()
         [1, 0]
         """

@@ -158,7 +158,7 @@ class Projection:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Section:
+class FrictionSection:
     """Sections of n pairs, of size 1.
 
     Attributes
@@ -172,20 +172,20 @@ class Section:
     sides: IntArray
 
     @classmethod
-    def round(cls, directions: int, pairs: int) -> Section:
+    def round(cls, directions: int, pairs: int) -> FrictionSection:
         """Intervals (1 direction) or circles (2 directions) of some pairs."""
         return cls(axes=np.ones((directions, pairs)), sides=np.zeros(pairs, dtype=np.int64))
 
-    def among(self, kept: BoolArray | IntArray) -> Section:
+    def among(self, kept: BoolArray | IntArray) -> FrictionSection:
         """The sections of some of the pairs."""
-        return Section(axes=self.axes[:, kept], sides=self.sides[kept])
+        return FrictionSection(axes=self.axes[:, kept], sides=self.sides[kept])
 
     def project(self, y: Array, size: Array) -> Projection:
         """The points of sections of some size, (n,), nearest to points y, (d - 1, n).
 
         Examples
         --------
-        >>> found = Section.round(2, 2).project(np.array([[3.0, 0.1], [4.0, 0.0]]), np.ones(2))
+        >>> found = FrictionSection.round(2, 2).project(np.array([[3.0, 0.1], [4.0, 0.0]]), np.ones(2))
         >>> found.r.round(12).tolist(), found.left.tolist(), found.kappa.tolist()
         ([[0.6, 0.1], [0.8, 0.0]], [1, 2], [4.0, 0.0])
         """
@@ -208,7 +208,7 @@ class Section:
 
         Examples
         --------
-        >>> section = Section(axes=np.array([[1.0, 1.0], [0.5, 1.0]]), sides=np.array([0, 4]))
+        >>> section = FrictionSection(axes=np.array([[1.0, 1.0], [0.5, 1.0]]), sides=np.array([0, 4]))
         >>> section.effort(np.array([[0.3, 1.0], [0.2, 1.0]])).round(12).tolist()
         [0.5, 2.0]
         """
@@ -226,7 +226,7 @@ class Section:
 
         Examples
         --------
-        >>> section = Section(axes=np.ones((2, 2)), sides=np.array([0, 4]))
+        >>> section = FrictionSection(axes=np.ones((2, 2)), sides=np.array([0, 4]))
         >>> section.farthest(np.array([[3.0, 3.0], [4.0, 4.0]])).round(12).tolist()
         [[0.6, 0.0], [0.8, 1.0]]
         """
@@ -248,7 +248,7 @@ class Section:
 
         Examples
         --------
-        >>> normals, reach = Section(axes=np.ones((2, 1)), sides=np.array([4])).facets(np.zeros((2, 1)))
+        >>> normals, reach = FrictionSection(axes=np.ones((2, 1)), sides=np.array([4])).facets(np.zeros((2, 1)))
         >>> (normals[0, :, 0] * 2**0.5).round(12).tolist(), reach[:, 0].round(12).tolist()
         ([1.0, 1.0], [0.707106781187, 0.707106781187, 0.707106781187, 0.707106781187])
         """

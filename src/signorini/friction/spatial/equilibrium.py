@@ -27,7 +27,7 @@ from scipy.linalg import lapack, lstsq
 
 from signorini.arrays import Array, IntArray
 from signorini.condense.operator import symmetric_product
-from signorini.friction.spatial.law import Tangent
+from signorini.friction.spatial.law import SpatialTangent
 from signorini.friction.spatial.problem import SpatialProblem
 
 SINGULAR = 1e-13
@@ -93,7 +93,7 @@ class LinearSystem:
     """The factorised system of one linearised law; build it with `linear_system`."""
 
     equilibrium: Equilibrium
-    law: Tangent
+    law: SpatialTangent
     matrix: Array
     lu: Array
     pivots: IntArray
@@ -151,7 +151,7 @@ class LinearSystem:
         return r, a, h if self.singular else prescribed(self.law, h)
 
 
-def prescribed(law: Tangent, h: Array) -> Array:
+def prescribed(law: SpatialTangent, h: Array) -> Array:
     """Motions (3n,) with the zeros that the law prescribes, free of rounding."""
     n = len(law.closed)
     stick = law.left == 2
@@ -161,7 +161,7 @@ def prescribed(law: Tangent, h: Array) -> Array:
     return h
 
 
-def linear_system(equilibrium: Equilibrium, law: Tangent) -> LinearSystem:
+def linear_system(equilibrium: Equilibrium, law: SpatialTangent) -> LinearSystem:
     """Set up and factorise the system of one linearised law.
 
     Parameters
@@ -210,7 +210,7 @@ def linear_system(equilibrium: Equilibrium, law: Tangent) -> LinearSystem:
     )
 
 
-def directions(n: int, law: Tangent) -> tuple[Array | sp.csc_array, Array | sp.csc_array, Array]:
+def directions(n: int, law: SpatialTangent) -> tuple[Array | sp.csc_array, Array | sp.csc_array, Array]:
     """Forces Z and motions Y (3n, size) of the unknowns, sparse where they are many, and kappa on the diagonal.
 
     Rows across a slip are divided by 1 + kappa: far from sticking they say q = 0, and not that kappa is huge.

@@ -8,7 +8,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.friction.krylov import Unknowns, iterate
 from signorini.friction.spatial.equilibrium import prescribed
-from signorini.friction.spatial.law import Tangent
+from signorini.friction.spatial.law import SpatialTangent
 from signorini.friction.spatial.problem import SpatialProblem
 
 _FAR = 1.0  # slip per force, scaled, from which compliance counts little beside it
@@ -16,7 +16,7 @@ _FORWARD = 1e-2, 1e-4  # of what the last iterate lacks: what may be left while 
 
 
 def balanced(
-    problem: SpatialProblem, law: Tangent, r: Array, a: Array, *, settled: bool
+    problem: SpatialProblem, law: SpatialTangent, r: Array, a: Array, *, settled: bool
 ) -> tuple[Array, Array, Array] | None:
     """Forces r (3n,), rigid motion a (k,) and motions h (3n,) that nearly balance under a linearised law.
 
@@ -47,7 +47,7 @@ def balanced(
     return force, rigid, prescribed(law, motion)
 
 
-def unknowns(law: Tangent) -> Unknowns:
+def unknowns(law: SpatialTangent) -> Unknowns:
     """What a law leaves unknown of every pair: the normal force, and both tangential forces or the one along tau."""
     n, stick, one = len(law.left), law.left == 2, law.left == 1
     force, motion, resisting = np.zeros((3, 3, n)), np.zeros((3, 3, n)), np.zeros((3, n))

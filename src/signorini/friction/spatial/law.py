@@ -27,7 +27,7 @@ _FAR = 1e12
 
 
 @dataclass(frozen=True, kw_only=True)
-class Tangent:
+class SpatialTangent:
     """The law near a y, to first order: what every pair leaves unknown (see `section` for the notation).
 
     Attributes
@@ -47,7 +47,7 @@ class Tangent:
     tau: Array
     kappa: Array
 
-    def same_states(self, other: Tangent) -> BoolArray:
+    def same_states(self, other: SpatialTangent) -> BoolArray:
         """(n,) Pairs that are open, stick or slip in both."""
         alike = (self.closed == other.closed) & (self.left == other.left)
         return np.asarray(alike, dtype=np.bool_)
@@ -69,7 +69,7 @@ def split(problem: SpatialProblem, y: Array) -> tuple[Array, Array]:
     return r - y, r
 
 
-def tangent(problem: SpatialProblem, y: Array) -> Tangent:
+def tangent(problem: SpatialProblem, y: Array) -> SpatialTangent:
     """The law near y, to first order."""
     n = problem.pairs
     r, left, tau, kappa = _projected(problem, y)
@@ -79,7 +79,7 @@ def tangent(problem: SpatialProblem, y: Array) -> Tangent:
     state = problem.bound.coded(np.full(n, SLIP), y[:n])
     size = np.where(left < 2, problem.bound.at(np.maximum(y[:n], 0.0)), 1.0)[:, None]
     unit = np.divide(force, size, out=np.zeros_like(force), where=size > 0)
-    return Tangent(
+    return SpatialTangent(
         closed=closed,
         left=left,
         share=np.where(slips & closed[:, None], unit * problem.bound.slope(state)[:, None], 0.0),
@@ -89,7 +89,7 @@ def tangent(problem: SpatialProblem, y: Array) -> Tangent:
     )
 
 
-def sticking(problem: SpatialProblem) -> Tangent:
+def sticking(problem: SpatialProblem) -> SpatialTangent:
     """Every pair closed and sticking, where its friction and its supports let it."""
     n = problem.pairs
     y = np.concatenate([np.ones(n), np.zeros(2 * n)])

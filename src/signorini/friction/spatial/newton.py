@@ -18,7 +18,7 @@ from signorini.friction.krylov import LARGE
 from signorini.friction.spatial.certificate import certify
 from signorini.friction.spatial.equilibrium import Equilibrium, linear_system
 from signorini.friction.spatial.iterated import balanced
-from signorini.friction.spatial.law import Tangent, split, tangent
+from signorini.friction.spatial.law import SpatialTangent, split, tangent
 
 MEMORY = 5
 """Last violations of which a step must undercut the largest."""
@@ -53,7 +53,7 @@ class NewtonEnd:
 
 def newton(
     equilibrium: Equilibrium,
-    law: Tangent,
+    law: SpatialTangent,
     *,
     force: Array | None = None,
     rigid: Array | None = None,
@@ -121,7 +121,7 @@ def newton(
 
 
 def _balanced(
-    equilibrium: Equilibrium, law: Tangent, r: Array, a: Array, *, settled: bool
+    equilibrium: Equilibrium, law: SpatialTangent, r: Array, a: Array, *, settled: bool
 ) -> tuple[Array, Array, Array] | None:
     """Forces, rigid motion and motions that balance under the linearised law; None where nothing does."""
     if equilibrium.as_posed and np.count_nonzero(law.closed) + law.left.sum() >= LARGE:
