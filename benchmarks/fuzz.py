@@ -89,7 +89,7 @@ def _read(kind: str, path: Path, sound: Corpus) -> None:
         compare(read_archive(path), read_archive(sound.results / "solution.h5"))
     else:
         folder = ResultFolder(path=path)
-        _try(lambda: draw_contacts(folder.steps[-1], folder.title))
+        _try(lambda: draw_contacts(folder))
         _try(lambda: draw_stress(folder))
         _try(lambda: draw_history(folder))
 

@@ -25,6 +25,7 @@ from signorini.deck import load
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
 from signorini.output.ccx_contact import slave_values
+from signorini.output.fields import Fields
 from signorini.output.frd import write_frd
 from signorini.solution.results import StepResult
 
@@ -59,7 +60,7 @@ def check(deck: Path, folder: Path) -> str:
     used = np.unique(np.concatenate([cells.ravel() for cells in mesh.cells.values()]))
     worst: dict[str, float] = {}
     for step in steps:
-        write_frd(replace(solution, steps=(step,)), folder / "result.frd")
+        write_frd(replace(solution, steps=(step,)), Fields(solution.model), folder / "result.frd")
         subprocess.run(["ccx2paraview", "result.frd", "vtu"], cwd=folder, capture_output=True, check=True, timeout=120)
         converted = meshio.read(folder / "result.vtu")
         found = {name: np.asarray(values) for name, values in converted.point_data.items()}

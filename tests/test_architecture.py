@@ -52,7 +52,7 @@ ALLOWED = {
     "engine": CORE,
     "deck": {"model", "meshing", "fem"},
     "output": {"solution", "law", "model", "meshing", "fem"},
-    "plot": {"solution", "law", "model"},
+    "plot": {"solution", "law", "model", "output"},
     "reference": set(),
     "gallery": BELOW_CLI | {"api"},
     "verify": BELOW_CLI | {"api", "gallery"},

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -20,22 +19,22 @@ from signorini.engine.solve import solve as solve_history
 from signorini.engine.solve import solve_prepared
 from signorini.errors import InputError, Interrupted, SolveFailed, one_of
 from signorini.fem.path import PathResult, along
-from signorini.fem.space import Space, make_space
-from signorini.fem.stress import BodyStress, body_stresses
+from signorini.fem.stress import BodyStress
 from signorini.model.model import Model
 from signorini.output.archive import read_archive, write_archive
 from signorini.output.atomic_write import atomic_write
 from signorini.output.checkpoint import read_checkpoint, write_checkpoint
-from signorini.output.folder import ARCHIVE, write_drawn
+from signorini.output.fields import Fields
+from signorini.output.folder import ARCHIVE
 from signorini.output.frd import write_frd
 from signorini.output.picture import check_png, write_pixels
 from signorini.output.series import write_pvd
 from signorini.output.table import history_table
-from signorini.output.vtu import write_vtu
+from signorini.output.vtu import write_bodies
 from signorini.plot.animation import animate_path
-from signorini.plot.contact import plot_contact
+from signorini.plot.contact import draw_contacts
 from signorini.plot.escape import plot_escape
-from signorini.plot.result_folder import ResultFolder
+from signorini.plot.picture_data import HistoryData
 from signorini.plot.style import literal
 from signorini.plot.view import render_view
 from signorini.solution.checkpoint import Checkpoint
@@ -43,14 +42,6 @@ from signorini.solution.history import History
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-
-_WRITERS: Mapping[str, Callable[[History, Path], None]] = {
-    ".vtu": write_vtu,
-    ".pvd": write_pvd,
-    ".h5": write_archive,
-    ".frd": write_frd,
-}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -78,9 +69,15 @@ class Solution(History):
             For any other name, or if nothing was solved.
         """
         path = Path(path)
-        if path.suffix.lower() not in _WRITERS:
-            raise InputError(f"is '{path}'; expected a name that ends in {', '.join(_WRITERS)}", where=("path",))
-        _WRITERS[path.suffix.lower()](self, path)
+        writers: dict[str, Callable[[], object]] = {
+            ".vtu": lambda: write_bodies(self._fields.at(self.last), path),
+            ".pvd": lambda: write_pvd(self, self._fields, path),
+            ".h5": lambda: write_archive(self, path),
+            ".frd": lambda: write_frd(self, self._fields, path),
+        }
+        if path.suffix.lower() not in writers:
+            raise InputError(f"is '{path}'; expected a name that ends in {', '.join(writers)}", where=("path",))
+        writers[path.suffix.lower()]()
 
     def save_state(self, path: str | Path) -> None:
         """Write the end of the last finished step, from which :func:`solve` can go on: a NumPy archive, ``*.npz``.
@@ -102,7 +99,7 @@ class Solution(History):
         InputError
             If there is no such body.
         """
-        found = body_stresses(self._space, self.model, self.last.displacement, self.last.factors)
+        found = self._fields.stresses(self.last)
         for part in found:
             if part.body == body:
                 return part
@@ -127,15 +124,15 @@ class Solution(History):
         """
         last = self.last
         given = np.asarray(points, float)
-        return along(self._space, self.model, last.displacement, given, body=body, factors=last.factors)
+        return along(self._fields.space, self.model, last.displacement, given, body=body, factors=last.factors)
 
     @cached_property
-    def _space(self) -> Space:
-        return make_space(self.model.mesh, axisymmetric=self.model.axisymmetric)
+    def _fields(self) -> Fields:
+        return Fields(self.model)
 
     def plot(self) -> Figure:
         """Draw pressure and friction of every contact at the end of the last step."""
-        return literal(plot_contact(self))
+        return literal(draw_contacts(HistoryData(self, self._fields)))
 
     def view(self, path: str | Path) -> None:
         """Write a picture of a model in space after the last step, ``*.png``, rendered off-screen.
@@ -149,9 +146,7 @@ class Solution(History):
             If PyVista is not installed, the model is plane, nothing was solved, or the name ends otherwise.
         """
         target = check_png(Path(path))
-        with tempfile.TemporaryDirectory() as name:
-            write_drawn(self, Path(name))
-            write_pixels(render_view(ResultFolder(path=Path(name))), target)
+        write_pixels(render_view(HistoryData(self, self._fields)), target)
 
     def plot_escape(self) -> Figure:
         """Draw the motion along which bodies run away, where no equilibrium was found because of it.

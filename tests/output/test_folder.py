@@ -89,11 +89,11 @@ def test_an_interrupted_write_leaves_the_earlier_run_whole(
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0
     before = {file.name: file.read_bytes() for file in out.iterdir()}
 
-    def broken(_model: object, _step: object, path: Path) -> None:
+    def broken(_fields: object, path: Path) -> None:
         path.write_text("<VTK")
         raise interruption
 
-    monkeypatch.setattr(module, "write_step", broken)
+    monkeypatch.setattr(module, "write_bodies", broken)
     deck.write_text(block_deck({"force": [0.0, -4.0]}))
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == (130 if interruption is KeyboardInterrupt else 1)
     assert {file.name: file.read_bytes() for file in out.iterdir()} == before
@@ -102,7 +102,7 @@ def test_an_interrupted_write_leaves_the_earlier_run_whole(
 def test_a_full_disk_is_told_and_the_run_goes_on(
     deck: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    out, write = tmp_path / "out", module.write_rows
+    out, write = tmp_path / "out", module.write_contacts
     room = iter([False, True])
 
     def full(history: object, path: Path) -> None:
@@ -110,7 +110,7 @@ def test_a_full_disk_is_told_and_the_run_goes_on(
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
         write(history, path)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(module, "write_rows", full)
+    monkeypatch.setattr(module, "write_contacts", full)
     deck.write_text(UNLOADED)
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0
     full_disk = f"cannot write results into '{out}': No space left on device; what it held before is still there"

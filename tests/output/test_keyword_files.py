@@ -13,6 +13,7 @@ from signorini.fem.space import make_space
 from signorini.fem.stress import point_stresses
 from signorini.output.ccx_contact import tangents
 from signorini.output.dat import write_dat
+from signorini.output.fields import Fields
 
 DECKS = Path(__file__).parents[1] / "deck" / "inp" / "decks"
 
@@ -95,7 +96,7 @@ def test_stresses_totals_and_contact_forces(tmp_path: Path) -> None:
     found = load(deck)
     solution = sg.solve(found.model)
     assert found.prints is not None
-    write_dat(solution, found.prints, tmp_path / "x.dat")
+    write_dat(solution, Fields(solution.model), found.prints, tmp_path / "x.dat")
     lines = (tmp_path / "x.dat").read_text().splitlines()
 
     def after(words: str) -> list[float]:
@@ -124,7 +125,7 @@ def asked(folder: Path, name: str, keywords: str, *changes: tuple[str, str]) -> 
     found = load(deck)
     solution = sg.solve(found.model)
     assert found.prints is not None
-    write_dat(solution, found.prints, folder / "x.dat")
+    write_dat(solution, Fields(solution.model), found.prints, folder / "x.dat")
     return solution, (folder / "x.dat").read_text()
 
 

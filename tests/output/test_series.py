@@ -104,9 +104,9 @@ def test_events_are_states_of_the_series_at_increasing_times():
     assert len(states) == len(kept) + 1 > 5
     assert (np.diff([state.time for state in states]) > 0).all()
     assert [state.last for state in states] == [False] * (len(kept) - 1) + [True, True]
-    assert states[-1].displacement is solution.last.displacement
+    assert states[-1].state.displacement is solution.last.displacement
     for state in states[:-1]:
-        assert state.factors["cut"] == pytest.approx(state.time, abs=1e-5)
+        assert state.state.factors["cut"] == pytest.approx(state.time, abs=1e-5)
 
 
 def test_a_time_at_the_end_of_a_segment_is_kept_and_nothing_that_was_not_asked_for():
@@ -135,7 +135,7 @@ def test_a_series_that_cannot_be_finished_leaves_the_earlier_one_whole(tmp_path,
 
     written(sg.solve(block([sg.Step(at=3)])), tmp_path)
     before = {file: file.read_bytes() for file in tmp_path.rglob("*") if file.is_file()}
-    write, count = series.write_fields, []
+    write, count = series.write_bodies, []
 
     def broken(*given):
         count.append(1)
@@ -143,7 +143,7 @@ def test_a_series_that_cannot_be_finished_leaves_the_earlier_one_whole(tmp_path,
             raise OSError("no space left on device")
         write(*given)
 
-    monkeypatch.setattr(series, "write_fields", broken)
+    monkeypatch.setattr(series, "write_bodies", broken)
     with pytest.raises(OSError, match="no space"):
         written(sg.solve(block([sg.Step(at=4)])), tmp_path)
     assert {file: file.read_bytes() for file in tmp_path.rglob("*") if file.is_file()} == before

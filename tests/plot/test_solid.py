@@ -155,25 +155,24 @@ def solution():
     )
 
 
-def test_a_hidden_contact_is_shown_on_its_body_alone(solution, tmp_path):
-    from signorini.output.folder import write_drawn
-    from signorini.plot.result_folder import ResultFolder
+def test_a_hidden_contact_is_shown_on_its_body_alone(solution):
+    from signorini.output.fields import Fields
+    from signorini.plot.picture_data import HistoryData
     from signorini.plot.shots import make_shots
     from signorini.plot.solid import draw_solid_mesh, draw_solid_stress
 
-    write_drawn(solution, tmp_path)
-    folder = ResultFolder(path=tmp_path)
-    whole, near = make_shots(folder)
+    data = HistoryData(solution, Fields(solution.model))
+    whole, near = make_shots(data)
     assert near.title == "at the contact 'high.bottom', 'high' alone, seen from below"
     assert set(near.skin.body) == {1}
     low = near.skin.part(near.contact)
     np.testing.assert_allclose(low.points[np.unique(low.pieces)][:, 2], 0.0)
     assert (low.spans(low.points) @ near.camera.towards > 0).all()
     assert whole.camera.towards[2] > 0.0
-    stress = draw_solid_stress(folder)
+    stress = draw_solid_stress(data)
     assert "Block on block\ndeformed, true displacements" in stress.get_suptitle()
-    assert "contact pairs" in draw_solid_mesh(folder).get_suptitle()
-    labels = [text.get_text() for text in draw_solid_mesh(folder).legends[0].get_texts()]
+    assert "contact pairs" in draw_solid_mesh(data).get_suptitle()
+    labels = [text.get_text() for text in draw_solid_mesh(data).legends[0].get_texts()]
     assert labels[:2] == ["low", "high"]
     assert any(label.startswith("contact node, ") for label in labels)
 

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.output.folder import write_drawn
+from signorini.output.fields import Fields
 from signorini.plot.field import draw_mesh, draw_stress
-from signorini.plot.result_folder import ResultFolder
+from signorini.plot.picture_data import HistoryData
 
 PUNCH = sg.Profile([(3.0, 3.0), (3.0, 1.0), (1.0, 1.0), (1.0, 3.0)], fillet=0.2)
 
@@ -16,7 +16,7 @@ PLANE, ROUND = sg.Plane((0.0, 1.2), (0.0, -1.0)), sg.Circle((2.0, 3.0), 2.0)
 
 
 @pytest.mark.parametrize(("shape", "u"), [(PLANE, (0.1, -0.25)), (PUNCH, (0.05, -0.1)), (ROUND, (-0.03, -0.2))])
-def test_closed_nodes_lie_on_the_obstacle_where_it_is_drawn(shape, u, tmp_path):
+def test_closed_nodes_lie_on_the_obstacle_where_it_is_drawn(shape, u):
     model = sg.Model(
         sg.rectangle(width=4, height=1, nx=32, ny=8),
         bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.3))],
@@ -25,15 +25,14 @@ def test_closed_nodes_lie_on_the_obstacle_where_it_is_drawn(shape, u, tmp_path):
         contacts=[sg.Contact("top", "tool", name="seat")],
     )
     solution = sg.solve(model)
-    write_drawn(solution, tmp_path)
-    folder = ResultFolder(path=tmp_path)
-    (wall,) = folder.walls
+    data = HistoryData(solution, Fields(model))
+    (wall,) = data.walls
     contact = solution.contact("seat")
-    moved = (folder.grid.points + folder.grid.displacement)[contact.node]
+    moved = (data.bodies.points + data.bodies.displacement)[contact.node]
     depth = wall.depth(moved, moved=True)
     allowed = (1e-9 if isinstance(shape, sg.Plane) else 0.1) * abs(u[1])  # gaps are linear in the displacements
     assert contact.closed.sum() > 5
     assert np.abs(depth[contact.closed]).max() < allowed
     assert depth.max() < allowed
     for draw in (draw_mesh, draw_stress):
-        assert draw(folder).axes[0].get_ylim()[1] > 1.0
+        assert draw(data).axes[0].get_ylim()[1] > 1.0

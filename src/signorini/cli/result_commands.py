@@ -18,7 +18,6 @@ from signorini.plot.contact import draw_contacts
 from signorini.plot.escape import plot_escape
 from signorini.plot.field import draw_mesh, draw_stress
 from signorini.plot.history import draw_history
-from signorini.plot.patch import draw_patches
 from signorini.plot.result_folder import ResultFolder
 from signorini.plot.solid import draw_solid_mesh, draw_solid_stress
 from signorini.plot.style import literal
@@ -61,7 +60,7 @@ def _draw(folder: ResultFolder, what: str) -> Figure:
         raise InputError(f"the results in '{folder.path}' have no contact to draw")
     if what == "history":
         return draw_history(folder)
-    return draw_patches(folder.patches, folder.title) if folder.solid else draw_contacts(folder.steps[-1], folder.title)
+    return draw_contacts(folder)
 
 
 def diff(options: argparse.Namespace) -> int:

@@ -4,71 +4,49 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
-import numpy as np
-
-from signorini.arrays import Array, IntArray
+from signorini.arrays import IntArray, padded
 from signorini.output.atomic_write import atomic_write
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult
 
-COLUMNS = (
-    "step",
-    "contact",
-    "node",
-    "x",
-    "y",
-    "z",
-    "area",
-    "gap",
-    "pressure",
-    "traction_1",
-    "traction_2",
-    "slip_1",
-    "slip_2",
-    "status",
-)
+
+def _numbers(name: str, width: int, axis: int) -> Callable[[ContactResult], list[Any]]:
+    """A component of values, 0 for those that a plane model lacks."""
+    return lambda contact: (padded(getattr(contact, name), width)[:, axis] + 0.0).tolist()  # + 0.0: no "-0.0"
 
 
-def write_rows(history: History, path: Path) -> None:
-    """Write the end of every step, one row a nonmortar node with area."""
-    with atomic_write(path) as aside, aside.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(COLUMNS)
-        for number, step in enumerate(history.steps, start=1):
-            for contact in step.contacts:
-                writer.writerows(contact_rows(number, contact, history.model.mesh.labels))
+_COLUMNS: Mapping[str, Callable[[ContactResult], list[Any]]] = {
+    **{axis: _numbers("points", 3, i) for i, axis in enumerate("xyz")},
+    **{name: _numbers(name, 1, 0) for name in ("area", "gap", "pressure")},
+    **{f"{name}_{i + 1}": _numbers(name, 2, i) for name in ("traction", "slip") for i in (0, 1)},
+    "status": lambda contact: contact.status.tolist(),
+}
 
 
-def contact_rows(step: int, contact: ContactResult, numbers: IntArray) -> Iterator[tuple[str, ...]]:
-    """Rows of one contact in the order of COLUMNS; numbers are written so that they read back exactly.
+def contact_rows(step: int, contact: ContactResult, labels: IntArray) -> Iterator[dict[str, Any]]:
+    """Nonmortar nodes with area of one contact at the end of a step, by column.
 
     Parameters
     ----------
-    step : number of the step, from 1
+    step : its number, from 1
     contact : at the end of that step
-    numbers : of the nodes, in the mesh or deck
+    labels : (nodes,) numbers in the mesh or deck
     """
-    for i in range(len(contact.node)):
-        if contact.area[i] > 0:
-            yield (
-                str(step),
-                contact.name,
-                str(numbers[contact.node[i]]),
-                *(_number(value) for value in (*_padded(contact.points[i], 3), contact.area[i], contact.gap[i])),
-                *(_number(value) for value in (contact.pressure[i], *_padded(contact.traction[i], 2))),
-                *(_number(value) for value in _padded(contact.slip[i], 2)),
-                str(contact.status[i]),
-            )
+    columns = zip(labels[contact.node].tolist(), *(values(contact) for values in _COLUMNS.values()), strict=True)
+    for area, (node, *values) in zip(contact.area, columns, strict=True):
+        if area > 0:
+            yield {"step": step, "contact": contact.name, "node": node, **dict(zip(_COLUMNS, values, strict=True))}
 
 
-def _padded(values: Array, count: int) -> Array:
-    """A row with zeros behind it: plane models have fewer components."""
-    row = np.atleast_1d(values)
-    return np.concatenate([row, np.zeros(count - len(row))])
-
-
-def _number(value: float) -> str:
-    return repr(float(value) + 0.0)  # + 0.0: no "-0.0"
+def write_contacts(history: History, path: Path) -> None:
+    """Write the contacts at the end of every step as ``contact.csv``; numbers read back exactly."""
+    with atomic_write(path) as aside, aside.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, ("step", "contact", "node", *_COLUMNS), lineterminator="\n")
+        writer.writeheader()
+        for number, step in enumerate(history.steps, start=1):
+            for contact in step.contacts:
+                writer.writerows(contact_rows(number, contact, history.model.mesh.labels))

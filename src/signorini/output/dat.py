@@ -10,24 +10,30 @@ from pathlib import Path
 import numpy as np
 
 from signorini.arrays import Array, IntArray, padded
-from signorini.fem.space import make_space
-from signorini.fem.stress import point_stresses
 from signorini.model.model import Model
 from signorini.model.prints import Prints, Table
 from signorini.output.atomic_write import atomic_write
 from signorini.output.ccx_contact import slave_energies, slave_values
+from signorini.output.fields import Fields
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult, ObstacleResult, Part, StepResult
 
 _FORCES = {"CF": "surface force", "CFN": "normal surface force", "CFS": "shear surface force"}
 
 
-def write_dat(history: History, prints: Prints, path: Path) -> None:
+def write_dat(history: History, fields: Fields, prints: Prints, path: Path) -> None:
     """Write the tables of all steps; nodes and elements bear their numbers in the deck.
 
     Values of elements are at the quadrature points of this package, not of CalculiX; those of contact are at the nodes
     of the slave surfaces, as CalculiX has them for node-to-surface contact, see :mod:`signorini.output.ccx_contact`.
     Nodes of rotation have the rotation of their rigid body as displacement and its moment as force.
+
+    Parameters
+    ----------
+    history : of a deck's model
+    fields : of the model
+    prints : tables that the deck asks for, and the time at the end of every step
+    path : of the file
     """
     with atomic_write(path) as aside, aside.open("w", encoding="utf-8", newline="\n") as file:
         for number, step in enumerate(history.steps):
@@ -35,7 +41,7 @@ def write_dat(history: History, prints: Prints, path: Path) -> None:
             if own:
                 file.write(f"\n{'':24s}S T E P {number + 1:7d}\n\n\n{'':32s}INCREMENT {step.increments:5d}\n\n")
             for table in own:
-                lines = _lines(history.model, step, table, fortran(prints.times[number]))
+                lines = _lines(fields, step, table, fortran(prints.times[number]))
                 file.writelines(f"{line}\n" for line in lines)
 
 
@@ -54,15 +60,15 @@ def fortran(value: float) -> str:
     return f"{'-' if value < 0.0 else ' '}0.{digits:07d}E{exponent:+03d}"
 
 
-def _lines(model: Model, step: StepResult, table: Table, time: str) -> Iterator[str]:
-    end = f"for set {table.place} and time {time}"
+def _lines(fields: Fields, step: StepResult, table: Table, time: str) -> Iterator[str]:
+    model, end = fields.model, f"for set {table.place} and time {time}"
     for quantity in table.quantities:
         if table.of == "nodes":
             yield from _nodes(model, step, table, quantity, end)
         elif table.of == "cells":
             head = " stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz)"
             yield from ("", f"{head} {end}", "")
-            yield from _stresses(model, step, set(table.members.tolist()))
+            yield from _stresses(fields, step, set(table.members.tolist()))
         elif quantity in _FORCES:
             yield from _forces(step.contacts[int(table.members[0])], quantity, f"{table.place} and time {time}")
         else:
@@ -88,11 +94,10 @@ def _turn(bodies: Mapping[str, ObstacleResult], name: str, quantity: str) -> Arr
     return _about_z(bodies[name].rotation if quantity == "U" else bodies[name].moment)
 
 
-def _stresses(model: Model, step: StepResult, cells: Set[int]) -> Iterator[str]:
+def _stresses(fields: Fields, step: StepResult, cells: Set[int]) -> Iterator[str]:
     order = [0, 1, 2, 3, 5, 4]
-    labels = model.mesh.cell_labels
-    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
-    for index, stress in point_stresses(space, model, step.displacement, step.factors):
+    labels = fields.model.mesh.cell_labels
+    for index, stress in fields.cell_stresses(step):
         for cell, points in zip(index.tolist(), stress[..., order], strict=True):
             if cell in cells:
                 yield from (f"{labels[cell]:10d}{q:4d} {_spelled(values)}" for q, values in enumerate(points, start=1))

@@ -20,14 +20,14 @@ from signorini.model.prints import Prints
 from signorini.output.archive import GrowingArchive, write_archive
 from signorini.output.atomic_write import atomic_write
 from signorini.output.checkpoint import write_checkpoint
-from signorini.output.contact_csv import write_rows
+from signorini.output.contact_csv import write_contacts
 from signorini.output.dat import write_dat
+from signorini.output.fields import Fields
 from signorini.output.frd import write_frd
 from signorini.output.history_csv import write_history
 from signorini.output.series import FIELDS, frames, write_series
 from signorini.output.summary import summary
-from signorini.output.surface import write_surfaces
-from signorini.output.vtu import write_step
+from signorini.output.vtu import write_bodies, write_surfaces
 from signorini.solution.history import RUNNING, History
 
 try:
@@ -196,7 +196,7 @@ class Publisher:
         with tempfile.TemporaryDirectory(dir=folder, prefix=_ASIDE) as name:
             aside = Path(name)
             with (self.clock.spending if running else self.clock.phase)("output"):
-                names = self._growing(history, aside) if running else _write_fields(history, aside, self.prints)
+                names = self._growing(history, aside) if running else self._everything(history, aside)
             seconds = self.clock.seconds | {"total": time.perf_counter() - self.started}
             write_summary(history, aside / SUMMARY, seconds, self.deck)
             names.append(SUMMARY)
@@ -213,7 +213,26 @@ class Publisher:
         """What further steps add; the tables that users of other codes expect come in the end."""
         last = self.folder / ARCHIVE if ARCHIVE in self._written else None
         self._archive.write(history, aside / ARCHIVE, last=last)
-        return [*_write_tables(history, aside, done=self._written), ARCHIVE]
+        return [*_write_tables(history, Fields(history.model), aside, done=self._written), ARCHIVE]
+
+    def _everything(self, history: History, aside: Path) -> list[str]:
+        """All files but the summary; their names. Fields that were written while the run went on stay as they are."""
+        if not history.steps:
+            if history.escape is None:
+                return []
+            write_archive(history, aside / ARCHIVE)
+            return [ARCHIVE]
+        fields, prints = Fields(history.model), self.prints
+        names = _write_tables(history, fields, aside, done=self._written)
+        write_archive(history, aside / ARCHIVE)
+        names.append(ARCHIVE)
+        if prints is not None:
+            write_frd(history, fields, aside / "solution.frd", prints.times)
+            names.append("solution.frd")
+        if prints is not None and prints.tables:
+            write_dat(history, fields, prints, aside / "solution.dat")
+            names.append("solution.dat")
+        return names
 
 
 def _clear(folder: Path) -> None:
@@ -231,15 +250,6 @@ def _clear(folder: Path) -> None:
             fields.rmdir()
 
 
-def write_drawn(history: History, folder: Path) -> None:
-    """Write into a folder what pictures are drawn from: the last state, contacts and the summary."""
-    write_rows(history, folder / "contact.csv")
-    write_step(history.model, history.last, folder / "solution.vtu")
-    if history.model.dimension == 3 and history.model.contacts:
-        write_surfaces(history.model, history.last.contacts, folder / SURFACES)
-    write_summary(history, folder / SUMMARY, history.timings)
-
-
 def write_summary(history: History, path: Path, seconds: Mapping[str, float], deck: str = "") -> None:
     """Write ``summary.json``; see :func:`signorini.output.summary.summary`."""
     words = json.dumps(summary(history, seconds, deck), indent=2, allow_nan=False, ensure_ascii=False)
@@ -247,42 +257,26 @@ def write_summary(history: History, path: Path, seconds: Mapping[str, float], de
         aside.write_text(words + "\n", encoding="utf-8")
 
 
-def _write_fields(history: History, folder: Path, prints: Prints | None) -> list[str]:
-    """All files but the summary; their names."""
-    if not history.steps:
-        if history.escape is None:
-            return []
-        write_archive(history, folder / ARCHIVE)
-        return [ARCHIVE]
-    names = _write_tables(history, folder)
-    write_archive(history, folder / ARCHIVE)
-    names.append(ARCHIVE)
-    if prints is not None:
-        write_frd(history, folder / "solution.frd", prints.times)
-        names.append("solution.frd")
-    if prints is not None and prints.tables:
-        write_dat(history, prints, folder / "solution.dat")
-        names.append("solution.dat")
-    return names
-
-
-def _write_tables(history: History, folder: Path, *, done: Collection[str] = ()) -> list[str]:
+def _write_tables(history: History, fields: Fields, folder: Path, *, done: Collection[str] = ()) -> list[str]:
     """Rows and fields of the steps, and the state at the end of the last one; their names.
 
     Parameters
     ----------
+    history : with a step at least
+    fields : of its model
+    folder : to write into
     done : names of fields that need not be written again
     """
-    write_rows(history, folder / "contact.csv")
+    write_contacts(history, folder / "contact.csv")
     names = ["contact.csv"]
     model, states = history.model, frames(history)
     if len(states) > 1:
-        names += write_series(model, states, folder, done=done)
+        names += write_series(fields, states, folder, done=done)
     last = folder / f"solution_{len(history.steps):04d}.vtu"
     if last.exists():
         shutil.copyfile(last, folder / "solution.vtu")
     else:
-        write_step(model, history.last, folder / "solution.vtu")
+        write_bodies(fields.at(history.last), folder / "solution.vtu")
     if model.dimension == 3 and model.contacts:
         write_surfaces(model, history.last.contacts, folder / SURFACES)
         names.append(SURFACES)

@@ -10,11 +10,10 @@ import numpy as np
 
 from signorini._version import __version__
 from signorini.arrays import Array, IntArray, padded
-from signorini.fem.space import make_space
-from signorini.fem.stress import body_stresses
 from signorini.model.model import Model
 from signorini.output.atomic_write import atomic_write
 from signorini.output.ccx_contact import slave_values
+from signorini.output.fields import Fields
 from signorini.solution.history import History
 from signorini.solution.results import StepResult
 
@@ -31,13 +30,16 @@ _LEAST = 1e-99
 _CONTACT = ("COPEN", "CSLIP1", "CSLIP2", "CPRESS", "CSHEAR1", "CSHEAR2")
 
 
-def write_frd(history: History, path: Path, times: Sequence[float] = ()) -> None:
+def write_frd(history: History, fields: Fields, path: Path, times: Sequence[float] = ()) -> None:
     """Write the end of every step: DISP, FORC, STRESS (averaged at nodes) and CONTACT on the nonmortar nodes.
 
     Nodes and elements keep their numbers in the mesh or deck.
 
     Parameters
     ----------
+    history : with a step at least
+    fields : of its model
+    path : of the file
     times : (steps,) at the end of every step; without them its number
 
     Raises
@@ -47,11 +49,11 @@ def write_frd(history: History, path: Path, times: Sequence[float] = ()) -> None
     """
     _ = history.last
     with atomic_write(path) as aside, aside.open("w", encoding="ascii", errors="replace", newline="\n") as file:
-        for lines in _document(history, times or range(1, len(history.steps) + 1)):
+        for lines in _document(history, fields, times or range(1, len(history.steps) + 1)):
             file.write(lines)
 
 
-def _document(history: History, times: Sequence[float]) -> Iterator[str]:
+def _document(history: History, fields: Fields, times: Sequence[float]) -> Iterator[str]:
     model = history.model
     mesh = model.mesh
     used = np.unique(np.concatenate([cells.ravel() for cells in mesh.cells.values()]))
@@ -68,7 +70,7 @@ def _document(history: History, times: Sequence[float]) -> Iterator[str]:
     yield " -3\n"
     count = 0
     for number, step in enumerate(history.steps, start=1):
-        for name, parts, values in _fields(model, step, used):
+        for name, parts, values in _blocks(fields, step, used):
             count += 1
             yield f"    1PSTEP{count:26d}{number:12d}{number:12d}\n"
             time = float(times[number - 1])
@@ -92,13 +94,13 @@ def _elements(model: Model) -> Iterator[str]:
         yield "".join(lines)
 
 
-def _fields(model: Model, step: StepResult, used: IntArray) -> Iterator[tuple[str, list[str], Array]]:
+def _blocks(fields: Fields, step: StepResult, used: IntArray) -> Iterator[tuple[str, list[str], Array]]:
     """Name, component lines and values (nodes, k) of every field."""
+    model = fields.model
     yield "DISP", _vector("D"), padded(step.displacement[used], 3)
     yield "FORC", _vector("F"), padded(step.external[used], 3)
-    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
     total, count = np.zeros((len(model.mesh.points), 6)), np.zeros(len(model.mesh.points))
-    for part in body_stresses(space, model, step.displacement, step.factors):
+    for part in fields.stresses(step):
         total[part.nodes] += part.stress
         count[part.nodes] += 1
     stress = total[used] / np.maximum(count[used], 1)[:, None]

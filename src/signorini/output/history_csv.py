@@ -5,56 +5,68 @@ from __future__ import annotations
 
 import csv
 import math
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from typing import Any, NamedTuple
 
 from signorini.output.atomic_write import atomic_write
 from signorini.solution.history import History
 from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, Instant
 
-COLUMNS = (
-    "step",
-    "load_factor",
-    "what",
-    "contact",
-    "normal_force_x",
-    "normal_force_y",
-    "normal_force_z",
-    "tangential_force_x",
-    "tangential_force_y",
-    "tangential_force_z",
-    "max_pressure",
-    "open",
-    "stick",
-    "slip",
-    "max_slip",
-    "max_sliding",
-    "dissipation",
-    "work",
-)
+
+class _Row(NamedTuple):
+    """What one row is about."""
+
+    step: int
+    instant: Instant
+    contact: ContactResult
+
+
+def _component(force: str, axis: int) -> Callable[[_Row], float]:
+    """Of a resultant; the third is 0 in the plane."""
+    return lambda row: _number((*getattr(row.contact, force), 0.0)[axis])
+
+
+def _largest(values: str) -> Callable[[_Row], float]:
+    """Over the nodes, 0 without any."""
+    return lambda row: _number(getattr(row.contact, values).max(initial=0.0))
+
+
+def _number(value: float) -> float:
+    return float(value) + 0.0  # + 0.0: no "-0.0"
+
+
+_COLUMNS: Mapping[str, Callable[[_Row], str | int | float]] = {
+    "step": lambda row: row.step,
+    "load_factor": lambda row: row.instant.load_factor,
+    "what": lambda row: row.instant.what,
+    "contact": lambda row: row.contact.name,
+    **{f"normal_force_{axis}": _component("normal_force", i) for i, axis in enumerate("xyz")},
+    **{f"tangential_force_{axis}": _component("tangential_force", i) for i, axis in enumerate("xyz")},
+    "max_pressure": _largest("pressure"),
+    "open": lambda row: row.contact.count(OPEN),
+    "stick": lambda row: row.contact.count(STICK),
+    "slip": lambda row: row.contact.count(SLIP),
+    "max_slip": _largest("slipped"),
+    "max_sliding": _largest("sliding"),
+    "dissipation": lambda row: _number(row.contact.dissipation),
+    "work": lambda row: "" if math.isnan(row.instant.work) else float(row.instant.work),
+}
 """Work and dissipation count from the beginning of the step; work is empty where the bodies were not looked at."""
 
 
+def history_rows(history: History) -> Iterator[dict[str, Any]]:
+    """Every contact at every instant, by column: events, increments, kinks of the loads, times asked for, ends."""
+    for number, step in enumerate(history.steps, start=1):
+        for instant in step.instants:
+            for contact in instant.contacts:
+                row = _Row(number, instant, contact)
+                yield {name: value(row) for name, value in _COLUMNS.items()}
+
+
 def write_history(history: History, path: Path) -> None:
-    """Write every instant of every step: events, increments, kinks of the loads, times asked for, ends."""
+    """Write the rows of a history as ``history.csv``; numbers read back exactly."""
     with atomic_write(path) as aside, aside.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(COLUMNS)
-        for number, step in enumerate(history.steps, start=1):
-            for instant in step.instants:
-                writer.writerows(_row(number, instant, contact) for contact in instant.contacts)
-
-
-def _row(number: int, instant: Instant, contact: ContactResult) -> tuple[str, ...]:
-    forces = (contact.normal_force, contact.tangential_force)
-    values = [part for force in forces for part in (*force, 0.0, 0.0)[:3]] + [contact.pressure.max(initial=0.0)]
-    slid = (contact.slipped.max(initial=0.0), contact.sliding.max(initial=0.0), contact.dissipation)
-    return (
-        str(number),
-        repr(instant.load_factor),
-        instant.what,
-        contact.name,
-        *(repr(float(value) + 0.0) for value in values),
-        *(str(contact.count(status)) for status in (OPEN, STICK, SLIP)),
-        *(repr(float(value) + 0.0) for value in slid),
-        "" if math.isnan(instant.work) else repr(float(instant.work)),
-    )
+        writer = csv.DictWriter(file, _COLUMNS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(history_rows(history))

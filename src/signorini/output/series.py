@@ -3,25 +3,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
 
-from signorini.arrays import Array
-from signorini.errors import InputError
-from signorini.fem.space import make_space
-from signorini.model.model import Model
 from signorini.output.atomic_write import atomic_write
-from signorini.output.surface import write_surfaces
-from signorini.output.vtu import write_fields
+from signorini.output.fields import Fields, State
+from signorini.output.vtu import write_bodies, write_surfaces
 from signorini.solution.history import History
-from signorini.solution.results import ContactResult
+from signorini.solution.results import StepResult
 
 FIELDS = "fields"
 """The folder of the files that are no ends of steps."""
 
-_APART = 1e-6  # of a step: times of what happens at one load, a jump and where it lands
+MIN_TIME_STEP = 1e-6  # of a step: so far apart are times of states at one load, a jump and where it lands
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -32,17 +28,18 @@ class Frame:
     ----------
     time : load factor: step k goes from k - 1 to k
     step, number : of the step, and of the state in it, from 1
-    last : whether it is the end of the step
-    displacement, factors, contacts : as an instant has them
+    state : with its displacement: an instant on the way, or the end of the step
     """
 
     time: float
     step: int
     number: int
-    last: bool
-    displacement: Array
-    factors: Mapping[str, float]
-    contacts: tuple[ContactResult, ...]
+    state: State
+
+    @property
+    def last(self) -> bool:
+        """Whether it is the end of its step."""
+        return isinstance(self.state, StepResult)
 
 
 def frames(history: History) -> list[Frame]:
@@ -50,28 +47,16 @@ def frames(history: History) -> list[Frame]:
     found: list[Frame] = []
     time = 0.0
     for k, step in enumerate(history.steps, start=1):
-        kept = [(shot.load_factor, shot.displacement, shot.factors, shot.contacts) for shot in step.instants[:-1]]
-        kept = [shot for shot in kept if shot[1] is not None]
-        kept.append((step.load_factor, step.displacement, step.factors, step.contacts))
-        for i, (load_factor, displacement, factors, contacts) in enumerate(kept, start=1):
-            assert displacement is not None
-            time = max(load_factor, time + _APART)
-            found.append(
-                Frame(
-                    time=time,
-                    step=k,
-                    number=i,
-                    last=i == len(kept),
-                    displacement=displacement,
-                    factors=factors,
-                    contacts=contacts,
-                )
-            )
+        kept = [instant for instant in step.instants[:-1] if instant.displacement is not None]
+        states: list[State] = [*kept, step]
+        for i, state in enumerate(states, start=1):
+            time = max(state.load_factor, time + MIN_TIME_STEP)
+            found.append(Frame(time=time, step=k, number=i, state=state))
     return found
 
 
 def write_series(
-    model: Model,
+    fields: Fields,
     states: Sequence[Frame],
     folder: Path,
     *,
@@ -82,11 +67,14 @@ def write_series(
     """Write fields of the bodies, in space of the contact surfaces too, and the lists that ParaView opens.
 
     Stresses are computed and written state by state. ``bodies.pvd`` lists ``bodies_0001.vtu``, ... for the ends of
-    steps and ``fields/bodies_0001_0001.vtu``, ... for what is between; ``surfaces.pvd`` the same of contacts, all in
+    steps and ``fields/bodies_0001_0001.vtu``, ... for what is between; ``surfaces.pvd`` lists contact surfaces, all in
     ``fields``. Their times are load factors: step k goes from k - 1 to k.
 
     Parameters
     ----------
+    fields : of the model
+    states : of :func:`frames`
+    folder : for the lists, and for ``fields``
     bodies, surfaces : how the names of the files begin
     done : names of files that were written before, and are left out
 
@@ -94,39 +82,44 @@ def write_series(
     -------
     Names of the files in the folder, the lists last
     """
-    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
+    model = fields.model
     touching = model.dimension == 3 and bool(model.contacts)
     lists: dict[str, list[tuple[float, str]]] = {name: [] for name in (bodies, surfaces)[: 1 + touching]}
-    if touching or not all(state.last for state in states):
+    if touching or not all(frame.last for frame in states):
         (folder / FIELDS).mkdir(exist_ok=True)
-    for state in states:
-        within = f"{state.step:04d}_{state.number:04d}.vtu"
-        name = f"{bodies}_{state.step:04d}.vtu" if state.last else f"{FIELDS}/{bodies}_{within}"
+    for frame in states:
+        within = f"{frame.step:04d}_{frame.number:04d}.vtu"
+        name = f"{bodies}_{frame.step:04d}.vtu" if frame.last else f"{FIELDS}/{bodies}_{within}"
         if name not in done:
-            write_fields(space, model, state.displacement, state.factors, folder / name)
-        lists[bodies].append((state.time, name))
+            write_bodies(fields.at(frame.state), folder / name)
+        lists[bodies].append((frame.time, name))
         if touching:
             name = f"{FIELDS}/{surfaces}_{within}"
             if name not in done:
-                write_surfaces(model, state.contacts, folder / name)
-            lists[surfaces].append((state.time, name))
+                write_surfaces(model, frame.state.contacts, folder / name)
+            lists[surfaces].append((frame.time, name))
     for name, entries in lists.items():
         with atomic_write(folder / f"{name}.pvd") as aside:
             aside.write_text(listed(entries) + "\n", encoding="utf-8")
     return [*(name for entries in lists.values() for _, name in entries), *(f"{name}.pvd" for name in lists)]
 
 
-def write_pvd(history: History, path: Path) -> None:
+def write_pvd(history: History, fields: Fields, path: Path) -> None:
     """Write a series whose list is a file ``NAME.pvd``, with ``NAME_contact.pvd`` in space; see :func:`write_series`.
+
+    Parameters
+    ----------
+    history : with a step at least
+    fields : of its model
+    path : of the list
 
     Raises
     ------
     InputError
         If nothing was solved.
     """
-    if not history.steps:
-        raise InputError("nothing was solved; there is no result")
-    write_series(history.model, frames(history), path.parent, bodies=path.stem, surfaces=f"{path.stem}_contact")
+    _ = history.last
+    write_series(fields, frames(history), path.parent, bodies=path.stem, surfaces=f"{path.stem}_contact")
 
 
 def listed(entries: Sequence[tuple[float, str]]) -> str:

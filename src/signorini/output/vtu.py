@@ -1,93 +1,86 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fields for ParaView: displacement and stress on the undeformed mesh, every body on its own points."""
+"""Fields for ParaView (``.vtu``): the bodies, and in space the contact surfaces, both on the undeformed mesh."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
-from signorini.fem.space import Space, make_space
-from signorini.fem.stress import BodyStress, body_stresses
+from signorini.arrays import padded
 from signorini.meshio_fixes import complete_meshio
 from signorini.model.model import Model
 from signorini.output.atomic_write import atomic_write
-from signorini.solution.history import History
-from signorini.solution.results import StepResult
+from signorini.output.fields import BodyFields
+from signorini.solution.results import ContactResult
+from signorini.solution.surface import contact_faces, status_codes
+
+_FACES = {3: "triangle", 4: "quad"}
 
 
-def write_vtu(history: History, path: Path) -> None:
-    """Write the last state; see :func:`write_step`.
+def write_bodies(fields: BodyFields, path: Path) -> None:
+    """Write displacements and stresses of the bodies in one state.
 
-    Raises
-    ------
-    InputError
-        If nothing was solved.
-    """
-    write_step(history.model, history.last, path)
-
-
-def write_step(model: Model, step: StepResult, path: Path) -> None:
-    """Write the end of a step as a VTU file; see :func:`write_fields`."""
-    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
-    write_fields(space, model, step.displacement, step.factors, path)
-
-
-def write_fields(space: Space, model: Model, displacement: Array, factors: Mapping[str, float], path: Path) -> None:
-    """Write displacements and the stresses that follow from them as a VTU file.
-
-    The points of the bodies come one body after the other, in the order of the model, so that stresses of bodies that
-    share nodes are not averaged. Point arrays: ``displacement`` (3 components, length), ``stress`` (xx, yy, zz, xy, yz,
-    xz, force per area, tension positive; axisymmetric: x is the radius, y the axis, zz the hoop stress),
-    ``von_mises`` and ``node`` (number in the mesh or deck). Cell array:
-    ``body`` (0, 1, ... in the order of the model).
-
-    Parameters
-    ----------
-    space : of the model's mesh
-    displacement : (n, d) length
-    factors : load factors by name, for the temperatures
+    Point arrays: ``displacement`` (3 components, length), ``stress`` (xx, yy, zz, xy, yz, xz, force per area, tension
+    positive; axisymmetric: x is the radius, y the axis, zz the hoop stress), ``von_mises`` and ``node`` (number in the
+    mesh or deck). Cell array: ``body`` (0, 1, ... in the order of the model).
     """
     import meshio
 
     complete_meshio()
-    stresses = body_stresses(space, model, displacement, factors)
-    nodes = np.concatenate([part.nodes for part in stresses])
-    stress = np.concatenate([part.stress for part in stresses])
-    blocks, body = _cells(model, stresses)
     grid = meshio.Mesh(
-        _three(model.mesh.points[nodes]),
-        blocks,
+        padded(fields.points, 3),
+        list(zip(fields.families, fields.cells, strict=True)),
         point_data={
-            "displacement": _three(displacement[nodes]),
-            "stress": stress,
-            "von_mises": np.concatenate([part.von_mises for part in stresses]),
-            "node": model.mesh.labels[nodes],
+            "displacement": padded(fields.displacement, 3),
+            "stress": fields.stress,
+            "von_mises": fields.von_mises,
+            "node": fields.node,
         },
-        cell_data={"body": body},
+        cell_data={"body": list(fields.body)},
     )
     with atomic_write(path) as aside:
         meshio.write(aside, grid, file_format="vtu")
 
 
-def _cells(model: Model, stresses: list[BodyStress]) -> tuple[list[tuple[str, IntArray]], list[IntArray]]:
-    """Cells by body and family on the points of the bodies, and the body of each."""
-    owner = model.body_of_cells()
-    blocks, body, start = [], [], 0
-    for i, part in enumerate(stresses):
-        first = 0
-        for family, cells in model.mesh.cells.items():
-            own = cells[owner[first : first + len(cells)] == i]
-            if len(own):
-                blocks.append((family, start + np.searchsorted(part.nodes, own)))
-                body.append(np.full(len(own), i))
-            first += len(cells)
-        start += len(part.nodes)
-    return blocks, body
+def write_surfaces(model: Model, contacts: Sequence[ContactResult], path: Path) -> None:
+    """Write the nonmortar sides of all contacts of a model in space in one state.
 
+    Point arrays: ``pressure``, ``traction`` (friction on the nonmortar body, a vector), ``slip`` (accumulated, a
+    vector), ``gap``, ``area``, ``normal``, ``status`` (0 open, 1 stick, 2 slip) and ``node``. Cell array: ``contact``
+    (0, 1, ... in the order of the model). Faces are those whose corners all carry pairs.
 
-def _three(plane: Array) -> Array:
-    """Vectors (n, 2) with a third component 0; those of space as they are."""
-    return plane if plane.shape[1] == 3 else np.column_stack([plane, np.zeros(len(plane))])
+    Parameters
+    ----------
+    model : in space, with contacts
+    contacts : all of them in one state, in the order of the model
+    path : of the file
+    """
+    import meshio
+
+    start = np.cumsum([0, *(len(contact.node) for contact in contacts)])
+    blocks, owner = [], []
+    for i, contact in enumerate(contacts):
+        for faces in contact_faces(model, contact):
+            if len(faces):
+                blocks.append((_FACES[faces.shape[1]], start[i] + faces))
+                owner.append(np.full(len(faces), i))
+    arrays = [
+        {
+            "points": contact.points,
+            "pressure": contact.pressure,
+            "traction": contact.shear,
+            "slip": np.einsum("nk,nki->ni", contact.slip, contact.tangents),
+            "gap": contact.gap,
+            "area": contact.area,
+            "normal": contact.normals,
+            "status": status_codes(contact),
+            "node": model.mesh.labels[contact.node],
+        }
+        for contact in contacts
+    ]
+    data = {name: np.concatenate([each[name] for each in arrays]) for name in arrays[0]}
+    grid = meshio.Mesh(data.pop("points"), blocks, point_data=data, cell_data={"contact": owner})
+    with atomic_write(path) as aside:
+        meshio.write(aside, grid, file_format="vtu")

@@ -6,7 +6,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 
 from signorini.arrays import Array
 from signorini.errors import InputError, one_of
+from signorini.plot.contact import shade_status
 from signorini.plot.curve import surface_coordinate
 from signorini.plot.style import BOUND, INK, PRESSURE, STATUS_COLOURS, TRACTION, dress, literal
 from signorini.solution.history import History
@@ -25,9 +25,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+_RATE = 12  # pictures a second
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Way:
+class ContactFilm:
     """A contact at every instant of a history, its k nodes in the order of the coordinate s.
 
     Attributes
@@ -67,7 +69,7 @@ class Way:
         return between
 
 
-def way_of(history: History, contact: str | None = None) -> Way:
+def film_of(history: History, contact: str | None = None) -> ContactFilm:
     """A contact at every instant, with the unloaded beginning.
 
     Parameters
@@ -98,7 +100,7 @@ def way_of(history: History, contact: str | None = None) -> Way:
         later = np.array([getattr(result, key)[order] for _, _, result in found])
         return np.concatenate([np.zeros_like(later[:1]), later])
 
-    return Way(
+    return ContactFilm(
         name=names[i],
         axis=axis,
         friction=law.coefficient if law.coulomb else math.inf,
@@ -113,9 +115,7 @@ def way_of(history: History, contact: str | None = None) -> Way:
     )
 
 
-def animate_path(
-    history: History, path: Path, *, contact: str | None = None, frames: int = 100, rate: int = 12
-) -> None:
+def animate_path(history: History, path: Path, *, contact: str | None = None, frames: int = 100) -> None:
     """Write a GIF of pressure, friction and slip of a contact along the whole history.
 
     Parameters
@@ -124,43 +124,43 @@ def animate_path(
     path : of the file, ``*.gif``
     contact : by name; the first where not given
     frames : pictures, equally many for every straight segment of the loads
-    rate : pictures a second
     """
     from matplotlib.animation import FuncAnimation, PillowWriter
 
-    way = way_of(history, contact)
-    figure, draw = _scene(way, history.model.title)
-    loads = np.linspace(way.load[0], way.load[-1], frames)
-    film = FuncAnimation(figure, lambda i: draw(float(loads[i])), frames=frames, blit=False)
+    film = film_of(history, contact)
+    figure, draw = _scene(film, history.model.title)
+    loads = np.linspace(film.load[0], film.load[-1], frames)
+    pictures = FuncAnimation(figure, lambda i: draw(float(loads[i])), frames=frames, blit=False)
     literal(figure)
-    film.save(str(path), writer=PillowWriter(fps=rate), dpi=72)
+    pictures.save(str(path), writer=PillowWriter(fps=_RATE), dpi=72)
 
 
-def _scene(way: Way, title: str) -> tuple[Figure, Callable[[float], list[Artist]]]:
+def _scene(film: ContactFilm, title: str) -> tuple[Figure, Callable[[float], list[Artist]]]:
     """The figure, and what draws it at a load factor."""
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
     figure = Figure(figsize=(7.6, 6.4), layout="constrained")
     tractions, slips, forces = figure.subplots(3, gridspec_kw={"height_ratios": [3.0, 1.3, 1.0]})
-    low, high = _shown(way)
+    low, high = _shown(film)
     for axes in (tractions, slips):
         axes.set_xlim(low, high)
-    most = 1.08 * max(way.pressure.max(), np.abs(way.traction).max(), 1e-300)
-    tractions.set_ylim(-1.08 * max(np.abs(way.traction).max(), 0.05 * most, _widest(way)), most)
-    sliding = 1.1 * np.abs(way.slip).max() or 1.0
+    most = 1.08 * max(film.pressure.max(), np.abs(film.traction).max(), 1e-300)
+    tractions.set_ylim(-1.08 * max(np.abs(film.traction).max(), 0.05 * most, _widest(film)), most)
+    sliding = 1.1 * np.abs(film.slip).max() or 1.0
     slips.set_ylim(-sliding, sliding)
     (pressure,) = tractions.plot([], [], color=PRESSURE, lw=2.0, label="pressure p")
     (traction,) = tractions.plot([], [], color=TRACTION, lw=1.8, label="friction q")
     bounds = []
-    if 0.0 < way.friction < math.inf:
+    if 0.0 < film.friction < math.inf:
         bounds = [tractions.plot([], [], "--", color=BOUND, lw=0.9, alpha=0.7)[0] for _ in range(2)]
-        bounds[0].set_label(f"± μ p, μ = {way.friction:g}")
+        bounds[0].set_label(f"± μ p, μ = {film.friction:g}")
     (slip,) = slips.plot([], [], color=INK, lw=1.5)
-    forces.plot(way.load, way.force[:, 0], color=TRACTION, lw=1.2)
+    forces.plot(film.load, film.force[:, 0], color=TRACTION, lw=1.2)
     (here,) = forces.plot([], [], "o", color=INK, ms=6)
-    _label(way, tractions, slips, forces)
-    patches = [Patch(color=STATUS_COLOURS[name], label=name) for name in (STICK, SLIP)]
+    _label(film, tractions, slips, forces)
+    shown = {name: STATUS_COLOURS[name] for name in (STICK, SLIP)}
+    patches = [Patch(color=colour, label=name) for name, colour in shown.items()]
     handles = [pressure, traction, *bounds[:1], *patches]
     figure.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=9, frameon=False)
     heading = tractions.set_title("", loc="left", fontsize=10, color=INK)
@@ -168,58 +168,46 @@ def _scene(way: Way, title: str) -> tuple[Figure, Callable[[float], list[Artist]
     shades: list[Artist] = []
 
     def draw(load: float) -> list[Artist]:
-        p = way.at(load, way.pressure)
-        pressure.set_data(way.s, p)
-        traction.set_data(way.s, way.at(load, way.traction))
+        p = film.at(load, film.pressure)
+        pressure.set_data(film.s, p)
+        traction.set_data(film.s, film.at(load, film.traction))
         for sign, bound in zip((1.0, -1.0), bounds, strict=False):
-            bound.set_data(way.s, sign * way.friction * p)
-        slip.set_data(way.s, way.at(load, way.slip))
-        here.set_data([load], way.at(load, way.force))
+            bound.set_data(film.s, sign * film.friction * p)
+        slip.set_data(film.s, film.at(load, film.slip))
+        here.set_data([load], film.at(load, film.force))
         while shades:
             shades.pop().remove()
-        k = way.index(load)
+        k = film.index(load)
         # on the way to the next event the pairs are as the last one has left them, which the next still shows
-        shades.extend(_shade(tractions, way.s, way.status[k - 1]))
-        heading.set_text(f"step '{way.steps[k]}'")
+        shades.extend(shade_status(tractions, film.s, film.status[k - 1], shown))
+        heading.set_text(f"step '{film.steps[k]}'")
         return []
 
     return figure, draw
 
 
-def _label(way: Way, tractions: Axes, slips: Axes, forces: Axes) -> None:
+def _label(film: ContactFilm, tractions: Axes, slips: Axes, forces: Axes) -> None:
     tractions.set_ylabel("force per area", fontsize=9.5, color=INK)
     slips.set_ylabel("slip", fontsize=9.5, color=INK)
-    slips.set_xlabel(f"{way.axis} along '{way.name}', undeformed", fontsize=9.5, color=INK)
+    slips.set_xlabel(f"{film.axis} along '{film.name}', undeformed", fontsize=9.5, color=INK)
     forces.set_ylabel("friction force", fontsize=9.5, color=INK)
     forces.set_xlabel("segment of the loads", fontsize=9.5, color=INK)
-    forces.set_xlim(way.load[0], way.load[-1])
+    forces.set_xlim(film.load[0], film.load[-1])
     for axes in (tractions, slips, forces):
         axes.axhline(0.0, color=INK, lw=0.7)
         dress(axes)
 
 
-def _widest(way: Way) -> float:
+def _widest(film: ContactFilm) -> float:
     """The largest friction that could act."""
-    return way.friction * float(way.pressure.max()) if math.isfinite(way.friction) else 0.0
+    return film.friction * float(film.pressure.max()) if math.isfinite(film.friction) else 0.0
 
 
-def _shown(way: Way) -> tuple[float, float]:
+def _shown(film: ContactFilm) -> tuple[float, float]:
     """Where the contact is closed at some time, with a margin."""
-    closed = np.flatnonzero((way.status != OPEN).any(axis=0))
+    closed = np.flatnonzero((film.status != OPEN).any(axis=0))
     if not len(closed):
-        return float(way.s[0]), float(way.s[-1])
-    low, high = float(way.s[closed[0]]), float(way.s[closed[-1]])
+        return float(film.s[0]), float(film.s[-1])
+    low, high = float(film.s[closed[0]]), float(film.s[closed[-1]])
     margin = 0.12 * (high - low) or 1.0
-    return max(low - margin, float(way.s[0])), min(high + margin, float(way.s[-1]))
-
-
-def _shade(axes: Axes, s: Array, status: NDArray[np.str_]) -> list[Artist]:
-    """Stick and slip as colours behind the curves."""
-    edges = np.concatenate([s[:1], 0.5 * (s[1:] + s[:-1]), s[-1:]])
-    changes = [0, *(np.flatnonzero(status[1:] != status[:-1]) + 1), len(s)]
-    found: list[Artist] = []
-    for start, end in pairwise(changes):
-        if status[start] != OPEN:
-            colour = STATUS_COLOURS[str(status[start])]
-            found.append(axes.axvspan(edges[start], edges[end], color=colour, lw=0, zorder=0))
-    return found
+    return max(low - margin, float(film.s[0])), min(high + margin, float(film.s[-1]))

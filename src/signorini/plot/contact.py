@@ -3,18 +3,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from signorini.plot.curve import Curve, closed_range, curves_of
-from signorini.plot.patch import draw_patches, patches_of
-from signorini.plot.style import BOUND, INK, PLAIN, PRESSURE, STATUS_COLOURS, TRACTION, dress
-from signorini.solution.history import History
-from signorini.solution.results import STICK
+from signorini.arrays import Array
+from signorini.plot.curve import Curve, closed_range
+from signorini.plot.patch import draw_patches
+from signorini.plot.picture_data import PictureData
+from signorini.plot.style import BOUND, INK, PLAIN, PRESSURE, STATUS_COLOURS, TRACTION, dress, entitle, label
+from signorini.solution.results import SLIP
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
@@ -22,23 +26,13 @@ if TYPE_CHECKING:
 _DOTTED = 100  # nodes that can be told apart as dots
 
 
-def plot_contact(history: History) -> Figure:
-    """Draw every contact at the end of the last step.
-
-    Raises
-    ------
-    InputError
-        If nothing was solved.
-    """
-    if history.model.dimension == 3:
-        return draw_patches(patches_of(history, history.last), history.model.title)
-    return draw_contacts(curves_of(history, history.last), history.model.title)
-
-
-def draw_contacts(curves: Sequence[Curve], title: str) -> Figure:
-    """One panel a contact, below each other."""
+def draw_contacts(data: PictureData) -> Figure:
+    """Every contact after the last step, one below the other: as curves in the plane, in space as maps."""
     from matplotlib.figure import Figure
 
+    if data.solid:
+        return draw_patches(data.patches, data.title)
+    curves = data.curves(data.count)
     figure = Figure(figsize=(7.6, 0.7 + 3.9 * max(len(curves), 1)), layout="constrained")
     panels = figure.subplots(max(len(curves), 1), squeeze=False)[:, 0]
     for axes, curve in zip(panels, curves, strict=False):
@@ -46,13 +40,12 @@ def draw_contacts(curves: Sequence[Curve], title: str) -> Figure:
     if not curves:
         panels[0].text(0.5, 0.5, "no contact", ha="center", va="center")
         panels[0].set_axis_off()
-    if title:
-        figure.suptitle(title, fontsize=12, color=INK)
+    entitle(figure, data.title)
     return figure
 
 
 def _draw(axes: Axes, curve: Curve) -> None:
-    shades = shade_status(axes, curve)
+    shade_status(axes, curve.s, curve.status, STATUS_COLOURS)
     single = len(curve.s) == 1
     dots, squares = ("o-", "s-") if len(curve.s) <= _DOTTED else ("-", "-")
     lines = axes.plot(curve.s, curve.pressure, dots, color=PRESSURE, ms=4, lw=1.8, label="pressure p")
@@ -70,26 +63,40 @@ def _draw(axes: Axes, curve: Curve) -> None:
     axes.axhline(0.0, color=INK, lw=0.8)
     if not single:
         axes.set_xlim(*closed_range(curve))
-    axes.set_xlabel(f"{curve.axis} along '{curve.contact}', undeformed", fontsize=10, color=INK)
-    axes.set_ylabel("force per area", fontsize=10, color=INK)
-    axes.set_title(f"{curve.contact}, end of step '{curve.step}'", fontsize=10, color=INK, loc="left")
+    label(axes, x=curve.place, y="force per area", title=f"{curve.contact}, end of step '{curve.step}'")
     dress(axes)
-    axes.legend(handles=[*lines, *shades], fontsize=8.5, frameon=True, framealpha=0.92, edgecolor="none", loc="best")
+    axes.legend(
+        handles=[*lines, *_status_handles(curve)],
+        fontsize=8.5,
+        frameon=True,
+        framealpha=0.92,
+        edgecolor="none",
+        loc="best",
+    )
 
 
-def shade_status(axes: Axes, curve: Curve) -> list[Patch]:
-    """Colour the background by status, from halfway to the node before to halfway to the next; legend handles."""
+def shade_status(axes: Axes, s: Array, status: NDArray[np.str_], colours: Mapping[str, str]) -> list[Artist]:
+    """Colour the background by status, from halfway to the node before to halfway to the next.
+
+    Parameters
+    ----------
+    axes : with the coordinate s to the right
+    s : (n,) increasing coordinate
+    status : (n,) "open", "stick" or "slip"
+    colours : of a status; none: the background stays as it is
+    """
+    edges = np.concatenate([s[:1], 0.5 * (s[1:] + s[:-1]), s[-1:]])
+    changes = [0, *(np.flatnonzero(status[1:] != status[:-1]) + 1), len(s)]
+    return [
+        axes.axvspan(edges[start], edges[end], color=colours[str(status[start])], lw=0, zorder=0)
+        for start, end in pairwise(changes)
+        if status[start] in colours
+    ]
+
+
+def _status_handles(curve: Curve) -> list[Patch]:
     from matplotlib.patches import Patch
 
-    middle = 0.5 * (curve.s[1:] + curve.s[:-1])
-    edges = np.concatenate([curve.s[:1], middle, curve.s[-1:]])
-    changes = np.nonzero(curve.status[1:] != curve.status[:-1])[0] + 1
-    starts, ends = [0, *changes], [*changes, len(curve.s)]
-    for start, end in zip(starts, ends, strict=True):
-        axes.axvspan(edges[start], edges[end], color=STATUS_COLOURS[str(curve.status[start])], lw=0, zorder=0)
+    words = {SLIP: PLAIN} if curve.friction == 0.0 else {}
     present = [name for name in STATUS_COLOURS if (curve.status == name).any()]
-    if curve.friction == 0.0:
-        words = {"open": "open", "slip": PLAIN}
-    else:
-        words = {"open": "open", STICK: "stick", "slip": "slip"}
     return [Patch(color=STATUS_COLOURS[name], label=words.get(name, name)) for name in present]

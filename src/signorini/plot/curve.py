@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signorini.arrays import Array
-from signorini.solution.history import History
-from signorini.solution.results import OPEN, StepResult
+from signorini.solution.results import OPEN
 
 _FOLDED = 2.0  # times its extent: a surface that is longer is no graph over that axis
 
@@ -40,50 +39,14 @@ class Curve:
     friction: float
 
     @property
+    def place(self) -> str:
+        """What the coordinate is, in words for an axis."""
+        return f"{self.axis} along '{self.contact}', undeformed"
+
+    @property
     def has_bound(self) -> bool:
         """Whether ``mu p`` is a bound to draw."""
         return 0.0 < self.friction < math.inf
-
-
-def make_curve(
-    *,
-    contact: str,
-    step: str,
-    points: Array,
-    pressure: Array,
-    traction: Array,
-    status: NDArray[np.str_],
-    friction: float,
-) -> Curve:
-    """Choose the coordinate and sort by it; ``points`` (n, 2) are undeformed coordinates, length."""
-    axis, s = surface_coordinate(points)
-    order = np.argsort(s, kind="stable")
-    return Curve(
-        contact=contact,
-        step=step,
-        axis=axis,
-        s=s[order],
-        pressure=pressure[order],
-        traction=traction[order],
-        status=status[order],
-        friction=friction,
-    )
-
-
-def curves_of(history: History, step: StepResult) -> list[Curve]:
-    """Every contact at the end of a step of a solution."""
-    return [
-        make_curve(
-            contact=result.name,
-            step=step.name,
-            points=result.points,
-            pressure=result.pressure,
-            traction=result.traction,
-            status=result.status,
-            friction=math.inf if math.isnan(contact.coefficient) or not contact.coulomb else contact.coefficient,
-        )
-        for contact, result in zip(history.model.contacts, step.contacts, strict=True)
-    ]
 
 
 def surface_coordinate(points: Array) -> tuple[str, Array]:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray
-from signorini.plot.result_folder import Grid, ResultFolder
-from signorini.plot.style import INK
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.plot.picture_data import PictureData
+from signorini.plot.style import INK, colour_bar, entitle, label, legend_below
 from signorini.plot.walls import Wall, draw_walls
 from signorini.solution.results import OPEN
 
@@ -22,11 +22,18 @@ if TYPE_CHECKING:
 BODIES = ("#e4ecf4", "#f6ead9", "#e3efe2", "#f0e3ec", "#ececea")
 _MOST = 0.4  # of the size of the bodies: a window larger than this shows nothing new
 _EDGE, _ROOM = 0.02, 0.06  # of the size of the bodies: what is shown around them, and with obstacles
+# triangles of a cell by the number of nodes around it
+_CUTS = {
+    3: [[0, 1, 2]],
+    4: [[0, 1, 2], [0, 2, 3]],
+    6: [[0, 1, 5], [1, 2, 3], [3, 4, 5], [1, 3, 5]],
+    8: [[0, 1, 7], [1, 2, 3], [3, 4, 5], [5, 6, 7], [1, 3, 7], [3, 5, 7]],
+}
 Window = tuple[Array, Array]  # lower left and upper right corner
 _SEEN = 0.01  # of the size of what is shown: displacements at least as large are drawn as they are
 
 
-def draw_stress(folder: ResultFolder) -> Figure:
+def draw_stress(data: PictureData) -> Figure:
     """Von Mises stress of the last state on the deformed bodies, whole and at the contact.
 
     The title says by what the displacements are multiplied. Colours end at the largest stress at the contact.
@@ -34,59 +41,65 @@ def draw_stress(folder: ResultFolder) -> Figure:
     from matplotlib.ticker import MaxNLocator
     from matplotlib.tri import Triangulation
 
-    grid = folder.grid
-    window = _window(folder, grid.points + grid.displacement)
+    grid = data.bodies
+    window = _window(data, grid.points + grid.displacement)
     shown = grid.points if window is None else np.array(window)
     factor = drawn_factor(float(np.ptp(shown, axis=0).max()), grid.displacement)
     moved = grid.points + factor * grid.displacement
     inside = _inside(window, moved)
     top, largest = float(grid.von_mises[inside].max()), float(grid.von_mises.max())
     levels = np.linspace(0.0, max(top, 1e-300), 25)
-    mesh = Triangulation(moved[:, 0], moved[:, 1], grid.triangles)
-    figure, panels = _canvas(moved, window, folder.walls)
+    mesh = Triangulation(moved[:, 0], moved[:, 1], _triangles(data.outlines))
+    figure, panels = _canvas(moved, window, data.walls)
     for axes in panels:
         extend = "max" if largest > top else "neither"
         field = axes.tricontourf(mesh, grid.von_mises, levels=levels, cmap="viridis", extend=extend)
-        _edges(axes, grid, moved, colour="#ffffff", alpha=0.35)
+        _edges(axes, data.outlines, moved, colour="#ffffff", alpha=0.35)
         if factor == 1.0:  # otherwise bodies are not drawn where obstacles have stopped them
-            draw_walls(axes, folder.walls, moved=True)
-    bar = figure.colorbar(field, ax=panels, shrink=0.85, pad=0.02, spacing="proportional")
+            draw_walls(axes, data.walls, moved=True)
     beyond = f" (elsewhere up to {largest:.4g})" if largest > top else ""
-    bar.set_label(f"von Mises stress, force per area{beyond}", fontsize=10, color=INK)
-    bar.outline.set_visible(False)
-    bar.ax.tick_params(labelsize=9, colors=INK)
+    words = f"von Mises stress, force per area{beyond}"
+    bar = colour_bar(figure, field, panels, words, spacing="proportional")
     bar.ax.yaxis.set_major_locator(MaxNLocator(nbins=7, steps=[1, 2, 2.5, 5, 10]))
-    words = "deformed, true displacements" if factor == 1.0 else f"deformed, displacements x {factor:g}"
-    _finish(figure, panels, folder.title, f"{words}; end of step '{folder.summary['steps'][-1]['name']}'")
+    _finish(panels)
+    entitle(figure, data.title, f"deformed, {factor_words(factor)}; end of step '{data.last_step['name']}'")
     return figure
 
 
-def draw_mesh(folder: ResultFolder) -> Figure:
+def draw_mesh(data: PictureData) -> Figure:
     """The undeformed mesh, a colour a body, and the contact nodes with their status after the last step."""
     from matplotlib.collections import PolyCollection
-    from matplotlib.patches import Patch
 
-    grid = folder.grid
-    figure, panels = _canvas(grid.points, _window(folder, grid.points), folder.walls)
-    names = folder.summary.get("bodies", [])
-    handles: list[Artist] = [
-        Patch(facecolor=BODIES[i % len(BODIES)], edgecolor="#7d7d7d", label=name) for i, name in enumerate(names)
-    ]
+    grid = data.bodies
+    figure, panels = _canvas(grid.points, _window(data, grid.points), data.walls)
+    handles = body_handles(data)
     for axes in panels:
-        for cells, body in zip(grid.cells, grid.body, strict=True):
+        for cells, body in zip(data.outlines, grid.body, strict=True):
             faces = [BODIES[i % len(BODIES)] for i in body]
             axes.add_collection(PolyCollection(list(grid.points[cells]), facecolors=faces, edgecolors="none"))
-        _edges(axes, grid, grid.points, colour="#7d7d7d", alpha=1.0)
-        draw_walls(axes, folder.walls, moved=False)
-        for dots in folder.dots:
+        _edges(axes, data.outlines, grid.points, colour="#7d7d7d", alpha=1.0)
+        draw_walls(axes, data.walls, moved=False)
+        for dots in data.dots:
             x, y = grid.points[np.isin(grid.node, dots.node)].T
             drawn = axes.plot(x, y, "o", ms=4, color=dots.colour, label=dots.label, zorder=3)
             handles += drawn if axes is panels[-1] else []
-    figure.legend(handles=handles, fontsize=9, frameon=False, loc="outside lower center", ncols=len(handles))
-    size = folder.summary["size"]
-    words = f"{size['nodes']} nodes, {size['elements']} elements, {size['contact_pairs']} contact pairs"
-    _finish(figure, panels, folder.title, words)
+    legend_below(figure, handles)
+    _finish(panels)
+    entitle(figure, data.title, data.size)
     return figure
+
+
+def body_handles(data: PictureData) -> list[Artist]:
+    """A handle of a legend for every body, in its colour."""
+    from matplotlib.patches import Patch
+
+    names = data.summary.get("bodies", [])
+    return [Patch(facecolor=BODIES[i % len(BODIES)], edgecolor="#7d7d7d", label=name) for i, name in enumerate(names)]
+
+
+def factor_words(factor: float) -> str:
+    """What displacements are multiplied with, in words."""
+    return "true displacements" if factor == 1.0 else f"displacements x {factor:g}"
 
 
 def drawn_factor(size: float, displacement: Array) -> float:
@@ -110,10 +123,10 @@ def drawn_factor(size: float, displacement: Array) -> float:
     return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= wanted * (1.0 + 1e-12))
 
 
-def _window(folder: ResultFolder, points: Array) -> Window | None:
+def _window(data: PictureData, points: Array) -> Window | None:
     """The part around the closed contact nodes; None if that is much of the picture."""
-    closed = [int(row["node"]) for row in folder.last_rows if row["status"] != OPEN]
-    here = points[np.isin(folder.grid.node, closed)]
+    closed = [int(row["node"]) for row in data.last_nodes if row["status"] != OPEN]
+    here = points[np.isin(data.bodies.node, closed)]
     size = float(np.ptp(points, axis=0).max())
     if not len(here):
         return None
@@ -158,7 +171,7 @@ def _canvas(points: Array, window: Window | None, walls: list[Wall]) -> tuple[Fi
     return figure, panels
 
 
-def _edges(axes: Axes, grid: Grid, points: Array, *, colour: str, alpha: float) -> None:
+def _edges(axes: Axes, outlines: list[IntArray], points: Array, *, colour: str, alpha: float) -> None:
     """Edges of the cells: thinner lines where more cells are in view, none to speak of where they would cover all."""
     from matplotlib.collections import PolyCollection
 
@@ -166,21 +179,23 @@ def _edges(axes: Axes, grid: Grid, points: Array, *, colour: str, alpha: float) 
     x, y = points[:, 0], points[:, 1]
     seen = int(((x >= left) & (x <= right) & (y >= low) & (y <= high)).sum())
     width = 0.7 if seen < 500 else 0.4 if seen < 3000 else 0.15 if seen < 20000 else 0.0
-    for cells in grid.cells:
+    for cells in outlines:
         axes.add_collection(
             PolyCollection(list(points[cells]), facecolors="none", edgecolors=colour, linewidths=width, alpha=alpha),
             autolim=False,
         )
 
 
-def _finish(figure: Figure, panels: list[Axes], title: str, words: str) -> None:
+def _finish(panels: list[Axes]) -> None:
+    """Label the axes, frame what is not the whole."""
     for axes in panels:
         for side in axes.spines.values():
             side.set_visible(axes is not panels[0])
             side.set_color(INK)
         axes.tick_params(colors=INK, labelsize=9)
-        axes.set_xlabel("x", fontsize=10, color=INK)
-    panels[0].set_ylabel("y", fontsize=10, color=INK)
-    for axes in panels[1:]:
-        axes.set_title("at the contact", fontsize=10, color=INK, loc="left")
-    figure.suptitle(f"{title}\n{words}" if title else words, fontsize=10.5, color=INK)
+        label(axes, x="x", y="y" if axes is panels[0] else "", title="" if axes is panels[0] else "at the contact")
+
+
+def _triangles(outlines: list[IntArray]) -> IntArray:
+    """Cells as triangles, (m, 3)."""
+    return np.vstack([cells[:, corners] for cells in outlines for corners in _CUTS[cells.shape[1]]])

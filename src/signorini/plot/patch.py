@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -12,10 +12,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.plot.chart import Chart, chart_of
-from signorini.plot.style import INK, PLAIN, STATUS_INK
-from signorini.solution.history import History
-from signorini.solution.results import StepResult
-from signorini.solution.surface import contact_faces, status_codes
+from signorini.plot.style import INK, PLAIN, STATUS_INK, colour_bar, entitle, label
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -53,21 +50,17 @@ class Patch:
         """Where the nodes are on paper, what touches in the middle."""
         return chart_of(self.points, self.faces, self.status > 0)
 
-
-def patches_of(history: History, step: StepResult) -> list[Patch]:
-    """Every contact at the end of a step of a solution."""
-    return [
-        Patch(
-            contact=result.name,
-            step=step.name,
-            points=result.points,
-            faces=padded_faces(*contact_faces(history.model, result)),
-            pressure=result.pressure,
-            shear=result.shear,
-            status=status_codes(result),
+    def trimmed(self) -> Patch:
+        """Without the nodes that no face has."""
+        node, index = np.unique(self.faces, return_inverse=True)
+        return replace(
+            self,
+            points=self.points[node],
+            faces=index.reshape(-1, 4),
+            pressure=self.pressure[node],
+            shear=self.shear[node],
+            status=self.status[node],
         )
-        for result in step.contacts
-    ]
 
 
 def padded_faces(*kinds: IntArray) -> IntArray:
@@ -86,8 +79,7 @@ def draw_patches(patches: Sequence[Patch], title: str) -> Figure:
         _status(right, patch)
         for axes in (left, right):
             _frame(axes, patch)
-    if title:
-        figure.suptitle(title, fontsize=12, color=INK)
+    entitle(figure, title)
     return figure
 
 
@@ -97,11 +89,8 @@ def _pressure(figure: Figure, axes: Axes, patch: Patch) -> None:
     places, triangles, pressure = _quartered(patch)
     surface = Triangulation(places[:, 0], places[:, 1], triangles)
     shown = axes.tripcolor(surface, pressure, shading="gouraud", cmap="viridis", vmin=0.0)
-    bar = figure.colorbar(shown, ax=axes, shrink=0.85, pad=0.02)
-    bar.set_label("pressure, force per area", fontsize=10, color=INK)
-    bar.outline.set_visible(False)
-    bar.ax.tick_params(labelsize=9, colors=INK)
-    axes.set_title(f"{patch.contact}, end of step '{patch.step}'", fontsize=10, color=INK, loc="left")
+    colour_bar(figure, shown, axes, "pressure, force per area")
+    label(axes, title=f"{patch.contact}, end of step '{patch.step}'")
 
 
 def _quartered(patch: Patch) -> tuple[Array, IntArray, Array]:
@@ -138,7 +127,7 @@ def _status(axes: Axes, patch: Patch) -> None:
         right, up = (np.sum(shear[some] * part[some], axis=1) for part in (chart.first, chart.second))
         axes.quiver(x[some], y[some], right, up, color=INK, width=0.003, zorder=2)
     words = "status and friction on the nonmortar body" if len(rubbed) else "status"
-    axes.set_title(words, fontsize=10, color=INK, loc="left")
+    label(axes, title=words)
     axes.legend(
         handles=handles,
         fontsize=9,
@@ -179,6 +168,4 @@ def _frame(axes: Axes, patch: Patch) -> None:
     for side in axes.spines.values():
         side.set_visible(False)
     axes.tick_params(colors=INK, labelsize=9)
-    right, up = patch.chart.labels
-    axes.set_xlabel(right, fontsize=10, color=INK)
-    axes.set_ylabel(up, fontsize=10, color=INK)
+    label(axes, x=patch.chart.labels[0], y=patch.chart.labels[1])

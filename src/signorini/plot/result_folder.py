@@ -15,14 +15,13 @@ from typing import Any
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array
 from signorini.errors import InputError, brief
 from signorini.meshio_fixes import read_meshio
-from signorini.plot.curve import Curve, make_curve
+from signorini.output.fields import BodyFields
 from signorini.plot.patch import Patch, padded_faces
-from signorini.plot.skin import Skin, make_skin
-from signorini.plot.style import PLAIN, STATUS_INK
-from signorini.plot.walls import Wall, read_walls
+from signorini.plot.picture_data import PictureData, Row
+from signorini.plot.style import STATUS_INK
 from signorini.solution.results import OPEN, SLIP, STICK
 
 _TRACTIONS = ("traction_1", "traction_2")
@@ -33,61 +32,9 @@ _OF_INSTANTS = (
     *(f"{what}_force_{axis}" for what in ("normal", "tangential") for axis in "xyz"),
 )
 
-# corners and nodes between them, in the order around a cell
-_AROUND = {
-    "triangle": [0, 1, 2],
-    "quad": [0, 1, 2, 3],
-    "triangle6": [0, 3, 1, 4, 2, 5],
-    "quad8": [0, 4, 1, 5, 2, 6, 3, 7],
-    "quad9": [0, 4, 1, 5, 2, 6, 3, 7],
-}
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Grid:
-    """The last state of all bodies.
-
-    Attributes
-    ----------
-    points, displacement : (n, d) length
-    von_mises : (n,) force per area
-    node : (n,) number in the mesh
-    families : of the cells
-    cells : each (m, k), nodes in the order around the cells, in space in the order of meshio
-    body : each (m,) which body the cells belong to
-    """
-
-    points: Array
-    displacement: Array
-    von_mises: Array
-    node: IntArray
-    families: tuple[str, ...]
-    cells: tuple[IntArray, ...]
-    body: tuple[IntArray, ...]
-
-    @property
-    def triangles(self) -> IntArray:
-        """Cells of the plane as triangles, (m, 3)."""
-        return np.vstack([cells[:, corners] for cells in self.cells for corners in _triangles(cells.shape[1])])
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Dots:
-    """Contact nodes that do the same.
-
-    Attributes
-    ----------
-    label, colour : in a picture
-    node : (n,) numbers in the mesh
-    """
-
-    label: str
-    colour: str
-    node: IntArray
-
 
 @dataclass(frozen=True, kw_only=True)
-class ResultFolder:
+class ResultFolder(PictureData):
     """The files that ``signorini run`` leaves, read when asked for.
 
     Parameters
@@ -101,7 +48,7 @@ class ResultFolder:
     def summary(self) -> dict[str, Any]:
         """``summary.json``."""
         file = self._file("summary.json")
-        with _reading(file):
+        with self.checking("summary.json"):
             found = dict(json.loads(file.read_text(encoding="utf-8")))
             names = [[contact["name"] for contact in step["contacts"]] for step in found["steps"]]
             if any(not isinstance(name, str) for each in names for name in each) or any(n != names[0] for n in names):
@@ -111,38 +58,12 @@ class ResultFolder:
             return found
 
     @cached_property
-    def rows(self) -> list[dict[str, str]]:
+    def rows(self) -> list[Row]:
         """``contact.csv``."""
         return self._table("contact.csv", _OF_NODES, words=("contact", "status"))
 
     @cached_property
-    def last_rows(self) -> list[dict[str, str]]:
-        """Rows of the contact nodes after the last step."""
-        last = str(len(self.summary["steps"]))
-        return [row for row in self.rows if row["step"] == last]
-
-    @property
-    def dots(self) -> list[Dots]:
-        """The contact nodes after the last step by what they do."""
-        rough = {row["contact"] for row in self.last_rows if any(float(row[name]) for name in _TRACTIONS)}
-        kinds: dict[tuple[str, str], list[int]] = {}
-        for row in self.last_rows:
-            words = PLAIN if row["status"] == SLIP and row["contact"] not in rough else row["status"]
-            kinds.setdefault((words, STATUS_INK[row["status"]]), []).append(int(row["node"]))
-        order = list(STATUS_INK.values())
-        return [
-            Dots(label=f"contact node, {words}", colour=colour, node=np.array(nodes))
-            for (words, colour), nodes in sorted(kinds.items(), key=lambda kind: (order.index(kind[0][1]), kind[0][0]))
-        ]
-
-    @cached_property
-    def walls(self) -> list[Wall]:
-        """Rigid obstacles of a plane model."""
-        with _reading(self._file("summary.json")):
-            return read_walls(self.summary)
-
-    @cached_property
-    def instants(self) -> list[dict[str, str]]:
+    def instants(self) -> list[Row]:
         """``history.csv``."""
         return self._table("history.csv", _OF_INSTANTS, words=("what", "contact", "work"))
 
@@ -152,101 +73,74 @@ class ResultFolder:
         return self._file("solution.h5")
 
     @cached_property
-    def grid(self) -> Grid:
+    def bodies(self) -> BodyFields:
         """``solution.vtu``."""
-        file = self._file("solution.vtu")
-        found = read_meshio(file)
+        found = read_meshio(self._file("solution.vtu"))
         d = 3 if self.solid else 2
-        with _reading(file):
+        with self.checking("solution.vtu"):
             points, data = _numbers(found.points, (-1, 3)), found.point_data
-            cells = [block.data if self.solid else block.data[:, _AROUND[block.type]] for block in found.cells]
+            cells = [block.data for block in found.cells]
             for block in cells:
                 points[block]  # where all nodes are there
-            return Grid(
+            body = [_numbers(b, (len(c),)) for b, c in zip(found.cell_data["body"], cells, strict=True)]
+            return BodyFields(
                 points=points[:, :d],
                 displacement=_numbers(data["displacement"], (len(points), 3))[:, :d],
-                von_mises=_numbers(data["von_mises"], (len(points),)),
+                stress=_numbers(data["stress"], (len(points), 6)),
                 node=_numbers(data["node"], (len(points),)).astype(np.int64),
                 families=tuple(block.type for block in found.cells),
                 cells=tuple(cells),
-                body=tuple(
-                    _numbers(b, (len(c),)).astype(np.int64) for b, c in zip(found.cell_data["body"], cells, strict=True)
-                ),
+                body=tuple(owner.astype(np.int64) for owner in body),
             )
-
-    @cached_property
-    def skin(self) -> Skin:
-        """The skin of the bodies of a model in space."""
-        return make_skin(self.grid.points, list(zip(self.grid.families, self.grid.cells, self.grid.body, strict=True)))
-
-    @property
-    def solid(self) -> bool:
-        """Whether the model is one in space."""
-        return bool(self.summary.get("kind") == "3d")
 
     @cached_property
     def patches(self) -> list[Patch]:
         """``contact.vtu``: every contact in space after the last step."""
-        file = self._file("contact.vtu")
-        found, last = read_meshio(file), self.summary["steps"][-1]
-        with _reading(file):
-            return self._patches(found, last)
-
-    def _patches(self, found: Any, last: dict[str, Any]) -> list[Patch]:
-        data, patches = found.point_data, []
-        faces = padded_faces(*(block.data for block in found.cells))
-        owner = np.concatenate(found.cell_data["contact"])
-        for i, contact in enumerate(last["contacts"]):
-            nodes, index = np.unique(faces[owner == i], return_inverse=True)
-            patches.append(
+        found, last = read_meshio(self._file("contact.vtu")), self.last_step
+        with self.checking("contact.vtu"):
+            data, owner = found.point_data, np.concatenate(found.cell_data["contact"])
+            faces = padded_faces(*(block.data for block in found.cells))
+            return [
                 Patch(
                     contact=contact["name"],
                     step=last["name"],
-                    points=found.points[nodes],
-                    faces=index.reshape(-1, 4),
-                    pressure=data["pressure"][nodes],
-                    shear=data["traction"][nodes],
-                    status=data["status"][nodes],
-                )
-            )
-        return patches
+                    points=found.points,
+                    faces=faces[owner == i],
+                    pressure=data["pressure"],
+                    shear=data["traction"],
+                    status=data["status"],
+                ).trimmed()
+                for i, contact in enumerate(last["contacts"])
+            ]
 
     @property
-    def title(self) -> str:
-        """Of the model."""
-        return str(self.summary.get("title", ""))
+    def count(self) -> int:
+        """How many steps there are.
 
-    @cached_property
-    def steps(self) -> list[list[Curve]]:
-        """For every step, of which there is one at least, its contacts."""
+        Raises
+        ------
+        InputError
+            If there is none.
+        """
         if not self.summary["steps"]:
             raise InputError(f"the results in '{self.path}' hold no step")
-        numbers = range(1, len(self.summary["steps"]) + 1)
-        with _reading(self._file("summary.json")):
-            return [self._curves(number, step) for number, step in zip(numbers, self.summary["steps"], strict=True)]
+        return super().count
 
-    def _curves(self, number: int, step: dict[str, Any]) -> list[Curve]:
-        curves = []
-        for contact in step["contacts"]:
-            own = [row for row in self.rows if row["step"] == str(number) and row["contact"] == contact["name"]]
-            if not own:
-                raise ValueError(f"contact.csv has no row of '{contact['name']}' in step {number}")
-            friction = contact.get("friction", 0.0)
-            other = contact.get("adhesion") or contact.get("shear_limit")
-            curves.append(
-                make_curve(
-                    contact=contact["name"],
-                    step=step["name"],
-                    points=_columns(own, "x", "y"),
-                    pressure=_columns(own, "pressure")[:, 0],
-                    traction=_columns(own, "traction_1")[:, 0],
-                    status=np.array([row["status"] for row in own]),
-                    friction=math.inf if isinstance(friction, str) or other else float(friction),
-                )
-            )
-        return curves
+    def nodes_of(self, step: int, contact: str) -> list[Row]:
+        """Rows of ``contact.csv`` of one contact after a step, which counts from 1."""
+        found = self._nodes.get((str(step), contact), [])
+        if not found:
+            raise ValueError(f"contact.csv has no row of '{contact}' in step {step}")
+        return found
 
-    def instants_of(self, contact: str) -> list[dict[str, str]]:
+    @cached_property
+    def _nodes(self) -> dict[tuple[str, str], list[Row]]:
+        found: dict[tuple[str, str], list[Row]] = {}
+        for row in self.rows:
+            found.setdefault((row["step"], row["contact"]), []).append(row)
+        return found
+
+    def instants_of(self, contact: str) -> list[Row]:
         """Rows of ``history.csv`` of one contact.
 
         Raises
@@ -254,16 +148,26 @@ class ResultFolder:
         InputError
             If there are none.
         """
-        found = [row for row in self.instants if row["contact"] == contact]
+        found = super().instants_of(contact)
         if not found:
             raise InputError(f"'{self._file('history.csv')}' has no row of '{contact}'")
         return found
 
-    def _table(self, name: str, columns: Sequence[str], words: Collection[str]) -> list[dict[str, str]]:
+    @contextmanager
+    def checking(self, name: str) -> Iterator[None]:
+        """A block in which it may show that a file's contents are not those that a run writes."""
+        try:
+            yield
+        except InputError:
+            raise
+        except (ValueError, LookupError, TypeError, AttributeError, csv.Error) as error:
+            raise InputError(f"'{self._file(name)}' is not what a run writes: {brief(error)}") from error
+
+    def _table(self, name: str, columns: Sequence[str], words: Collection[str]) -> list[Row]:
         """Rows of a file by column: numbers, but for columns of words; a status that is known."""
         path = self._file(name)
-        with _reading(path), path.open(newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
+        with self.checking(name), path.open(newline="", encoding="utf-8") as file:
+            rows: list[Row] = list(csv.DictReader(file))
             for number, row in enumerate(rows, start=2):
                 for column in columns:
                     if not isinstance(row.get(column), str) or not (column in words or _is_number(row[column], column)):
@@ -287,17 +191,6 @@ class ResultFolder:
         return "" if status == "solved" else f": the run ended with '{status}': {self.summary.get('message')}"
 
 
-@contextmanager
-def _reading(file: Path) -> Iterator[None]:
-    """What is said of a file whose contents are not those that a run writes."""
-    try:
-        yield
-    except InputError:
-        raise
-    except (ValueError, LookupError, TypeError, AttributeError, csv.Error) as error:
-        raise InputError(f"'{file}' is not what a run writes: {brief(error)}") from error
-
-
 def _is_number(word: str, column: str) -> bool:
     """Whether a word is a finite number; a whole one where things are counted."""
     try:
@@ -314,17 +207,3 @@ def _numbers(values: Any, shape: tuple[int, ...]) -> Array:
     if not np.isfinite(found).all():
         raise ValueError("an array holds what is no finite number")
     return found
-
-
-def _columns(rows: list[dict[str, str]], *names: str) -> Array:
-    return np.array([[float(row[name]) for name in names] for row in rows])
-
-
-def _triangles(around: int) -> list[list[int]]:
-    """Triangles of a cell by the number of nodes around it."""
-    return {
-        3: [[0, 1, 2]],
-        4: [[0, 1, 2], [0, 2, 3]],
-        6: [[0, 1, 5], [1, 2, 3], [3, 4, 5], [1, 3, 5]],
-        8: [[0, 1, 7], [1, 2, 3], [3, 4, 5], [5, 6, 7], [1, 3, 7], [3, 5, 7]],
-    }[around]

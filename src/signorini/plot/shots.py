@@ -9,7 +9,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.plot.camera import Camera, best_view
-from signorini.plot.result_folder import ResultFolder
+from signorini.plot.picture_data import PictureData, Row
 from signorini.plot.skin import Skin
 from signorini.solution.results import OPEN
 
@@ -61,9 +61,9 @@ class Shot:
         return own[((flat >= low) & (flat <= high)).all(axis=1)]
 
 
-def make_shots(folder: ResultFolder) -> list[Shot]:
+def make_shots(data: PictureData) -> list[Shot]:
     """All bodies, and a contact where that shows anything else; see :func:`whole_shot` and :func:`contact_shot`."""
-    whole, near = whole_shot(folder), contact_shot(folder)
+    whole, near = whole_shot(data), contact_shot(data)
     if near is None:
         return [whole]
     cut, size = (float(np.ptp(shot.frame(shot.skin.points), axis=0).max()) for shot in (near, whole))
@@ -72,53 +72,53 @@ def make_shots(folder: ResultFolder) -> list[Shot]:
     return [whole] if same else [whole, near]
 
 
-def whole_shot(folder: ResultFolder) -> Shot:
+def whole_shot(data: PictureData) -> Shot:
     """The bodies from where most of their stress is seen."""
-    skin = folder.skin
-    camera = best_view(skin.spans(skin.points), _stressed(folder))
+    skin = data.skin
+    camera = best_view(skin.spans(skin.points), _stressed(data))
     nothing = np.zeros(0, np.int64)
     return Shot(title="", skin=skin, camera=camera, focus=nothing, contact=np.zeros(len(skin.body), bool))
 
 
-def contact_shot(folder: ResultFolder) -> Shot | None:
+def contact_shot(data: PictureData) -> Shot | None:
     """The nonmortar body of the contact that presses most, on its own, from its side; None where all are open."""
-    skin = folder.skin
-    name, focus, facing = _contact(folder, skin)
+    skin = data.skin
+    name, focus, facing = _contact(data, skin)
     if not len(focus):
         return None
-    stressed = _stressed(folder)
+    stressed = _stressed(data)
     camera = best_view(skin.spans(skin.points), facing + 1e-3 * stressed / max(float(stressed.max()), 1e-300))
     body = int(np.argmax(np.bincount(skin.body[facing])))
     own = skin.body == body
-    alone = f", '{folder.summary['bodies'][body]}' alone" if not own.all() else ""
+    alone = f", '{data.summary['bodies'][body]}' alone" if not own.all() else ""
     below = ", seen from below" if camera.towards[2] < 0.0 else ""
     title = f"at the contact '{name}'{alone}{below}"
     return Shot(title=title, skin=skin.part(own), camera=camera, focus=focus, contact=facing[own])
 
 
-def _stressed(folder: ResultFolder) -> Array:
+def _stressed(data: PictureData) -> Array:
     """Mean square of the stress on every face, (f,)."""
-    skin = folder.skin
-    square = skin.values(folder.grid.von_mises) ** 2
+    skin = data.skin
+    square = skin.values(data.bodies.von_mises) ** 2
     total = np.bincount(skin.face, weights=square[skin.pieces].mean(axis=1))
     return np.asarray(total / np.bincount(skin.face))
 
 
-def _contact(folder: ResultFolder, skin: Skin) -> tuple[str, IntArray, BoolArray]:
+def _contact(data: PictureData, skin: Skin) -> tuple[str, IntArray, BoolArray]:
     """Of the contact that presses most its name, its closed points, and which faces are its own, (f,)."""
-    rows = [row for row in folder.last_rows if row["status"] != OPEN]
+    rows = [row for row in data.last_nodes if row["status"] != OPEN]
     faces = np.zeros(len(skin.body), bool)
     if not rows:
         return "", np.zeros(0, np.int64), faces
     name = max(rows, key=lambda row: float(row["pressure"]))["contact"]
-    number = folder.grid.node
+    number = data.bodies.node
 
-    def points(chosen: list[dict[str, str]]) -> BoolArray:
+    def points(chosen: list[Row]) -> BoolArray:
         found = np.zeros(len(skin.points), bool)
         found[: len(number)] = np.isin(number, [int(row["node"]) for row in chosen if row["contact"] == name])
         return found
 
-    every = points(folder.last_rows)
+    every = points(data.last_nodes)
     faces = np.bincount(skin.edge_face, weights=every[skin.edges[:, 0]], minlength=len(faces)) >= _CORNERS
     own = np.zeros(len(skin.points), bool)
     own[skin.pieces[faces[skin.face]]] = True

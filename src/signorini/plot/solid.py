@@ -10,11 +10,11 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.plot.camera import Camera
-from signorini.plot.field import BODIES, drawn_factor
+from signorini.plot.field import BODIES, body_handles, drawn_factor, factor_words
 from signorini.plot.paint import Paint, paint_skin
-from signorini.plot.result_folder import ResultFolder
+from signorini.plot.picture_data import PictureData
 from signorini.plot.shots import Shot, make_shots
-from signorini.plot.style import INK
+from signorini.plot.style import INK, colour_bar, entitle, label, legend_below
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 _PALE, _FINE = (1.0, 1.0, 1.0, 0.30), (0.15, 0.15, 0.15, 0.35)  # edges of the mesh on dark and on light colours
 
 
-def draw_solid_stress(folder: ResultFolder) -> Figure:
+def draw_solid_stress(data: PictureData) -> Figure:
     """Von Mises stress of the last state on the deformed skin of the bodies, whole and at the contact.
 
     The title says by what the displacements are multiplied. Colours end at the largest stress of the skin that is
@@ -33,9 +33,9 @@ def draw_solid_stress(folder: ResultFolder) -> Figure:
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
-    grid, skin = folder.grid, folder.skin
+    grid, skin = data.bodies, data.skin
     stress, moved = skin.values(grid.von_mises), skin.values(grid.displacement)
-    shots = make_shots(folder)
+    shots = make_shots(data)
     low, high = shots[-1].frame(skin.points)
     factor = drawn_factor(float((high - low).max()), moved)
     points = skin.points + factor * moved
@@ -47,46 +47,35 @@ def draw_solid_stress(folder: ResultFolder) -> Figure:
     for axes, shot in zip(panels, shots, strict=True):
         paint_skin(axes, shot.skin, points, shot.camera, paint)
     beyond = largest > top * (1.0 + 1e-6)
-    bar = figure.colorbar(
-        ScalarMappable(scale, colours), ax=panels, shrink=0.7, pad=0.02, extend="max" if beyond else "neither"
-    )
     more = f" (elsewhere up to {largest:.4g})" if beyond else ""
-    bar.set_label(f"von Mises stress on the skin, force per area{more}", fontsize=10, color=INK)
-    bar.outline.set_visible(False)
-    bar.ax.tick_params(labelsize=9, colors=INK)
-    words = "deformed, true displacements" if factor == 1.0 else f"deformed, displacements x {factor:g}"
-    _entitle(figure, folder, f"{words}; end of step '{folder.summary['steps'][-1]['name']}'")
+    words = f"von Mises stress on the skin, force per area{more}"
+    colour_bar(figure, ScalarMappable(scale, colours), panels, words, shrink=0.7, extend="max" if beyond else "neither")
+    entitle(figure, data.title, f"deformed, {factor_words(factor)}; end of step '{data.last_step['name']}'")
     return figure
 
 
-def draw_solid_mesh(folder: ResultFolder) -> Figure:
+def draw_solid_mesh(data: PictureData) -> Figure:
     """The undeformed mesh, a colour a body, and the contact nodes with their status after the last step."""
     from matplotlib.colors import to_rgb
     from matplotlib.lines import Line2D
-    from matplotlib.patches import Patch
 
-    grid, skin = folder.grid, folder.skin
-    shots = make_shots(folder)
+    grid, skin = data.bodies, data.skin
+    shots = make_shots(data)
     figure, panels = _canvas(shots, skin.points)
     palette = np.array([to_rgb(colour) for colour in BODIES])
     paint = Paint(values=None, colours=lambda body: palette[body.astype(int) % len(palette)], mesh=_FINE)
     for axes, shot in zip(panels, shots, strict=True):
         paint_skin(axes, shot.skin, skin.points, shot.camera, paint)
-    names = folder.summary.get("bodies", [])
-    handles: list[Patch | Line2D] = [
-        Patch(facecolor=BODIES[i % len(BODIES)], edgecolor="#7d7d7d", label=name) for i, name in enumerate(names)
-    ]
+    handles = body_handles(data)
     seen = shots[-1].inside(skin.points)
-    for dots in folder.dots:
+    for dots in data.dots:
         own = seen[seen < len(grid.node)]
         own = own[np.isin(grid.node[own], dots.node)]
         if len(own):
             panels[-1].plot(*shots[-1].camera.across(skin.points[own]).T, "o", ms=3.5, color=dots.colour, zorder=3)
             handles.append(Line2D([], [], marker="o", ls="", ms=4, color=dots.colour, label=dots.label))
-    figure.legend(handles=handles, fontsize=9, frameon=False, loc="outside lower center", ncols=len(handles))
-    size = folder.summary["size"]
-    words = f"{size['nodes']} nodes, {size['elements']} elements, {size['contact_pairs']} contact pairs"
-    _entitle(figure, folder, words)
+    legend_below(figure, handles)
+    entitle(figure, data.title, data.size)
     return figure
 
 
@@ -105,7 +94,7 @@ def _canvas(shots: list[Shot], points: Array) -> tuple[Figure, list[Axes]]:
         axes.set_ylim(low[1], high[1])
         axes.set_aspect("equal")
         axes.set_axis_off()
-        axes.set_title(shot.title, fontsize=10, color=INK, loc="left")
+        label(axes, title=shot.title)
         _directions(axes, shot.camera)
         _scale(axes, float(high[0] - low[0]))
     return figure, panels
@@ -131,7 +120,3 @@ def _scale(axes: Axes, width: float) -> None:
     part = length / width
     axes.plot([1.0 - part, 1.0], [-0.05, -0.05], transform=axes.transAxes, color=INK, lw=2.0, clip_on=False)
     axes.text(1.0 - 0.5 * part, -0.04, f"{length:g}", transform=axes.transAxes, ha="center", fontsize=9, color=INK)
-
-
-def _entitle(figure: Figure, folder: ResultFolder, words: str) -> None:
-    figure.suptitle(f"{folder.title}\n{words}" if folder.title else words, fontsize=10.5, color=INK)

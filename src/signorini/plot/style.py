@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -26,6 +27,60 @@ def dress(axes: Axes) -> None:
     axes.tick_params(colors=INK, labelsize=9)
     axes.grid(True, color="#dddddd", linewidth=0.6)
     axes.set_axisbelow(True)
+
+
+def label(axes: Axes, *, x: str = "", y: str = "", title: str = "") -> None:
+    """Say what the axes are, and what the panel shows, above its left end; empty words are left out.
+
+    Parameters
+    ----------
+    axes : the panel
+    x, y : coordinate or quantity, with its unit in words
+    title : of the panel
+    """
+    if x:
+        axes.set_xlabel(x, fontsize=10, color=INK)
+    if y:
+        axes.set_ylabel(y, fontsize=10, color=INK)
+    if title:
+        axes.set_title(title, fontsize=10, color=INK, loc="left")
+
+
+def entitle(figure: Figure, title: str, words: str = "") -> None:
+    """Write the title of the model above a figure, and words on the picture below that.
+
+    Parameters
+    ----------
+    figure : the picture
+    title : of the model; empty: none
+    words : on what is shown; empty: none
+    """
+    lines = [line for line in (title, words) if line]
+    if lines:
+        figure.suptitle("\n".join(lines), fontsize=10.5 if words else 12, color=INK)
+
+
+def colour_bar(figure: Figure, mappable: Any, panels: Axes | Sequence[Axes], words: str, **shape: Any) -> Any:
+    """A bar beside panels that says which colour is which number.
+
+    Parameters
+    ----------
+    figure : the picture
+    mappable : of Matplotlib, with its colours
+    panels : that take part of their width
+    words : the quantity, with its unit in words
+    shape : further arguments of ``Figure.colorbar``
+    """
+    bar = figure.colorbar(mappable, ax=panels, **{"shrink": 0.85, "pad": 0.02} | shape)
+    bar.set_label(words, fontsize=10, color=INK)
+    bar.outline.set_visible(False)
+    bar.ax.tick_params(labelsize=9, colors=INK)
+    return bar
+
+
+def legend_below(figure: Figure, handles: Sequence[Any]) -> None:
+    """All handles in one row below the panels."""
+    figure.legend(handles=handles, fontsize=9, frameon=False, loc="outside lower center", ncols=len(handles))
 
 
 def literal(figure: Figure) -> Figure:

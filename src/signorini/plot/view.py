@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
-from signorini.plot.field import drawn_factor
+from signorini.plot.field import drawn_factor, factor_words
 from signorini.plot.patch import Patch
-from signorini.plot.result_folder import ResultFolder
+from signorini.plot.picture_data import PictureData
 from signorini.plot.shots import Shot, contact_shot, whole_shot
 from signorini.plot.style import INK
 
@@ -37,31 +37,31 @@ _BAR = {
 }
 
 
-def render_view(folder: ResultFolder) -> NDArray[np.uint8]:
+def render_view(data: PictureData) -> NDArray[np.uint8]:
     """Pixels (height, width, 3): von Mises stress on the deformed bodies, pressure and friction of the contact beside.
 
     Parameters
     ----------
-    folder : with the results of a model in space
+    data : with the results of a model in space
 
     Raises
     ------
     InputError
         If PyVista is not installed, or the model is plane.
     """
-    if not folder.solid:
+    if not data.solid:
         raise InputError("shows models in space; expected 'stress' for one in the plane", where=("view",))
     pyvista = _pyvista()
-    shots = [shot for shot in (whole_shot(folder), contact_shot(folder)) if shot is not None]
+    shots = [shot for shot in (whole_shot(data), contact_shot(data)) if shot is not None]
     size = (_SIDE * len(shots), _SIDE)
     plotter = pyvista.Plotter(off_screen=True, shape=(1, len(shots)), window_size=size, border=False, lighting="none")
     try:
         plotter.set_background("white")
         plotter.enable_anti_aliasing("ssaa")
-        _stress(plotter, pyvista, folder, shots[0])
+        _stress(plotter, pyvista, data, shots[0])
         for shot in shots[1:]:
             plotter.subplot(0, 1)
-            _contact(plotter, pyvista, folder, shot)
+            _contact(plotter, pyvista, data, shot)
         return np.asarray(plotter.screenshot(return_img=True), dtype=np.uint8)
     finally:
         plotter.close()
@@ -80,27 +80,26 @@ def _pyvista() -> Any:
     return pyvista
 
 
-def _stress(plotter: Any, pyvista: Any, folder: ResultFolder, shot: Shot) -> None:
+def _stress(plotter: Any, pyvista: Any, data: PictureData, shot: Shot) -> None:
     """The bodies, deformed."""
     skin = shot.skin
-    moved = skin.values(folder.grid.displacement)
+    moved = skin.values(data.bodies.displacement)
     factor = drawn_factor(float(np.ptp(shot.frame(skin.points), axis=0).max()), moved)
     points = skin.points + factor * moved
     surface = _surface(pyvista, skin.pieces, points)
-    surface["von Mises stress"] = stress = skin.values(folder.grid.von_mises)
+    surface["von Mises stress"] = stress = skin.values(data.bodies.von_mises)
     limits = (0.0, float(stress.max()) or 1.0)
     plotter.add_mesh(surface, cmap="viridis", clim=limits, scalar_bar_args=_BAR, **_SURFACE)
     _edges(plotter, pyvista, shot, points, "white", 0.25)
-    words = "true displacements" if factor == 1.0 else f"displacements x {factor:g}"
-    _look(plotter, pyvista, shot, points, f"{folder.title}, {words}" if folder.title else words)
+    _look(plotter, pyvista, shot, points, ", ".join([*filter(None, [data.title]), factor_words(factor)]))
 
 
-def _contact(plotter: Any, pyvista: Any, folder: ResultFolder, shot: Shot) -> None:
+def _contact(plotter: Any, pyvista: Any, data: PictureData, shot: Shot) -> None:
     """The pressure on the contact surface, undeformed, and the friction on it."""
     points = shot.skin.points
     plotter.add_mesh(_surface(pyvista, shot.skin.part(~shot.contact).pieces, points), color=_BODY, **_SURFACE)
     _edges(plotter, pyvista, shot, points, "#404040", 0.25)
-    (patch,) = [patch for patch in folder.patches if f"'{patch.contact}'" in shot.title]
+    (patch,) = [patch for patch in data.patches if f"'{patch.contact}'" in shot.title]
     surface = _surface(pyvista, patch.faces, patch.points)
     surface["pressure"] = patch.pressure
     limits = (0.0, float(patch.pressure.max()) or 1.0)

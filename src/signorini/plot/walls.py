@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -45,7 +46,7 @@ class Wall:
         return -self.shape.nearest(points)[0]
 
 
-def read_walls(summary: dict[str, Any]) -> list[Wall]:
+def read_walls(summary: Mapping[str, Any]) -> list[Wall]:
     """Of the obstacles that ``summary.json`` describes, those of the plane."""
     moved = summary["steps"][-1]["obstacles"]
     walls = []

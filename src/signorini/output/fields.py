@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Displacements and stresses of the bodies, as files and pictures show them: computed once for all of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.fem.space import Space, make_space
+from signorini.fem.stress import BodyStress, body_stresses, point_stresses, von_mises
+from signorini.model.model import Model
+from signorini.solution.results import Instant, StepResult
+
+State = StepResult | Instant
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class BodyFields:
+    """Fields of all bodies in one state; every body has points of its own, so that no stress is averaged across bodies.
+
+    Attributes
+    ----------
+    points, displacement : (n, d) undeformed coordinates and displacement, length
+    stress : (n, 6) force per area: xx, yy, zz, xy, yz, xz, tension positive
+    node : (n,) number in the mesh or deck
+    families : of every block of cells
+    cells : of every block (m, k), points in the order of meshio
+    body : of every block (m,), which body its cells belong to
+    """
+
+    points: Array
+    displacement: Array
+    stress: Array
+    node: IntArray
+    families: tuple[str, ...]
+    cells: tuple[IntArray, ...]
+    body: tuple[IntArray, ...]
+
+    @cached_property
+    def von_mises(self) -> Array:
+        """Von Mises equivalent of the stress, (n,) force per area."""
+        return von_mises(self.stress)
+
+
+class Fields:
+    """The fields of a model's bodies in any state: one space for all, and the stresses of every step's end once.
+
+    Parameters
+    ----------
+    model : whose states are asked for
+    """
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self._ends: dict[StepResult, list[BodyStress]] = {}
+        self._points: tuple[StepResult, list[tuple[IntArray, Array]]] | None = None
+
+    @cached_property
+    def space(self) -> Space:
+        """Of the mesh of the model."""
+        return make_space(self.model.mesh, axisymmetric=self.model.axisymmetric)
+
+    def stresses(self, state: State) -> list[BodyStress]:
+        """Of every body at its nodes; those of ends of steps, which several files hold, are kept."""
+        if isinstance(state, Instant):
+            return self._stresses(state)
+        if state not in self._ends:
+            self._ends[state] = self._stresses(state)
+        return self._ends[state]
+
+    def _stresses(self, state: State) -> list[BodyStress]:
+        assert state.displacement is not None
+        return body_stresses(self.space, self.model, state.displacement, state.factors)
+
+    def cell_stresses(self, step: StepResult) -> list[tuple[IntArray, Array]]:
+        """At the best points of the cells, see :func:`signorini.fem.stress.point_stresses`; of one step at a time."""
+        if self._points is None or self._points[0] is not step:
+            found = point_stresses(self.space, self.model, step.displacement, step.factors)
+            self._points = step, list(found)
+        return self._points[1]
+
+    def at(self, state: State) -> BodyFields:
+        """All bodies in a state whose displacement is known, one after the other in the order of the model."""
+        assert state.displacement is not None
+        stresses, mesh = self.stresses(state), self.model.mesh
+        nodes = np.concatenate([part.nodes for part in stresses])
+        owner = self.model.body_of_cells()
+        families, cells, body = [], [], []
+        start = 0
+        for i, part in enumerate(stresses):
+            first = 0
+            for family, block in mesh.cells.items():
+                own = block[owner[first : first + len(block)] == i]
+                if len(own):
+                    families.append(family)
+                    cells.append(start + np.searchsorted(part.nodes, own))
+                    body.append(np.full(len(own), i))
+                first += len(block)
+            start += len(part.nodes)
+        return BodyFields(
+            points=mesh.points[nodes],
+            displacement=state.displacement[nodes],
+            stress=np.concatenate([part.stress for part in stresses]),
+            node=mesh.labels[nodes],
+            families=tuple(families),
+            cells=tuple(cells),
+            body=tuple(body),
+        )
