@@ -11,7 +11,7 @@ import pytest
 import signorini as sg
 from signorini.cli import main
 from signorini.clock import Clock
-from signorini.engine import fields as planning
+from signorini.engine import memory_check as planning
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.output.folder import Publisher, open_folder
 from signorini.output.series import frames, listed
