@@ -285,7 +285,7 @@ PENDING = {
     #
     "output": "nouns parameters constants",
     #
-    "plot": "nouns parameters classes constants",
+    "plot": "nouns parameters constants",
     #
     "reference": "parameters classes constants",
     #
