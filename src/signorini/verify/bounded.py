@@ -10,7 +10,6 @@ import numpy as np
 from scipy.optimize import lsq_linear
 
 from signorini.engine.solve import solve
-from signorini.friction.history.plane import follow, initial_state
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.solve import solve_coulomb
 from signorini.gallery.blocks import dragged_block
@@ -18,39 +17,30 @@ from signorini.gallery.half_planes import EQUAL, HALF_WIDTH, equal_half_planes
 from signorini.model.conditions import Support
 from signorini.model.step import Step
 from signorini.reference.tresca import LimitedShear
-from signorini.verify.check import Check
+from signorini.verify.check import Check, table
+from signorini.verify.one_node import pressed_and_pulled
 
 
 def shear_limits() -> Iterator[Check]:
     """A node that comes to its limit and leaves it, a block that slides under it, and Tresca's law."""
     yield from _one_node()
     yield from _sliding_block()
-    yield _convex_minimum()
+    yield from _convex_minimum()
     yield from _half_planes()
 
 
 def _one_node() -> Iterator[Check]:
     """K = [[2, -1], [-1, 2]] in (gap, slip), pressed by 1, pulled to 4, mu 1, limit 0.4: p = 1 - s while it slips."""
-    W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]])).astype(np.float64)
-    problem = CoulombProblem.of(
-        W=W, b=np.zeros(2), friction=np.ones(1), limit=np.array([0.4]), motions=np.zeros((2, 0)), scale=4.0
-    )
-    pressed = follow(problem, initial_state(problem, np.zeros(2)), W @ np.array([-1.0, 0.0])).end
-    path = follow(problem, pressed, W @ np.array([-1.0, 4.0]))
-    known = {"slips": 0.4, "kinks": 1.6, "opens": 2.0}
+    _, _, path = pressed_and_pulled(friction=1.0, limit=0.4)
     events: dict[str, float] = {event.what: 4.0 * event.factor for event in path.events}
-    words = {"slips": "slips, at the limit", "kinks": "leaves the limit", "opens": "opens"}
-    found = [(f"{words[what]}, f_t", events[what], reference) for what, reference in known.items()]
-    found.append(("dissipation", float(path.end.dissipation[0]), 0.4 * 0.6 + 0.5 * 0.4**2))
-    for quantity, computed, reference in found:
-        yield Check(
-            case="one node with a shear limit, exact path",
-            quantity=quantity,
-            computed=computed,
-            reference=reference,
-            tolerance=1e-12,
-            source="by hand",
-        )
+    yield from table(
+        "one node with a shear limit, exact path",
+        ("slips, at the limit, f_t", events["slips"], 0.4, 1e-12),
+        ("leaves the limit, f_t", events["kinks"], 1.6, 1e-12),
+        ("opens, f_t", events["opens"], 2.0, 1e-12),
+        ("dissipation", path.end.dissipation[0], 0.4 * 0.6 + 0.5 * 0.4**2, 1e-12),
+        source="by hand",
+    )
 
 
 def _sliding_block() -> Iterator[Check]:
@@ -62,12 +52,10 @@ def _sliding_block() -> Iterator[Check]:
     )
     for thickness in (1.0, 2.5):
         floor = solve(replace(dragged, thickness=thickness)).contact(contact.label)
-        yield Check(
-            case="block dragged over a floor, shear limit",
-            quantity=f"friction force over the limit, thickness {thickness:g}",
-            computed=float(np.linalg.norm(floor.tangential_force)) / 0.01,
-            reference=float(floor.area.sum()),
-            tolerance=1e-10,
+        force = np.linalg.norm(floor.tangential_force)
+        yield from table(
+            "block dragged over a floor, shear limit",
+            (f"friction force over the limit, thickness {thickness:g}", force / 0.01, floor.area.sum(), 1e-10),
             source="limit times area",
         )
 
@@ -84,22 +72,16 @@ def _half_planes() -> Iterator[Check]:
     found = solve(replace(model, contacts=[contact])).contact("contact")
     x, case = found.points[:, 0], f"equal half-planes, Tresca's law, nodes at {spacing} a, exact path"
     off = np.abs(found.traction + exact.traction(x, Q))[np.abs(x) < 0.5 * a]
-    for quantity, computed, reference, tolerance in (
+    yield from table(
+        case,
         ("c/a, to a node distance", np.abs(x[found.status == "stick"]).max() / a, 0.75**0.5, spacing),
         ("q(0) / limit", np.abs(found.traction)[np.abs(x).argmin()] / limit, 1.0 / 3.0, 0.01),
         ("q, largest error in |x| < a/2 / limit", off.max() / limit, 0.0, 0.02),
-    ):
-        yield Check(
-            case=case,
-            quantity=quantity,
-            computed=float(computed),
-            reference=reference,
-            tolerance=tolerance,
-            source="strip that yields: Dugdale (1960)",
-        )
+        source="strip that yields: Dugdale (1960)",
+    )
 
 
-def _convex_minimum() -> Check:
+def _convex_minimum() -> Iterator[Check]:
     """Bodies that stay pressed: forces minimise ``r'A r / 2 + c'r`` over p >= 0, ``|r_t| <= limit``."""
     rng, n = np.random.default_rng(0), 20
     Q, _ = np.linalg.qr(rng.normal(size=(2 * n, 2 * n)))
@@ -120,11 +102,8 @@ def _convex_minimum() -> Check:
     box = (np.append(np.zeros(n), -limit), np.append(np.full(n, np.inf), limit))
     least = lsq_linear(L.T, -np.linalg.solve(L, c), bounds=box, tol=1e-14).x
     forces = np.append(result.normal_force, result.tangential_force)
-    return Check(
-        case="Tresca's law, 20 random pairs",
-        quantity="distance of the forces from the minimum of the energy",
-        computed=float(np.abs(forces - least).max()),
-        reference=0.0,
-        tolerance=1e-7,
+    yield from table(
+        "Tresca's law, 20 random pairs",
+        ("distance of the forces from the minimum of the energy", np.abs(forces - least).max(), 0.0, 1e-7),
         source="bounded least squares (scipy)",
     )

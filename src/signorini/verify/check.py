@@ -1,9 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One line of the verification table."""
+"""Lines of the verification table."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import SupportsFloat
+
+import numpy as np
+
+from signorini.arrays import Array
+
+Row = tuple[str, SupportsFloat, SupportsFloat, float] | tuple[str, SupportsFloat, SupportsFloat, float, str]
+"""Of :func:`table`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,3 +66,36 @@ class Check:
             "passed": self.passed,
             "at_least": self.least,
         }
+
+
+def table(case: str, *rows: Row, source: str = "", least: bool = False) -> Iterator[Check]:
+    """Checks of one case.
+
+    Parameters
+    ----------
+    case : in words
+    rows : quantity, computed, reference, tolerance; and the source where it is not that of all
+    source : of the references
+    least : references are lower bounds
+
+    Examples
+    --------
+    >>> rows = (("pressure", 1.25, 1.0, 0.02), ("gap", 0.0, 0.0, 1e-9))
+    >>> [check.error for check in table("P1", *rows, source="exact")]
+    [0.25, 0.0]
+    """
+    for quantity, computed, reference, tolerance, *own in rows:
+        yield Check(
+            case=case,
+            quantity=quantity,
+            computed=float(computed),
+            reference=float(reference),
+            tolerance=tolerance,
+            source=own[0] if own else source,
+            least=least,
+        )
+
+
+def farthest(values: Array, exact: float) -> float:
+    """The value that is farthest from what all of them should be."""
+    return float(values[np.abs(values - exact).argmax()])

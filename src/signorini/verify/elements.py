@@ -19,7 +19,7 @@ from signorini.model.obstacle import Plane
 from signorini.reference.discs import rotating_disc
 from signorini.reference.hertz import HertzPoint, contact_modulus
 from signorini.reference.lame import hollow_sphere
-from signorini.verify.check import Check
+from signorini.verify.check import Check, table
 
 _STEEL = Elastic(E=200.0, nu=0.3, density=2.0, expansion=1e-3)
 
@@ -39,22 +39,11 @@ def sphere_on_a_plane() -> Iterator[Check]:
     r = contact.points[:, 0]
     inside = r < 0.8 * hertz.contact_radius
     worst = np.abs(contact.pressure - hertz.pressure(r))[inside].max() / hertz.peak_pressure
-    case, source = "Sphere on a plane (axisymmetric)", "Hertz; Johnson (1985) 4.2(a)"
-    yield Check(
-        case=case,
-        quantity="peak pressure",
-        computed=float(contact.pressure[r.argmin()]),
-        reference=hertz.peak_pressure,
-        tolerance=0.01,
-        source=source,
-    )
-    yield Check(
-        case=case,
-        quantity="largest error of the pressure, r < 0.8 a, over the peak",
-        computed=float(worst),
-        reference=0.0,
-        tolerance=0.01,
-        source=source,
+    yield from table(
+        "Sphere on a plane (axisymmetric)",
+        ("peak pressure", contact.pressure[r.argmin()], hertz.peak_pressure, 0.01),
+        ("largest error of the pressure, r < 0.8 a, over the peak", worst, 0.0, 0.01),
+        source="Hertz; Johnson (1985) 4.2(a)",
     )
 
 
@@ -77,19 +66,12 @@ def hollow_spheres() -> Iterator[Check]:
         )
         found = solve(model).along([(1.0, 0.0), (1.5, 0.0)], body="ring")
         u, _, hoop = hollow_sphere(np.array([1.0, 1.5]), inner=1.0, outer=2.0, pressure=3.0, E=200.0, nu=nu)
-        rows = (
-            ("displacement inside", found.displacement[0, 0], u[0]),
-            ("hoop stress in the middle", found.stress[1, 2], hoop[1]),
+        yield from table(
+            f"Hollow sphere, nu = {nu:g}, {cells}" + (f", {formulation}" if nu > 0.4 else ""),
+            ("displacement inside", found.displacement[0, 0], u[0], 0.01),
+            ("hoop stress in the middle", found.stress[1, 2], hoop[1], 0.01),
+            source="Lame; Timoshenko, Goodier 136",
         )
-        for quantity, computed, reference in rows:
-            yield Check(
-                case=f"Hollow sphere, nu = {nu:g}, {cells}" + (f", {formulation}" if nu > 0.4 else ""),
-                quantity=quantity,
-                computed=float(computed),
-                reference=float(reference),
-                tolerance=0.01,
-                source="Lame; Timoshenko, Goodier 136",
-            )
 
 
 def cantilever() -> Iterator[Check]:
@@ -103,13 +85,10 @@ def cantilever() -> Iterator[Check]:
             supports=[Support("left", u=(0, None)), Support((0.0, -0.5), u=(None, 0))],
             loads=[Load("right", traction=(0, 1.0))],
         )
-        yield Check(
-            case=f"Cantilever of 1 x 8 cells, {cells}",
-            quantity="deflection of the tip",
-            computed=float(solve(bent).along([(length, -0.5)], body="block").displacement[0, 1]),
-            reference=4.0 * length**3 / E + 2.4 * length * (1.0 + nu) / E,
-            tolerance=0.01,
-            source="Timoshenko's beam",
+        tip = solve(bent).along([(length, -0.5)], body="block").displacement[0, 1]
+        exact = 4.0 * length**3 / E + 2.4 * length * (1.0 + nu) / E
+        yield from table(
+            f"Cantilever of 1 x 8 cells, {cells}", ("deflection of the tip", tip, exact, 0.01, "Timoshenko's beam")
         )
 
 
@@ -126,29 +105,18 @@ def inside_bodies() -> Iterator[Check]:
     found = solve(spinning).along([(1.0, 0.0), (1.5, 0.0)], body="ring")
     at = np.array([1.0, 1.5])
     u, _, hoop = rotating_disc(at, inner=1.0, outer=2.0, omega=3.0, density=2.0, E=_STEEL.E, nu=_STEEL.nu)
-    for quantity, computed, reference in (
-        ("displacement inside", found.displacement[0, 0], u[0]),
-        ("hoop stress in the middle", found.stress[1, 1], hoop[1]),
-    ):
-        yield Check(
-            case="Rotating disc, quad8",
-            quantity=quantity,
-            computed=float(computed),
-            reference=float(reference),
-            tolerance=0.005,
-            source="Timoshenko, Goodier 32",
-        )
+    yield from table(
+        "Rotating disc, quad8",
+        ("displacement inside", found.displacement[0, 0], u[0], 0.005),
+        ("hoop stress in the middle", found.stress[1, 1], hoop[1], 0.005),
+        source="Timoshenko, Goodier 32",
+    )
     heated = Model(
         rectangle(nx=3, ny=2),
         bodies=[Body("block", _STEEL)],
         supports=[Support("bottom", u=(None, 0)), Support("top", u=(None, 0)), Support((0.0, 0.0), u=(0, None))],
         loads=[Load("block", temperature=10.0)],
     )
-    yield Check(
-        case="Block heated between walls, plane strain",
-        quantity="stress",
-        computed=float(solve(heated).stress("block").stress[:, 1].max()),
-        reference=-10.0 * _STEEL.expansion * _STEEL.E / (1.0 - _STEEL.nu),
-        tolerance=1e-9,
-        source="Hooke's law",
-    )
+    stress = solve(heated).stress("block").stress[:, 1].max()
+    exact = -10.0 * _STEEL.expansion * _STEEL.E / (1.0 - _STEEL.nu)
+    yield from table("Block heated between walls, plane strain", ("stress", stress, exact, 1e-9, "Hooke's law"))

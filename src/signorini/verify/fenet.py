@@ -6,9 +6,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from signorini.api import solve
-from signorini.gallery.fenet import HERTZ, SEAT, cylinder_on_block
+from signorini.gallery.fenet import HERTZ, cylinder_on_block
 from signorini.model.step import Step
-from signorini.verify.check import Check
+from signorini.verify.check import Check, table
 
 _SMALL_STRAIN = "independent small-strain computation"
 _SUNK = {0.0: -1.28131, 0.1: -1.27425}
@@ -24,36 +24,25 @@ def cylinder() -> Iterator[Check]:
         contact = solution.contact("contact")
         centre = solution.along([(0.0, 0.0)], body="block").displacement[0, 1]
         peak = float(contact.pressure.max())
-        rows = [
-            ("u_y at the block's top centre", centre, _SUNK[friction], 0.01, _SMALL_STRAIN),
-            ("p_0", peak, _PEAK[friction], 0.01, _SMALL_STRAIN),
-        ]
+        yield from table(
+            case,
+            ("u_y at the block's top centre", centre, _SUNK[friction], 0.01),
+            ("p_0", peak, _PEAK[friction], 0.01),
+            source=_SMALL_STRAIN,
+        )
         if not friction:
             half_width = contact.points[contact.closed, 0].max()
-            rows.append(("p_0 against half-planes", peak, HERTZ.peak_pressure, 0.01, "Hertz"))
-            rows.append(("a, to a cell", half_width, HERTZ.half_width, 0.25 / HERTZ.half_width, "Hertz"))
-        for quantity, computed, reference, tolerance, source in rows:
-            yield Check(
-                case=case,
-                quantity=quantity,
-                computed=float(computed),
-                reference=reference,
-                tolerance=tolerance,
-                source=source,
+            yield from table(
+                case,
+                ("p_0 against half-planes", peak, HERTZ.peak_pressure, 0.01),
+                ("a, to a cell", half_width, HERTZ.half_width, 0.25 / HERTZ.half_width),
+                source="Hertz",
             )
-    yield _stick(1.0)
-
-
-def _stick(spacing: float) -> Check:
-    """How far it sticks where all of the load comes at once, as in the computation that printed "about 2.0"."""
-    cells = round(SEAT / spacing)
-    model = cylinder_on_block(friction=0.1, across=(cells, cells), steps=(Step(increments=1),))
+    # all of the load at once, as in the computation that printed "about 2.0"; cells of 1 mm
+    model = cylinder_on_block(friction=0.1, across=(10, 10), steps=(Step(increments=1),))
     contact = solve(model).contact("contact")
-    return Check(
-        case=f"FENET 1 cylinder on block, mu 0.1, {cells} : {cells} cells, one increment",
-        quantity="half-width of stick, to a cell",
-        computed=float(contact.points[contact.status == "stick", 0].max()),
-        reference=2.0,
-        tolerance=spacing / 2.0,
-        source=_SMALL_STRAIN,
+    stuck = contact.points[contact.status == "stick", 0].max()
+    yield from table(
+        "FENET 1 cylinder on block, mu 0.1, 10 : 10 cells, one increment",
+        ("half-width of stick, to a cell", stuck, 2.0, 0.5, _SMALL_STRAIN),
     )

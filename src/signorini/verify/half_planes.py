@@ -12,7 +12,7 @@ from signorini.gallery.half_planes import EQUAL, HALF_WIDTH, NU, equal_half_plan
 from signorini.model.step import Step
 from signorini.reference.spence import stick_ratio
 from signorini.solution.results import ContactResult
-from signorini.verify.check import Check
+from signorini.verify.check import Check, table
 
 _PULL = 0.7
 _BONDED = 0.543076  # shear over pressure at the corner of a bonded square block (benchmark B07)
@@ -24,7 +24,7 @@ def cattaneo_mindlin() -> Iterator[Check]:
 
 
 def cattaneo_mindlin_refined() -> Iterator[Check]:
-    """The same with 193 pairs, the blocks four times as large."""
+    """Two equal cylinders with 193 pairs, the blocks four times as large."""
     yield from _cattaneo_mindlin(spacing=0.0125, size=80.0, loss=0.005)
 
 
@@ -40,39 +40,23 @@ def _cattaneo_mindlin(*, spacing: float, size: float, loss: float) -> Iterator[C
     most = EQUAL.friction * EQUAL.normal.peak_pressure
     x = contact.points[:, 0]
     # at the edges of contact and of stick tractions are steeper than a cell
-    inside = np.minimum(abs(abs(x) - HALF_WIDTH), abs(abs(x) - EQUAL.stick_half_width(highest))) > 0.06 * HALF_WIDTH
-    stuck = abs(x[contact.status == "stick"]).max()
-    yield Check(
-        case=case,
-        quantity="c/a, to a node distance",
-        computed=float(stuck) / HALF_WIDTH,
-        reference=EQUAL.stick_half_width(highest) / HALF_WIDTH,
-        tolerance=spacing / 0.5477,
-        source=source,
-    )
+    held, stuck = EQUAL.stick_half_width(highest), abs(x[contact.status == "stick"]).max()
+    inside = np.minimum(abs(abs(x) - HALF_WIDTH), abs(abs(x) - held)) > 0.06 * HALF_WIDTH
     back = next(instant for instant in cycles.instants if instant.what == "segment").contacts[0]
-    for words, found, exact in (
-        ("pulled", contact, -EQUAL.traction(x, highest)),
-        ("back", back, -EQUAL.traction_back(x, highest, -highest)),
-    ):
-        yield Check(
-            case=case,
-            quantity=f"q {words}, largest error off the edges / mu p_0",
-            computed=float(np.abs(found.traction - exact)[inside].max() / most),
-            reference=0.0,
-            tolerance=0.03,
-            source=source,
-        )
+    pulled = np.abs(contact.traction + EQUAL.traction(x, highest))[inside]
+    turned = np.abs(back.traction + EQUAL.traction_back(x, highest, -highest))[inside]
     first, second = cycles.cycles
-    for quantity, computed, reference, tolerance, words in (
+    yield from table(
+        case,
+        ("c/a, to a node distance", stuck / HALF_WIDTH, held / HALF_WIDTH, spacing / 0.5477),
+        ("q pulled, largest error off the edges / mu p_0", pulled.max() / most, 0.0, 0.03),
+        ("q back, largest error off the edges / mu p_0", turned.max() / most, 0.0, 0.03),
         ("loss of a cycle", second.dissipation, EQUAL.loss(highest), loss, "Ciavarella (1998), Jaeger (1998)"),
         ("area of the loop / loss", second.work / second.dissipation, 1.0, 1e-8, "first law"),
         ("second cycle: change of forces", second.change, 0.0, 1e-12, "the loop closes"),
         ("second loss / first", second.dissipation / first.dissipation, 1.0, 1e-10, "the loop closes"),
-    ):
-        yield Check(
-            case=case, quantity=quantity, computed=computed, reference=reference, tolerance=tolerance, source=words
-        )
+        source=source,
+    )
 
 
 def spence() -> Iterator[Check]:
@@ -82,49 +66,36 @@ def spence() -> Iterator[Check]:
         for friction in (0.4, 0.8):
             contact = solve(punch(curved=curved, friction=friction, spacing=spacing, closed=0.95)).contact("punch")
             x = contact.points[:, 0]
-            yield Check(
-                case=f"Spence, {'round' if curved else 'flat'} punch, node distance {spacing}",
-                quantity=f"c/a, mu {friction:g}",
-                computed=float(x[contact.status == "stick"].max() / x[contact.closed].max()),
-                reference=stick_ratio(friction, NU),
-                tolerance=0.02,
-                source="Spence (1973, 1975)",
+            ratio = x[contact.status == "stick"].max() / x[contact.closed].max()
+            yield from table(
+                f"Spence, {'round' if curved else 'flat'} punch, node distance {spacing}",
+                (f"c/a, mu {friction:g}", ratio, stick_ratio(friction, NU), 0.02, "Spence (1973, 1975)"),
             )
 
 
 def complete_contact() -> Iterator[Check]:
     """B07: a square block on a half-plane of its own material, cells from 1e-6 of its half-width at the corner."""
-    case = "square block on a half-plane, cells 1e-6 at the corner"
     bonded = solve(square_on_half_plane(friction="stick", finest=1e-6)).contact("contact")
     near = 1.0 - bonded.points[:, 0] > 8e-6  # the last nodes see the mesh, not the singularity
-    yield Check(
-        case=case,
-        quantity="largest |shear| / pressure towards the corner, bonded",
-        computed=float((np.abs(bonded.traction) / bonded.pressure)[near].max()),
-        reference=_BONDED,
-        tolerance=0.03,
-        source="eigenvalues of the bonded corner",
-    )
+    ratio = (np.abs(bonded.traction) / bonded.pressure)[near].max()
     rough = solve(square_on_half_plane(friction=0.6, finest=1e-6)).contact("contact")
-    yield Check(
-        case=case,
-        quantity="nodes that slip beside the corner's own, mu 0.6",
-        computed=float(rough.count("slip") + rough.count("open") - 1),
-        reference=0.0,
-        tolerance=0.0,
-        source="sticks above mu = 0.5431",
-    )
+    loose = rough.count("slip") + rough.count("open") - 1
     fine, coarse = (
         _slip_length(solve(square_on_half_plane(friction=0.5, finest=finest)).contact("contact"))
         for finest in (1e-6, 1e-4)
     )
-    yield Check(
-        case=case,
-        quantity="slip length, mu 0.5, against cells of 1e-4",
-        computed=fine,
-        reference=coarse,
-        tolerance=0.25,
-        source="slips below mu = 0.5431, over a length that no mesh decides",
+    length = "slips below mu = 0.5431, over a length that no mesh decides"
+    yield from table(
+        "square block on a half-plane, cells 1e-6 at the corner",
+        (
+            "largest |shear| / pressure towards the corner, bonded",
+            ratio,
+            _BONDED,
+            0.03,
+            "eigenvalues of the bonded corner",
+        ),
+        ("nodes that slip beside the corner's own, mu 0.6", loose, 0.0, 0.0, "sticks above mu = 0.5431"),
+        ("slip length, mu 0.5, against cells of 1e-4", fine, coarse, 0.25, length),
     )
 
 

@@ -20,7 +20,7 @@ from signorini.model.mesh import Mesh, join
 from signorini.model.model import Kind, Model
 from signorini.model.obstacle import Plane
 from signorini.reference.hertz import HertzLine, HertzPoint, contact_modulus
-from signorini.verify.check import Check
+from signorini.verify.check import Check, table
 
 _LINE = HertzLine(force=LINE_FORCE, radius=RADIUS, modulus=MODULUS)
 _POINT = HertzPoint(force=POINT_FORCE, radius=RADIUS, modulus=MODULUS)
@@ -54,20 +54,14 @@ def _contact(kind: Kind, cells: Cells, across: tuple[int, int]) -> Iterator[Chec
     order = np.argsort(contact.points[:, 0])
     x, pressure = contact.points[order, 0], contact.pressure[order]
     defect = (pressure - hertz.pressure(x))[x < _INSIDE] / hertz.peak_pressure
-    for quantity, computed, reference, tolerance in (
+    yield from table(
+        case,
         ("p_0", pressure[0], hertz.peak_pressure, 0.01),
         ("a, to a cell", contact.points[contact.closed, 0].max(), 1.0, SEAT / across[0]),
         ("largest error of p / p_0, x < 0.85 a", np.abs(defect).max(), 0.0, 0.015),
         ("oscillation of p / p_0 from node to node, x < 0.85 a", _oscillation(defect), 0.0, 0.005),
-    ):
-        yield Check(
-            case=case,
-            quantity=quantity,
-            computed=float(computed),
-            reference=reference,
-            tolerance=tolerance,
-            source="Johnson (1985), chapter 4",
-        )
+        source="Johnson (1985), chapter 4",
+    )
 
 
 def _oscillation(defect: Array) -> float:
@@ -97,11 +91,12 @@ def _axis(
 ) -> Iterator[Check]:
     worst = max(float(np.abs(one - other).max()) for one, other in zip(found, exact, strict=True))
     shear = [float(np.abs(across - along).max()) / 2.0 / hertz.peak_pressure for across, along in (found, exact)]
-    for quantity, computed, reference in (
-        ("largest error of the stresses / p_0, 0.2 a < z < 2 a", worst / hertz.peak_pressure, 0.0),
-        ("largest shear stress / p_0", shear[0], shear[1]),
-    ):
-        yield Check(case=case, quantity=quantity, computed=computed, reference=reference, tolerance=0.01, source=source)
+    yield from table(
+        case,
+        ("largest error of the stresses / p_0, 0.2 a < z < 2 a", worst / hertz.peak_pressure, 0.0, 0.01),
+        ("largest shear stress / p_0", shear[0], shear[1], 0.01),
+        source=source,
+    )
 
 
 def equal_spheres() -> Iterator[Check]:
@@ -120,18 +115,12 @@ def equal_spheres() -> Iterator[Check]:
         ("two that do not match", two, "upper"),
     ):
         found, by_approach, by_force = _centre(model, name, 4.0)
-        for quantity, peak, tolerance, source in (
-            ("for the approach of 4", by_approach, 0.05, "Hertz; Code_Aster SSNV104; a finite body is stiffer"),
-            ("for the force it takes", by_force, 0.03, "Hertz"),
-        ):
-            yield Check(
-                case=f"B03 equal spheres, a/R 0.2, {words}",
-                quantity=f"sigma_zz at the centre, {quantity}",
-                computed=found,
-                reference=peak,
-                tolerance=tolerance,
-                source=source,
-            )
+        known = "Hertz; Code_Aster SSNV104; a finite body is stiffer"
+        yield from table(
+            f"B03 equal spheres, a/R 0.2, {words}",
+            ("sigma_zz at the centre, for the approach of 4", found, by_approach, 0.05, known),
+            ("sigma_zz at the centre, for the force it takes", found, by_force, 0.03, "Hertz"),
+        )
 
 
 def small_equal_spheres() -> Iterator[Check]:
@@ -143,21 +132,14 @@ def small_equal_spheres() -> Iterator[Check]:
         found, by_approach, _ = _centre(_sphere_on_its_plane(mesh, approach), "disk", approach)
         excess[approach, cells] = found / by_approach - 1.0
     case = "B03 equal spheres, quad8: excess of sigma_zz at the centre over Hertz at the same approach"
-    for quantity, computed, reference, tolerance, source in (
+    yield from table(
+        case,
         ("a/R 0.2: change with cells of half the size", excess[4.0, 30] - excess[4.0, 15], 0.0, 0.003, "each other"),
         ("a/R 0.1", excess[1.0, 30], 0.0, 0.03, "Hertz"),
         ("a/R 0.05", excess[0.25, 30], 0.0, 0.015, "Hertz"),
         ("half as large where a/R is, 0.2 to 0.1", excess[1.0, 30] / excess[4.0, 30], 0.5, 0.2, "expansion in a/R"),
         ("half as large where a/R is, 0.1 to 0.05", excess[0.25, 30] / excess[1.0, 30], 0.5, 0.2, "expansion in a/R"),
-    ):
-        yield Check(
-            case=case,
-            quantity=quantity,
-            computed=float(computed),
-            reference=reference,
-            tolerance=tolerance,
-            source=source,
-        )
+    )
 
 
 def _half_sphere(spacing: float) -> Mesh:

@@ -8,7 +8,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.arrays import Array
 from signorini.engine.solve import solve
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
@@ -22,7 +21,7 @@ from signorini.model.mesh import join
 from signorini.model.model import Kind, Model
 from signorini.model.step import Step
 from signorini.solution.history import History
-from signorini.verify.check import Check
+from signorini.verify.check import Check, Row, farthest, table
 from signorini.verify.turned import rotation, turned
 
 _EXACT = 1e-9
@@ -48,27 +47,40 @@ def patch_p1() -> Iterator[Check]:
         straight = stacked_blocks(friction=0.3, cells=cells, across=across)
         history, case = solve(straight), f"P1 two blocks, {_say(cells, across)}"
         contact = history.contact("interface")
-        yield _farthest(case, "contact pressure", contact.pressure, 1e5, "exact")
-        yield _farthest(case, "u_y on the interface", history.last.displacement[contact.node, 1], -0.05, "exact")
-        history, case = solve(turned(straight, _TURN, (0.0, -0.05), pressed, corners)), f"{case}{_TURNED}"
-        yield _farthest(case, "contact pressure", history.contact("interface").pressure, 1e5, "exact")
-        yield _stress_error(case, history, (0.0, -1e5), _TURN)
+        sunk = farthest(history.last.displacement[contact.node, 1], -0.05)
+        yield from table(
+            case,
+            ("contact pressure", farthest(contact.pressure, 1e5), 1e5, _EXACT),
+            ("u_y on the interface", sunk, -0.05, _EXACT),
+            source="exact",
+        )
+        history = solve(turned(straight, _TURN, (0.0, -0.05), pressed, corners))
+        yield from table(
+            f"{case}{_TURNED}",
+            ("contact pressure", farthest(history.contact("interface").pressure, 1e5), 1e5, _EXACT),
+            _stress_error(history, (0.0, -1e5), _TURN),
+            source="exact",
+        )
 
 
 def patch_p2() -> Iterator[Check]:
     """P2: block on a foundation under one pressure."""
-    source, E, nu = "Taylor, Papadopoulos (1991)", 2000.0, 0.3
+    E, nu = 2000.0, 0.3
     pressed = [Load(side, pressure=25.0) for side in ("block.top", "foundation.free", "foundation.bottom")]
     strain = 25.0 * nu * (1.0 + nu) / E, -25.0 * (1.0 - nu**2) / E
     for cells, across in _MESHES:
         straight = block_on_foundation(friction=0.3, cells=cells, across=across)
         oblique = turned(straight, _TURN, strain, pressed, ((0.0, 0.0), (3.0, 0.0), (1.0, 2.0)))
         for model, angle, words in ((straight, 0.0, ""), (oblique, _TURN, _TURNED)):
-            history, case = solve(model), f"P2, {_say(cells, across)}{words}"
+            history = solve(model)
             contact = history.contact("interface")
-            yield _farthest(case, "contact pressure", contact.pressure, 25.0, source)
-            yield _stress_error(case, history, (0.0, -25.0), angle, source)
-            yield _farthest(case, "largest gap", contact.gap, 0.0, source)
+            yield from table(
+                f"P2, {_say(cells, across)}{words}",
+                ("contact pressure", farthest(contact.pressure, 25.0), 25.0, _EXACT),
+                _stress_error(history, (0.0, -25.0), angle),
+                ("largest gap", farthest(contact.gap, 0.0), 0.0, _EXACT),
+                source="Taylor, Papadopoulos (1991)",
+            )
 
 
 def patch_p4() -> Iterator[Check]:
@@ -89,10 +101,14 @@ def patch_p4() -> Iterator[Check]:
         oblique = turned(straight, _TURN, (xx, yy), [*straight.loads, *reactions], corners)
         for model, angle, words in ((straight, 0.0, ""), (oblique, _TURN, _TURNED)):
             history, case = solve(model), f"P4 four blocks, {cells}, {' : '.join(map(str, across))}{words}"
-            for names, exact in ((("southeast.left", "northeast.left"), 10.0), (("northwest.bottom",), 20.0)):
-                pressure = np.concatenate([history.contact(name).pressure for name in names])
-                yield _farthest(case, f"contact pressure, {exact:g}", pressure, exact, "exact")
-            yield _stress_error(case, history, (-10.0, -20.0), angle)
+            beside = [history.contact(name).pressure for name in ("southeast.left", "northeast.left")]
+            yield from table(
+                case,
+                ("contact pressure, 10", farthest(np.concatenate(beside), 10.0), 10.0, _EXACT),
+                ("contact pressure, 20", farthest(history.contact("northwest.bottom").pressure, 20.0), 20.0, _EXACT),
+                _stress_error(history, (-10.0, -20.0), angle),
+                source="exact",
+            )
 
 
 def patch_p5() -> Iterator[Check]:
@@ -110,21 +126,18 @@ def patch_p5() -> Iterator[Check]:
         case = f"P5 parabola, {kind}, {_say(cells, across)}{_TURNED if angle else ''}"
         history = solve(model)
         contact = history.contact("interface")
-        yield _farthest(case, "contact pressure", contact.pressure, 10.0, "exact")
-        yield _farthest(case, "friction / p", contact.traction / 10.0, 0.0, "exact")
-        yield _stress_error(case, history, (-10.0, -10.0), angle)
+        yield from table(
+            case,
+            ("contact pressure", farthest(contact.pressure, 10.0), 10.0, _EXACT),
+            ("friction / p", farthest(contact.traction / 10.0, 0.0), 0.0, _EXACT),
+            _stress_error(history, (-10.0, -10.0), angle),
+            source="exact",
+        )
         if cells == "quad8":
             simple = replace(model, contacts=[replace(model.contacts[0], coupling="node-to-segment")])
             wrong = np.abs(solve(simple).contact("interface").pressure / 10.0 - 1.0).max()
-            yield Check(
-                case=case,
-                quantity="error of the pressure, node to segment",
-                computed=float(wrong),
-                reference=0.01,
-                tolerance=0.0,
-                source="fails, as it should",
-                least=True,
-            )
+            row = ("error of the pressure, node to segment", wrong, 0.01, 0.0, "fails, as it should")
+            yield from table(case, row, least=True)
 
 
 def patch_p6() -> Iterator[Check]:
@@ -136,23 +149,11 @@ def patch_p6() -> Iterator[Check]:
         for share in (0.5, 0.99):
             contact = solve(_pushed(share * friction * normal, friction, cells, angle)).contact("interface")
             held, pressed = float(contact.tangential_force @ along[0]), float(contact.normal_force @ along[1])
-            yield Check(
-                case=f"P6 pushed block, T = {share:g} mu N, {words}",
-                quantity="friction / N",
-                computed=-held / pressed,
-                reference=share * friction,
-                tolerance=_EXACT,
-                source="equilibrium",
-            )
+            row = ("friction / N", -held / pressed, share * friction, _EXACT, "equilibrium")
+            yield from table(f"P6 pushed block, T = {share:g} mu N, {words}", row)
         history = solve(_pushed(1.01 * friction * normal, friction, cells, angle), raise_on_failure=False)
-        yield Check(
-            case=f"P6 pushed block, T = 1.01 mu N, {words}",
-            quantity="1 if no equilibrium is proved",
-            computed=float(history.status == "no_equilibrium"),
-            reference=1.0,
-            tolerance=0.0,
-            source="equilibrium",
-        )
+        row = ("1 if no equilibrium is proved", history.status == "no_equilibrium", 1.0, 0.0, "equilibrium")
+        yield from table(f"P6 pushed block, T = 1.01 mu N, {words}", row)
 
 
 def _pushed(push: float, friction: float, cells: Cells, angle: float) -> Model:
@@ -174,11 +175,14 @@ def patch_discs() -> Iterator[Check]:
     for cells, across in _MESHES:
         history = solve(_discs(cells, across))
         contact = history.contact("interface")
-        case = f"Axisymmetric discs, {_say(cells, across)}"
-        yield _farthest(case, "contact pressure", contact.pressure, 10.0, "exact")
         u, (r, z) = history.last.displacement, history.model.mesh.points.T
         wrong = np.abs(u - np.column_stack([0.003 * r, -0.01 * z])).max() / 0.015
-        yield _farthest(case, "largest error of u / largest u", np.array([wrong]), 0.0, "exact")
+        yield from table(
+            f"Axisymmetric discs, {_say(cells, across)}",
+            ("contact pressure", farthest(contact.pressure, 10.0), 10.0, _EXACT),
+            ("largest error of u / largest u", wrong, 0.0, _EXACT),
+            source="exact",
+        )
 
 
 def _discs(cells: Cells, across: tuple[int, int]) -> Model:
@@ -203,19 +207,11 @@ def _say(cells: Cells, across: tuple[int, int]) -> str:
     return f"{cells} {across[0]} : {across[1]}"
 
 
-def _stress_error(
-    case: str, history: History, stress: tuple[float, float], angle: float, source: str = "exact"
-) -> Check:
+def _stress_error(history: History, stress: tuple[float, float], angle: float) -> Row:
     """How far any nodal stress in the plane is from two principal ones, turned, over the larger one."""
     model, Q = history.model, rotation(angle)
     exact = Q.T @ np.diag(stress) @ Q
     space = make_space(model.mesh, axisymmetric=model.axisymmetric)
     found = np.vstack([b.stress for b in body_stresses(space, model, history.last.displacement)])[:, [0, 1, 3]]
     wrong = np.abs(found - [exact[0, 0], exact[1, 1], exact[0, 1]]).max() / np.abs(stress).max()
-    return _farthest(case, "largest error of the stress / its size", np.array([wrong]), 0.0, source)
-
-
-def _farthest(case: str, quantity: str, values: Array, exact: float, source: str) -> Check:
-    """The value that is farthest from what all should be."""
-    worst = float(values[np.argmax(np.abs(values - exact))])
-    return Check(case=case, quantity=quantity, computed=worst, reference=exact, tolerance=_EXACT, source=source)
+    return "largest error of the stress / its size", wrong, 0.0, _EXACT

@@ -20,7 +20,7 @@ from signorini.model.material import Elastic
 from signorini.model.mesh import join
 from signorini.model.model import Model
 from signorini.reference.corners import bonded_corner, frictionless_corner
-from signorini.verify.check import Check
+from signorini.verify.check import Check, table
 
 Make = Callable[[int, Cells], Model]
 
@@ -44,27 +44,27 @@ _LAWS: tuple[tuple[str, float | Literal["stick"], float], ...] = (
 def smooth_contact() -> Iterator[Check]:
     """Two blocks on meshes 2 : 3, the lower one heated unevenly, so that they part on half of their sides."""
     words, pressure = _SMOOTH[1]
-    yield _rate(f"contact {words}", _heated(pressure), "quad", (8, 16, 48), 1.0)
-    yield _rate(f"contact {words}", _heated(pressure), "quad8", (6, 12, 48), 1.5)
+    yield from _rate(f"contact {words}", _heated(pressure), "quad", (8, 16, 48), 1.0)
+    yield from _rate(f"contact {words}", _heated(pressure), "quad8", (6, 12, 48), 1.5)
 
 
 def smooth_contact_refined() -> Iterator[Check]:
-    """The same with every family, and pressed so hard that they stay together."""
+    """Two heated blocks with every family, and pressed so hard that they stay together."""
     for words, pressure in _SMOOTH:
         for cells, numbers, rate in _FAMILIES:
-            yield _rate(f"contact {words}", _heated(pressure), cells, numbers, rate)
+            yield from _rate(f"contact {words}", _heated(pressure), cells, numbers, rate)
 
 
 def corners() -> Iterator[Check]:
     """Half a square block on a larger one, even meshes: what the corner leaves of the rate."""
     for words, friction, exponent in _LAWS:
         for cells, numbers in _CORNERS:
-            yield _rate(f"{words} corner", _square(friction), cells, numbers, 1.0 + exponent, exactly=True)
+            yield from _rate(f"{words} corner", _square(friction), cells, numbers, 1.0 + exponent, exactly=True)
 
 
 def _rate(
     words: str, make: Make, cells: Cells, numbers: tuple[int, int, int], rate: float, *, exactly: bool = False
-) -> Check:
+) -> Iterator[Check]:
     """From the first to the second number of cells, against the third.
 
     Where errors are ``C n^-s`` the squared distances to the finest solution go as ``n^-2s - n_3^-2s`` (Galerkin).
@@ -77,12 +77,10 @@ def _rate(
         squares = [n ** (-2.0 * s) - third ** (-2.0 * s) for n in (first, second)]
         return float(np.sqrt(squares[0] / squares[1])) - ratio
 
-    return Check(
-        case=f"energy norm, {words}, {cells}",
-        quantity=f"rate from n = {numbers[0]} to {numbers[1]}, against {numbers[2]}",
-        computed=float(brentq(defect, 0.05, 6.0)),
-        reference=rate,
-        tolerance=0.1,
+    quantity = f"rate from n = {numbers[0]} to {numbers[1]}, against {numbers[2]}"
+    yield from table(
+        f"energy norm, {words}, {cells}",
+        (quantity, brentq(defect, 0.05, 6.0), rate, 0.1),
         source="1 + exponent of the corner's stress" if exactly else "order of the cells, at most 3/2 at a free edge",
         least=not exactly,
     )

@@ -8,7 +8,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.arrays import Array
 from signorini.engine.solve import solve
 from signorini.gallery.press_fit import press_fit
 from signorini.meshing.plane import Cells, annulus
@@ -19,7 +18,7 @@ from signorini.model.material import Elastic
 from signorini.model.mesh import join
 from signorini.model.model import Kind, Model
 from signorini.reference.lame import hollow_sphere, press_fit_pressure, thick_cylinder
-from signorini.verify.check import Check
+from signorini.verify.check import Check, farthest, table
 
 _SOURCE = "Lame; Timoshenko, Goodier section 28"
 _EXPANSION, _COLDER = 1e-3, -5.0
@@ -42,8 +41,8 @@ def press_fit_plane_strain() -> Iterator[Check]:
 
 
 def _press_fit(kind: Kind) -> Iterator[Check]:
-    pressure = solve(press_fit(kind=kind, n_radial=16, n_angular=48, friction=0.2)).contact("fit").pressure
-    yield _farthest(f"B09 press fit of two rings, {kind}", pressure, _fit(kind, 0.01), _SOURCE, tolerance=1e-3)
+    model = press_fit(kind=kind, n_radial=16, n_angular=48, friction=0.2)
+    yield from _worst_node(f"B09 press fit of two rings, {kind}", model, fit_pressure(kind, 0.01), 1e-3)
 
 
 def drawn_press_fits() -> Iterator[Check]:
@@ -51,9 +50,8 @@ def drawn_press_fits() -> Iterator[Check]:
     cases: tuple[tuple[Cells, tuple[int, int]], ...] = (("quad", (24, 36)), ("quad8", (8, 12)))
     for cells, along in cases:
         model = press_fit(kind="plane strain", n_radial=12, n_angular=along, cells=cells, interference=0.0, drawn=5e-4)
-        pressure = solve(model).contact("fit").pressure
         case = f"B09 press fit drawn with its overlap, {_say(cells, along)}"
-        yield _farthest(case, pressure, _fit("plane strain", 5e-4), _SOURCE, tolerance=2e-3)
+        yield from _worst_node(case, model, fit_pressure("plane strain", 5e-4), 2e-3)
 
 
 def shrink_fits() -> Iterator[Check]:
@@ -73,13 +71,8 @@ def shrink_fits() -> Iterator[Check]:
         )
         # in plane strain the length is held: the free strain across is (1 + nu) alpha T
         overlap = -2.0 * _EXPANSION * _COLDER * (1.3 if kind == "plane strain" else 1.0)
-        yield _farthest(
-            f"B09 shrink fit of two rings, {kind}, {_say(cells, along)}",
-            solve(cooled).contact("fit").pressure,
-            _fit(kind, overlap),
-            _SOURCE,
-            tolerance=1e-3,
-        )
+        case = f"B09 shrink fit of two rings, {kind}, {_say(cells, along)}"
+        yield from _worst_node(case, cooled, fit_pressure(kind, overlap), 1e-3)
 
 
 def hollow_bodies() -> Iterator[Check]:
@@ -93,17 +86,14 @@ def hollow_bodies() -> Iterator[Check]:
         for cells, along in _HALVES:
             model = _hollow("axisymmetric" if kind == "axisymmetric" else "plane strain", cells, along)
             contact = solve(model).contact("interface")
-            case = f"B09 {words} 20/30/40, {_say(cells, along)}"
-            source, exact = "Lame; Timoshenko, Goodier sections 28, 136", -float(radial[0])
-            yield Check(
-                case=case,
-                quantity="interface pressure, mean",
-                computed=float(contact.pressure @ contact.area / contact.area.sum()),
-                reference=exact,
-                tolerance=1e-3,
-                source=source,
+            exact = -float(radial[0])
+            yield from table(
+                f"B09 {words} 20/30/40, {_say(cells, along)}",
+                ("interface pressure, mean", contact.pressure @ contact.area / contact.area.sum(), exact, 1e-3),
+                # worst at the pole of a meridian
+                ("interface pressure, worst node", farthest(contact.pressure, exact), exact, 1e-2),
+                source="Lame; Timoshenko, Goodier sections 28, 136",
             )
-            yield _farthest(case, contact.pressure, exact, source, tolerance=1e-2)  # worst at the pole of a meridian
 
 
 def _hollow(kind: Kind, cells: Cells, along: int | tuple[int, int]) -> Model:
@@ -128,8 +118,8 @@ def _hollow(kind: Kind, cells: Cells, along: int | tuple[int, int]) -> Model:
     )
 
 
-def _fit(kind: Kind, interference: float) -> float:
-    """Of the rings 1..2 and 2..3 of the gallery."""
+def fit_pressure(kind: Kind, interference: float) -> float:
+    """Lame's pressure between the rings 1..2 and 2..3 of the gallery."""
     return press_fit_pressure(
         inner=1.0,
         interface=2.0,
@@ -145,13 +135,6 @@ def _say(cells: Cells, along: int | tuple[int, int]) -> str:
     return cells if isinstance(along, int) else f"{cells}, {along[0]} : {along[1]} cells"
 
 
-def _farthest(case: str, pressure: Array, exact: float, source: str, *, tolerance: float) -> Check:
-    worst = pressure[np.abs(pressure - exact).argmax()]
-    return Check(
-        case=case,
-        quantity="interface pressure, worst node",
-        computed=float(worst),
-        reference=exact,
-        tolerance=tolerance,
-        source=source,
-    )
+def _worst_node(case: str, model: Model, exact: float, tolerance: float) -> Iterator[Check]:
+    pressure = farthest(solve(model).contact("fit").pressure, exact)
+    yield from table(case, ("interface pressure, worst node", pressure, exact, tolerance, _SOURCE))

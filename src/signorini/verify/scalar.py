@@ -17,7 +17,7 @@ from skfem.models.poisson import laplace
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.lcp import solve
 from signorini.lcp.mixed import eliminate_free
-from signorini.verify.check import Check
+from signorini.verify.check import Check, table
 
 _OFF = 0.137
 """The end of contact lies inside a cell, on every mesh."""
@@ -29,30 +29,12 @@ def scalar_signorini() -> Iterator[Check]:
     """Rates in H1 for linear and quadratic triangles on a rectangle, by the two finest meshes."""
     for words, element, rate in (("P1", ElementTriP1(), 1.0), ("P2", ElementTriP2(), 1.5)):
         errors, wrong = np.transpose([_solved(n, element) for n in NUMBERS])
-        case, source = f"B11 Signorini for the Laplacian, {words}", "u in H^(5/2 - eps)"
-        yield Check(
-            case=case,
-            quantity=f"rate in H1, n = {NUMBERS[-2]} to {NUMBERS[-1]}",
-            computed=float(np.log2(errors[-2] / errors[-1])),
-            reference=rate,
-            tolerance=0.07,
-            source=source,
-        )
-        yield Check(
-            case=case,
-            quantity="error in H1 / |u|, finest mesh",
-            computed=float(errors[-1]),
-            reference=0.0,
-            tolerance=0.02,
-            source=source,
-        )
-        yield Check(
-            case=case,
-            quantity="farthest wrong contact from its end, in cells",
-            computed=float(wrong.max()),
-            reference=0.0,
-            tolerance=1.5,
-            source=source,
+        yield from table(
+            f"B11 Signorini for the Laplacian, {words}",
+            (f"rate in H1, n = {NUMBERS[-2]} to {NUMBERS[-1]}", np.log2(errors[-2] / errors[-1]), rate, 0.07),
+            ("error in H1 / |u|, finest mesh", errors[-1], 0.0, 0.02),
+            ("farthest wrong contact from its end, in cells", wrong.max(), 0.0, 1.5),
+            source="u in H^(5/2 - eps)",
         )
 
 
