@@ -8,7 +8,6 @@ import pytest
 from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 
-from signorini.bench.hard import hard_set
 from signorini.errors import InputError
 from signorini.friction import OPEN, solve_coulomb
 from signorini.friction.cone import cone_system
@@ -22,6 +21,7 @@ from signorini.friction.plane.walls import beyond, constant, jacobian, placed
 from signorini.friction.pull_away import pulled_away
 from signorini.friction.several import all_solutions, always_unique
 from signorini.friction.spatial import SpatialProblem, solve_spatial
+from signorini.gallery.hard import hard_set
 from signorini.law.bound import STEEP, FrictionBound
 from tests.helpers.coulomb_samples import HELD, answer, block_on_floor, for_all, random_problem
 from tests.helpers.path_samples import EqualBodies, Springs, increments, loads_at_breakpoints, one_node, stiff

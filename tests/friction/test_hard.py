@@ -4,7 +4,8 @@
 import numpy as np
 
 from signorini.bench.equilibria import equilibria
-from signorini.bench.hard import hard, hard_problem, hard_set
+from signorini.bench.hard import hard
+from signorini.gallery.hard import hard_problem, hard_set
 
 
 def test_every_step_is_answered():

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
-from signorini.bench.hard import hard_set
 from signorini.friction import CoulombProblem, CoulombSettings, certify, solve_coulomb
 from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED, split, states
 from signorini.friction.newton import newton
@@ -15,6 +14,7 @@ from signorini.friction.plane.covering import follow
 from signorini.friction.plane.restricted import released
 from signorini.friction.plane.state_tree import search
 from signorini.friction.plane.walls import beyond, columns, jacobian, walls
+from signorini.gallery.hard import hard_set
 from tests.helpers.coulomb_samples import answer, block_on_floor, for_all, random_problem
 
 

@@ -24,6 +24,8 @@ def stacked_blocks(*, friction: float = 0.0, cells: Cells = "quad", across: tupl
 
     Parameters
     ----------
+    friction : Coulomb's coefficient
+    cells : "quad", "quad8", "triangle", ...
     across : elements along the interface, of the upper (nonmortar) and of the lower block
     """
     mesh = join(
@@ -54,6 +56,8 @@ def block_on_foundation(*, friction: float = 0.0, cells: Cells = "quad", across:
 
     Parameters
     ----------
+    friction : Coulomb's coefficient
+    cells : "quad", "quad8", "triangle", ...
     across : elements along the interface, of the block (nonmortar) and of the foundation
     """
     foundation = rectangle(width=3.0, height=1.0, nx=3 * across[1], ny=3, cells=cells)
@@ -92,6 +96,8 @@ def curved_blocks(
     Parameters
     ----------
     kind : "plane strain" or "axisymmetric", where y is the axis
+    friction : Coulomb's coefficient
+    cells : "quad", "quad8", "triangle", ...
     across : elements along the interface, of the upper (nonmortar) and of the lower block
     angle : by which the blocks are turned, degrees
     """
@@ -164,22 +170,22 @@ def four_blocks(*, cells: Cells = "quad", across: tuple[int, int, int, int] = (3
     )
 
 
-def dragged_block(*, friction: float = 0.2, increments: int = 10, cells: Cells = "quad") -> Model:
+def dragged_block(*, friction: float = 0.2) -> Model:
     """A block held by contact alone: pressed, pushed from the side, and let go.
 
     The push is less than friction can carry, so that the block comes to rest with tractions that only history explains.
     """
     push = Load("left", traction=(0.3, 0.0), name="push")
     return Model(
-        rectangle(width=4.0, height=2.0, nx=16, ny=8, cells=cells),
+        rectangle(width=4.0, height=2.0, nx=16, ny=8),
         title="Block on a rough foundation",
         bodies=[Body("block", Elastic(E=100.0, nu=0.3))],
         loads=[Load("top", pressure=1.0, name="press"), push],
         contacts=[Contact("bottom", Plane(point=(0, 0), normal=(0, 1)), friction=friction, name="foundation")],
         steps=[
-            Step(name="press", scale={"press": 1.0}, increments=increments),
-            Step(name="push", scale={"push": 1.0}, increments=increments),
-            Step(name="let go", scale={"push": 0.0}, increments=increments),
+            Step(name="press", scale={"press": 1.0}, increments=10),
+            Step(name="push", scale={"push": 1.0}, increments=10),
+            Step(name="let go", scale={"push": 0.0}, increments=10),
         ],
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from signorini.meshing.solid import SolidCells, box
+from signorini.meshing.solid import box
 from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact
@@ -15,15 +15,16 @@ from signorini.model.model import Model
 from signorini.model.step import Step
 
 
-def cubes(lower: int, upper: int | None = None, *, friction: float = 0.3, cells: SolidCells = "hexahedron") -> Model:
+def cubes(lower: int, upper: int | None = None, *, friction: float = 0.3) -> Model:
     """A unit cube on another, its top moved down and aside in one increment: some pairs stick, some slip.
 
     Parameters
     ----------
-    lower, upper : cells along every edge; the same number where not given
+    lower, upper : cells along every edge; as many of the upper one where not given
+    friction : Coulomb's coefficient
     """
     grids = {name: np.linspace(0.0, 1.0, n + 1) for name, n in (("lower", lower), ("upper", upper or lower))}
-    parts = {name: box(x=x, y=x, z=x - (name == "lower"), cells=cells) for name, x in grids.items()}
+    parts = {name: box(x=x, y=x, z=x - (name == "lower")) for name, x in grids.items()}
     return Model(
         join(parts),
         title="A cube on a cube",
@@ -41,6 +42,7 @@ def cube_on_block(n: int, m: int, layers: int, *, friction: float = 0.2) -> Mode
     ----------
     n : cells along every edge of the cube
     m, layers : cells of the block along x and y, and along z
+    friction : Coulomb's coefficient
     """
     x, wide = np.linspace(0.0, 1.0, n + 1), np.linspace(-0.5, 1.5, m + 1)
     return Model(

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.gallery.half_planes import graded
-from signorini.meshing.plane import Cells, quarter_disk, rectangle
+from signorini.gallery.large_bodies import graded, with_seat
+from signorini.meshing.plane import quarter_disk, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
@@ -27,13 +27,12 @@ STEEL, ALUMINIUM = Elastic(E=210e3, nu=0.3), Elastic(E=70e3, nu=0.3)
 HERTZ = HertzLine(force=FORCE, radius=RADIUS, modulus=contact_modulus((210e3, 0.3), (70e3, 0.3)))
 
 
-def cylinder_on_block(
-    *, friction: float, across: tuple[int, int] = (40, 40), cells: Cells = "quad", steps: tuple[Step, ...] = (Step(),)
-) -> Model:
+def cylinder_on_block(*, friction: float, across: tuple[int, int], steps: tuple[Step, ...] = (Step(),)) -> Model:
     """The right half: two quarters of the cylinder, tied at its equator, a point load of 35000 N/mm on its top.
 
     Parameters
     ----------
+    friction : Coulomb's coefficient between cylinder and block
     across : cells of cylinder (nonmortar) and block along the 10 mm where they may touch
     steps : of the load history; "pole" is the load
 
@@ -42,14 +41,11 @@ def cylinder_on_block(
     >>> print(round(HERTZ.half_width, 5), round(HERTZ.peak_pressure, 2))
     6.21463 3585.36
     """
-    lower = quarter_disk(radius=RADIUS, contact_length=SEAT, contact_spacing=SEAT / across[0], cells=cells)
+    lower = quarter_disk(radius=RADIUS, contact_length=SEAT, contact_spacing=SEAT / across[0])
     upper = replace(lower, points=np.array(lower.points) * [1.0, -1.0] + [0.0, 2.0 * RADIUS])
     spacing = SEAT / across[1]
     x, depth = graded(SEAT, spacing, 0.5 * BLOCK), graded(4.0 * spacing, spacing, BLOCK)
-    block = rectangle(x=x, y=-depth[::-1], cells=cells)
-    (top,) = block.facets("top")
-    inside = block.points[top][:, :, 0].max(axis=1) <= SEAT * (1.0 + 1e-9)
-    block = replace(block, boundaries={**block.boundaries, "seat": top[inside]})
+    block = with_seat(rectangle(x=x, y=-depth[::-1]), "top", SEAT)
     return Model(
         join({"lower": lower, "upper": upper, "block": block}),
         title="FENET benchmark 1: cylinder on a block",

@@ -4,17 +4,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 
-from signorini.arrays import Array
+from signorini.gallery.large_bodies import bent, graded, with_seat
 from signorini.meshing.plane import Cells, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
 from signorini.model.material import Elastic
-from signorini.model.mesh import Mesh, join
+from signorini.model.mesh import join
 from signorini.model.model import Kind, Model
 from signorini.model.obstacle import Plane
 from signorini.model.step import Step
@@ -23,7 +23,7 @@ from signorini.reference.hertz import HertzLine, contact_modulus
 
 E, NU = 200.0, 0.3
 RADIUS, HALF_WIDTH, FRICTION = 5000.0, 1.2, 0.5
-"""Of each of two equal cylinders, and of their contact (in consistent units)."""
+"""Of each of two equal cylinders, and half-width and friction of their contact, in consistent units."""
 
 _MODULUS = contact_modulus((E, NU), (E, NU))
 _FORCE = float(np.pi * HALF_WIDTH**2 * _MODULUS / (4.0 * RADIUS / 2.0))
@@ -31,23 +31,7 @@ EQUAL = CattaneoMindlin(normal=HertzLine(force=_FORCE, radius=RADIUS / 2.0, modu
 """What two equal half-planes would do."""
 
 
-def graded(fine: float, spacing: float, far: float, growth: float = 1.15) -> Array:
-    """Grid lines from 0 to ``far``: equal up to ``fine``, then each cell ``growth`` times as long.
-
-    >>> graded(1.0, 0.5, 3.0, 2.0).tolist()
-    [0.0, 0.5, 1.0, 2.0, 3.0]
-    """
-    lines = list(np.linspace(0.0, fine, round(fine / spacing) + 1))
-    step = spacing * growth
-    while lines[-1] + 1.5 * step < far:
-        lines.append(lines[-1] + step)
-        step *= growth
-    return np.array([*lines, far])
-
-
-def equal_half_planes(
-    steps: Sequence[Step], *, spacing: float = 0.05, size: float = 20.0, friction: float = FRICTION
-) -> Model:
+def equal_half_planes(steps: Sequence[Step], *, spacing: float = 0.05, size: float = 20.0) -> Model:
     """Two equal cylinders as two blocks, their difference of height in the lower side of the upper one.
 
     The top of the upper block moves without turning; "press" and "pull" at factor 1 are P and mu P on it.
@@ -63,19 +47,19 @@ def equal_half_planes(
     x = np.concatenate([-right[:0:-1], right])
     y = a * graded(1.0, spacing, size / 2.0, 1.25)
     lower = rectangle(x=x, y=-y[::-1])
-    upper = _bent(rectangle(x=x, y=y), RADIUS / 2.0)
+    upper = bent(rectangle(x=x, y=y), RADIUS / 2.0)
     soft = Elastic(E=E, nu=NU)
     P = EQUAL.normal.force
     return Model(
-        join({"upper": _with_seat(upper, "bottom", 1.2 * a), "lower": _with_seat(lower, "top", 1.2 * a)}),
+        join({"upper": with_seat(upper, "bottom", 1.2 * a), "lower": with_seat(lower, "top", 1.2 * a)}),
         title="Two equal cylinders, pressed and pulled to and fro",
         bodies=[Body("upper", soft), Body("lower", soft)],
         supports=[Support("lower.bottom", u=(0.0, 0.0))],
         loads=[
             Load("upper.top", force=(None, -P), spread="displacement", name="press"),
-            Load("upper.top", force=(friction * P, None), spread="displacement", name="pull"),
+            Load("upper.top", force=(FRICTION * P, None), spread="displacement", name="pull"),
         ],
-        contacts=[Contact("upper.seat", "lower.seat", friction=friction, name="contact")],
+        contacts=[Contact("upper.seat", "lower.seat", friction=FRICTION, name="contact")],
         steps=steps,
     )
 
@@ -84,8 +68,7 @@ def punch(
     *,
     curved: bool,
     friction: float,
-    spacing: float = 0.01,
-    size: float = 20.0,
+    spacing: float,
     closed: float = 1.0,
     kind: Kind = "plane strain",
     cells: Cells = "quad",
@@ -95,19 +78,21 @@ def punch(
     Parameters
     ----------
     curved : the punch is round, and the force is such that the half-width of contact is about ``closed``
-    spacing : of the nodes on the punch
-    size : of the block
+    friction : Coulomb's coefficient
+    spacing : of the nodes on the punch, length
+    closed : half-width of contact, length
     kind : "axisymmetric": the block and the flat punch are round
+    cells : "quad", "quad8", "triangle", ...
     """
-    x = graded(1.0, spacing, size, 1.2)
-    mesh = rectangle(x=x, y=graded(0.2, spacing, size, 1.25), cells=cells)
+    x = graded(1.0, spacing, 20.0, 1.2)
+    mesh = rectangle(x=x, y=graded(0.2, spacing, 20.0, 1.25), cells=cells)
     radius = 20.0
     force = 1.0
     if curved:
-        mesh = _bent(mesh, radius)
+        mesh = bent(mesh, radius)
         force = float(np.pi * closed**2 * contact_modulus((E, NU)) / (4.0 * radius)) / 2.0
     return Model(
-        _with_seat(mesh, "bottom", 1.0),
+        with_seat(mesh, "bottom", 1.0),
         kind=kind,
         title="Elastic block on a rigid punch",
         bodies=[Body("block", Elastic(E=E, nu=NU))],
@@ -118,23 +103,22 @@ def punch(
     )
 
 
-def square_on_half_plane(*, friction: float | str, finest: float = 1e-4, size: float = 10.0) -> Model:
+def square_on_half_plane(*, friction: float | Literal["stick"], finest: float) -> Model:
     """Half of a square block 2 x 2 pressed on a large one of the same material: complete contact (benchmark B07).
 
     Parameters
     ----------
     friction : a number, or "stick"
     finest : length of the cells at the corner; they grow by 1.3 away from it
-    size : of the large block
     """
     towards = graded(4.0 * finest, finest, 1.0, 1.3)
     x = 1.0 - towards[::-1]
-    beyond = 1.0 + graded(4.0 * finest, finest, size - 1.0, 1.3)
-    up, down = graded(4.0 * finest, finest, 2.0, 1.3), graded(4.0 * finest, finest, size, 1.3)
+    beyond = 1.0 + graded(4.0 * finest, finest, 9.0, 1.3)
+    up, down = graded(4.0 * finest, finest, 2.0, 1.3), graded(4.0 * finest, finest, 10.0, 1.3)
     large = rectangle(x=np.concatenate([x, beyond[1:]]), y=-down[::-1])
     soft = Elastic(E=E, nu=NU)
     return Model(
-        join({"block": rectangle(x=x, y=up), "base": _with_seat(large, "top", 1.0)}),
+        join({"block": rectangle(x=x, y=up), "base": with_seat(large, "top", 1.0)}),
         title="Square block on a half-plane",
         bodies=[Body("block", soft), Body("base", soft)],
         supports=[
@@ -143,21 +127,6 @@ def square_on_half_plane(*, friction: float | str, finest: float = 1e-4, size: f
             Support("base.bottom", u=(None, 0.0)),
         ],
         loads=[Load("block.top", pressure=1.0, name="press")],
-        contacts=[Contact("block.bottom", "base.seat", friction=friction, name="contact")],  # type: ignore[arg-type]
+        contacts=[Contact("block.bottom", "base.seat", friction=friction, name="contact")],
         steps=[Step(name="press")],
     )
-
-
-def _bent(mesh: Mesh, radius: float) -> Mesh:
-    """A rectangle standing on y = 0 whose lower side rises by ``x^2 / 2 radius``; its upper side stays."""
-    points = np.array(mesh.points)
-    height = points[:, 1].max()
-    points[:, 1] += points[:, 0] ** 2 / (2.0 * radius) * (1.0 - points[:, 1] / height)
-    return replace(mesh, points=points)
-
-
-def _with_seat(mesh: Mesh, side: str, half_width: float) -> Mesh:
-    """The part of a boundary with ``|x| <= half_width`` as "seat"."""
-    (facets,) = mesh.facets(side)
-    inside = np.abs(mesh.points[facets][:, :, 0]).max(axis=1) <= half_width * (1.0 + 1e-9)
-    return replace(mesh, boundaries={**mesh.boundaries, "seat": facets[inside]})

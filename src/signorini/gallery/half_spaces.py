@@ -9,10 +9,9 @@ from typing import Literal
 
 import numpy as np
 
-from signorini.arrays import Array
-from signorini.gallery.half_planes import graded
+from signorini.gallery.large_bodies import bent, graded, quarter, upside_down, with_seat
 from signorini.meshing.plane import Cells, target
-from signorini.meshing.solid import SolidCells, box, extruded
+from signorini.meshing.solid import box, extruded
 from signorini.meshing.tetrahedra import tetrahedra
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
@@ -27,7 +26,7 @@ from signorini.reference.hertz_point import HertzPoint, MindlinPoint
 
 E, NU = 200.0, 0.3
 RADIUS, CONTACT_RADIUS = 100.0, 1.0
-"""Of a ball (a paraboloid), and of its contact, in consistent units."""
+"""Of a ball (a paraboloid), and of its contact, length."""
 
 FLOOR = Plane(point=(0.0, 0.0, 0.0), normal=(0.0, 0.0, 1.0))
 SOFT = Elastic(E=E, nu=NU)
@@ -60,15 +59,14 @@ def ball(
     angle : 90, 180 or 360 degrees
     size : radius and height of the bodies, in units of the contact radius
     """
-    upper = _bent(_cylinder(n, cells, angle, size), RADIUS)
-    sides = {"ball": _with_seat(upper, "bottom", 1.3)}
+    upper = bent(_cylinder(n, cells, angle, size), RADIUS)
+    sides = {"ball": with_seat(upper, "bottom", 1.3)}
     force = hertz(1 if block is None else 2).force * angle / 360.0
     contact = Contact("ball.seat", FLOOR, name="contact")
     supports = _symmetric("ball", angle)
     if block is not None:
-        below = _cylinder(block, cells, angle, size)
-        below = replace(below, points=below.points * (1.0, 1.0, -1.0))
-        sides["block"] = _with_seat(below, "bottom", 1.3 if block == n else 1.6)
+        below = upside_down(_cylinder(block, cells, angle, size))
+        sides["block"] = with_seat(below, "bottom", 1.3 if block == n else 1.6)
         contact = replace(contact, mortar="block.seat")
         supports += [*_symmetric("block", angle), Support("block.top", u=(None, None, 0.0))]
     if angle > 90.0:
@@ -84,21 +82,20 @@ def ball(
     )
 
 
-def round_punch(*, n: int = 8, size: float = 20.0, cells: Cells = "quad") -> Model:
-    """A quarter of an elastic cylinder pressed without friction on a flat rigid punch of radius 1, force 1 in all.
+def round_punch(*, n: int) -> Model:
+    """A quarter of an elastic cylinder 20 times as large pressed by 1 in all on a flat rigid punch of radius 1.
 
     Parameters
     ----------
     n : cells along half the side of the core, about 2 n to the radius of the punch; they shrink towards its edge
-    size : radius and height of the cylinder
     """
-    radii = [0.7, *(1.0 - 0.3 * 0.65 ** np.arange(1, n)), 1.0, *(1.0 + graded(0.01, 0.01, size - 1.0, 1.35)[1:])]
-    mesh = extruded(target(radii=radii, n=n, cells=cells), z=graded(0.06, 0.02, size, 1.35))
+    radii = [0.7, *(1.0 - 0.3 * 0.65 ** np.arange(1, n)), 1.0, *(1.0 + graded(0.01, 0.01, 19.0, 1.35)[1:])]
+    mesh = extruded(target(radii=radii, n=n), z=graded(0.06, 0.02, 20.0, 1.35))
     return Model(
-        join({"body": _with_seat(mesh, "bottom", 1.0)}),
+        join({"body": with_seat(mesh, "bottom", 1.0)}),
         title="Elastic body on a flat round punch",
         bodies=[Body("body", SOFT)],
-        supports=_symmetric("body", 90.0),
+        supports=quarter("body"),
         loads=[Load("body.top", force=(None, None, -0.25), spread="displacement", name="press")],
         contacts=[Contact("body.seat", FLOOR, name="punch")],
     )
@@ -108,9 +105,7 @@ EQUAL = MindlinPoint(normal=hertz(2), friction=0.5, shear_compliance=2.0 * (2.0 
 """Two equal bodies with friction, pressed and pulled."""
 
 
-def equal_half_spaces(
-    steps: Sequence[Step], *, spacing: float = 0.1, size: float = 10.0, cells: SolidCells = "hexahedron"
-) -> Model:
+def equal_half_spaces(steps: Sequence[Step], *, spacing: float) -> Model:
     """Half of two equal balls as two blocks, the difference of height in the upper one, pulled along x.
 
     The top of the upper block moves without turning; "press" and "pull" at factor 1 are P and mu P on it.
@@ -119,15 +114,14 @@ def equal_half_spaces(
     ----------
     steps : factors of "press" and "pull"; pull 1 is the onset of full sliding
     spacing : of the nodes where they touch, in units of the contact radius
-    size : of the blocks, in the same units
     """
-    right = graded(1.2, spacing, size / 2.0, 1.4)
-    x, z = np.concatenate([-right[:0:-1], right]), graded(2 * spacing, spacing, size / 2.0, 1.4)
-    upper = _bent(box(x=x, y=right, z=z, cells=cells), RADIUS)
-    lower = box(x=x, y=right, z=-z[::-1], cells=cells)
+    right = graded(1.2, spacing, 5.0, 1.4)
+    x, z = np.concatenate([-right[:0:-1], right]), graded(2 * spacing, spacing, 5.0, 1.4)
+    upper = bent(box(x=x, y=right, z=z), RADIUS)
+    lower = box(x=x, y=right, z=-z[::-1])
     P = EQUAL.normal.force / 2.0
     return Model(
-        join({"upper": _with_seat(upper, "bottom", 1.2), "lower": _with_seat(lower, "top", 1.2)}),
+        join({"upper": with_seat(upper, "bottom", 1.2), "lower": with_seat(lower, "top", 1.2)}),
         title="Two equal balls, pressed and pulled",
         bodies=[Body("upper", SOFT), Body("lower", SOFT)],
         supports=[
@@ -161,22 +155,7 @@ def _cylinder(n: int, cells: Cells | Literal["tetra10"], angle: float, size: flo
 def _symmetric(body: str, angle: float) -> list[Support]:
     """The planes of symmetry of a quarter or half."""
     if angle == 90.0:
-        return [Support(f"{body}.start", u=(None, 0.0, None)), Support(f"{body}.end", u=(0.0, None, None))]
+        return quarter(body)
     if angle == 180.0:
         return [Support(f"{body}.{side}", u=(None, 0.0, None)) for side in ("start", "end")]
     return []
-
-
-def _bent(mesh: Mesh, radius: float) -> Mesh:
-    """A body standing on z = 0 whose lower side rises by ``r^2 / 2 radius``; its upper side stays."""
-    points = np.array(mesh.points)
-    rise: Array = (points[:, :2] ** 2).sum(axis=1) / (2.0 * radius)
-    points[:, 2] += rise * (1.0 - points[:, 2] / points[:, 2].max())
-    return replace(mesh, points=points)
-
-
-def _with_seat(mesh: Mesh, side: Literal["bottom", "top"], radius: float) -> Mesh:
-    """The faces of a boundary within a distance of the axis as "seat"."""
-    (faces,) = mesh.facets(side)
-    inside = np.hypot(*mesh.points[faces][..., :2].T).T.max(axis=1) <= radius * (1.0 + 1e-9)
-    return replace(mesh, boundaries={**mesh.boundaries, "seat": faces[inside]})

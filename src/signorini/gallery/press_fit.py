@@ -30,7 +30,11 @@ def press_fit(
     Parameters
     ----------
     n_radial, n_angular : cells in each ring; along the fit one number, or those of shaft and hub
+    kind : "plane stress" or "plane strain"
+    interference : by which the shaft overlaps the bore, length
     drawn : by how much the shaft that is meshed is larger than the bore, length
+    friction : Coulomb's coefficient
+    cells : "quad", "quad8", "triangle", ...
     """
     along = (n_angular, n_angular) if isinstance(n_angular, int) else n_angular
     mesh = join(
@@ -55,7 +59,14 @@ def press_fit(
 def press_fit_in_space(
     *, n_radial: int = 4, n_angular: int | tuple[int, int] = 12, friction: float = 0.0, cells: Cells = "quad"
 ) -> Model:
-    """The same as a slab of thickness 1 whose faces stay plane: plane strain, and normals that turn with the fit."""
+    """A slab of `press_fit`, thickness 1, whose faces stay plane: plane strain, and normals that turn with the fit.
+
+    Parameters
+    ----------
+    n_radial, n_angular : cells in each ring; along the fit one number, or those of shaft and hub
+    friction : Coulomb's coefficient
+    cells : of the plane, "quad" or "quad8", which are raised to hexahedra
+    """
     flat = press_fit(n_radial=n_radial, n_angular=n_angular, kind="plane strain", friction=friction, cells=cells)
     return Model(
         extruded(flat.mesh, z=[0.0, 0.5, 1.0]),

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.gallery.half_planes import graded
+from signorini.gallery.large_bodies import graded, quarter, upside_down, with_seat
 from signorini.meshing.plane import Cells, target
 from signorini.meshing.solid import extruded
 from signorini.meshing.tetrahedra import tetrahedra
@@ -50,10 +50,9 @@ def hemisphere(*, radius: float, seat: float, n: int, cells: Cells = "quad") -> 
     spacing = 0.5 * core / n
     rings = core + graded(seat - core, spacing, _CAP * radius - core, 1.3)[1:]
     mesh = extruded(target(radii=[core, *rings], n=n, cells=cells), z=graded(2.0 * spacing, spacing, radius, 1.3))
-    (faces,) = mesh.facets("bottom")
-    inside = np.hypot(*mesh.points[faces][..., :2].T).T.max(axis=1) <= seat * (1.0 + 1e-9)
-    boundaries = {name: mesh.boundaries[name] for name in ("start", "end", "top")}
-    return replace(mesh, points=_rounded(mesh.points, radius), boundaries={**boundaries, "seat": faces[inside]})
+    mesh = with_seat(mesh, "bottom", seat)
+    boundaries = {name: mesh.boundaries[name] for name in ("start", "end", "top", "seat")}
+    return replace(mesh, points=_rounded(mesh.points, radius), boundaries=boundaries)
 
 
 def equal_spheres(*, approach: float, n: int = 4, other: int | None = None, cells: Cells = "quad") -> Model:
@@ -69,12 +68,11 @@ def equal_spheres(*, approach: float, n: int = 4, other: int | None = None, cell
     parts = {"upper": hemisphere(radius=RADIUS, seat=seat, n=n, cells=cells)}
     contact = Contact("upper.seat", Plane(point=(0.0, 0.0, 0.0), normal=(0.0, 0.0, 1.0)), name="contact")
     if other is not None:
-        lower = hemisphere(radius=RADIUS, seat=seat, n=other, cells=cells)
-        parts["lower"] = replace(lower, points=lower.points * (1.0, 1.0, -1.0))
+        parts["lower"] = upside_down(hemisphere(radius=RADIUS, seat=seat, n=other, cells=cells))
         contact = replace(contact, mortar="lower.seat")
     supports = []
     for name, moved in zip(parts, (-0.5 * approach, 0.5 * approach), strict=False):
-        supports += [Support(f"{name}.start", u=(None, 0.0, None)), Support(f"{name}.end", u=(0.0, None, None))]
+        supports += quarter(name)
         supports.append(Support(f"{name}.top", u=(None, None, moved)))
     return Model(
         join(parts),
@@ -85,23 +83,22 @@ def equal_spheres(*, approach: float, n: int = 4, other: int | None = None, cell
     )
 
 
-def hollow_spheres(*, n: tuple[int, int], layers: int = 2, cells: Cells | Literal["tetra10"] = "quad8") -> Model:
-    """An eighth of a hollow sphere of two parts under a pressure inside: radii 20, 30 and 40.
+def hollow_spheres(*, n: tuple[int, int], cells: Cells | Literal["tetra10"] = "quad8") -> Model:
+    """An eighth of a hollow sphere of two parts, each of two layers, under a pressure inside: radii 20, 30 and 40.
 
     Parameters
     ----------
     n : cells along half an edge of an octant, of the inner and the outer part
-    layers : of either, from inside to outside
     cells : "quad" (hexahedra of 8 nodes), "quad8" (20), "quad9" (27), or "tetra10", six to a hexahedron
     """
     middle = 0.5 * (WALL["inner"] + WALL["outer"])
     parts = {
-        "inner": _octant(WALL["inner"], middle, n[0], layers, cells),
-        "outer": _octant(middle, WALL["outer"], n[1], layers, cells),
+        "inner": _octant(WALL["inner"], middle, n[0], cells),
+        "outer": _octant(middle, WALL["outer"], n[1], cells),
     }
     supports = []
     for name in parts:
-        supports += [Support(f"{name}.start", u=(None, 0.0, None)), Support(f"{name}.end", u=(0.0, None, None))]
+        supports += quarter(name)
         supports.append(Support(f"{name}.outer", u=(None, None, 0.0)))
     return Model(
         join(parts),
@@ -113,11 +110,11 @@ def hollow_spheres(*, n: tuple[int, int], layers: int = 2, cells: Cells | Litera
     )
 
 
-def _octant(inner: float, outer: float, n: int, layers: int, cells: Cells | Literal["tetra10"]) -> Mesh:
+def _octant(inner: float, outer: float, n: int, cells: Cells | Literal["tetra10"]) -> Mesh:
     """An eighth of a shell between two radii: a quarter of a disk, its radius the angle from the z axis."""
     plane: Cells = "quad9" if cells == "tetra10" else cells
     disk = target(radii=np.linspace(0.45, 1.0, n + 1), n=n, cells=plane)
-    mesh = extruded(disk, z=np.linspace(inner, outer, layers + 1))
+    mesh = extruded(disk, z=np.linspace(inner, outer, 3))
     if cells == "tetra10":
         mesh = tetrahedra(mesh)
     x, y, radius = mesh.points.T

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Literal
 
 import numpy as np
 from scipy.optimize import minimize_scalar
@@ -44,7 +45,7 @@ def _share(contact: ContactResult, *, revolved: bool) -> float:
 def corner_exponents() -> Iterator[Check]:
     """How the pressure grows towards the corner: a fit over 3e-5 < r < 1e-3 of the half-width, cells of 1e-6 there."""
     bonded, weaker = bonded_corner(np.pi / 2)
-    cases: tuple[tuple[str, float | str, float, float | None], ...] = (
+    cases: tuple[tuple[str, float | Literal["stick"], float, float | None], ...] = (
         ("bonded", "stick", bonded, weaker),
         ("frictionless", 0.0, frictionless_corner(np.pi / 2), None),
     )
