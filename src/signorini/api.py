@@ -27,7 +27,6 @@ from signorini.output.checkpoint import read_checkpoint, write_checkpoint
 from signorini.output.fields import Fields
 from signorini.output.folder import ARCHIVE
 from signorini.output.frd import write_frd
-from signorini.output.picture import check_png, write_pixels
 from signorini.output.series import write_pvd
 from signorini.output.table import history_table
 from signorini.output.vtu import write_bodies
@@ -36,7 +35,7 @@ from signorini.plot.contact import draw_contacts
 from signorini.plot.escape import plot_escape
 from signorini.plot.picture_data import HistoryData
 from signorini.plot.style import literal
-from signorini.plot.view import render_view
+from signorini.plot.view import write_view
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.history import History
 
@@ -145,8 +144,7 @@ class Solution(History):
         InputError
             If PyVista is not installed, the model is plane, nothing was solved, or the name ends otherwise.
         """
-        target = check_png(Path(path))
-        write_pixels(render_view(HistoryData(self, self._fields)), target)
+        write_view(HistoryData(self, self._fields), Path(path))
 
     def plot_escape(self) -> Figure:
         """Draw the motion along which bodies run away, where no equilibrium was found because of it.

@@ -59,7 +59,7 @@ def test_a_run_makes_one_space_and_the_stresses_of_every_step_once(
 
     for name in ("make_space", "body_stresses", "point_stresses"):
         monkeypatch.setattr(fields, name, counted(name))
-    monkeypatch.setattr("signorini.output.folder._SHARE", -1.0)  # of the time: nothing is written before the end
+    monkeypatch.setattr("signorini.output.folder._MAX_KEEP_SHARE", -1.0)  # nothing is written before the end
     deck, out = tmp_path / "press.inp", tmp_path / "out"
     deck.write_text(DECK.format(steps="".join(STEP.format(u=u) for u in (-0.1, -0.2, -0.3))))
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0

@@ -144,7 +144,7 @@ def test_what_is_finished_is_on_disk_while_later_steps_run(
     steps = [{"scale": {"top": factor}} for factor in (1.0, 0.5, 0.8, 0.2)]
     deck.write_text(block_deck(steps=steps))
     out, publish = tmp_path / "out", module.Publisher.publish
-    monkeypatch.setattr(module, "_SHARE", 1e9)  # of the time: every step
+    monkeypatch.setattr(module, "_MAX_KEEP_SHARE", 1e9)  # of the time: every step
 
     def copied(self: module.Publisher, history: sg.Solution) -> list[Path]:
         files = publish(self, history)

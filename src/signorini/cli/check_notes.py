@@ -13,10 +13,10 @@ from signorini.engine.prepare import Examined
 from signorini.model.model import Model
 from signorini.model.stage import stages
 
-_SAME = 1e-9  # of the size: nodes that are nearer lie at one place
-_FAR = 0.05  # of the size: contacts that are farther apart hardly mean to touch
-_SHOWN = 3  # numbers in a note
-_APART = 1e5  # between moduli: a factor that no two solids have
+_SAME_PLACE_TOL = 1e-9  # of the size: nodes that are nearer lie at one place
+_MAX_OPENING = 0.05  # of the size: contacts that start farther apart hardly mean to touch
+_MAX_NUMBERS = 3  # of nodes in a note
+_MAX_MODULUS_RATIO = 1e5  # a factor that no two solids have between their moduli
 # Young's moduli of metals in Pa and MPa, the sizes that go with them, densities that go with them
 _METALS = (
     ("Pa", (3e10, 6e11), "m", (1e-4, 50.0), (1e2, 1e5)),
@@ -38,7 +38,7 @@ def mesh_notes(model: Model) -> Iterator[str]:
         body[cells] = owner[first : first + len(cells), None]
         first += len(cells)
     size = float(np.ptp(mesh.points, axis=0).max())
-    pairs = KDTree(mesh.points[used]).query_pairs(_SAME * size, output_type="ndarray")
+    pairs = KDTree(mesh.points[used]).query_pairs(_SAME_PLACE_TOL * size, output_type="ndarray")
     pairs = used[pairs[body[used[pairs[:, 0]]] == body[used[pairs[:, 1]]]]] if len(pairs) else pairs
     if len(pairs):
         a, b = labels[pairs[0]]
@@ -55,7 +55,7 @@ def unit_notes(model: Model) -> Iterator[str]:
     size = float(np.ptp(model.mesh.points, axis=0).max())
     moduli = {body.name: body.material.smallest_modulus for body in model.bodies}
     softest, stiffest = min(moduli, key=lambda name: moduli[name]), max(moduli, key=lambda name: moduli[name])
-    if moduli[stiffest] > _APART * moduli[softest]:
+    if moduli[stiffest] > _MAX_MODULUS_RATIO * moduli[softest]:
         apart = moduli[stiffest] / moduli[softest]
         yield f"the moduli of '{softest}' and '{stiffest}' are {apart:.1g} times apart: units?"
     for body in model.bodies:
@@ -96,10 +96,10 @@ def far_notes(examined: Examined) -> Iterator[str]:
     size = float(np.ptp(examined.model.mesh.points, axis=0).max())
     for i, contact in enumerate(examined.model.contacts):
         gap = examined.interface.gap[examined.interface.contact == i]
-        if len(gap) and gap.min() > _FAR * size:
+        if len(gap) and gap.min() > _MAX_OPENING * size:
             yield f"contact '{contact.label}' starts far open: by {gap.min() / size:.0%} of the model's size"
 
 
 def _some(numbers: IntArray) -> str:
-    more = ", ..." if len(numbers) > _SHOWN else ""
-    return ", ".join(str(number) for number in numbers[:_SHOWN]) + more
+    more = ", ..." if len(numbers) > _MAX_NUMBERS else ""
+    return ", ".join(str(number) for number in numbers[:_MAX_NUMBERS]) + more

@@ -16,8 +16,7 @@ from signorini.fem.rigid import describe_motions
 from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.step import Step
-from signorini.output.align import align
-from signorini.output.table import spell_vector
+from signorini.output.table import align, spell_vector
 
 Rows = list[tuple[str, ...]]
 

@@ -17,7 +17,7 @@ from signorini.errors import InputError, SolveFailed
 
 DONE, FAILED, WRONG_INPUT, NO_SOLUTION, INTERRUPTED = 0, 1, 2, 3, 130
 
-_LESS = "expected a coarser mesh, --backend iterative, or more memory"
+_MEMORY_ADVICE = "expected a coarser mesh, --backend iterative, or more memory"
 
 _COMMANDS = {
     "signorini.cli.deck_commands": ("run", "check", "convert"),
@@ -66,7 +66,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
         held, free = (f"{size / 1e9:.3g} GB" for size in (peak_memory(), available_memory()))
         asked = f" ({error})" if str(error) else ""
-        return _say(f"signorini: out of memory{asked}: {held} were held, {free} are free; {_LESS}", FAILED)
+        return _say(f"signorini: out of memory{asked}: {held} were held, {free} are free; {_MEMORY_ADVICE}", FAILED)
     except Exception as error:  # the last resort: a user never sees a traceback unasked
         if options.debug:
             traceback.print_exc()

@@ -9,15 +9,18 @@ from typing import Any
 
 from signorini._version import __version__
 
-_ABOUT = "Frictional elastic contact by finite elements and linear complementarity."
-_EXIT = """exit codes: 0 done (run: solved and certified), 2 the input is wrong, 3 no certified solution,
+_PURPOSE = "Frictional elastic contact by finite elements and linear complementarity."
+_EXITS = """exit codes: 0 done (run: solved and certified), 2 the input is wrong, 3 no certified solution,
 1 a check failed or an internal error, 130 interrupted"""
 
 
 def make_parser() -> argparse.ArgumentParser:
     """The parser of ``signorini``; the chosen command is in ``command``."""
     parser = argparse.ArgumentParser(
-        prog="signorini", description=_ABOUT, epilog=_EXIT, formatter_class=argparse.RawDescriptionHelpFormatter
+        prog="signorini",
+        description=_PURPOSE,
+        epilog=_EXITS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="version", version=f"signorini {__version__}")
     shared = argparse.ArgumentParser(add_help=False)

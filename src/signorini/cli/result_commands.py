@@ -8,12 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from signorini.errors import InputError
-from signorini.output.align import align
 from signorini.output.archive import read_archive
 from signorini.output.atomic_write import atomic_write
 from signorini.output.compare import compare
 from signorini.output.folder import ARCHIVE
-from signorini.output.picture import write_pixels
+from signorini.output.table import align
 from signorini.plot.contact import draw_contacts
 from signorini.plot.escape import plot_escape
 from signorini.plot.field import draw_mesh, draw_stress
@@ -21,7 +20,7 @@ from signorini.plot.history import draw_history
 from signorini.plot.result_folder import ResultFolder
 from signorini.plot.solid import draw_solid_mesh, draw_solid_stress
 from signorini.plot.style import literal
-from signorini.plot.view import render_view
+from signorini.plot.view import write_view
 from signorini.solution.history import History
 
 if TYPE_CHECKING:
@@ -40,7 +39,7 @@ def plot(options: argparse.Namespace) -> int:
     if options.file and not file.parent.is_dir():
         raise InputError(f"there is no folder '{file.parent}'", where=("-o",))
     if options.what == "view":
-        write_pixels(render_view(folder), file)
+        write_view(folder, file)
     else:
         figure = literal(_draw(folder, options.what))
         with atomic_write(file) as aside:

@@ -14,9 +14,9 @@ from signorini.clock import Listener
 from signorini.errors import InputError
 from signorini.output.atomic_write import atomic_write
 
-_HEAD = ("passed", "computed", "reference", "error", "tolerance", "case, quantity; source")
-_WIDTH = 12
-_BENCH = (
+_VERIFY_COLUMNS = ("passed", "computed", "reference", "error", "tolerance", "case, quantity; source")
+_COLUMN_WIDTH = 12  # letters
+_BENCH_COLUMNS = (
     "name",
     "dofs",
     "contact_pairs",
@@ -40,7 +40,7 @@ def verify(options: argparse.Namespace) -> int:
 
     cases: list[Mapping[str, Any]] = []
     with progress_bar() as tell:
-        print(_line(_HEAD))
+        print(_line(_VERIFY_COLUMNS))
         for case in run(slow=options.all, begin=_beginning(tell)):
             if not cases or case["case"] != cases[-1]["case"]:
                 print(case["case"])
@@ -69,7 +69,7 @@ def bench(options: argparse.Namespace) -> int:
                 print(result["words"], flush=True)
     timed = [result for result in results if "ratio" in result]
     if timed:
-        _print(timed, _BENCH)
+        _print(timed, _BENCH_COLUMNS)
     _write(results, file)
     return 0
 
@@ -81,7 +81,7 @@ def _beginning(tell: Listener | None) -> Callable[[str, int, int], None]:
 
 def _line(row: Sequence[str], *words: str) -> str:
     """A row of the table of `verify`, which stands on its own: numbers in columns, then words."""
-    return "  ".join(("", *(word.rjust(_WIDTH) for word in row), "; ".join(words))).rstrip()
+    return "  ".join(("", *(word.rjust(_COLUMN_WIDTH) for word in row), "; ".join(words))).rstrip()
 
 
 def _json_file(name: str | None) -> Path | None:

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 _FORMAT = "signorini archive 3"
 _STRUCTURE, _END = "structure", "end"  # the text, and what is another one after every step
-_SEAL = 512  # bytes: the smallest user block that HDF5 has
-_FROM = 65536  # bytes: smaller arrays are not worth compressing
+_SEAL_SIZE = 512  # bytes: the smallest user block that HDF5 has
+_MIN_COMPRESSED = 65536  # bytes: smaller arrays are not worth compressing
 
 
 def write_archive(history: History, path: Path) -> None:
@@ -59,7 +59,7 @@ class GrowingArchive:
         with atomic_write(path) as aside:
             if last is not None:
                 shutil.copyfile(last, aside)
-            new: dict[str, Any] = {"mode": "w", "userblock_size": _SEAL} if last is None else {"mode": "a"}
+            new: dict[str, Any] = {"mode": "w", "userblock_size": _SEAL_SIZE} if last is None else {"mode": "a"}
             with _closing(h5py.File(aside, **new)) as file:
                 self._known = {key: name for key, name in self._known.items() if not name.startswith(f"{_END}/")}
                 for old in (_END, _STRUCTURE):
@@ -87,13 +87,13 @@ def _put_seal(path: Path) -> None:
     with path.open("r+b") as file:
         seal = _seal(file)
         file.seek(0)
-        file.write(seal.ljust(_SEAL))
+        file.write(seal.ljust(_SEAL_SIZE))
 
 
 def _seal(file: IO[bytes]) -> bytes:
     """A digest of what follows the user block, in letters."""
     found = hashlib.blake2b(_FORMAT.encode(), digest_size=32)
-    file.seek(_SEAL)
+    file.seek(_SEAL_SIZE)
     for part in iter(lambda: file.read(2**24), b""):
         found.update(part)
     return found.hexdigest().encode()
@@ -103,7 +103,7 @@ def _write(file: h5py.File, name: str, array: AnyArray) -> None:
     import h5py
 
     data = array.astype(h5py.string_dtype()) if array.dtype.kind == "U" else array
-    small = array.nbytes < _FROM or array.dtype.kind == "U"
+    small = array.nbytes < _MIN_COMPRESSED or array.dtype.kind == "U"
     file.create_dataset(name, data=data, **({} if small else {"compression": "gzip", "compression_opts": 1}))
 
 
@@ -129,8 +129,8 @@ def read_archive(path: Path) -> History:
 
     if not path.is_file():
         raise InputError(f"there is no file '{path}'; expected an archive that a run has written")
-    with path.open("rb") as sealed_file:
-        if sealed_file.read(_SEAL).rstrip() != _seal(sealed_file):  # damage can hang HDF5 itself, which must not see it
+    with path.open("rb") as sealed_file:  # damage can hang HDF5 itself, which must not see it
+        if sealed_file.read(_SEAL_SIZE).rstrip() != _seal(sealed_file):
             raise InputError(f"'{path}' is no archive, damaged, or of another version; expected '{_FORMAT}'")
     check_hdf5(path)
     try:

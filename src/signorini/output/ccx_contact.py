@@ -9,7 +9,7 @@ from signorini.arrays import Array, padded
 from signorini.model.contact import Contact
 from signorini.solution.results import ContactResult
 
-_ALONG = 1.0 - 1.5231e-6  # of a normal to the x axis, from which CalculiX takes another axis
+_X_TANGENT_LIMIT = 1.0 - 1.5231e-6  # x component of a normal: beyond it CalculiX derives tangents from the z axis
 
 
 def slave_values(contact: Contact, result: ContactResult) -> Array:
@@ -39,7 +39,7 @@ def tangents(normals: Array) -> Array:
     >>> tangents(np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])).tolist()
     [[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]]
     """
-    axis = np.where((np.abs(normals[:, 0]) > _ALONG)[:, None], np.eye(3)[2], np.eye(3)[0])
+    axis = np.where((np.abs(normals[:, 0]) > _X_TANGENT_LIMIT)[:, None], np.eye(3)[2], np.eye(3)[0])
     first = axis - np.sum(axis * normals, axis=1)[:, None] * normals
     first /= np.linalg.norm(first, axis=1)[:, None]
     return np.stack([first, np.cross(normals, first)], axis=1) + 0.0

@@ -40,8 +40,8 @@ _HOMES = (
     "signorini.solution.state",
 )
 _MARK = "$"
-_DIGEST = 16  # bytes: enough to find damage; who forges a file makes the digests anew
-_SMALL = 32  # entries: smaller arrays stay in the text
+_DIGEST_SIZE = 16  # bytes: enough to find damage; who forges a file makes the digests anew
+_MAX_INLINE = 32  # entries: smaller arrays stay in the text
 
 
 @cache
@@ -74,7 +74,7 @@ def to_plain(value: Any, path: str, keep: Callable[[str, AnyArray], str]) -> Any
         return value.item()
     if isinstance(value, np.ndarray):
         told = {_MARK: "array", "dtype": value.dtype.str}
-        if value.size <= _SMALL:
+        if value.size <= _MAX_INLINE:
             return told | {"shape": list(value.shape), "of": value.ravel().tolist()}
         return told | {"digest": digest(value), "path": keep(path, value)}
     if isinstance(value, list | tuple | frozenset):
@@ -146,7 +146,7 @@ def digest(array: AnyArray) -> str:
     >>> digest(np.zeros(2)) == digest(np.zeros((2, 1)))
     False
     """
-    found = hashlib.blake2b(f"{array.dtype.str}{array.shape}".encode(), digest_size=_DIGEST)
+    found = hashlib.blake2b(f"{array.dtype.str}{array.shape}".encode(), digest_size=_DIGEST_SIZE)
     found.update(np.ascontiguousarray(array).tobytes())
     return found.hexdigest()
 
@@ -176,7 +176,7 @@ def unsealed(text: str) -> Any:
 
 
 def _seal(text: str) -> str:
-    return hashlib.blake2b(text.encode("utf-8", "surrogatepass"), digest_size=_DIGEST).hexdigest()
+    return hashlib.blake2b(text.encode("utf-8", "surrogatepass"), digest_size=_DIGEST_SIZE).hexdigest()
 
 
 def _safe(key: Any) -> str:

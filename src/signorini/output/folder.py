@@ -35,14 +35,14 @@ try:
 except ImportError:  # Windows has no such module; two runs into one folder are not told apart there
     fcntl = None  # type: ignore[assignment]
 
-_SHARE = 0.1  # of the time: what writing finished steps may take while others wait
-_ASIDE = ".writing-"  # begins the names of folders in which files are written before they appear
-_OURS = re.compile(
+_MAX_KEEP_SHARE = 0.1  # of the time: more than that a run does not spend on writing what is finished while steps wait
+_ASIDE_PREFIX = ".writing-"  # of folders in which files are written before they appear
+_OWN_NAMES = re.compile(
     r"(summary\.json|(contact|history)\.csv|state\.npz|solution(_\d{4,})?\.vtu|contact\.(vtu|pvd)|"
     r"solution\.(pvd|h5|frd|dat)|"
     r"(contact|stress|mesh|view|history)\.png)"
 )
-_FIELD = re.compile(r"(solution|contact)_\d{4,}_\d{4,}\.vtu")
+_OWN_FIELD_NAMES = re.compile(r"(solution|contact)_\d{4,}_\d{4,}\.vtu")
 
 SUMMARY = "summary.json"
 """What tells of a run, in a result folder."""
@@ -91,7 +91,7 @@ def own_folder(path: Path, deck: str) -> Iterator[Path]:
             raise InputError(
                 f"the folder '{folder}' holds the results of another deck, '{other}'; expected a folder of its own (-o)"
             )
-        for left in folder.glob(f"{_ASIDE}*"):  # of a run that was killed while it wrote
+        for left in folder.glob(f"{_ASIDE_PREFIX}*"):  # of a run that was killed while it wrote
             shutil.rmtree(left, ignore_errors=True)
         yield folder
 
@@ -153,7 +153,7 @@ class Publisher:
         Every step that takes ten times as long as writing is on disk at its end; faster ones some at a time.
         """
         begin = time.perf_counter()
-        if self._spent > _SHARE * (begin - self.started):
+        if self._spent > _MAX_KEEP_SHARE * (begin - self.started):
             return
         first = not self._written
         try:
@@ -193,7 +193,7 @@ class Publisher:
 
     def _publish(self, history: History) -> list[Path]:
         folder, running = self.folder, history.status == RUNNING
-        with tempfile.TemporaryDirectory(dir=folder, prefix=_ASIDE) as name:
+        with tempfile.TemporaryDirectory(dir=folder, prefix=_ASIDE_PREFIX) as name:
             aside = Path(name)
             with (self.clock.spending if running else self.clock.phase)("output"):
                 names = self._growing(history, aside) if running else self._everything(history, aside)
@@ -239,12 +239,12 @@ def _clear(folder: Path) -> None:
     """Remove what an earlier run has left, and nothing else; the summary first, for it speaks of the rest."""
     (folder / SUMMARY).unlink(missing_ok=True)
     for old in folder.iterdir():
-        if _OURS.fullmatch(old.name):
+        if _OWN_NAMES.fullmatch(old.name):
             old.unlink()
     fields = folder / FIELDS
     if fields.is_dir():
         for old in fields.iterdir():
-            if _FIELD.fullmatch(old.name):
+            if _OWN_FIELD_NAMES.fullmatch(old.name):
                 old.unlink()
         if not any(fields.iterdir()):
             fields.rmdir()

@@ -26,7 +26,7 @@ _TYPES = {
 # in .frd the upright edges come before those of the top
 _UPRIGHT = {20: [*range(12), *range(16, 20), *range(12, 16)], 15: [*range(9), *range(12, 15), *range(9, 12)]}
 _TENSOR = (("SXX", 1, 1), ("SYY", 2, 2), ("SZZ", 3, 3), ("SXY", 1, 2), ("SYZ", 2, 3), ("SZX", 3, 1))
-_LEAST = 1e-99
+_MIN_NUMBER = 1e-99  # smaller ones are written as 0: exponents of three digits would not leave room for a sign
 _CONTACT = ("COPEN", "CSLIP1", "CSLIP2", "CPRESS", "CSHEAR1", "CSHEAR2")
 
 
@@ -121,6 +121,5 @@ def _vector(letter: str) -> list[str]:
 def _records(labels: IntArray, values: Array) -> str:
     """One line a node."""
     line = " -1%10d" + "%12.5E" * values.shape[1]
-    # exponents of three digits would not leave room for a sign
-    rows: Sequence[Sequence[float]] = np.where(np.abs(values) < _LEAST, 0.0, values).tolist()
+    rows: Sequence[Sequence[float]] = np.where(np.abs(values) < _MIN_NUMBER, 0.0, values).tolist()
     return "".join(line % (label, *row) + "\n" for label, row in zip(labels.tolist(), rows, strict=True))

@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from itertools import zip_longest
 
 from signorini.arrays import Array
-from signorini.output.align import align
 from signorini.solution.certificate import TOLERANCE
 from signorini.solution.history import History
 from signorini.solution.results import OPEN, SLIP, STICK, StepResult
@@ -24,8 +24,8 @@ _HEAD = (
     "slip",
     "max slip",
 )
-_NUMBERS = (6, 7, 8)
-_ROUNDING = 1e-12  # of the largest of its kind: what is smaller is rounding, and printed as 0
+_NUMBER_COLUMNS = (6, 7, 8)
+_ROUNDING_TOL = 1e-12  # of the largest of its kind: smaller numbers are rounding, and printed as 0
 
 
 def history_table(history: History, *, failure: bool = True) -> str:
@@ -75,8 +75,8 @@ def _step_lines(step: StepResult, number: int) -> list[str]:
     far = "" if step.finished else f"NOT finished, as far as {step.load_factor - (number - 1):.6%}, "
     pressed = [float((abs(contact.pressure) * contact.area).sum()) for contact in step.contacts]
     held = [float(abs(force).max()) for force in step.reactions.values()]
-    noise = _ROUNDING * max([*pressed, *held], default=0.0)
-    still = _ROUNDING * float(abs(step.displacement).max(initial=0.0))
+    noise = _ROUNDING_TOL * max([*pressed, *held], default=0.0)
+    still = _ROUNDING_TOL * float(abs(step.displacement).max(initial=0.0))
     rows = [
         (
             contact.name,
@@ -95,7 +95,7 @@ def _step_lines(step: StepResult, number: int) -> list[str]:
     verdict = "passed" if certificate.passed else "NOT passed"
     return [
         f"step {number} '{step.name}', {far}{count} ({', '.join(step.methods)})",
-        *(align([_HEAD, *rows], right=_NUMBERS) if rows else ["no contact"]),
+        *(align([_HEAD, *rows], right=_NUMBER_COLUMNS) if rows else ["no contact"]),
         *([f"reactions: {reactions}"] if reactions else []),
         *(
             f"{kind} {name}: moved {spell_vector(found.displacement)}, turned {_turn(found.rotation)}, bears "
@@ -123,3 +123,32 @@ def spell_vector(vector: Array | Sequence[float], noise: float = 0.0) -> str:
 def spell_number(value: float, noise: float = 0.0) -> str:
     """A number in five digits; 0 if its size is at most ``noise``."""
     return "0" if abs(value) <= noise else f"{value:.5g}"
+
+
+def align(rows: Sequence[Sequence[str]], *, right: Collection[int] = (), indent: str = "  ") -> list[str]:
+    """Lines whose columns stand below each other.
+
+    Parameters
+    ----------
+    rows : those that are shorter end in empty words
+    right : columns that are set flush right, for numbers
+    indent : before every line
+
+    Examples
+    --------
+    >>> print(*align([["name", "n"], ["foundation", "12"], ["top", "3"]], right=[1]), sep="|\\n")
+      name         n|
+      foundation  12|
+      top          3
+    >>> align([["a", "b"], ["c"]])
+    ['  a  b', '  c']
+    """
+    widths = [max(map(len, column)) for column in zip_longest(*rows, fillvalue="")]
+    lines = []
+    for row in rows:
+        words = [
+            word.rjust(width) if i in right else word.ljust(width)
+            for i, (word, width) in enumerate(zip(row, widths, strict=False))
+        ]
+        lines.append((indent + "  ".join(words)).rstrip())
+    return lines

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_RATE = 12  # pictures a second
+_FRAMES_PER_SECOND = 12
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -132,7 +132,7 @@ def animate_path(history: History, path: Path, *, contact: str | None = None, fr
     loads = np.linspace(film.load[0], film.load[-1], frames)
     pictures = FuncAnimation(figure, lambda i: draw(float(loads[i])), frames=frames, blit=False)
     literal(figure)
-    pictures.save(str(path), writer=PillowWriter(fps=_RATE), dpi=72)
+    pictures.save(str(path), writer=PillowWriter(fps=_FRAMES_PER_SECOND), dpi=72)
 
 
 def _scene(film: ContactFilm, title: str) -> tuple[Figure, Callable[[float], list[Artist]]]:

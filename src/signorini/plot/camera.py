@@ -11,7 +11,7 @@ import numpy as np
 from signorini.arrays import Array
 
 _ASIDE, _UP = np.radians(33.0), np.radians(28.0)  # of a view, from the x axis and from the plane x, y
-_BELOW = 0.5  # what a view from below counts beside one from above
+_WEIGHT_FROM_BELOW = 0.5  # of a view from above: readers expect to look down on things
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -57,6 +57,6 @@ def best_view(spans: Array, weight: Array) -> Camera:
     """
     signs = np.array(list(product((-1.0, 1.0), (-1.0, 1.0), (1.0, -1.0))))
     views = signs * [np.cos(_UP) * np.sin(_ASIDE), np.cos(_UP) * np.cos(_ASIDE), np.sin(_UP)]
-    seen = weight @ np.maximum(spans @ views.T, 0.0) * np.where(views[:, 2] > 0.0, 1.0, _BELOW)
+    seen = weight @ np.maximum(spans @ views.T, 0.0) * np.where(views[:, 2] > 0.0, 1.0, _WEIGHT_FROM_BELOW)
     # views that show the same within rounding: the first of them
     return look_from(views[np.argmax(seen >= seen.max() * (1.0 - 1e-9))])

@@ -9,10 +9,10 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 
-_FACING = 0.7  # of its area: what a surface that faces one way shows when it is looked at along its normal
-_ALONG = 0.99  # of a unit vector: a component that makes it a coordinate axis
-_TURNED = 0.05  # of the area: normals that leave one plane no farther are those of a cylinder, or of a slim cone
-_ROUND = 0.1  # of the radius: how far a section may be from a circle
+_MIN_FACING = 0.7  # of its area: a surface that shows more when it is looked at along its normal faces one way
+_AXIS_COSINE = 0.99  # of a unit vector with a coordinate axis: beyond it the axis gives its name
+_CONE_TOL = 0.05  # of the area: normals leave one plane by less on a cylinder, or on a slim cone
+_ROUNDNESS_TOL = 0.1  # of the radius: a section that is farther from a circle is not unrolled
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -55,13 +55,13 @@ def chart_of(points: Array, faces: IntArray, middle: BoolArray) -> Chart:
     spans = 0.5 * np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
     area = np.linalg.norm(spans, axis=1)
     facing = spans.sum(axis=0)
-    if np.linalg.norm(facing) < _FACING * area.sum():
+    if np.linalg.norm(facing) < _MIN_FACING * area.sum():
         spread, axes = np.linalg.eigh(np.einsum("mi,mj,m->ij", spans, spans, 1.0 / np.maximum(area, 1e-300)))
         axis = axes[:, 0] * np.sign(axes[np.argmax(np.abs(axes[:, 0])), 0])
         across = points - (points @ axis)[:, None] * axis
         centre = _centre(across, axis)
         far = np.linalg.norm(across - centre, axis=1)
-        if spread[0] < _TURNED * area.sum() and far.std() < _ROUND * far.mean():
+        if spread[0] < _CONE_TOL * area.sum() and far.std() < _ROUNDNESS_TOL * far.mean():
             return _unrolled(points, faces, middle, axis, centre)
         return _seen(points, faces, np.eye(3)[np.argmin(np.ptp(points, axis=0))])
     return _seen(points, faces, facing / np.linalg.norm(facing))
@@ -69,7 +69,7 @@ def chart_of(points: Array, faces: IntArray, middle: BoolArray) -> Chart:
 
 def _seen(points: Array, faces: IntArray, normal: Array) -> Chart:
     """Along a normal: coordinates, where it is about along one of their axes."""
-    if np.abs(normal).max() > _ALONG * _ALONG:
+    if np.abs(normal).max() > _AXIS_COSINE * _AXIS_COSINE:
         normal = np.eye(3)[np.argmax(np.abs(normal))]
     first, second = np.delete(np.eye(3), np.argmax(np.abs(normal)), axis=0)
     if np.abs(normal).max() < 1.0:
@@ -95,7 +95,7 @@ def _unrolled(points: Array, faces: IntArray, middle: BoolArray, axis: Array, ce
     arm = points - (points @ axis)[:, None] * axis - centre
     turned = arm @ one + 1j * (arm @ np.cross(axis, one))
     towards = turned[middle].sum() if middle.any() else turned.sum()
-    if np.abs(towards) > _ROUND * np.abs(turned).mean():
+    if np.abs(towards) > _ROUNDNESS_TOL * np.abs(turned).mean():
         turned = turned * np.conj(towards / np.abs(towards))
     angle = np.angle(turned)
     cut = np.ptp(angle[faces], axis=1) > np.pi
@@ -125,6 +125,6 @@ def _centre(across: Array, axis: Array) -> Array:
 
 def _called(direction: Array) -> str:
     """A coordinate axis by its letter."""
-    if np.abs(direction).max() > _ALONG:
+    if np.abs(direction).max() > _AXIS_COSINE:
         return "xyz"[int(np.argmax(np.abs(direction)))]
     return "along (" + ", ".join(f"{part:.2g}" for part in direction + 0.0) + ")"

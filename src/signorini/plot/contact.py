@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
-_DOTTED = 100  # nodes that can be told apart as dots
+_MAX_DOTS = 100  # nodes: more cannot be told apart as dots
 
 
 def draw_contacts(data: PictureData) -> Figure:
@@ -47,7 +47,7 @@ def draw_contacts(data: PictureData) -> Figure:
 def _draw(axes: Axes, curve: Curve) -> None:
     shade_status(axes, curve.s, curve.status, STATUS_COLOURS)
     single = len(curve.s) == 1
-    dots, squares = ("o-", "s-") if len(curve.s) <= _DOTTED else ("-", "-")
+    dots, squares = ("o-", "s-") if len(curve.s) <= _MAX_DOTS else ("-", "-")
     lines = axes.plot(curve.s, curve.pressure, dots, color=PRESSURE, ms=4, lw=1.8, label="pressure p")
     if curve.friction > 0:
         name = "friction traction, along the tangent"

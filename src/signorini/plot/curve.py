@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from signorini.arrays import Array
 from signorini.solution.results import OPEN
 
-_FOLDED = 2.0  # times its extent: a surface that is longer is no graph over that axis
+_MAX_GRAPH_LENGTH = 2.0  # times its extent: a surface that is longer is no graph over that axis
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -61,7 +61,7 @@ def surface_coordinate(points: Array) -> tuple[str, Array]:
     for axis in np.argsort(-extent, kind="stable"):
         along = points[np.argsort(points[:, axis], kind="stable")]
         length = np.linalg.norm(np.diff(along, axis=0), axis=1).sum()
-        if length <= _FOLDED * np.hypot(*extent):
+        if length <= _MAX_GRAPH_LENGTH * np.hypot(*extent):
             return "xy"[axis], points[:, axis]
     arm = points - points.mean(axis=0)
     return "angle in degrees", np.degrees(np.arctan2(arm[:, 1], arm[:, 0]))

@@ -10,7 +10,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.errors import InputError
 from signorini.plot.camera import best_view
-from signorini.plot.paint import Paint, paint_skin
+from signorini.plot.paint import body_paint, paint_skin
 from signorini.plot.skin import make_skin
 from signorini.plot.style import INK, PRESSURE, TRACTION
 from signorini.solution.history import History
@@ -19,10 +19,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_PART = 0.12  # of the size of the model: what the motion is drawn with
-_ARROWS = 12
+_MOTION_SIZE = 0.12  # of the size of the model: large enough to be seen, and the bodies stay in the picture
+_MAX_ARROWS = 12
 _RUNS, _STAYS = "#eab39a", "#e4ecf4"
-_FINE = (0.15, 0.15, 0.15, 0.35)  # edges of the mesh
 
 
 def plot_escape(history: History) -> Figure:
@@ -39,7 +38,7 @@ def plot_escape(history: History) -> Figure:
         raise InputError("no body runs away in this history; there is nothing to draw")
     points = np.asarray(history.model.mesh.points)
     size = float(np.ptp(points, axis=0).max())
-    motion = _PART * size * np.asarray(history.escape)
+    motion = _MOTION_SIZE * size * np.asarray(history.escape)
     figure = Figure(figsize=(7.0, 6.0), layout="constrained")
     axes = figure.add_subplot()
     axes.set_aspect("equal")
@@ -47,7 +46,7 @@ def plot_escape(history: History) -> Figure:
     draw = _plane if history.model.dimension == 2 else _solid
     flat, along = draw(axes, history, points, motion)
     moving = np.flatnonzero(np.linalg.norm(motion, axis=1) > 1e-6 * size)
-    chosen = moving[np.linspace(0, len(moving) - 1, min(_ARROWS, len(moving))).astype(int)]
+    chosen = moving[np.linspace(0, len(moving) - 1, min(_MAX_ARROWS, len(moving))).astype(int)]
     axes.quiver(
         *flat[chosen].T, *along[chosen].T, angles="xy", scale_units="xy", scale=1.0, color=INK, width=0.004, zorder=4
     )
@@ -71,7 +70,6 @@ def _plane(axes: Axes, history: History, points: Array, motion: Array) -> tuple[
 def _solid(axes: Axes, history: History, points: Array, motion: Array) -> tuple[Array, Array]:
     """The skin of the bodies where they go, and the edges of those that go where they are."""
     from matplotlib.collections import LineCollection
-    from matplotlib.colors import to_rgb
 
     owner, first, blocks = history.model.body_of_cells(), 0, []
     for family, cells in history.model.mesh.cells.items():
@@ -85,9 +83,7 @@ def _solid(axes: Axes, history: History, points: Array, motion: Array) -> tuple[
     axes.set_xlim(seen[:, 0].min() - room, seen[:, 0].max() + room)
     axes.set_ylim(seen[:, 1].min() - room, seen[:, 1].max() + room)
     runs = np.bincount(skin.body[skin.face], np.abs(skin.values(motion)[skin.pieces]).sum(axis=(1, 2))) > 0.0
-    colours = np.where(runs[:, None], to_rgb(_RUNS), to_rgb(_STAYS))
-    paint = Paint(values=None, colours=lambda body: colours[body.astype(int)], mesh=_FINE)
-    paint_skin(axes, skin, moved, camera, paint)
+    paint_skin(axes, skin, moved, camera, body_paint([_RUNS if run else _STAYS for run in runs]))
     left = skin.sharp & runs[skin.body[skin.edge_face]]
     lines = camera.across(skin.points[skin.edges[left]])
     axes.add_collection(LineCollection(list(lines), colors=PRESSURE, lw=0.9, alpha=0.8, zorder=3))

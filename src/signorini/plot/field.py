@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 BODIES = ("#e4ecf4", "#f6ead9", "#e3efe2", "#f0e3ec", "#ececea")
-_MOST = 0.4  # of the size of the bodies: a window larger than this shows nothing new
-_EDGE, _ROOM = 0.02, 0.06  # of the size of the bodies: what is shown around them, and with obstacles
+MAX_WINDOW = 0.4  # of the size of the bodies: a larger window shows nothing new
+_MARGIN, _WALL_MARGIN = 0.02, 0.06  # of the size of the bodies: around them, and where obstacles need room
 # triangles of a cell by the number of nodes around it
 _CUTS = {
     3: [[0, 1, 2]],
@@ -30,7 +30,7 @@ _CUTS = {
     8: [[0, 1, 7], [1, 2, 3], [3, 4, 5], [5, 6, 7], [1, 3, 7], [3, 5, 7]],
 }
 Window = tuple[Array, Array]  # lower left and upper right corner
-_SEEN = 0.01  # of the size of what is shown: displacements at least as large are drawn as they are
+_MIN_SEEN = 0.01  # of the size of what is shown: displacements at least as large are drawn as they are
 
 
 def draw_stress(data: PictureData) -> Figure:
@@ -116,9 +116,9 @@ def drawn_factor(size: float, displacement: Array) -> float:
     200.0
     """
     largest = float(np.linalg.norm(displacement, axis=1).max())
-    if largest == 0.0 or largest >= _SEEN * size:
+    if largest == 0.0 or largest >= _MIN_SEEN * size:
         return 1.0
-    wanted = 2.0 * _SEEN * size / largest
+    wanted = 2.0 * _MIN_SEEN * size / largest
     power = 10.0 ** math.floor(math.log10(wanted))
     return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= wanted * (1.0 + 1e-12))
 
@@ -131,7 +131,7 @@ def _window(data: PictureData, points: Array) -> Window | None:
     if not len(here):
         return None
     half = max(0.85 * float(np.ptp(here, axis=0).max()), 0.02 * size)
-    if 2.0 * half >= _MOST * size:
+    if 2.0 * half >= MAX_WINDOW * size:
         return None
     middle = 0.5 * (here.max(axis=0) + here.min(axis=0))
     edge = 0.03 * half
@@ -163,7 +163,7 @@ def _canvas(points: Array, window: Window | None, walls: list[Wall]) -> tuple[Fi
         panels[1].set_xlim(low[0], high[0])
         panels[1].set_ylim(low[1], high[1])
         panels[0].indicate_inset((*low, *(high - low)), edgecolor=INK, lw=1.0, alpha=0.9)
-    margin = (_ROOM if walls else _EDGE) * max(width, height)
+    margin = (_WALL_MARGIN if walls else _MARGIN) * max(width, height)
     panels[0].set_xlim(points[:, 0].min() - margin, points[:, 0].max() + margin)
     panels[0].set_ylim(points[:, 1].min() - margin, points[:, 1].max() + margin)
     for axes in panels:

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_NAMED = 12  # steps that a legend can hold
-_ACROSS = 0.01  # of the largest friction: what is worth a line of its own
+_MAX_NAMED_STEPS = 12  # in one legend, or below one axis
+_MIN_SHARE = 0.01  # of the largest friction: smaller components are not worth a line or a digit
 
 
 def draw_history(data: PictureData) -> Figure:
@@ -50,7 +50,7 @@ def draw_history(data: PictureData) -> Figure:
     if not names:
         for panel in panels.flat:
             panel.set_axis_off()
-    elif not data.solid and len(summary) <= _NAMED:
+    elif not data.solid and len(summary) <= _MAX_NAMED_STEPS:
         lines = panels[0, 0].get_lines()[: len(summary)]
         legend = figure.legend(handles=lines, loc="outside lower center", ncols=6, fontsize=9, frameon=False)
         legend.set_title("profiles at the end of step")
@@ -147,7 +147,7 @@ def _resultants(axes: Axes, forces: _ContactForces, solid: bool) -> None:
         axes.plot(forces.load[forces.ends], values[forces.ends], mark, color=colour, ms=5)
         axes.plot([], [], f"{mark}-", color=colour, label=said)
     across = np.linalg.norm(forces.friction - np.outer(forces.friction @ along, along), axis=1)
-    if across.max() > _ACROSS * np.abs(forces.friction).max():
+    if across.max() > _MIN_SHARE * np.abs(forces.friction).max():
         axes.plot(forces.load, across, ":", color=TRACTION, lw=1.5, label="friction force across that")
     axes.axhline(0.0, color=INK, lw=0.8)
     label(axes, y="force on the nonmortar body")
@@ -176,13 +176,13 @@ def _direction(forces: _ContactForces, solid: bool) -> tuple[Array, str]:
 
 def _spelled(vector: Array) -> str:
     """Components of a unit vector in words."""
-    return f"({', '.join(f'{part:.2g}' for part in np.where(np.abs(vector) < _ACROSS, 0.0, vector))})"
+    return f"({', '.join(f'{part:.2g}' for part in np.where(np.abs(vector) < _MIN_SHARE, 0.0, vector))})"
 
 
 def _steps_below(axes: Axes, steps: list[dict[str, Any]]) -> None:
     """Step k ends at the load factor k: its name is there, where names fit."""
     numbers = np.arange(1, len(steps) + 1)
-    if len(steps) <= _NAMED:
+    if len(steps) <= _MAX_NAMED_STEPS:
         axes.set_xticks(numbers, [f"{k} {step['name']}" for k, step in zip(numbers, steps, strict=True)], fontsize=9)
     label(axes, x="load factor: ends of steps")
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -16,11 +16,12 @@ from signorini.plot.skin import Skin, piece_spans
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_ACROSS = 80.0  # patches of one colour across a picture: more take longer and look the same
-_HALVED = 3  # times that the sides of a piece are halved at most
-_LIGHT = np.array([-0.40, 0.60, 0.70])  # to the right, up, towards the eye
+_PATCHES_ACROSS = 80.0  # of one colour across a picture: more take longer and look the same
+_MAX_HALVINGS = 3  # of the sides of a piece: 64 patches of one colour each
+_LAMP = np.array([-0.40, 0.60, 0.70])  # to the right, up, towards the eye
 _SHADE, _SHINE = 0.80, 1.12  # of a colour without light and in full light; beyond 1 it goes to white
-_CREASE = (0.1, 0.1, 0.1, 0.9)  # colour of the edges of bodies
+_MESH_COLOUR = (0.15, 0.15, 0.15, 0.35)  # on the light colours of bodies
+_CREASE_COLOUR = (0.1, 0.1, 0.1, 0.9)  # of the edges of bodies
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -39,12 +40,24 @@ class Paint:
     mesh: tuple[float, float, float, float]
 
 
+def body_paint(colours: Sequence[str]) -> Paint:
+    """A colour a body, over and over, with the edges of the mesh."""
+    from matplotlib.colors import to_rgb
+
+    palette = np.array([to_rgb(colour) for colour in colours])
+    return Paint(values=None, colours=lambda body: palette[body.astype(int) % len(palette)], mesh=_MESH_COLOUR)
+
+
 def paint_skin(axes: Axes, skin: Skin, points: Array, camera: Camera, paint: Paint) -> None:
     """Draw what can be seen of a skin inside the limits of the axes.
 
     Parameters
     ----------
-    points : of the skin, where they are drawn, (n, 3)
+    axes : whose limits are set
+    skin : what is drawn
+    points : of the skin, where they are drawn, (n, 3) length
+    camera : from where it is seen
+    paint : how it is coloured
     """
     from matplotlib.collections import PolyCollection
 
@@ -52,8 +65,8 @@ def paint_skin(axes: Axes, skin: Skin, points: Array, camera: Camera, paint: Pai
     view = _View(
         skin=skin.part(seen), crease=skin.sharp[seen[skin.edge_face]], points=points, camera=camera, paint=paint
     )
-    fine = float(np.ptp(axes.get_xlim())) / _ACROSS
-    parts = 2 ** np.clip(np.ceil(np.log2(np.maximum(view.size / fine, 1e-9))), 0, _HALVED).astype(int)
+    fine = float(np.ptp(axes.get_xlim())) / _PATCHES_ACROSS
+    parts = 2 ** np.clip(np.ceil(np.log2(np.maximum(view.size / fine, 1e-9))), 0, _MAX_HALVINGS).astype(int)
     strokes = [cut(parts == k, k) for k in np.unique(parts).tolist() for cut in (view.patches, view.edges)]
     if not strokes:
         return
@@ -140,7 +153,7 @@ class _View:
             shapes=shapes,
             depth=self.camera.depth(shapes.mean(axis=1)) + reach,
             fill=np.zeros((len(shapes), 4)),
-            line=np.repeat(np.where(self.crease[own, None], _CREASE, self.paint.mesh), k, axis=0),
+            line=np.repeat(np.where(self.crease[own, None], _CREASE_COLOUR, self.paint.mesh), k, axis=0),
             width=np.repeat(width[own], k),
         )
 
@@ -153,7 +166,7 @@ class _View:
     def _lit(self, colours: Array, shapes: Array) -> Array:
         spans = piece_spans(shapes)
         unit = spans / np.maximum(np.linalg.norm(spans, axis=1, keepdims=True), 1e-300)
-        light = (_LIGHT / np.linalg.norm(_LIGHT)) @ self.camera.axes
+        light = (_LAMP / np.linalg.norm(_LAMP)) @ self.camera.axes
         bright = (_SHADE + (_SHINE - _SHADE) * np.clip(unit @ light, 0.0, 1.0))[:, None]
         return colours * np.minimum(bright, 1.0) + (1.0 - colours) * np.maximum(bright - 1.0, 0.0)
 

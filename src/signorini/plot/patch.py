@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_ARROWS = 400  # of friction; more hide each other
-_BELOW = 4.5  # font sizes from the axes to the legend: the label is between
-_AROUND = 0.35  # of the size of the patch: what is shown around it
+_MAX_ARROWS = 400  # of friction: more hide each other
+_LEGEND_DISTANCE = 4.5  # font sizes from the axes to the legend: the label is between
+_PATCH_MARGIN = 0.35  # of the size of the closed patch: around it
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -49,6 +49,12 @@ class Patch:
     def chart(self) -> Chart:
         """Where the nodes are on paper, what touches in the middle."""
         return chart_of(self.points, self.faces, self.status > 0)
+
+    @property
+    def arrows(self) -> IntArray:
+        """Nodes at which friction is drawn: some of those that rub."""
+        rubbed = np.flatnonzero(np.linalg.norm(self.shear, axis=1) > 0.0)
+        return rubbed[:: max(1, len(rubbed) // _MAX_ARROWS)]
 
     def trimmed(self) -> Patch:
         """Without the nodes that no face has."""
@@ -121,12 +127,11 @@ def _status(axes: Axes, patch: Patch) -> None:
             axes.scatter(x[own], y[own], s=size, color=colour, alpha=0.6, edgecolors="none", zorder=1)
             plain = name == "slip" and not patch.shear.any()
             handles.append(Swatch(color=colour, alpha=0.6, label=PLAIN if plain else name))
-    rubbed = np.nonzero(np.linalg.norm(shear, axis=1) > 0.0)[0]
-    if len(rubbed):
-        some = rubbed[:: max(1, len(rubbed) // _ARROWS)]
+    some = np.flatnonzero(np.isin(chart.node, patch.arrows))
+    if len(some):
         right, up = (np.sum(shear[some] * part[some], axis=1) for part in (chart.first, chart.second))
         axes.quiver(x[some], y[some], right, up, color=INK, width=0.003, zorder=2)
-    words = "status and friction on the nonmortar body" if len(rubbed) else "status"
+    words = "status and friction on the nonmortar body" if len(some) else "status"
     label(axes, title=words)
     axes.legend(
         handles=handles,
@@ -134,7 +139,7 @@ def _status(axes: Axes, patch: Patch) -> None:
         frameon=False,
         loc="upper center",
         bbox_to_anchor=(0.5, 0.0),
-        borderaxespad=_BELOW,
+        borderaxespad=_LEGEND_DISTANCE,
         ncols=len(handles),
     )
 
@@ -155,7 +160,7 @@ def _window(patch: Patch) -> tuple[Array, Array]:
     low, high = points.min(axis=0), points.max(axis=0)
     if not len(closed):
         return low, high
-    margin = _AROUND * np.ptp(closed, axis=0).max()
+    margin = _PATCH_MARGIN * np.ptp(closed, axis=0).max()
     return np.maximum(low, closed.min(axis=0) - margin), np.minimum(high, closed.max(axis=0) + margin)
 
 

@@ -30,7 +30,7 @@ from signorini.solution.surface import contact_faces, status_codes
 Row = Mapping[str, Any]
 
 # corners of cells of the plane and the nodes between them, in the order around
-_AROUND = {
+_CELL_OUTLINES = {
     "triangle": [0, 1, 2],
     "quad": [0, 1, 2, 3],
     "triangle6": [0, 3, 1, 4, 2, 5],
@@ -170,7 +170,7 @@ class PictureData(ABC):
         """Cells of the plane, of every block (m, k) the points around them."""
         with self.checking("solution.vtu"):
             pairs = zip(self.bodies.families, self.bodies.cells, strict=True)
-            return [cells[:, _AROUND[family]] for family, cells in pairs]
+            return [cells[:, _CELL_OUTLINES[family]] for family, cells in pairs]
 
     @cached_property
     def skin(self) -> Skin:

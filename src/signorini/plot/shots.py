@@ -9,14 +9,14 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.plot.camera import Camera, best_view
+from signorini.plot.field import MAX_WINDOW, drawn_factor
 from signorini.plot.picture_data import PictureData, Row
 from signorini.plot.skin import Skin
 from signorini.solution.results import OPEN
 
-_AROUND = 0.85  # of the size of the contact: half of what is shown of it
-_LEAST = 0.05  # of the size of the bodies
-_MOST = 0.4  # of it: a cut that is larger shows nothing new from the same side
-_CORNERS = 3  # nodes that make a face one of the contact
+_HALF_WINDOW = 0.85  # of the size of the contact: half of what is shown of it
+_MIN_HALF_WINDOW = 0.05  # of the size of the bodies: a contact of one node is shown with what is around it
+_MIN_CORNERS = 3  # nodes of the contact: a face with as many is one of it
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -48,9 +48,13 @@ class Shot:
         if not len(self.focus):
             return low, high
         here = flat[self.focus]
-        half = max(_AROUND * float(np.ptp(here, axis=0).max()), _LEAST * float((high - low).max()))
+        half = max(_HALF_WINDOW * float(np.ptp(here, axis=0).max()), _MIN_HALF_WINDOW * float((high - low).max()))
         middle = 0.5 * (here.min(axis=0) + here.max(axis=0))
         return np.maximum(low, middle - half), np.minimum(high, middle + half)
+
+    def size(self, points: Array) -> float:
+        """Of what is shown of points (n, 3), the longer side."""
+        return float(np.ptp(self.frame(points), axis=0).max())
 
     def inside(self, points: Array) -> IntArray:
         """The points that are shown."""
@@ -66,9 +70,9 @@ def make_shots(data: PictureData) -> list[Shot]:
     whole, near = whole_shot(data), contact_shot(data)
     if near is None:
         return [whole]
-    cut, size = (float(np.ptp(shot.frame(shot.skin.points), axis=0).max()) for shot in (near, whole))
+    cut, size = (shot.size(shot.skin.points) for shot in (near, whole))
     everything = len(near.skin.body) == len(whole.skin.body)
-    same = everything and np.array_equal(near.camera.axes, whole.camera.axes) and cut >= _MOST * size
+    same = everything and np.array_equal(near.camera.axes, whole.camera.axes) and cut >= MAX_WINDOW * size
     return [whole] if same else [whole, near]
 
 
@@ -96,6 +100,14 @@ def contact_shot(data: PictureData) -> Shot | None:
     return Shot(title=title, skin=skin.part(own), camera=camera, focus=focus, contact=facing[own])
 
 
+def deformed(data: PictureData, shot: Shot) -> tuple[float, Array]:
+    """What displacements are multiplied with in a shot, and the points of the skin there, (n, 3)."""
+    skin = data.skin
+    moved = skin.values(data.bodies.displacement)
+    factor = drawn_factor(shot.size(skin.points), moved)
+    return factor, skin.points + factor * moved
+
+
 def _stressed(data: PictureData) -> Array:
     """Mean square of the stress on every face, (f,)."""
     skin = data.skin
@@ -119,7 +131,7 @@ def _contact(data: PictureData, skin: Skin) -> tuple[str, IntArray, BoolArray]:
         return found
 
     every = points(data.last_nodes)
-    faces = np.bincount(skin.edge_face, weights=every[skin.edges[:, 0]], minlength=len(faces)) >= _CORNERS
+    faces = np.bincount(skin.edge_face, weights=every[skin.edges[:, 0]], minlength=len(faces)) >= _MIN_CORNERS
     own = np.zeros(len(skin.points), bool)
     own[skin.pieces[faces[skin.face]]] = True
     return name, np.flatnonzero(points(rows) & own), faces

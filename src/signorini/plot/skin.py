@@ -12,7 +12,7 @@ import numpy as np
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.model.mesh import FACES
 
-_SHARP = np.cos(np.radians(35.0))  # of the angle between faces whose edge is one of the body
+_CREASE_COSINE = np.cos(np.radians(35.0))  # of the angle between faces: beyond it their edge is one of the body
 # by the number of the nodes of a face: its pieces, a triangle with its last corner twice; 8 is the middle
 _PIECES = {
     3: [[0, 1, 2, 2]],
@@ -20,8 +20,8 @@ _PIECES = {
     6: [[0, 3, 5, 5], [3, 1, 4, 4], [5, 4, 2, 2], [3, 4, 5, 5]],
     9: [[0, 4, 8, 7], [4, 1, 5, 8], [8, 5, 2, 6], [7, 8, 6, 3]],
 }
-_AROUND = {3: [0, 1, 2], 4: [0, 1, 2, 3], 6: [0, 3, 1, 4, 2, 5], 9: [0, 4, 1, 5, 2, 6, 3, 7]}
-_MIDDLE = np.array([-0.25] * 4 + [0.5] * 4)  # shape functions of an 8-node face in its middle
+_FACE_OUTLINES = {3: [0, 1, 2], 4: [0, 1, 2, 3], 6: [0, 3, 1, 4, 2, 5], 9: [0, 4, 1, 5, 2, 6, 3, 7]}
+_MIDDLE_WEIGHTS = np.array([-0.25] * 4 + [0.5] * 4)  # shape functions of an 8-node face in its middle
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -48,7 +48,7 @@ class Skin:
 
     def values(self, given: Array) -> Array:
         """Values at the points from those at the nodes, (n, ...)."""
-        return np.concatenate([given, np.einsum("qa...,a->q...", given[self.middles], _MIDDLE)])
+        return np.concatenate([given, np.einsum("qa...,a->q...", given[self.middles], _MIDDLE_WEIGHTS)])
 
     def part(self, faces: BoolArray) -> Skin:
         """Some of the faces, (f,)."""
@@ -77,7 +77,7 @@ class Skin:
         unit = spans / np.maximum(np.linalg.norm(spans, axis=1, keepdims=True), 1e-300)
         # the sum of two unit vectors at an angle t is 2 cos(t / 2) long
         length = np.linalg.norm(_summed(number, unit[self.edge_face], int(number.max(initial=-1)) + 1), axis=1)
-        smooth = (np.bincount(number) == 2) & (length >= 2.0 * np.sqrt(0.5 * (1.0 + _SHARP)))
+        smooth = (np.bincount(number) == 2) & (length >= 2.0 * np.sqrt(0.5 * (1.0 + _CREASE_COSINE)))
         return np.asarray(~smooth[number])
 
 
@@ -111,7 +111,7 @@ def make_skin(points: Array, blocks: Sequence[tuple[str, IntArray, IntArray]]) -
             middles.append(own)
             own = np.column_stack([own, behind + np.arange(len(own))])
             behind += len(own)
-        cut, around = _pieces(own, points, np.concatenate(inner[width])[alone]), own[:, _AROUND[own.shape[1]]]
+        cut, around = _pieces(own, points, np.concatenate(inner[width])[alone]), own[:, _FACE_OUTLINES[own.shape[1]]]
         pieces.append(cut.reshape(-1, 4))
         edges.append(np.stack([around, np.roll(around, -1, axis=1)], axis=2).reshape(-1, 2))
         cuts.append(np.column_stack([np.full(len(own), cut.shape[1]), np.full(len(own), around.shape[1]), body]))
@@ -119,7 +119,7 @@ def make_skin(points: Array, blocks: Sequence[tuple[str, IntArray, IntArray]]) -
     per_face = np.concatenate(cuts)
     number = np.arange(len(per_face))
     return Skin(
-        points=np.concatenate([points, np.einsum("qai,a->qi", points[middle], _MIDDLE)]),
+        points=np.concatenate([points, np.einsum("qai,a->qi", points[middle], _MIDDLE_WEIGHTS)]),
         middles=middle,
         pieces=np.concatenate(pieces),
         edges=np.concatenate(edges),

@@ -10,17 +10,17 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.plot.camera import Camera
-from signorini.plot.field import BODIES, body_handles, drawn_factor, factor_words
-from signorini.plot.paint import Paint, paint_skin
+from signorini.plot.field import BODIES, body_handles, factor_words
+from signorini.plot.paint import Paint, body_paint, paint_skin
 from signorini.plot.picture_data import PictureData
-from signorini.plot.shots import Shot, make_shots
+from signorini.plot.shots import Shot, deformed, make_shots
 from signorini.plot.style import INK, colour_bar, entitle, label, legend_below
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_PALE, _FINE = (1.0, 1.0, 1.0, 0.30), (0.15, 0.15, 0.15, 0.35)  # edges of the mesh on dark and on light colours
+_MESH_COLOUR = (1.0, 1.0, 1.0, 0.30)  # on the dark colours of stresses
 
 
 def draw_solid_stress(data: PictureData) -> Figure:
@@ -33,17 +33,13 @@ def draw_solid_stress(data: PictureData) -> Figure:
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
-    grid, skin = data.bodies, data.skin
-    stress, moved = skin.values(grid.von_mises), skin.values(grid.displacement)
-    shots = make_shots(data)
-    low, high = shots[-1].frame(skin.points)
-    factor = drawn_factor(float((high - low).max()), moved)
-    points = skin.points + factor * moved
+    stress, shots = data.skin.values(data.bodies.von_mises), make_shots(data)
+    factor, points = deformed(data, shots[-1])
     shown = stress[shots[-1].inside(points)]
-    top, largest = float(shown.max(initial=0.0)) or 1.0, float(grid.von_mises.max())
+    top, largest = float(shown.max(initial=0.0)) or 1.0, float(data.bodies.von_mises.max())
     scale, colours = Normalize(0.0, top), matplotlib.colormaps["viridis"]
     figure, panels = _canvas(shots, points)
-    paint = Paint(values=stress, colours=lambda values: colours(scale(values))[:, :3], mesh=_PALE)
+    paint = Paint(values=stress, colours=lambda values: colours(scale(values))[:, :3], mesh=_MESH_COLOUR)
     for axes, shot in zip(panels, shots, strict=True):
         paint_skin(axes, shot.skin, points, shot.camera, paint)
     beyond = largest > top * (1.0 + 1e-6)
@@ -56,14 +52,12 @@ def draw_solid_stress(data: PictureData) -> Figure:
 
 def draw_solid_mesh(data: PictureData) -> Figure:
     """The undeformed mesh, a colour a body, and the contact nodes with their status after the last step."""
-    from matplotlib.colors import to_rgb
     from matplotlib.lines import Line2D
 
     grid, skin = data.bodies, data.skin
     shots = make_shots(data)
     figure, panels = _canvas(shots, skin.points)
-    palette = np.array([to_rgb(colour) for colour in BODIES])
-    paint = Paint(values=None, colours=lambda body: palette[body.astype(int) % len(palette)], mesh=_FINE)
+    paint = body_paint(BODIES)
     for axes, shot in zip(panels, shots, strict=True):
         paint_skin(axes, shot.skin, skin.points, shot.camera, paint)
     handles = body_handles(data)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,17 +11,17 @@ from numpy.typing import NDArray
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
-from signorini.plot.field import drawn_factor, factor_words
+from signorini.output.atomic_write import atomic_write
+from signorini.plot.field import factor_words
 from signorini.plot.patch import Patch
 from signorini.plot.picture_data import PictureData
-from signorini.plot.shots import Shot, contact_shot, whole_shot
+from signorini.plot.shots import Shot, contact_shot, deformed, whole_shot
 from signorini.plot.style import INK
 
-_SIDE = 1000  # pixels of a panel
-_ARROWS = 500  # of friction; more hide each other
-_LONGEST = 0.12  # arrow, of what is shown
-_LIFT = 0.004  # of what is shown: lines and arrows are so far in front of the surface
-_LIGHT = np.array([-0.45, 0.75, 0.6])  # to the right, up, towards the eye
+_PANEL_SIZE = 1000  # pixels
+_ARROW_LENGTH = 0.12  # of what is shown: of the largest friction
+_LIFT = 0.004  # of what is shown, towards the eye: lines and arrows are not swallowed by the surface
+_LAMP = np.array([-0.45, 0.75, 0.6])  # to the right, up, towards the eye
 _BODY = "#d3dae2"
 _SURFACE = {"smooth_shading": True, "split_sharp_edges": True, "ambient": 0.64, "diffuse": 0.38, "specular": 0.04}
 _BAR = {
@@ -37,23 +38,35 @@ _BAR = {
 }
 
 
-def render_view(data: PictureData) -> NDArray[np.uint8]:
-    """Pixels (height, width, 3): von Mises stress on the deformed bodies, pressure and friction of the contact beside.
+def write_view(data: PictureData, path: Path) -> None:
+    """Write a picture: von Mises stress on the deformed bodies, pressure and friction of the contact beside.
 
     Parameters
     ----------
     data : with the results of a model in space
+    path : of the file, ``*.png``
 
     Raises
     ------
     InputError
-        If PyVista is not installed, or the model is plane.
+        If the name ends otherwise, PyVista is not installed, or the model is plane.
     """
+    from matplotlib.image import imsave
+
+    if path.suffix.lower() != ".png":
+        raise InputError(f"is '{path}'; expected a name that ends in .png", where=("path",))
+    pixels = _rendered(data)
+    with atomic_write(path) as aside:
+        imsave(aside, pixels)
+
+
+def _rendered(data: PictureData) -> NDArray[np.uint8]:
+    """Pixels, (height, width, 3)."""
     if not data.solid:
         raise InputError("shows models in space; expected 'stress' for one in the plane", where=("view",))
     pyvista = _pyvista()
     shots = [shot for shot in (whole_shot(data), contact_shot(data)) if shot is not None]
-    size = (_SIDE * len(shots), _SIDE)
+    size = (_PANEL_SIZE * len(shots), _PANEL_SIZE)
     plotter = pyvista.Plotter(off_screen=True, shape=(1, len(shots)), window_size=size, border=False, lighting="none")
     try:
         plotter.set_background("white")
@@ -83,9 +96,7 @@ def _pyvista() -> Any:
 def _stress(plotter: Any, pyvista: Any, data: PictureData, shot: Shot) -> None:
     """The bodies, deformed."""
     skin = shot.skin
-    moved = skin.values(data.bodies.displacement)
-    factor = drawn_factor(float(np.ptp(shot.frame(skin.points), axis=0).max()), moved)
-    points = skin.points + factor * moved
+    factor, points = deformed(data, shot)
     surface = _surface(pyvista, skin.pieces, points)
     surface["von Mises stress"] = stress = skin.values(data.bodies.von_mises)
     limits = (0.0, float(stress.max()) or 1.0)
@@ -116,7 +127,7 @@ def _surface(pyvista: Any, faces: IntArray, points: Array) -> Any:
 
 
 def _edges(plotter: Any, pyvista: Any, shot: Shot, points: Array, colour: str, opacity: float) -> None:
-    """Those of the mesh, and those of the bodies stronger."""
+    """Edges of the mesh, and those of the bodies stronger."""
     crease, front = shot.skin.sharp, points + _lift(shot, points)
     for own, ink, strength, width in ((~crease, colour, opacity, 1.0), (crease, "#1a1a1a", 0.9, 2.0)):
         if own.any():
@@ -126,21 +137,19 @@ def _edges(plotter: Any, pyvista: Any, shot: Shot, points: Array, colour: str, o
 
 def _friction(plotter: Any, pyvista: Any, patch: Patch, shot: Shot) -> None:
     """Arrows at the nodes that rub; none without friction."""
-    rubbed = np.flatnonzero(np.linalg.norm(patch.shear, axis=1) > 0.0)
-    if not len(rubbed):
+    some, points = patch.arrows, shot.skin.points
+    if not len(some):
         return
-    some = rubbed[:: max(1, len(rubbed) // _ARROWS)]
-    points = shot.skin.points
     arrows = pyvista.PolyData(patch.points[some] + 4.0 * _lift(shot, points))
     arrows["friction"] = patch.shear[some]
     longest = float(np.linalg.norm(patch.shear, axis=1).max())
-    size = float(np.ptp(shot.frame(points), axis=0).max())
-    glyphs = arrows.glyph(orient="friction", scale="friction", factor=_LONGEST * size / longest)
+    size = shot.size(points)
+    glyphs = arrows.glyph(orient="friction", scale="friction", factor=_ARROW_LENGTH * size / longest)
     plotter.add_mesh(glyphs, color=INK, lighting=False)
 
 
 def _lift(shot: Shot, points: Array) -> Array:
-    return _LIFT * float(np.ptp(shot.frame(points), axis=0).max()) * shot.camera.towards
+    return _LIFT * shot.size(points) * shot.camera.towards
 
 
 def _look(plotter: Any, pyvista: Any, shot: Shot, points: Array, words: str) -> None:
@@ -154,7 +163,7 @@ def _look(plotter: Any, pyvista: Any, shot: Shot, points: Array, words: str) -> 
     plotter.enable_parallel_projection()
     plotter.camera.parallel_scale = 0.62 * size
     plotter.reset_camera_clipping_range()
-    lamp = middle + 20.0 * size * (_LIGHT @ axes)
+    lamp = middle + 20.0 * size * (_LAMP @ axes)
     plotter.add_light(pyvista.Light(position=tuple(lamp), focal_point=tuple(middle), light_type="scene light"))
     plotter.add_axes(color=INK, x_color=INK, y_color=INK, z_color=INK, xlabel="x", ylabel="y", zlabel="z", line_width=2)
     plotter.add_text(words, position="upper_left", font_size=12, color=INK)

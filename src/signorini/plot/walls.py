@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _SHAPES = {kind.__name__.lower(): kind for kind in (Plane, Circle, Profile)}
-_FINE = 400  # points across a panel at which obstacles are asked for their distance
-_FILL = "#e2e2df"
+_POINTS_ACROSS = 400  # a panel: where obstacles are asked for their distance
+_FILL_COLOUR = "#e2e2df"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,10 +68,10 @@ def read_walls(summary: Mapping[str, Any]) -> list[Wall]:
 def draw_walls(axes: Axes, walls: list[Wall], *, moved: bool) -> None:
     """Fill what obstacles fill of a panel, behind everything else; its limits stay."""
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
-    x, y = np.meshgrid(np.linspace(left, right, _FINE), np.linspace(low, high, _FINE))
+    x, y = np.meshgrid(np.linspace(left, right, _POINTS_ACROSS), np.linspace(low, high, _POINTS_ACROSS))
     points = np.column_stack([x.ravel(), y.ravel()])
     for wall in walls:
         depth = wall.depth(points, moved=moved).reshape(x.shape)
         if depth.max() > 0.0 > depth.min():
-            axes.contourf(x, y, depth, levels=[0.0, depth.max()], colors=[_FILL], zorder=0)
+            axes.contourf(x, y, depth, levels=[0.0, depth.max()], colors=[_FILL_COLOUR], zorder=0)
             axes.contour(x, y, depth, levels=[0.0], colors=[INK], linewidths=0.8, zorder=0)
