@@ -243,13 +243,9 @@ RULES = {
 }
 
 PENDING = {
-    "api": "parameters",
-    #
     "bench": "nouns parameters constants",
     #
     "checks": "parameters constants",
-    #
-    "cli": "nouns parameters constants",
     #
     "condense": "signatures nouns parameters classes constants",
     #
@@ -282,10 +278,6 @@ PENDING = {
     "meshio_fixes": "nouns",
     #
     "model": "files nouns classes constants",
-    #
-    "output": "nouns parameters constants",
-    #
-    "plot": "nouns parameters constants",
     #
     "reference": "parameters classes constants",
     #

@@ -157,7 +157,14 @@ class Solution(History):
         return literal(plot_escape(self))
 
     def animate(self, path: str | Path, *, contact: str | None = None, frames: int = 100) -> None:
-        """Write a GIF of pressure, friction and slip of a contact (the first by default) along the whole history."""
+        """Write a GIF of pressure, friction and slip of a contact along the whole history.
+
+        Parameters
+        ----------
+        path : of the file, ``*.gif``
+        contact : by name; the first where not given
+        frames : pictures, equally many for every straight segment of the loads
+        """
         with atomic_write(Path(path)) as aside:
             animate_path(self, aside, contact=contact, frames=frames)
 
@@ -270,6 +277,12 @@ class PreparedModel:
 
 def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) -> PreparedModel:
     """Assemble and condense a model once, to solve it many times.
+
+    Parameters
+    ----------
+    model : the problem
+    backend : of the sparse factorisation, "auto" or a name
+    clock : counts the seconds and tells progress
 
     Raises
     ------

@@ -15,6 +15,8 @@ def deck_data(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str,
 
     Parameters
     ----------
+    deck : as it was read
+    examined : its model, with interface, supports and loads
     notes : what looks wrong, or differs from the deck
     """
     model, mesh, interface = deck.model, deck.model.mesh, examined.interface

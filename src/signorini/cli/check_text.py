@@ -106,7 +106,7 @@ def _thickness(model: Model) -> str:
 
 
 def _obstacles(model: Model) -> Rows:
-    """Those that move."""
+    """Obstacles that move."""
     rows: Rows = []
     for obstacle in model.obstacles:
         parts = ", ".join("free" if part is None else f"{part:g}" for part in obstacle.u)

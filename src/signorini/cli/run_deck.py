@@ -34,6 +34,7 @@ def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: flo
 
     Parameters
     ----------
+    deck : as it was read
     options : ``folder``, ``start``, ``backend``, ``wellposed`` and ``quiet`` of the command line
     clock : with the seconds of reading
     started : ``time.perf_counter()`` at the beginning of the command

@@ -52,6 +52,8 @@ class GrowingArchive:
 
         Parameters
         ----------
+        history : with further steps
+        path : of the file, usually ``*.h5``
         last : where the file that was written before is now
         """
         import h5py

@@ -141,7 +141,7 @@ def from_plain(plain: Any, get: Callable[[str], AnyArray]) -> Any:
 
 
 def digest(array: AnyArray) -> str:
-    """The same for two arrays only if type, shape and every bit are.
+    """Letters that two arrays share only if type, shape and every bit are the same.
 
     >>> digest(np.zeros(2)) == digest(np.zeros((2, 1)))
     False

@@ -9,7 +9,7 @@ import re
 import shutil
 import tempfile
 import time
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,7 +18,6 @@ from signorini.clock import Clock
 from signorini.errors import InputError
 from signorini.model.prints import Prints
 from signorini.output.archive import GrowingArchive, write_archive
-from signorini.output.atomic_write import atomic_write
 from signorini.output.checkpoint import write_checkpoint
 from signorini.output.contact_csv import write_contacts
 from signorini.output.dat import write_dat
@@ -198,7 +197,8 @@ class Publisher:
             with (self.clock.spending if running else self.clock.phase)("output"):
                 names = self._growing(history, aside) if running else self._everything(history, aside)
             seconds = self.clock.seconds | {"total": time.perf_counter() - self.started}
-            write_summary(history, aside / SUMMARY, seconds, self.deck)
+            words = json.dumps(summary(history, seconds, self.deck), indent=2, allow_nan=False, ensure_ascii=False)
+            (aside / SUMMARY).write_text(words + "\n", encoding="utf-8")
             names.append(SUMMARY)
             if not self._written:
                 _clear(folder)
@@ -248,13 +248,6 @@ def _clear(folder: Path) -> None:
                 old.unlink()
         if not any(fields.iterdir()):
             fields.rmdir()
-
-
-def write_summary(history: History, path: Path, seconds: Mapping[str, float], deck: str = "") -> None:
-    """Write ``summary.json``; see :func:`signorini.output.summary.summary`."""
-    words = json.dumps(summary(history, seconds, deck), indent=2, allow_nan=False, ensure_ascii=False)
-    with atomic_write(path) as aside:
-        aside.write_text(words + "\n", encoding="utf-8")
 
 
 def _write_tables(history: History, fields: Fields, folder: Path, *, done: Collection[str] = ()) -> list[str]:

@@ -130,7 +130,7 @@ def make_skin(points: Array, blocks: Sequence[tuple[str, IntArray, IntArray]]) -
 
 
 def _alone(faces: IntArray, points: int) -> IntArray:
-    """Which faces are there once: their three smallest corners are those of no other one."""
+    """Indices of faces that are there once: their three smallest corners are those of no other one."""
     corners = np.sort(faces[:, : 3 if faces.shape[1] in (3, 6) else 4], axis=1).astype(np.int64)
     key = (corners[:, 0] * points + corners[:, 1]) * points + corners[:, 2]
     _, first, times = np.unique(key, return_index=True, return_counts=True)
