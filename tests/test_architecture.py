@@ -269,8 +269,6 @@ PENDING = {
     #
     "lcp": "nouns parameters classes constants",
     #
-    "linalg": "signatures nouns parameters constants",
-    #
     "memory": "parameters",
     #
     "meshing": "files parameters",

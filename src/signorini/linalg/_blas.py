@@ -74,50 +74,82 @@ def scratch() -> Scratch:
     return Scratch(np.zeros(6, np.int32), np.array([1.0, -1.0, 0.0]), np.frombuffer(b"LRTN", np.uint8).copy())
 
 
+class StoredMatrix(NamedTuple):
+    """A matrix by columns, where it lies.
+
+    Attributes
+    ----------
+    begin : address of its first number
+    stride : numbers from one column to the next
+    """
+
+    begin: int
+    stride: int
+
+
 @njit(cache=True)
-def potrf(k: int, A: int, ld: int, s: Scratch) -> int:
-    """Overwrite the lower triangle of A, (k, k), by its Cholesky factor; 0, or the 1-based column of a pivot <= 0."""
-    s.size[0], s.size[1] = k, ld
+def potrf(k: int, A: StoredMatrix, s: Scratch) -> int:
+    """Overwrite the lower triangle of A, (k, k), by its Cholesky factor; 0, or the 1-based column of a pivot <= 0.
+
+    Parameters
+    ----------
+    k, A : the matrix and its size
+    s : of the caller
+    """
+    s.size[0], s.size[1] = k, A.stride
     z, c = s.size.ctypes.data, s.letter.ctypes.data
-    _dpotrf(c, z, A, z + 4, z + 8)
+    _dpotrf(c, z, A.begin, z + 4, z + 8)
     return int(s.size[2])
 
 
 @njit(cache=True)
-def trsm(right: bool, transposed: bool, m: int, n: int, L: int, ldl: int, B: int, ldb: int, s: Scratch) -> None:
-    """Overwrite B, (m, n), by ``op(L)^-1 B``, or ``B op(L)^-1`` from the right; L is lower triangular."""
-    s.size[0], s.size[1], s.size[2], s.size[3] = m, n, ldl, ldb
+def trsm(right: bool, transposed: bool, m: int, n: int, L: StoredMatrix, B: StoredMatrix, s: Scratch) -> None:
+    """Overwrite B, (m, n), by ``op(L)^-1 B``, or ``B op(L)^-1`` from the right; L is lower triangular.
+
+    Parameters
+    ----------
+    right, transposed : the side of L, and whether op transposes
+    m, n, L, B : sizes and matrices
+    s : of the caller
+    """
+    s.size[0], s.size[1], s.size[2], s.size[3] = m, n, L.stride, B.stride
     z, c, f = s.size.ctypes.data, s.letter.ctypes.data, s.factor.ctypes.data
-    _dtrsm(c + (1 if right else 0), c, c + (2 if transposed else 3), c + 3, z, z + 4, f, L, z + 8, B, z + 12)
+    op = c + (2 if transposed else 3)
+    _dtrsm(c + (1 if right else 0), c, op, c + 3, z, z + 4, f, L.begin, z + 8, B.begin, z + 12)
 
 
 @njit(cache=True)
-def syrk(n: int, k: int, A: int, lda: int, keep: bool, C: int, ldc: int, s: Scratch) -> None:
-    """Overwrite the lower triangle of C, (n, n), by ``[C] - A A^T``; `keep` says whether C counts."""
-    s.size[0], s.size[1], s.size[2], s.size[3] = n, k, lda, ldc
+def syrk(n: int, k: int, A: StoredMatrix, keep: bool, C: StoredMatrix, s: Scratch) -> None:
+    """Overwrite the lower triangle of C, (n, n), by ``[C] - A A^T``.
+
+    Parameters
+    ----------
+    n, k, A, C : sizes and matrices, A (n, k)
+    keep : whether C counts
+    s : of the caller
+    """
+    s.size[0], s.size[1], s.size[2], s.size[3] = n, k, A.stride, C.stride
     z, c, f = s.size.ctypes.data, s.letter.ctypes.data, s.factor.ctypes.data
-    _dsyrk(c, c + 3, z, z + 4, f + 8, A, z + 8, f + (0 if keep else 16), C, z + 12)
+    _dsyrk(c, c + 3, z, z + 4, f + 8, A.begin, z + 8, f + (0 if keep else 16), C.begin, z + 12)
 
 
 @njit(cache=True)
 def gemm(
-    transposed: bool,
-    m: int,
-    n: int,
-    k: int,
-    A: int,
-    lda: int,
-    B: int,
-    ldb: int,
-    keep: bool,
-    C: int,
-    ldc: int,
-    s: Scratch,
+    transposed: bool, m: int, n: int, k: int, A: StoredMatrix, B: StoredMatrix, keep: bool, C: StoredMatrix, s: Scratch
 ) -> None:
-    """Overwrite C, (m, n), by ``[C] - op(A) B``; `keep` says whether C counts."""
-    s.size[0], s.size[1], s.size[2], s.size[3], s.size[4], s.size[5] = m, n, k, lda, ldb, ldc
+    """Overwrite C, (m, n), by ``[C] - op(A) B``.
+
+    Parameters
+    ----------
+    transposed : whether op transposes
+    m, n, k, A, B, C : sizes and matrices, op(A) (m, k)
+    keep : whether C counts
+    s : of the caller
+    """
+    s.size[0], s.size[1], s.size[2] = m, n, k
+    s.size[3], s.size[4], s.size[5] = A.stride, B.stride, C.stride
     z, c, f = s.size.ctypes.data, s.letter.ctypes.data, s.factor.ctypes.data
     _dgemm(
-        c + (2 if transposed else 3), c + 3, z, z + 4, z + 8, f + 8, A, z + 12, B, z + 16,
-        f + (0 if keep else 16), C, z + 20,
+        c + (2 if transposed else 3), c + 3, z, z + 4, z + 8, f + 8, A.begin, z + 12, B.begin, z + 16,
+        f + (0 if keep else 16), C.begin, z + 20,
     )  # fmt: skip

@@ -18,28 +18,20 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
 from signorini.arrays import IntArray
+from signorini.linalg._graph import Graph, Int32Array
 
-Int32Array = NDArray[np.int32]
+LEAF_SIZE = 8  # vertices: pieces up to it are not cut
+ROUGH_SIZE = 30  # vertices: pieces up to it are cut, but the cut is not refined, which would gain less than it takes
+AXES_SIZE = 2000  # vertices: pieces up to it are cut along the first directions only
+CUT_SHARE = 0.25  # of a piece: what a cut leaves on either side at least
+MOVES_SHARE = 0.7  # of a piece: up to which moves make a side grow
+IMBALANCE = 0.3  # share by which a cut that leaves nothing on one side may be thinner than one through the middle
+MAX_PASSES, PATIENCE = 8, 200  # passes of moves; moves in vain, and a quarter of the separator, before a pass ends
+GAINS = 20  # buckets of moves: they shorten the separator by 1, 0, -1, ...
 
-LEAF = 8
-"""Pieces up to this many vertices are not cut."""
-SMALL = 30
-"""Pieces up to this many vertices are cut, but the cut is not refined: it would gain less than it takes."""
-LARGE = 2000
-"""Pieces up to this many vertices are cut along the first directions only."""
-LEAST, MOST = 0.25, 0.7
-"""Share of a piece that a cut leaves on either side; share up to which moves make a side grow."""
-IMBALANCE = 0.3
-"""A cut that leaves nothing on one side may be this share thinner than one through the middle."""
-PASSES, PATIENCE = 8, 200
-"""Passes of moves, and moves in vain (besides a quarter of the separator) before a pass ends."""
-GAINS = 20
-"""Buckets of moves: they shorten the separator by 1, 0, -1, ..."""
-
-NEAR, FAR, SEPARATOR = 0, 1, 2
+NEAR_SIDE, FAR_SIDE, SEPARATOR = 0, 1, 2
 
 
 class Moves(NamedTuple):
@@ -66,13 +58,14 @@ class Moves(NamedTuple):
 
 
 @njit(cache=True)
-def dissect(indptr: Int32Array, indices: Int32Array, along: Int32Array, first: int) -> Int32Array:
+def dissect(graph: Graph, along: Int32Array, first: int) -> Int32Array:
     """Order the vertices of a graph so that few entries fill in.
 
     Parameters
     ----------
+    graph : of n vertices, without loops
     along : (k, n) the vertices in their order along every direction
-    first : how many of the directions are for pieces of any size; the others for `LARGE` ones
+    first : how many of the directions are for pieces of any size; the others for `AXES_SIZE` ones
     """
     directions, n = along.shape
     along = along.copy()
@@ -90,29 +83,29 @@ def dissect(indptr: Int32Array, indices: Int32Array, along: Int32Array, first: i
     while len(stack) > 0:
         low, high = stack.pop()
         size = high - low
-        if size <= LEAF:
+        if size <= LEAF_SIZE:
             _copy(along[0, low:high], order[low:high])
             continue
         for v in along[0, low:high]:
             label[v] = base
-        best, chosen, cut, thinner = np.inf, 0, 0, NEAR
-        for k in range(directions if size > LARGE else first):
-            cost, where, side = _best_cut(indptr, indices, along[k, low:high], label, place, difference)
+        best, chosen, cut, thinner = np.inf, 0, 0, NEAR_SIDE
+        for k in range(directions if size > AXES_SIZE else first):
+            cost, where, side = _best_cut(graph, along[k, low:high], label, place, difference)
             if cost < best:
                 best, chosen, cut, thinner = cost, k, where, side
         base += 1
-        count = _separate(indptr, indices, along[chosen, low:high], cut, thinner, label, base, separator)
+        count = _separate(graph, along[chosen, low:high], cut, thinner, label, base, separator)
         sides = np.array([cut, size - cut])
         sides[thinner] -= count
-        for _ in range(PASSES if size > SMALL else 0):
+        for _ in range(MAX_PASSES if size > ROUGH_SIZE else 0):
             passed += 1
-            shorter = _refine(indptr, indices, label, base, sides, separator, count, moves, passed)
+            shorter = _refine(graph, label, base, sides, separator, count, moves, passed)
             if shorter == count:
                 break
             count = shorter
         _copy(separator[:count], order[high - count : high])
         near = 0
-        for k in range(directions if size > LARGE else first):
+        for k in range(directions if size > AXES_SIZE else first):
             near = _partition(along[k, low:high], label, base, other)
         stack.append((low, low + near))
         stack.append((low + near, high - count))
@@ -129,13 +122,14 @@ def _copy(source: Int32Array, target: Int32Array) -> None:
 
 @njit(cache=True)
 def _best_cut(
-    indptr: Int32Array, indices: Int32Array, line: Int32Array, label: Int32Array, place: Int32Array, change: Int32Array
+    graph: Graph, line: Int32Array, label: Int32Array, place: Int32Array, change: Int32Array
 ) -> tuple[float, int, int]:
     """Where a piece, sorted along a direction, is cut best: the cost, the vertices before it, the thinner side.
 
     A vertex with neighbours beyond the cut is in the separator of its side: for all cuts between it and its farthest
     neighbour, so that differences sum up to the sizes of the separators at all cuts.
     """
+    indptr, indices = graph
     size = len(line)
     mine = label[line[0]]
     change[:, : size + 2] = 0
@@ -148,27 +142,26 @@ def _best_cut(
             w = indices[p]
             if label[w] == mine:
                 last, begin = max(last, place[w]), min(begin, place[w])
-        change[NEAR, q + 1] += 1
-        change[NEAR, last + 1] -= 1
-        change[FAR, begin + 1] += 1
-        change[FAR, q + 1] -= 1
-    least = max(1, int(LEAST * size))
-    best, cut, side = np.inf, least, NEAR
+        change[NEAR_SIDE, q + 1] += 1
+        change[NEAR_SIDE, last + 1] -= 1
+        change[FAR_SIDE, begin + 1] += 1
+        change[FAR_SIDE, q + 1] -= 1
+    least = max(1, int(CUT_SHARE * size))
+    best, cut, side = np.inf, least, NEAR_SIDE
     near = far = 0
     for k in range(size - least + 1):
-        near += change[NEAR, k]
-        far += change[FAR, k]
+        near += change[NEAR_SIDE, k]
+        far += change[FAR_SIDE, k]
         if k >= least:
             cost = min(near, far) * (1.0 + IMBALANCE * abs(1.0 - 2.0 * k / size))
             if cost < best:
-                best, cut, side = cost, k, NEAR if near < far or (near == far and 2 * k >= size) else FAR
+                best, cut, side = cost, k, NEAR_SIDE if near < far or (near == far and 2 * k >= size) else FAR_SIDE
     return best, cut, side
 
 
 @njit(cache=True)
 def _separate(
-    indptr: Int32Array,
-    indices: Int32Array,
+    graph: Graph,
     line: Int32Array,
     cut: int,
     thinner: int,
@@ -177,10 +170,11 @@ def _separate(
     separator: Int32Array,
 ) -> int:
     """Label a piece by the sides of its cut and by the separator, which is listed; gives its size."""
+    indptr, indices = graph
     for q in range(len(line)):
-        label[line[q]] = base + (NEAR if q < cut else FAR)
+        label[line[q]] = base + (NEAR_SIDE if q < cut else FAR_SIDE)
     count = 0
-    for v in line[:cut] if thinner == NEAR else line[cut:]:
+    for v in line[:cut] if thinner == NEAR_SIDE else line[cut:]:
         for p in range(indptr[v], indptr[v + 1]):
             if label[indices[p]] == base + 1 - thinner:
                 separator[count] = v
@@ -196,10 +190,10 @@ def _partition(line: Int32Array, label: Int32Array, base: int, other: Int32Array
     """Bring the near side of a piece to the front and the far one behind it, in their order; gives the near size."""
     near = far = 0
     for v in line:
-        if label[v] == base + NEAR:
+        if label[v] == base + NEAR_SIDE:
             line[near] = v
             near += 1
-        elif label[v] == base + FAR:
+        elif label[v] == base + FAR_SIDE:
             other[far] = v
             far += 1
     _copy(other[:far], line[near : near + far])
@@ -208,8 +202,7 @@ def _partition(line: Int32Array, label: Int32Array, base: int, other: Int32Array
 
 @njit(cache=True)
 def _refine(
-    indptr: Int32Array,
-    indices: Int32Array,
+    graph: Graph,
     label: Int32Array,
     base: int,
     sides: IntArray,
@@ -219,7 +212,7 @@ def _refine(
     stamp: int,
 ) -> int:
     """Shorten a separator by one pass of moves; lists it anew and gives its size."""
-    kept = _pass(indptr, indices, label, base, sides, separator[:count], moves, stamp)
+    kept = _pass(graph, label, base, sides, separator[:count], moves, stamp)
     left = 0
     for k in range(count + kept):
         v = separator[k] if k < count else moves.moved[k - count]
@@ -232,8 +225,7 @@ def _refine(
 
 @njit(cache=True)
 def _pass(
-    indptr: Int32Array,
-    indices: Int32Array,
+    graph: Graph,
     label: Int32Array,
     base: int,
     sides: IntArray,
@@ -248,30 +240,30 @@ def _pass(
     moves.head[:] = -1
     moves.used[:] = 0
     for v in separator:
-        _enter(indptr, indices, label, base, v, moves)
+        _enter(graph, label, base, v, moves)
     current = best = len(separator)
-    most = int(MOST * (sides[NEAR] + sides[FAR] + current))
-    near, kept, vain, patience = sides[NEAR], 0, 0, PATIENCE + current // 4
-    far = sides[FAR]
+    most = int(MOVES_SHARE * (sides[NEAR_SIDE] + sides[FAR_SIDE] + current))
+    near, kept, vain, patience = sides[NEAR_SIDE], 0, 0, PATIENCE + current // 4
+    far = sides[FAR_SIDE]
     while vain < patience:
         v, side = _next_move(label, base, sides, most, moves, stamp)
         if v < 0:
             break
-        current += _move(indptr, indices, label, base, v, side, sides, moves, stamp)
-        if current < best or (current == best and abs(sides[NEAR] - sides[FAR]) < abs(near - far)):
-            kept, best, near, far, vain = moves.used[1], current, sides[NEAR], sides[FAR], 0
+        current += _move(graph, label, base, v, side, sides, moves, stamp)
+        if current < best or (current == best and abs(sides[NEAR_SIDE] - sides[FAR_SIDE]) < abs(near - far)):
+            kept, best, near, far, vain = moves.used[1], current, sides[NEAR_SIDE], sides[FAR_SIDE], 0
         else:
             vain += 1
     for k in range(moves.used[1] - 1, kept - 1, -1):
         label[moves.moved[k]] = moves.before[k]
-    sides[NEAR], sides[FAR] = near, far
+    sides[NEAR_SIDE], sides[FAR_SIDE] = near, far
     return kept
 
 
 @njit(cache=True)
 def _next_move(label: Int32Array, base: int, sides: IntArray, most: int, moves: Moves, stamp: int) -> tuple[int, int]:
     """The vertex whose move gains most, the smaller side first, and where it goes; -1 where nothing may move."""
-    lighter = NEAR if sides[NEAR] <= sides[FAR] else FAR
+    lighter = NEAR_SIDE if sides[NEAR_SIDE] <= sides[FAR_SIDE] else FAR_SIDE
     for level in range(GAINS):
         for side in (lighter, 1 - lighter):
             if sides[side] >= most:
@@ -283,13 +275,12 @@ def _next_move(label: Int32Array, base: int, sides: IntArray, most: int, moves: 
                 current = label[v] == base + SEPARATOR and moves.locked[v] != stamp
                 if current and _level(moves.gain[side, v]) == level:
                     return v, side
-    return -1, NEAR
+    return -1, NEAR_SIDE
 
 
 @njit(cache=True)
 def _move(
-    indptr: Int32Array,
-    indices: Int32Array,
+    graph: Graph,
     label: Int32Array,
     base: int,
     v: int,
@@ -299,6 +290,7 @@ def _move(
     stamp: int,
 ) -> int:
     """Move a vertex of the separator to a side; gives by how much the separator grows."""
+    indptr, indices = graph
     growth = -1
     _note(label, v, base + side, moves)
     moves.locked[v] = stamp
@@ -313,7 +305,7 @@ def _move(
             _note(label, u, base + SEPARATOR, moves)
             sides[1 - side] -= 1
             growth += 1
-            _enter(indptr, indices, label, base, u, moves)
+            _enter(graph, label, base, u, moves)
             for q in range(indptr[u], indptr[u + 1]):
                 w = indices[q]
                 if label[w] == base + SEPARATOR and w != u:
@@ -323,16 +315,17 @@ def _move(
 
 
 @njit(cache=True)
-def _enter(indptr: Int32Array, indices: Int32Array, label: Int32Array, base: int, v: int, moves: Moves) -> None:
+def _enter(graph: Graph, label: Int32Array, base: int, v: int, moves: Moves) -> None:
     """Offer both moves of a vertex in the separator."""
+    indptr, indices = graph
     near = far = 0
     for p in range(indptr[v], indptr[v + 1]):
         where = label[indices[p]] - base
-        near += where == NEAR
-        far += where == FAR
-    moves.gain[NEAR, v], moves.gain[FAR, v] = 1 - far, 1 - near
-    _offer(v, NEAR, moves)
-    _offer(v, FAR, moves)
+        near += where == NEAR_SIDE
+        far += where == FAR_SIDE
+    moves.gain[NEAR_SIDE, v], moves.gain[FAR_SIDE, v] = 1 - far, 1 - near
+    _offer(v, NEAR_SIDE, moves)
+    _offer(v, FAR_SIDE, moves)
 
 
 @njit(cache=True)

@@ -9,35 +9,44 @@ What is left of the last fronts is added to the condensed matrix of the interfac
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit
 
 from signorini.arrays import Array
-from signorini.linalg._blas import Scratch, gemm, potrf, set_threads, syrk, trsm
+from signorini.linalg._blas import Scratch, StoredMatrix, gemm, potrf, set_threads, syrk, trsm
+from signorini.linalg._graph import Elimination, Rows
 from signorini.linalg.plan import Fronts
 from signorini.linalg.system import Int32Array
 
-LARGE = 1e9
-"""Operations from which several threads share what a front leaves: tens of milliseconds of one thread."""
+SHARED_WORK = 1e9  # operations from which threads share what a front leaves: tens of milliseconds of one thread
+TILE = 64  # rows and columns that are mirrored at a time, so that they stay in the cache
 
-TILE = 64
-"""Rows and columns that are mirrored at a time, so that they stay in the cache."""
+
+class Factors(NamedTuple):
+    """What a factorisation makes.
+
+    Attributes
+    ----------
+    columns : of all fronts, one behind the other
+    condensed : (m, m) of the interface, zero on entry
+    diagonal : of K inside, in order of elimination
+    """
+
+    columns: Array
+    condensed: Array
+    diagonal: Array
 
 
 @njit(cache=True)
 def factorise_fronts(
     fronts: Fronts,
-    indptr: Int32Array,
-    indices: Int32Array,
-    data: Array,
-    order: Int32Array,
-    place: Int32Array,
+    K: Rows,
+    elimination: Elimination,
     slot: Int32Array,
-    factor: Array,
+    made: Factors,
     stacks: tuple[Array, Array],
-    condensed: Array,
-    diagonal: Array,
-    widest: int,
     threads: int,
     s: Scratch,
 ) -> int:
@@ -45,18 +54,19 @@ def factorise_fronts(
 
     Parameters
     ----------
-    indptr, indices, data : rows of K in its own numbering
-    order, place : order of elimination of the unknowns, and its inverse
+    fronts : in postorder
+    K : in its own numbering
+    elimination : order of the unknowns, the interface last
     slot : for every unknown of the interface, in order of elimination, its row in the condensed matrix
-    factor : overwritten
-    condensed : zero on entry
+    made : overwritten
     stacks : what waits for parents
-    diagonal : overwritten by that of K inside, in order of elimination
-    widest : unknowns below the largest front
     threads : of BLAS where much is left of a front; in small ones they cost more than they give, and what eliminates
         its own unknowns has other last digits with every number of threads
+    s : of BLAS
     """
+    (order, _), (factor, condensed, diagonal) = elimination, made
     inside = len(order) - len(slot)
+    widest = fronts.below.max() if len(fronts.below) else 0
     local = np.empty(len(order), np.int32)
     target, runs = np.empty(widest, np.int32), np.empty(widest + 1, np.int32)
     waiting = np.empty((2, len(fronts.parent)), np.int32)
@@ -68,13 +78,12 @@ def factorise_fronts(
         ld = k + r
         panel = factor[fronts.panel[t] : fronts.panel[t + 1]]
         panel[:] = 0.0
-        own = fronts.side[t]
-        other = 1 - own
+        own, other = fronts.side[t], 1 - fronts.side[t]
         left = stacks[own][top[own] : top[own] + r * r]
         _number_rows(fronts, t, k, local)
         for j in range(k):
             local[a + j] = j
-        _add_matrix(indptr, indices, data, order, place, a, k, local, panel, ld)
+        _add_matrix(K, elimination, a, k, local, panel, ld)
         for j in range(k):
             diagonal[a + j] = panel[j * (ld + 1)]
         leaf = count[other] == 0 or fronts.parent[waiting[other, count[other] - 1]] != t
@@ -87,19 +96,19 @@ def factorise_fronts(
             size = fronts.below[child]
             top[other] -= size * size
             _list_rows(fronts, child, local, target)
-            number = _list_runs(target, size, runs)
-            _extend_add(stacks[other][top[other] :], target, runs, number, size, k, panel, ld, left, r)
-        begin = panel.ctypes.data
-        failed = potrf(k, begin, ld, s)
+            number = _list_runs(target[:size], runs)
+            _extend_add(stacks[other][top[other] :], target[:size], runs[: number + 1], k, panel, ld, left, r)
+        top_block, below = StoredMatrix(panel.ctypes.data, ld), StoredMatrix(panel.ctypes.data + 8 * k, ld)
+        failed = potrf(k, top_block, s)
         if failed != 0:
             return int(a + failed - 1)
         if r == 0:
             continue
-        trsm(True, True, r, k, begin, ld, begin + 8 * k, ld, s)
-        many = threads > 1 and k * float(r) * r > LARGE
+        trsm(True, True, r, k, top_block, below, s)
+        many = threads > 1 and k * float(r) * r > SHARED_WORK
         if many:
             set_threads(threads)
-        syrk(r, k, begin + 8 * k, ld, not leaf, left.ctypes.data, r, s)
+        syrk(r, k, below, not leaf, StoredMatrix(left.ctypes.data, r), s)
         if many:
             set_threads(1)
         if fronts.parent[t] == -1:
@@ -111,7 +120,7 @@ def factorise_fronts(
             top[own] += r * r
             waiting[own, count[own]] = t
             count[own] += 1
-    _add_interface(indptr, indices, data, order, place, slot, condensed)
+    _add_interface(K, elimination, slot, condensed)
     return -1
 
 
@@ -136,19 +145,9 @@ def _list_rows(fronts: Fronts, t: int, local: Int32Array, target: Int32Array) ->
 
 
 @njit(cache=True)
-def _add_matrix(
-    indptr: Int32Array,
-    indices: Int32Array,
-    data: Array,
-    order: Int32Array,
-    place: Int32Array,
-    a: int,
-    k: int,
-    local: Int32Array,
-    panel: Array,
-    ld: int,
-) -> None:
+def _add_matrix(K: Rows, elimination: Elimination, a: int, k: int, local: Int32Array, panel: Array, ld: int) -> None:
     """Add the entries of K on and below the diagonal to the columns of a front."""
+    (indptr, indices, data), (order, place) = K, elimination
     for j in range(k):
         for p in range(indptr[order[a + j]], indptr[order[a + j] + 1]):
             i = place[indices[p]]
@@ -157,8 +156,9 @@ def _add_matrix(
 
 
 @njit(cache=True)
-def _list_runs(target: Int32Array, size: int, runs: Int32Array) -> int:
+def _list_runs(target: Int32Array, runs: Int32Array) -> int:
     """List where rows that stand one below the other in the parent begin; gives how many runs there are."""
+    size = len(target)
     number = 0
     for i in range(size):
         if i == 0 or target[i] != target[i - 1] + 1:
@@ -170,18 +170,10 @@ def _list_runs(target: Int32Array, size: int, runs: Int32Array) -> int:
 
 @njit(cache=True)
 def _extend_add(
-    left: Array,
-    target: Int32Array,
-    runs: Int32Array,
-    number: int,
-    size: int,
-    k: int,
-    panel: Array,
-    ld: int,
-    work: Array,
-    r: int,
+    left: Array, target: Int32Array, runs: Int32Array, k: int, panel: Array, ld: int, work: Array, r: int
 ) -> None:
-    """Add what is left of a child, the lower triangle of (size, size) by columns, to its parent, run by run."""
+    """Add what is left of a child, the lower triangle of a matrix by columns, to its parent, run by run."""
+    size, number = len(target), len(runs) - 1
     for own in range(number):
         for c in range(runs[own], runs[own + 1]):
             j = target[c]
@@ -210,16 +202,9 @@ def _add_condensed(work: Array, target: Int32Array, r: int, condensed: Array) ->
 
 
 @njit(cache=True)
-def _add_interface(
-    indptr: Int32Array,
-    indices: Int32Array,
-    data: Array,
-    order: Int32Array,
-    place: Int32Array,
-    slot: Int32Array,
-    condensed: Array,
-) -> None:
+def _add_interface(K: Rows, elimination: Elimination, slot: Int32Array, condensed: Array) -> None:
     """Add K_cc to the condensed matrix and mirror its upper triangle."""
+    (indptr, indices, data), (order, place) = K, elimination
     inside = len(order) - len(slot)
     for u in range(len(slot)):
         row = order[inside + u]
@@ -250,7 +235,13 @@ def forward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) ->
     """Overwrite the inside of y, (k, n) with one load per row, by ``L_ii^-1 y``; the interface gathers what is left.
 
     Fronts that neither a load nor anything eliminated before reaches are passed over: most loads act on a surface.
-    `work` holds k numbers for every unknown below the largest front.
+
+    Parameters
+    ----------
+    fronts, factor : as factorised
+    y : overwritten
+    work : k numbers for every unknown below the largest front
+    s : of BLAS
     """
     columns, n = y.shape
     for t in range(len(fronts.parent)):
@@ -260,11 +251,12 @@ def forward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) ->
         if not _any(y, a, a + k):
             continue
         top = factor.ctypes.data + 8 * fronts.panel[t]
-        x = y.ctypes.data + 8 * a
-        trsm(False, False, k, columns, top, k + r, x, n, s)
+        own, below = StoredMatrix(top, k + r), StoredMatrix(top + 8 * k, k + r)
+        x, gathered = StoredMatrix(y.ctypes.data + 8 * a, n), StoredMatrix(work.ctypes.data, r)
+        trsm(False, False, k, columns, own, x, s)
         if r == 0:
             continue
-        gemm(False, r, columns, k, top + 8 * k, k + r, x, n, False, work.ctypes.data, r, s)
+        gemm(False, r, columns, k, below, x, False, gathered, s)
         for c in range(columns):
             at = c * r
             for p in range(fronts.begin[t], fronts.begin[t + 1]):
@@ -275,14 +267,20 @@ def forward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) ->
 
 @njit(cache=True)
 def backward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) -> None:
-    """Overwrite the inside of y, (k, n) with one load per row, by ``L_ii^-T (y_i - L_ci^T y_c)``."""
+    """Overwrite the inside of y, (k, n) with one load per row, by ``L_ii^-T (y_i - L_ci^T y_c)``.
+
+    Parameters
+    ----------
+    fronts, factor, y, work, s : see `forward`
+    """
     columns, n = y.shape
     for t in range(len(fronts.parent) - 1, -1, -1):
         a = fronts.unknown[fronts.first[t]]
         k = fronts.unknown[fronts.first[t + 1]] - a
         r = fronts.below[t]
         top = factor.ctypes.data + 8 * fronts.panel[t]
-        x = y.ctypes.data + 8 * a
+        own, below = StoredMatrix(top, k + r), StoredMatrix(top + 8 * k, k + r)
+        x, gathered = StoredMatrix(y.ctypes.data + 8 * a, n), StoredMatrix(work.ctypes.data, r)
         if r > 0:
             for c in range(columns):
                 at = c * r
@@ -290,8 +288,8 @@ def backward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) -
                     for u in range(fronts.unknown[fronts.row[p]], fronts.unknown[fronts.row[p] + 1]):
                         work[at] = y[c, u]
                         at += 1
-            gemm(True, k, columns, r, top + 8 * k, k + r, work.ctypes.data, r, True, x, n, s)
-        trsm(False, True, k, columns, top, k + r, x, n, s)
+            gemm(True, k, columns, r, below, gathered, True, x, s)
+        trsm(False, True, k, columns, own, x, s)
 
 
 @njit(cache=True)

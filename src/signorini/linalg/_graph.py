@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -12,11 +14,60 @@ from signorini.arrays import Array, BoolArray, IntArray
 Int32Array = NDArray[np.int32]
 
 
+class Graph(NamedTuple):
+    """Neighbours of every vertex; a named tuple, because compiled loops read it.
+
+    Attributes
+    ----------
+    indptr, indices : those of v are ``indices[indptr[v]:indptr[v + 1]]``
+    """
+
+    indptr: Int32Array
+    indices: Int32Array
+
+
+class Rows(NamedTuple):
+    """A sparse matrix by rows; the columns of a row need not be sorted.
+
+    Attributes
+    ----------
+    indptr, indices, data : row i has the entries ``data[k]`` in columns ``indices[k]``, indptr[i] <= k < indptr[i + 1]
+    """
+
+    indptr: Int32Array
+    indices: Int32Array
+    data: Array
+
+    @property
+    def graph(self) -> Graph:
+        """The pattern."""
+        return Graph(self.indptr, self.indices)
+
+
+class Elimination(NamedTuple):
+    """An order of elimination.
+
+    Attributes
+    ----------
+    order : (n,) what is eliminated first, second, ...
+    place : (n,) the inverse: when each is eliminated
+    """
+
+    order: Int32Array
+    place: Int32Array
+
+
 @njit(cache=True)
-def quotient(
-    indptr: Int32Array, indices: Int32Array, start: Int32Array, member: Int32Array, group: Int32Array
-) -> tuple[Int32Array, Int32Array]:
-    """Merge the vertices of every group: the graph of the groups, without loops."""
+def quotient(graph: Graph, start: Int32Array, member: Int32Array, group: Int32Array) -> Graph:
+    """Merge the vertices of every group: the graph of the groups, without loops.
+
+    Parameters
+    ----------
+    graph : of n vertices
+    start, member : the vertices of group g are ``member[start[g]:start[g + 1]]``
+    group : (n,) the group of every vertex
+    """
+    indptr, indices = graph
     count = len(start) - 1
     mark = np.full(count, -1, np.int32)
     rows = np.zeros(count + 1, np.int32)
@@ -37,12 +88,13 @@ def quotient(
                     columns[top] = h
                     top += 1
         rows[g + 1] = top
-    return rows, columns[:top].copy()
+    return Graph(rows, columns[:top].copy())
 
 
 @njit(cache=True)
-def subgraph(indptr: Int32Array, indices: Int32Array, count: int) -> tuple[Int32Array, Int32Array]:
+def subgraph(graph: Graph, count: int) -> Graph:
     """Keep the first `count` vertices and the edges between them."""
+    indptr, indices = graph
     rows = np.zeros(count + 1, np.int32)
     columns = np.empty(indptr[count], np.int32)
     top = 0
@@ -52,7 +104,7 @@ def subgraph(indptr: Int32Array, indices: Int32Array, count: int) -> tuple[Int32
                 columns[top] = indices[p]
                 top += 1
         rows[v + 1] = top
-    return rows, columns[:top].copy()
+    return Graph(rows, columns[:top].copy())
 
 
 @njit(cache=True)
@@ -78,8 +130,9 @@ def sort_lists(begin: IntArray, entry: Int32Array, vertices: int) -> None:
 
 
 @njit(cache=True)
-def components(indptr: Int32Array, indices: Int32Array, inside: BoolArray) -> Int32Array:
+def components(graph: Graph, inside: BoolArray) -> Int32Array:
     """Number the connected parts of the vertices inside; -1 outside."""
+    indptr, indices = graph
     part = np.full(len(inside), -1, np.int32)
     stack = np.empty(len(inside), np.int32)
     count = 0
@@ -103,10 +156,16 @@ def components(indptr: Int32Array, indices: Int32Array, inside: BoolArray) -> In
 
 
 @njit(cache=True)
-def absolute_energies(
-    indptr: Int32Array, indices: Int32Array, data: Array, part: Int32Array, parts: int, x: Array
-) -> Array:
-    """Sum ``|x_i| |K_ij| |x_j|`` over every part."""
+def absolute_energies(K: Rows, part: Int32Array, parts: int, x: Array) -> Array:
+    """Sum ``|x_i| |K_ij| |x_j|`` over every part.
+
+    Parameters
+    ----------
+    K : (n, n)
+    part, parts : (n,) the part of every unknown, -1 in none, and their number
+    x : (n,)
+    """
+    indptr, indices, data = K
     energy = np.zeros(parts)
     for i in range(len(part)):
         if part[i] != -1:

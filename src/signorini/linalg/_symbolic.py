@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Compiled symbolic phase: elimination tree, postorder, supernodes and the rows of every front.
 
-Vertices are nodes in their order of elimination: ``order`` lists them, ``place`` is its inverse. The first `interior`
+Vertices are nodes, numbered in their order of elimination. The first `interior`
 of them are eliminated, the others only appear as rows; a tree ends where only those are left.
 
 References
@@ -16,15 +16,20 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import IntArray
-from signorini.linalg._graph import sort_lists
+from signorini.linalg._graph import Elimination, Graph, sort_lists
 from signorini.linalg.system import Int32Array
 
 
 @njit(cache=True)
-def elimination_tree(
-    indptr: Int32Array, indices: Int32Array, order: Int32Array, place: Int32Array, interior: int
-) -> Int32Array:
-    """Give the parent of every interior vertex, -1 where none is left inside (Liu's path compression)."""
+def elimination_tree(graph: Graph, elimination: Elimination, interior: int) -> Int32Array:
+    """Give the parent of every interior vertex, -1 where none is left inside (Liu's path compression).
+
+    Parameters
+    ----------
+    graph, elimination : of the nodes, and their order
+    interior : how many are eliminated
+    """
+    (indptr, indices), (order, place) = graph, elimination
     parent = np.full(interior, -1, np.int32)
     ancestor = np.full(interior, -1, np.int32)
     for i in range(interior):
@@ -71,10 +76,15 @@ def postorder(parent: Int32Array) -> Int32Array:
 
 
 @njit(cache=True)
-def column_counts(
-    indptr: Int32Array, indices: Int32Array, order: Int32Array, place: Int32Array, parent: Int32Array
-) -> Int32Array:
-    """Count the vertices in every column of the factor, its own included, by walking the row subtrees."""
+def column_counts(graph: Graph, elimination: Elimination, parent: Int32Array) -> Int32Array:
+    """Count the vertices in every column of the factor, its own included, by walking the row subtrees.
+
+    Parameters
+    ----------
+    graph, elimination : of the nodes, and their order
+    parent : of every interior vertex
+    """
+    (indptr, indices), (order, place) = graph, elimination
     interior = len(parent)
     count = np.ones(interior, np.int32)
     mark = np.full(interior, -1, np.int32)
@@ -137,14 +147,20 @@ def supernodes(parent: Int32Array, count: Int32Array, relax: tuple[int, float, i
 
 @njit(cache=True)
 def front_rows(
-    indptr: Int32Array,
-    indices: Int32Array,
-    order: Int32Array,
-    place: Int32Array,
+    graph: Graph,
+    elimination: Elimination,
     first: Int32Array,
     count: Int32Array,
 ) -> tuple[IntArray, Int32Array, Int32Array]:
-    """Give the rows below every supernode, sorted, and the supernode that they join next (-1: the interface)."""
+    """Give the rows below every supernode, sorted, and the supernode that they join next (-1: the interface).
+
+    Parameters
+    ----------
+    graph, elimination : of the nodes, and their order
+    first : (s + 1,) first column of every supernode
+    count : vertices in every column
+    """
+    (indptr, indices), (order, place) = graph, elimination
     total = len(first) - 1
     interior = first[total]
     begin = np.zeros(total + 1, np.int64)
@@ -200,7 +216,13 @@ def sides(parent: Int32Array) -> Int32Array:
 
 @njit(cache=True)
 def stack_peaks(parent: Int32Array, side: Int32Array, size: IntArray) -> tuple[int, int]:
-    """Give the largest number of entries on either stack: what waits for its parent, and what is just made."""
+    """Give the largest number of entries on either stack: what waits for its parent, and what is just made.
+
+    Parameters
+    ----------
+    parent, side : (s,) of every front: where it goes, and the stack it waits on
+    size : (s,) entries that wait
+    """
     waiting = np.empty((2, len(parent)), np.int32)
     count, now, peak = np.zeros(2, np.int64), np.zeros(2, np.int64), np.zeros(2, np.int64)
     for s in range(len(parent)):

@@ -11,7 +11,13 @@ from signorini.linalg.system import Int32Array
 
 @njit(cache=True)
 def forward(indptr: Int32Array, indices: Int32Array, data: Array, y: Array) -> None:
-    """Overwrite y, (n, k), by ``L^-1 y``; rows without a column of their own only gather."""
+    """Overwrite y, (n, k), by ``L^-1 y``; rows without a column of their own only gather.
+
+    Parameters
+    ----------
+    indptr, indices, data : columns of L below the diagonal
+    y : overwritten
+    """
     for j in range(len(indptr) - 1):
         for p in range(indptr[j], indptr[j + 1]):
             for c in range(y.shape[1]):
@@ -20,7 +26,12 @@ def forward(indptr: Int32Array, indices: Int32Array, data: Array, y: Array) -> N
 
 @njit(cache=True)
 def backward(indptr: Int32Array, indices: Int32Array, data: Array, y: Array) -> None:
-    """Overwrite the rows of y that have a column in L by ``L^-T y``."""
+    """Overwrite the rows of y that have a column in L by ``L^-T y``.
+
+    Parameters
+    ----------
+    indptr, indices, data, y : see `forward`
+    """
     for j in range(len(indptr) - 2, -1, -1):
         for p in range(indptr[j], indptr[j + 1]):
             for c in range(y.shape[1]):

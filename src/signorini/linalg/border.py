@@ -7,8 +7,7 @@ import numpy as np
 from numba import njit
 from scipy import sparse
 
-from signorini.arrays import Array, IntArray
-from signorini.linalg.system import Int32Array
+from signorini.linalg._graph import Rows
 
 
 def bordered(K: sparse.csr_array, B: sparse.csr_array) -> sparse.csr_array:
@@ -28,32 +27,22 @@ def bordered(K: sparse.csr_array, B: sparse.csr_array) -> sparse.csr_array:
     beside = sparse.csr_array(B.T)
     count = np.concatenate([np.diff(K.indptr) + np.diff(beside.indptr), np.diff(B.indptr)])
     indptr = np.concatenate([[0], np.cumsum(count)]).astype(np.int32)
-    indices, data = np.empty(indptr[-1], np.int32), np.empty(indptr[-1])
-    _fill(K.indptr, K.indices, K.data, beside.indptr, beside.indices, beside.data, indptr, indices, data)
+    both = Rows(indptr, np.empty(indptr[-1], np.int32), np.empty(indptr[-1]))
+    _fill(Rows(K.indptr, K.indices, K.data), Rows(beside.indptr, beside.indices, beside.data), both)
     last = int(indptr[K.shape[0]])
-    indices[last:], data[last:] = B.indices, B.data
-    return sparse.csr_array((data, indices, indptr), shape=(len(count),) * 2)
+    both.indices[last:], both.data[last:] = B.indices, B.data
+    return sparse.csr_array((both.data, both.indices, both.indptr), shape=(len(count),) * 2)
 
 
 @njit(cache=True)
-def _fill(
-    indptr: IntArray,
-    indices: IntArray,
-    data: Array,
-    beside_indptr: IntArray,
-    beside_indices: IntArray,
-    beside_data: Array,
-    rows: Int32Array,
-    columns: Int32Array,
-    values: Array,
-) -> None:
+def _fill(K: Rows, beside: Rows, both: Rows) -> None:
     """Copy the rows of two matrices one behind the other."""
-    n = len(indptr) - 1
+    n = len(K.indptr) - 1
     for i in range(n):
-        top = rows[i]
-        for p in range(indptr[i], indptr[i + 1]):
-            columns[top], values[top] = indices[p], data[p]
+        top = both.indptr[i]
+        for p in range(K.indptr[i], K.indptr[i + 1]):
+            both.indices[top], both.data[top] = K.indices[p], K.data[p]
             top += 1
-        for p in range(beside_indptr[i], beside_indptr[i + 1]):
-            columns[top], values[top] = n + beside_indices[p], beside_data[p]
+        for p in range(beside.indptr[i], beside.indptr[i + 1]):
+            both.indices[top], both.data[top] = n + beside.indices[p], beside.data[p]
             top += 1

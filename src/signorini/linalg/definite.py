@@ -49,8 +49,8 @@ def check_energy(system: System, solve: Callable[[Array], Array]) -> None:
     x = solve(load)
     if not np.isfinite(x).all():
         raise NotPositiveDefinite(int(np.argmin(np.isfinite(x))))
-    part = components(system.indptr, system.indices, system.inside)
-    size = absolute_energies(system.indptr, system.indices, system.data, part, int(part.max()) + 1, x)
+    part = components(system.rows.graph, system.inside)
+    size = absolute_energies(system.rows, part, int(part.max()) + 1, x)
     energy = np.bincount(part[system.inside], weights=(x * load)[system.inside])
     free = (energy <= ROUNDOFF * size) & (size > 0)
     if free.any():

@@ -21,6 +21,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.linalg import _fronts
 from signorini.linalg._blas import scratch
+from signorini.linalg._graph import Elimination
 from signorini.linalg.definite import SUSPICIOUS, check_energy
 from signorini.linalg.plan import Plan, analyse
 from signorini.linalg.protocol import NotPositiveDefinite, Reduced
@@ -96,20 +97,18 @@ def factorise(system: System) -> MultifrontalFactorisation:
     place[plan.order] = np.arange(system.n, dtype=np.int32)
     slots = np.empty(system.m, dtype=np.int32)
     slots[place[system.interface] - inside] = np.arange(system.m, dtype=np.int32)
-    factor = np.empty(plan.fronts.panel[-1])
-    condensed, diagonal = np.zeros((system.m, system.m)), np.empty(inside)
+    made = _fronts.Factors(np.empty(plan.fronts.panel[-1]), np.zeros((system.m, system.m)), np.empty(inside))
     stacks = np.empty(plan.stacks[0]), np.empty(plan.stacks[1])
     with one_thread() as threads:
         failed = _fronts.factorise_fronts(
-            plan.fronts, system.indptr, system.indices, system.data, plan.order, place, slots,
-            factor, stacks, condensed, diagonal, plan.widest, threads, scratch(),
-        )  # fmt: skip
+            plan.fronts, system.rows, Elimination(plan.order, place), slots, made, stacks, threads, scratch()
+        )
     if failed >= 0:
         raise NotPositiveDefinite(int(plan.order[failed]))
-    condensed.flags.writeable = False
+    made.condensed.flags.writeable = False
     result = MultifrontalFactorisation(
-        n=system.n, m=system.m, plan=plan, factor=factor, condensed=condensed, slots=slots
+        n=system.n, m=system.m, plan=plan, factor=made.columns, condensed=made.condensed, slots=slots
     )
-    if np.any(_fronts.pivots(plan.fronts, factor) < SUSPICIOUS * diagonal):
+    if np.any(_fronts.pivots(plan.fronts, made.columns) < SUSPICIOUS * made.diagonal):
         check_energy(system, lambda load: result.reduce(load).expand(np.zeros(system.m)))
     return result

@@ -30,14 +30,14 @@ def nested_dissection(graph: NodeGraph) -> Int32Array:
     Karypis, Kumar (1998), A fast and high quality multilevel scheme for partitioning irregular graphs, SIAM J. Sci.
     Comput. 20:359.
     """
-    indptr, indices = subgraph(graph.indptr, graph.indices, graph.interior)
-    if len(indices) == 0:
+    inside = subgraph(graph.edges, graph.interior)
+    if len(inside.indices) == 0:
         return np.arange(graph.interior, dtype=np.int32)
     if graph.points is not None:
         axes, diagonals = _directions(graph.points[: graph.interior])
         along = np.argsort(np.concatenate([axes, diagonals]), axis=1, kind="stable").astype(np.int32)
-        return dissect(indptr, indices, along, len(axes))
-    order, _ = pymetis.nested_dissection(pymetis.CSRAdjacency(indptr, indices))
+        return dissect(inside, along, len(axes))
+    order, _ = pymetis.nested_dissection(pymetis.CSRAdjacency(*inside))
     return np.asarray(order, dtype=np.int32)
 
 

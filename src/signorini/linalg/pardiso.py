@@ -148,9 +148,10 @@ def _first_solver() -> Any:
 
 def _upper(system: System, lift: Array) -> sparse.csr_array:
     """Give the upper triangle of ``K + diag(lift)`` with sorted rows and a full diagonal."""
-    row = np.repeat(np.arange(system.n, dtype=np.int32), np.diff(system.indptr))
-    kept = system.indices >= row
-    row, column, data = row[kept], system.indices[kept], system.data[kept]
+    indptr, indices, entries = system.rows
+    row = np.repeat(np.arange(system.n, dtype=np.int32), np.diff(indptr))
+    kept = indices >= row
+    row, column, data = row[kept], indices[kept], entries[kept]
     diagonal = np.flatnonzero(column == row)
     if len(diagonal) == system.n:
         data[diagonal] += lift

@@ -13,6 +13,7 @@ import numpy as np
 
 from signorini.arrays import IntArray
 from signorini.linalg import _symbolic
+from signorini.linalg._graph import Elimination
 from signorini.linalg.ordering import nested_dissection, unknowns
 from signorini.linalg.system import Int32Array, NodeGraph, System, node_graph
 
@@ -71,8 +72,8 @@ class Plan:
 def analyse(system: System) -> Plan:
     """Plan the factorisation of a system."""
     graph = node_graph(system)
-    order, place = _postordered(graph, nested_dissection(graph))
-    arguments = graph.indptr, graph.indices, order, place
+    elimination = _postordered(graph, nested_dissection(graph))
+    order, arguments = elimination.order, (graph.edges, elimination)
     parent = _symbolic.elimination_tree(*arguments, graph.interior)
     count = _symbolic.column_counts(*arguments, parent)
     first = _symbolic.supernodes(parent, count, RELAX)
@@ -96,15 +97,15 @@ def analyse(system: System) -> Plan:
     )
 
 
-def _postordered(graph: NodeGraph, nodes: Int32Array) -> tuple[Int32Array, Int32Array]:
-    """Order the nodes by a postorder of the tree of a given order; with the inverse."""
+def _postordered(graph: NodeGraph, nodes: Int32Array) -> Elimination:
+    """Order the nodes by a postorder of the tree of a given order."""
     order = np.arange(len(graph.start) - 1, dtype=np.int32)
     order[: graph.interior] = nodes
     place = np.argsort(order).astype(np.int32)
-    parent = _symbolic.elimination_tree(graph.indptr, graph.indices, order, place, graph.interior)
+    parent = _symbolic.elimination_tree(graph.edges, Elimination(order, place), graph.interior)
     order[: graph.interior] = order[_symbolic.postorder(parent)]
     place[order] = np.arange(len(order), dtype=np.int32)
-    return order, place
+    return Elimination(order, place)
 
 
 def _offsets(size: IntArray | Int32Array) -> IntArray:

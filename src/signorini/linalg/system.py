@@ -12,7 +12,7 @@ from scipy import sparse
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
-from signorini.linalg._graph import quotient
+from signorini.linalg._graph import Graph, Rows, quotient
 
 Int32Array = NDArray[np.int32]
 
@@ -23,16 +23,14 @@ class System:
 
     Attributes
     ----------
-    indptr, indices, data : the rows of K; the columns of a row need not be sorted
+    rows : of K
     interface : (m,) unknowns that are never eliminated
     inside : (n,) whether an unknown is eliminated
     nodes : (n,) the node of every unknown
     points : (k, d) where the nodes are, or None
     """
 
-    indptr: Int32Array
-    indices: Int32Array
-    data: Array
+    rows: Rows
     interface: IntArray
     inside: BoolArray
     nodes: IntArray
@@ -41,7 +39,7 @@ class System:
     @property
     def n(self) -> int:
         """Unknowns in all."""
-        return len(self.indptr) - 1
+        return len(self.rows.indptr) - 1
 
     @property
     def m(self) -> int:
@@ -51,7 +49,8 @@ class System:
     @property
     def matrix(self) -> sparse.csr_array:
         """K, sharing its memory with this object."""
-        return sparse.csr_array((self.data, self.indices, self.indptr), shape=(self.n, self.n))
+        indptr, indices, data = self.rows
+        return sparse.csr_array((data, indices, indptr), shape=(self.n, self.n))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,15 +64,14 @@ class NodeGraph:
     start : (g + 1,) where the unknowns of every node begin in `member`
     member : (n,) unknowns, node by node, ascending inside a node
     interior : number of nodes that are eliminated: the first ones
-    indptr, indices : rows of the graph, without loops
+    edges : between the nodes, without loops
     points : (g, d) where the nodes are, or None
     """
 
     start: Int32Array
     member: Int32Array
     interior: int
-    indptr: Int32Array
-    indices: Int32Array
+    edges: Graph
     points: Array | None = None
 
 
@@ -118,9 +116,11 @@ def _checked(K: sparse.csr_array, interface: ArrayLike, nodes: ArrayLike | None)
     if n - np.count_nonzero(inside) != len(edge):
         raise InputError("interface names an unknown twice")
     return System(
-        indptr=K.indptr.astype(np.int32, copy=False),
-        indices=K.indices.astype(np.int32, copy=False),
-        data=K.data.astype(np.float64, copy=False),
+        rows=Rows(
+            K.indptr.astype(np.int32, copy=False),
+            K.indices.astype(np.int32, copy=False),
+            K.data.astype(np.float64, copy=False),
+        ),
         interface=edge,
         inside=inside,
         nodes=np.arange(n) if nodes is None else np.asarray(nodes, dtype=np.int64),
@@ -162,7 +162,7 @@ def node_graph(system: System) -> NodeGraph:
     start = np.append(np.flatnonzero(first), system.n).astype(np.int32)
     group = np.empty(system.n, dtype=np.int32)
     group[member] = np.cumsum(first) - 1
-    indptr, indices = quotient(system.indptr, system.indices, start, member, group)
+    edges = quotient(system.rows.graph, start, member, group)
     interior = int(np.searchsorted(start, system.n - system.m))
     points = None if system.points is None else system.points[system.nodes[member[start[:-1]]]]
-    return NodeGraph(start=start, member=member, interior=interior, indptr=indptr, indices=indices, points=points)
+    return NodeGraph(start=start, member=member, interior=interior, edges=edges, points=points)

@@ -35,7 +35,7 @@ def thread_functions(library: str) -> tuple[Any, Callable[[], int]] | None:
 
 
 def _libraries() -> list[tuple[Any, Callable[[], int]]]:
-    """Those of SciPy and NumPy, which bring one each."""
+    """Functions of SciPy and NumPy, which bring a BLAS each."""
     modules = [cython_blas, *(sys.modules[name] for name in _NUMPY if name in sys.modules)]
     found = (thread_functions(str(module.__file__)) for module in modules)
     return [functions for functions in found if functions is not None]
