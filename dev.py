@@ -3,7 +3,8 @@
 """Set up and run: needs nothing but Python 3.11 or later. Everything goes into the folder .venv beside this file.
 
 python3 dev.py example     install the package and run the paper's example
-python3 dev.py test        install the development tools and run every check: lint, types, tests, examples
+python3 dev.py quick       what takes two minutes: lint, types, fast tests, an example
+python3 dev.py test        run every check: lint, types, all tests, all examples, the verification suite
 python3 dev.py figures     draw the pictures of README and docs again
 """
 
@@ -53,22 +54,24 @@ def example() -> None:
     say("the contact tractions are drawn in out/contact.png")
 
 
+def quick() -> None:
+    """What most mistakes do not survive, in two minutes on two cores once everything is compiled."""
+    check()
+    say("fast tests and doctests")
+    pytest("not slow")
+    with tempfile.TemporaryDirectory() as folder:
+        run_deck(ROOT / "examples" / "zhu_cylinder.toml", folder)
+    say("quick checks passed; python3 dev.py test runs the others")
+
+
 def test() -> None:
     """Everything that must hold before a change lands."""
-    install("[dev]")
-    for words, *command in (
-        ("lint", "ruff", "check"),
-        ("format", "ruff", "format", "--check"),
-        ("types", "mypy"),
-    ):
-        say(words)
-        run(*command)
+    check()
     say("tests and doctests")
-    run("python", "-m", "pytest", "-n", "2", "--dist", "worksteal", OMP_NUM_THREADS="1")
+    pytest("not suite")
     with tempfile.TemporaryDirectory() as folder:
         for deck in sorted((ROOT / "examples").glob("*.toml")):
-            say(f"examples/{deck.name}")
-            run("signorini", "run", str(deck), "-o", str(Path(folder) / deck.stem), "--quiet")
+            run_deck(deck, folder)
         say("examples/zhu_table1.py, zhu_figures.py, zhu_convergence.py, readme_picture.py")
         run("python", "examples/zhu_table1.py")
         run("python", "examples/zhu_figures.py", folder)
@@ -79,6 +82,29 @@ def test() -> None:
     say("all checks passed")
 
 
+def check() -> None:
+    """Install the development tools; lint, format and types."""
+    install("[dev]")
+    for words, *command in (
+        ("lint", "ruff", "check"),
+        ("format", "ruff", "format", "--check"),
+        ("types", "mypy"),
+    ):
+        say(words)
+        run(*command)
+
+
+def pytest(marks: str) -> None:
+    """Run the tests of these marks, two at a time."""
+    run("python", "-m", "pytest", "-n", "2", "--dist", "worksteal", "-m", marks, OMP_NUM_THREADS="1")
+
+
+def run_deck(deck: Path, folder: str) -> None:
+    """Solve an example and write its results below a folder."""
+    say(f"examples/{deck.name}")
+    run("signorini", "run", str(deck), "-o", str(Path(folder) / deck.stem), "--quiet")
+
+
 def figures() -> None:
     """The pictures of README and docs."""
     install()
@@ -87,7 +113,7 @@ def figures() -> None:
 
 
 if __name__ == "__main__":
-    commands = {"example": example, "test": test, "figures": figures}
+    commands = {"example": example, "quick": quick, "test": test, "figures": figures}
     if len(sys.argv) != 2 or sys.argv[1] not in commands:
         sys.exit(__doc__)
     commands[sys.argv[1]]()

@@ -8,6 +8,7 @@ overloaded = pytest.importorskip(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("number", "ended", "what", "price"),
     [

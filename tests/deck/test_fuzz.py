@@ -23,6 +23,7 @@ def sound(tmp_path_factory: pytest.TempPathFactory) -> Any:
     return corpus(tmp_path_factory.mktemp("sound"))
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 @settings(
     max_examples=300, deadline=None

@@ -99,6 +99,7 @@ BACK = st.sampled_from(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.data())
 def test_a_history_cut_anywhere_goes_on_to_the_last_bit(tmp_path_factory: pytest.TempPathFactory, data) -> None:
@@ -119,6 +120,7 @@ def test_a_history_cut_anywhere_goes_on_to_the_last_bit(tmp_path_factory: pytest
     assert list(different(whole.steps[cut:], after.steps)) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("facets", "backend"), [(0, "auto"), (8, "auto"), (0, "iterative")])
 def test_a_history_in_space_goes_on_to_the_last_bit(facets, backend) -> None:
     steps = [

@@ -46,6 +46,7 @@ def test_a_straight_way_is_gone_once(backend):
     np.testing.assert_allclose(solution.last.contacts[0].traction, fine.last.contacts[0].traction, atol=1e-7 * size)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "model",
     [

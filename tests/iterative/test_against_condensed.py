@@ -111,6 +111,7 @@ def test_bodies_without_contact_are_iterated_too():
     np.testing.assert_allclose(one, other, rtol=0, atol=1e-8 * np.abs(one).max())
 
 
+@pytest.mark.slow
 def test_what_is_not_found_by_iterating_in_space_says_so():
     """No condensed interface is asked why: a block pushed beyond its friction is a failure, not a wrong input."""
     x = np.linspace(0.0, 2.0, 3)

@@ -61,6 +61,7 @@ def test_dense_and_sparse_agree(seed, n):
     np.testing.assert_allclose(sparse.z, dense.z, atol=1e-7 * max(1, np.linalg.cond(posed.M) * 1e-7))
 
 
+@pytest.mark.slow
 @settings(max_examples=40, deadline=None)
 @given(seed=seeds, n=st.integers(1, 6))
 def test_any_matrix_agrees_with_the_referee(seed, n):

@@ -38,6 +38,7 @@ def test_delayed_updates_are_the_updates(limit):
     assert tableau.drift() < 1e-12
 
 
+@pytest.mark.slow
 def test_the_block_does_not_change_the_path(monkeypatch):
     posed = problems.frictional_contact(40, np.random.default_rng(3))
     found = []

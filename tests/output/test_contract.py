@@ -99,6 +99,7 @@ def assert_types(where: str, found: dict[str, Any], expected: dict[str, Any]) ->
         assert not isinstance(found[key], bool)
 
 
+@pytest.mark.slow
 def test_summary(results: tuple[Results, dict[str, Any]]) -> None:
     found, deck = results
     summary = found.summary

@@ -168,6 +168,7 @@ def test_what_is_finished_is_on_disk_while_later_steps_run(
             assert (found.contact("bottom").pressure == end.contact("bottom").pressure).all()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
 def test_runs_that_are_killed_leave_whole_files_and_can_be_gone_on_from() -> None:
     command = [sys.executable, "-m", "benchmarks.killed", "--number", "2", "--seed", "3"]

@@ -94,6 +94,7 @@ def test_the_surface_file_holds_vectors(results):
     np.testing.assert_array_equal(found.points[:, 2], 0.0)
 
 
+@pytest.mark.slow
 def test_pictures(results, tmp_path):
     (patch,) = ResultFolder(path=results).patches
     assert patch.chart.labels == ("x", "y")

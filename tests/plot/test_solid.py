@@ -155,6 +155,7 @@ def solution():
     )
 
 
+@pytest.mark.slow
 def test_a_hidden_contact_is_shown_on_its_body_alone(solution):
     from signorini.output.fields import Fields
     from signorini.plot.picture_data import HistoryData

@@ -60,6 +60,7 @@ def answer(model: sg.Model, backend: str) -> tuple[str, str, list[np.ndarray]]:
     return solution.status, re.sub(r"[-+]?[\d.]+(e[-+]?\d+)?", "#", words), end
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("backend", "seeds"), [("auto", range(16)), ("superlu", range(3)), ("iterative", (3, 7, 9))], ids=str
 )

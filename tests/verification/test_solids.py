@@ -23,6 +23,7 @@ def test_half_a_sphere(cells):
     assert points[mesh.nodes_of("end")][:, 0] == pytest.approx(0.0, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_spheres():
     for check in solids.spheres():
         assert check.passed, f"{check.case}, {check.quantity}: {check.computed} instead of {check.reference}"

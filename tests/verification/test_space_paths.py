@@ -118,6 +118,7 @@ def test_increments_come_to_the_exact_path():
     assert errors[1] < 0.5 * errors[0] < 0.05
 
 
+@pytest.mark.slow
 def test_increments_that_end_at_events_are_better_than_as_many_equal_ones():
     """A ball that grips a rigid plane: pairs drift until they touch, which no increment can know that goes beyond."""
     smooth = ball(n=2, size=4.0)

@@ -27,6 +27,7 @@ CASES = (
 )
 
 
+@pytest.mark.suite
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.__name__)
 def test_case(case):
     for check in case():

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -71,6 +72,7 @@ def test_linear_programmes_end_where_bodies_nearly_roll():
     assert isinstance(found, Exhausted)
 
 
+@pytest.mark.slow
 def test_an_overloaded_joint_slides_at_the_load_that_friction_holds_and_what_was_solved_is_kept():
     """10 kN press, friction 0.02 holds 200 N of the 1600 N; farther on the bend would bear, up to 99.6 %."""
     model = deck.read(EXAMPLES / "bolted_bracket.toml")
