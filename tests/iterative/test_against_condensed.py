@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.engine import room
+from signorini.engine import memory_check
 from signorini.gallery.blocks import block_on_foundation, dragged_block, four_blocks, stacked_blocks
 from signorini.meshing.solid import box
 from signorini.model.mesh import join
@@ -83,18 +83,18 @@ def test_what_does_not_fit_is_iterated(monkeypatch):
     """And what fits in no way is refused before anything large is made, with what it takes."""
     model = cubes(0.3, floating=False)
     assert sg.solve(model).backend == "multifrontal"
-    monkeypatch.setattr(room, "condensing_bytes", lambda *_, **__: 2e9)
-    monkeypatch.setattr(room, "available_memory", lambda: 1_000_000_000)
+    monkeypatch.setattr(memory_check, "condensing_bytes", lambda *_, **__: 2e9)
+    monkeypatch.setattr(memory_check, "available_memory", lambda: 1_000_000_000)
     assert sg.solve(model).backend == "iterative"
     with pytest.raises(sg.InputError, match=r"take about 2 GB to factorise .* and 1 GB .* back end 'iterative', a coa"):
         sg.solve(model, backend="superlu")
-    monkeypatch.setattr(room, "available_memory", lambda: 500_000)
+    monkeypatch.setattr(memory_check, "available_memory", lambda: 500_000)
     for backend in ("auto", "iterative"):
         with pytest.raises(
             sg.InputError, match=r"GB to iterate on, and 0.0005 GB of memory are free; expected a coarser"
         ):
             sg.solve(model, backend=backend)
-    monkeypatch.setattr(room, "available_memory", lambda: 1_000)
+    monkeypatch.setattr(memory_check, "available_memory", lambda: 1_000)
     with pytest.raises(sg.InputError, match=r"the stiffness of \d+ unknowns takes at least"):
         sg.solve(model)
 
