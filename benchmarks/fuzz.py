@@ -36,7 +36,7 @@ from benchmarks.mutations import KINDS, Corpus, corpus, damage, small_model
 from signorini.api import solve
 from signorini.cli.check_text import deck_text
 from signorini.deck import load
-from signorini.engine.prepare import examine
+from signorini.engine.examine import examine
 from signorini.errors import InputError, SolveFailed
 from signorini.fem.profile import read_profile
 from signorini.fem.surface import read_surface

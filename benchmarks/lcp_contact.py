@@ -60,13 +60,13 @@ def rough_block(n: int, rng: np.random.Generator) -> PosedLCP:
 
 def loaded(prepared: Prepared, factor: float) -> CoulombProblem:
     """The law of the first step from rest, loads times the factor."""
-    interface, condensed, T = prepared.interface, prepared.condensed, prepared.constraints.transform
+    interface, condensed, T = prepared.interface, prepared.paths.condensed, prepared.constraints.transform
     rows, zero = condensed.active_rows, np.zeros(prepared.space.number_of_dofs)
     imposed = sum(prepared.constraints.prescribed.values(), zero)
     load = T.T @ (factor * sum(prepared.loads.values(), zero) - prepared.K @ imposed)
     offset = np.concatenate([interface.gap, np.zeros(len(interface))]) + interface.B @ imposed
     b = condensed.right_hand_side(condensed.reduce(load).load, offset[rows])
-    return replace(prepared.law, b=b)
+    return replace(prepared.paths.law, b=b)
 
 
 def gap_slip_form(name: str, law: CoulombProblem) -> PosedLCP:

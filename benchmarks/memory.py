@@ -12,7 +12,8 @@ import subprocess
 import sys
 
 from signorini.bench.cubes import cubes
-from signorini.engine.prepare import examine, prepare
+from signorini.engine.examine import examine
+from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.fem.stiffness import stiffness
 from signorini.memory import peak_memory

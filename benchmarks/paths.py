@@ -63,7 +63,7 @@ def measure(model: Model) -> dict[str, Any]:
         history = solve_prepared(prepared)
         whole = time.process_time() - began
         runs.append((factorisation, clock.seconds["complementarity"], whole))
-        segments, pairs = len(history.steps), int(prepared.condensed.active.sum())
+        segments, pairs = len(history.steps), int(prepared.paths.condensed.active.sum())
         found = {
             "unknowns": model.mesh.points.size,
             "pairs": f"{history.pairs} ({pairs})",

@@ -56,9 +56,9 @@ def test_cubes_in_space() -> None:
 def test_contact_seconds_leave_nothing_out(monkeypatch: pytest.MonkeyPatch) -> None:
     """The certificate is in no phase of the clock, and is still paid for."""
 
-    def slow(*arguments: object) -> object:
+    def slow(*arguments: object, **named: object) -> object:
         time.sleep(0.1)
-        return certify(*arguments)  # type: ignore[arg-type]
+        return certify(*arguments, **named)  # type: ignore[arg-type]
 
     monkeypatch.setattr(importlib.import_module("signorini.engine.increments"), "certify", slow)
     assert all(row["contact_seconds"] > 0.1 for row in run(["cylinder"], 300))

@@ -15,7 +15,7 @@ from signorini.cli import main
 from signorini.cli.check_notes import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
 from signorini.engine import solve as engine
 from signorini.engine.duplicate_check import same_loads
-from signorini.engine.prepare import examine
+from signorini.engine.examine import examine
 
 DECK = Path(__file__).parents[1] / "deck" / "inp" / "decks" / "two_blocks.inp"
 

@@ -21,8 +21,8 @@ def with_compliance(model, compliance):
 
 def seen(prepared):
     """Rigid motions that supports leave, as the active pairs see them, scaled."""
-    rows = prepared.condensed.active_rows
-    return prepared.condensed.root[:, None] * (prepared.interface.B @ prepared.motions @ prepared.floating)[rows]
+    rows = prepared.paths.condensed.active_rows
+    return prepared.paths.condensed.root[:, None] * (prepared.interface.B @ prepared.motions @ prepared.floating)[rows]
 
 
 FLOATING = [four_blocks, zhu_cylinder, dragged_block]
@@ -34,7 +34,7 @@ SOFTER_AND_HELD = [(press_fit, 1e6), (press_fit, 1e16)]
 def test_the_image_form_is_equilibrium(make, compliance):
     """Any forces r and displacements u in equilibrium obey ``G h - W r = b`` with ``h = B u + C r + h_0``."""
     prepared = prepare(with_compliance(make(), compliance))
-    condensed, interface, T = prepared.condensed, prepared.interface, prepared.constraints.transform
+    condensed, interface, T = prepared.paths.condensed, prepared.interface, prepared.constraints.transform
     rows, rng = condensed.active_rows, np.random.default_rng(1)
     u = rng.standard_normal(T.shape[1])
     r = rng.standard_normal(len(rows))
@@ -55,10 +55,10 @@ def test_the_image_form_is_equilibrium(make, compliance):
 def test_the_spectrum_lies_between_0_and_1(make, compliance):
     """1 belongs to rigid motions alone, whatever the compliance: nothing becomes ill-conditioned."""
     prepared = prepare(with_compliance(make(), compliance))
-    values, R = np.linalg.eigvalsh(prepared.condensed.image.W), seen(prepared)
+    values, R = np.linalg.eigvalsh(prepared.paths.condensed.image.W), seen(prepared)
     assert values.min() > -1e-12
     assert values.max() < 1 + 1e-12
-    np.testing.assert_allclose(prepared.condensed.image.W @ R, R, rtol=0, atol=1e-11 * np.abs(R).max(initial=1.0))
+    np.testing.assert_allclose(prepared.paths.condensed.image.W @ R, R, rtol=0, atol=1e-11 * np.abs(R).max(initial=1.0))
     if compliance <= 1e-2:
         assert (values > 1 - 1e-9).sum() == R.shape[1]
 
@@ -83,9 +83,9 @@ def test_a_pair_held_on_both_sides_is_left_out():
     held = model.mesh.points[model.mesh.nodes_of("arc")][1]
     support = replace(model.supports[0], on=tuple(held), u=(None, 0.0), name="pin")
     prepared = prepare(replace(model, supports=[*model.supports, support])).widened()
-    for pairs in (prepared.condensed.held, ~prepared.condensed.active):
+    for pairs in (prepared.paths.condensed.held, ~prepared.paths.condensed.active):
         assert prepared.interface.node[pairs].tolist() == [model.mesh.nodes_of("arc")[1]]
-    assert len(prepared.condensed.image.W) == 2 * (len(prepared.interface) - 1)
+    assert len(prepared.paths.condensed.image.W) == 2 * (len(prepared.interface) - 1)
 
 
 @pytest.mark.parametrize("factor", [1e-3, 1e-5, 1e-9])

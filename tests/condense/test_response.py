@@ -50,11 +50,14 @@ def by_nodes(monkeypatch, model):
 def test_both_ways_give_the_same_interface(monkeypatch, name):
     model = MODELS[name]()
     pairs, nodes = prepare(model), by_nodes(monkeypatch, model)
-    assert isinstance(pairs.condensed.response, ByPairs)
-    assert isinstance(nodes.condensed.response, ByNodes)
+    assert isinstance(pairs.paths.condensed.response, ByPairs)
+    assert isinstance(nodes.paths.condensed.response, ByNodes)
     T, rng = pairs.constraints.transform, np.random.default_rng(2)
     few = np.arange(len(pairs.interface)) % 3 > 0
-    for one, two in ((pairs.condensed, nodes.condensed), (pairs.condensed.among(few), nodes.condensed.among(few))):
+    for one, two in (
+        (pairs.paths.condensed, nodes.paths.condensed),
+        (pairs.paths.condensed.among(few), nodes.paths.condensed.among(few)),
+    ):
         u, (r, offset) = rng.standard_normal(T.shape[1]), rng.standard_normal((2, len(one.image.W)))
         B = (pairs.interface.B @ T)[one.active_rows]
         f = T.T @ (pairs.K @ (T @ u)) - B.T @ r
@@ -71,8 +74,8 @@ def test_both_ways_give_the_same_interface(monkeypatch, name):
 def test_tied_bodies_keep_their_nodes():
     model = cubes(3)
     tied = replace(model, contacts=[replace(model.contacts[0], friction="tied")])
-    assert isinstance(prepare(model).condensed.response, ByPairs)
-    assert isinstance(prepare(tied).condensed.response, ByNodes)
+    assert isinstance(prepare(model).paths.condensed.response, ByPairs)
+    assert isinstance(prepare(tied).paths.condensed.response, ByNodes)
 
 
 def test_a_floating_body_is_pressed_alike(monkeypatch):
@@ -89,5 +92,5 @@ def test_what_moves_without_contact_is_condensed_by_its_nodes(monkeypatch):
     expected = solve(model).last
 
     monkeypatch.setattr(module, "keep_pairs", Mock(side_effect=NotPositiveDefinite(0)))
-    assert isinstance(prepare(model).condensed.response, ByNodes)
+    assert isinstance(prepare(model).paths.condensed.response, ByNodes)
     np.testing.assert_allclose(solve(model).last.displacement, expected.displacement, rtol=0, atol=1e-12)

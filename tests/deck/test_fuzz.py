@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from signorini.engine.prepare import examine
+from signorini.engine.examine import examine
 
 fuzz = pytest.importorskip("benchmarks.fuzz", reason="the benchmarks are beside the tests in a checkout only")
 from benchmarks.mutations import KINDS, corpus, damage  # noqa: E402  # nothing to import where fuzz is not

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from signorini.engine.prepare import examine
+from signorini.engine.examine import examine
 from signorini.engine.solve import solve
 from signorini.meshing.plane import annulus, rectangle
 from signorini.meshing.solid import extruded

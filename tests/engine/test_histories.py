@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.engine.prepare import examine
+from signorini.engine.examine import examine
 from signorini.gallery.blocks import dragged_block
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit

@@ -76,7 +76,7 @@ def test_patches_that_end_with_their_side_are_not():
 def test_an_overlap_of_the_mesh_is_noted_by_a_solution_too():
     model = press_fit(n_radial=1, n_angular=(3, 2), interference=0.0, drawn=0.01)
     notes = [note for note in sg.solve(model).last.notes if "overlaps" in note]
-    assert notes == list(overlap_notes(sg.engine.prepare.examine(model)))
+    assert notes == list(overlap_notes(sg.engine.examine.examine(model)))
     assert len(notes) == 1
     assert not [n for n in sg.solve(press_fit(n_radial=1, n_angular=3)).last.notes if "overlaps" in n]
 

@@ -35,9 +35,9 @@ def test_a_pair_left_out_that_meets_the_other_side_is_noticed(monkeypatch):
     right = sg.solve(zhu_cylinder(refine=4))
     monkeypatch.setattr("signorini.interface.reach._REACH", 0.3)
     prepared = prepare(zhu_cylinder(refine=4))
-    assert prepared.condensed.active.sum() < right.contact("foundation").closed.sum()
+    assert prepared.paths.condensed.active.sum() < right.contact("foundation").closed.sum()
     found = solve_prepared(prepared)
-    assert prepared.widened().condensed.active.all()
+    assert prepared.widened().paths.condensed.active.all()
     assert found.solved
     np.testing.assert_allclose(pressures(found), pressures(right), rtol=0, atol=1e-9 * pressures(right).max())
 

@@ -12,9 +12,9 @@ class PreparedPath:
 
     def __init__(self, model):
         self.prepared = prepare(model)
-        self.problem = self.prepared.law
+        self.problem = self.prepared.paths.law
         self.pairs = self.problem.pairs
-        self.rows = self.prepared.condensed.active_rows
+        self.rows = self.prepared.paths.condensed.active_rows
         gap = self.prepared.interface.gap
         self.offset = np.append(gap, np.zeros_like(gap))[self.rows]
 
@@ -24,13 +24,13 @@ class PreparedPath:
 
     def load(self, factors):
         """b under the loads."""
-        condensed = self.prepared.condensed
+        condensed = self.prepared.paths.condensed
         f = self.prepared.constraints.transform.T @ self.forces(factors)
         return condensed.right_hand_side(condensed.reduce(f).load, self.offset)
 
     def start(self):
         """Nothing acts yet."""
-        root = self.prepared.condensed.root
+        root = self.prepared.paths.condensed.root
         return initial_state(self.problem, self.load({}), motion=root * self.offset)
 
     def run(self, *loads):
@@ -45,12 +45,12 @@ class PreparedPath:
 
     def traction(self, r):
         """Forces of the pairs per area."""
-        area = self.prepared.interface.area[self.prepared.condensed.active]
-        return self.prepared.condensed.root * r / np.tile(area, 2)
+        area = self.prepared.interface.area[self.prepared.paths.condensed.active]
+        return self.prepared.paths.condensed.root * r / np.tile(area, 2)
 
     def displacement(self, factors, piece):
         """Of every degree of freedom, at a breakpoint."""
-        condensed, T = self.prepared.condensed, self.prepared.constraints.transform
+        condensed, T = self.prepared.paths.condensed, self.prepared.constraints.transform
         f = T.T @ self.forces(factors)
         h, r = piece.h / condensed.root, piece.r * condensed.root
         return T @ condensed.displacement(condensed.reduce(f), h, r, self.offset)

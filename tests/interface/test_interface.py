@@ -155,7 +155,7 @@ def test_supports_on_both_sides_leave_no_redundant_pair(coupling):
     assert history.contact("upper.bottom").closed.all()
     both = [*held, Support("upper.bottom", u=(0, 0))]
     prepared = prepare(replace(model, supports=both))
-    assert prepared.condensed.held.all()
+    assert prepared.paths.condensed.held.all()
     assert solve(replace(model, supports=both)).last.certificate.passed
 
 

@@ -13,7 +13,7 @@ from signorini.linalg.krylov import conjugate_gradients
 
 @pytest.fixture(scope="module")
 def bodies():
-    return prepare(cubes(9, 7), backend="iterative").bodies
+    return prepare(cubes(9, 7), backend="iterative").solver.bodies
 
 
 @pytest.mark.parametrize("d", [2, 3, 6])

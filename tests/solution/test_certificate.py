@@ -37,10 +37,8 @@ class Answer:
         factors = p.model.factors()
         before = initial_state(factors[0], len(u), p.interface)
         state = next_state(
+            p,
             before,
-            p.K,
-            p.constraints,
-            p.interface,
             point=replace(before.point, factors=factors[-1]),
             loads=p.loads["cut"],
             displacement=u,
@@ -48,7 +46,7 @@ class Answer:
             moved=np.concatenate([p.interface.gap, np.zeros(self.n)]) + p.interface.B @ u,
             status=np.where(r[: self.n] > 0, STICK, OPEN),
         )
-        return certify(p.K, p.loads["cut"], p.motions, p.constraints, p.interface, state, before.tangential, p.scale)
+        return certify(p, state, loads=p.loads["cut"], before=before.tangential)
 
     def moved(self, pair, axis, by):
         """The displacement with one contact node moved by a fraction of the length of the data."""
@@ -92,7 +90,7 @@ def test_equilibrium_of_resultants(answer):
     wrong[2 * p.interface.node[answer.open[-1]] + 1] += 1e-6 * answer.force
     for given, passed in ((external, True), (wrong, False)):
         spoiled = replace(state, displacement=answer.u, forces=r, external=given)
-        found = certify(p.K, p.loads["cut"], p.motions, p.constraints, p.interface, spoiled, state.tangential, p.scale)
+        found = certify(p, spoiled, loads=p.loads["cut"], before=state.tangential)
         assert found.passed is passed
 
 

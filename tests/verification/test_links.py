@@ -10,7 +10,7 @@ import scipy.sparse as sp
 import signorini as sg
 from signorini.deck import read
 from signorini.deck.write import write_deck
-from signorini.engine.prepare import examine
+from signorini.engine.examine import examine
 from signorini.engine.solve import solve
 from signorini.errors import InputError
 from signorini.fem.stiffness import stiffness

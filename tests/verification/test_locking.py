@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.engine.prepare import examine
+from signorini.engine.examine import examine
 from signorini.engine.solve import solve
 from signorini.fem.locking import stiffened_bodies, thin_bodies
 from signorini.fem.space import make_space

@@ -8,7 +8,7 @@ import pytest
 
 import signorini as sg
 from signorini.deck import read
-from signorini.engine.prepare import examine
+from signorini.engine.examine import examine
 from signorini.engine.solve import solve
 from signorini.errors import InputError
 

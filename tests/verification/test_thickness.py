@@ -8,7 +8,7 @@ import pytest
 
 import signorini as sg
 from signorini.deck.write import write_deck
-from signorini.engine.prepare import examine
+from signorini.engine.examine import examine
 from signorini.engine.solve import solve
 from signorini.errors import InputError
 from signorini.fem.space import make_space

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.engine.prepare import examine
+from signorini.engine.examine import examine
 
 ELASTIC = sg.Elastic(E=1000.0, nu=0.3)
 

@@ -120,7 +120,7 @@ def iterated(row: dict[str, Any], model: Model, timer: Timer) -> dict[str, Any]:
 def _fixed(prepared: Prepared) -> tuple[sp.csr_array, IntArray, Array, Array]:
     """Matrix, node of each unknown, places of the nodes and load of the same bodies with the contact nodes fixed."""
     T = prepared.constraints.transform
-    keep = np.setdiff1d(np.arange(T.shape[1]), prepared.condensed.dofs)
+    keep = np.setdiff1d(np.arange(T.shape[1]), prepared.paths.condensed.dofs)
     K = sp.csr_array((T.T @ prepared.K @ T)[keep][:, keep])
     full = LoadPoint(
         factors=dict.fromkeys(prepared.model.scaled_names, 1.0),

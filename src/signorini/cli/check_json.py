@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from signorini.deck import Deck
-from signorini.engine.prepare import Examined
+from signorini.engine.examine import Examined
 
 
 def deck_data(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str, Any]:

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from signorini.arrays import IntArray
-from signorini.engine.prepare import Examined
+from signorini.engine.examine import Examined
 from signorini.model.model import Model
 from signorini.model.stage import stages
 

@@ -9,7 +9,7 @@ from signorini.arrays import Array
 from signorini.cli.check_notes import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
 from signorini.deck import Deck
 from signorini.engine.duplicate_check import same_loads
-from signorini.engine.prepare import Examined
+from signorini.engine.examine import Examined
 from signorini.engine.validity_notes import finer_notes, overlap_notes
 from signorini.fem.locking import stiffened_bodies, thin_bodies
 from signorini.fem.rigid import describe_motions

@@ -28,7 +28,7 @@ def check(options: argparse.Namespace) -> int:
     deck = _load(options)
     from signorini.cli.check_json import deck_data
     from signorini.cli.check_text import all_notes, deck_text
-    from signorini.engine.prepare import examine
+    from signorini.engine.examine import examine
 
     try:
         examined = examine(deck.model)

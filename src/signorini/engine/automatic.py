@@ -15,12 +15,12 @@ from typing import Literal
 
 import numpy as np
 
-from signorini.engine.events import follow_to_events, stored_energy
+from signorini.engine.energy import stored_energy
+from signorini.engine.events import follow_to_events
 from signorini.engine.increments import follow_increments, is_straight
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, StepPart
 from signorini.errors import SolveFailed, told
-from signorini.iterative.bodies import Bodies
 
 MOST = 4096
 """Increments of one straight part of a step; in space the part of it that they need not undercut."""
@@ -118,7 +118,7 @@ def _defect(prepared: Prepared, followed: FollowedPart) -> float:
 
 def _followed(part: StepPart, number: int, jump: Literal["stop", "follow"] | None) -> tuple[FollowedPart, str]:
     """A way in at most so many increments, and their number in words; equal ones where those to events are lost."""
-    if part.prepared.interface.directions == 2 or isinstance(part.prepared.bodies, Bodies):
+    if part.prepared.interface.directions == 2 or part.prepared.solver.paths is None:
         return follow_increments(part, number), _counted(number)
     try:
         followed = follow_to_events(part, number, jumps=jump == "follow")

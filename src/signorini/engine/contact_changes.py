@@ -9,19 +9,18 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.attempt import MethodRun
-from signorini.engine.events import set_free, stored_energy
+from signorini.engine.energy import set_free, stored_energy
 from signorini.engine.free_motion_check import left_out, refuse_free_motions
 from signorini.engine.increments import advance
-from signorini.engine.prepare import Prepared, contact_law
+from signorini.engine.prepare import Prepared
 from signorini.errors import InputError
 from signorini.friction.law import OPEN
 from signorini.interface.frames import along_tangents
 from signorini.interface.interface import pairs_of
-from signorini.iterative.bodies import Bodies
 from signorini.model.contact import ratios
 from signorini.model.stage import Stage
 from signorini.solution.certificate import Certificate
-from signorini.solution.scale import Loading, data_scale
+from signorini.solution.scale import Loading
 from signorini.solution.state import State
 
 _MORE = 1e-9  # of the friction bound: what counts as beyond it
@@ -68,10 +67,10 @@ def relaxed(prepared: Prepared, state: State, where: str) -> tuple[State, Certif
     size = float(np.abs(state.forces).max(initial=0.0))
     if not (~prepared.absent & (tangential > (1.0 + _MORE) * bound + 1e-12 * size)).any():
         return None
-    after, certificate, result = advance(prepared, state, state.point, f"{where}, friction lowered")
+    after, certificate, tried = advance(prepared, state, state.point, f"{where}, friction lowered")
     spent = 0.5 * (state.forces + after.forces)[n:] * (after.slip - state.slip)
     taken = np.where(prepared.absent, 0.0, np.maximum(-spent.reshape(-1, n).sum(axis=0), 0.0))
-    return set_free(prepared, state, after, taken=taken), certificate, result.trace
+    return set_free(prepared, state, after, taken=taken), certificate, tried
 
 
 def staged(prepared: Prepared, stage: Stage, loading: Loading) -> Prepared:
@@ -98,18 +97,13 @@ def staged(prepared: Prepared, stage: Stage, loading: Loading) -> Prepared:
         )
     absent = pairs_of(prepared.model, prepared.interface, stage.inactive)
     interface = replace(prepared.interface, friction=mu, anisotropy=anisotropy)
-    scale = data_scale(prepared.space, prepared.model, loading, interface).bent(prepared.softness)
-    if not absent.any():
-        law = prepared.law_under(interface, scale)
-        return replace(prepared, interface=interface, scale=scale, law_or_none=law)
-    left = interface.among(~absent)
-    try:
-        refuse_free_motions(prepared.space, prepared.constraints, left, prepared.parts, prepared.motions)
-        bodies = prepared.bodies.among(~absent)
-    except InputError as error:
-        raise left_out(error, stage) from error
-    law = None if isinstance(bodies, Bodies) else contact_law(interface, bodies, scale)
-    return replace(prepared, interface=interface, scale=scale, bodies=bodies, law_or_none=law, absent=absent)
+    if absent.any():
+        left = interface.among(~absent)
+        try:
+            refuse_free_motions(prepared.space, prepared.constraints, left, prepared.parts, prepared.motions)
+        except InputError as error:
+            raise left_out(error, stage) from error
+    return prepared.under(interface, loading, absent)
 
 
 def nominal_gap(prepared: Prepared, stage: Stage) -> Array:

@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What temperature adds to the elastic energy."""
+"""Energies: stored in bodies, foundations, compliant interfaces and by temperature; set free at once."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
+from signorini.arrays import Array
 from signorini.engine.prepare import Prepared
 from signorini.fem.thermal import held_energy
 from signorini.solution.state import State
 
 
-def heat_of(prepared: Prepared) -> Callable[[State], float]:
+def thermal_energy(prepared: Prepared) -> Callable[[State], float]:
     """``- u f_T + s G s / 2``: the elastic energy is ``u K u / 2`` and this; thermal forces ``f_T = sum_k s_k f_k``.
 
     G is the energy of the held bodies; s the factors of the temperatures. As external work counts that of the thermal
@@ -26,3 +28,36 @@ def heat_of(prepared: Prepared) -> Callable[[State], float]:
         return float(0.5 * s @ G @ s - state.displacement @ forces)
 
     return heat
+
+
+def set_free(prepared: Prepared, before: State, after: State, *, taken: Array) -> State:
+    """The state after something that happened at once at constant loads, with its energy.
+
+    Parameters
+    ----------
+    prepared : under the law in which it happened
+    before, after : states at its ends
+    taken : (n,) by friction; what else the bodies lose is set free
+    """
+    loss = stored_energy(prepared, before) - stored_energy(prepared, after)
+    work = 0.5 * (before.external + after.external) @ (after.displacement - before.displacement)
+    return replace(
+        after,
+        dissipation=before.dissipation + taken,
+        work=before.work + float(work),
+        released=before.released + loss + float(work) - float(taken.sum()),
+    )
+
+
+def stored_energy(prepared: Prepared, state: State) -> float:
+    """In the bodies, elastic foundations and compliant interfaces."""
+    u = state.displacement
+    strain = float(u @ (prepared.K @ u)) if u.any() else 0.0
+    return 0.5 * strain + interface_energy(prepared, state)
+
+
+def interface_energy(prepared: Prepared, state: State) -> float:
+    """In compliant interfaces."""
+    interface = prepared.interface
+    forces = np.where(interface.rows(prepared.absent), 0.0, state.forces)
+    return 0.5 * float(forces**2 @ (interface.compliance / interface.areas))

@@ -9,28 +9,25 @@ from typing import Literal
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray
 from signorini.attempt import MethodRun
+from signorini.engine.energy import set_free
 from signorini.engine.floating_bodies import approached, resting, undisturbed
-from signorini.engine.increments import (
-    applied,
-    certified,
-    free_load,
-    leaving,
-    moved_by_supports,
-    refuse_overlap,
-    settled,
+from signorini.engine.increments import certified, leaving, refuse_overlap
+from signorini.engine.path_states import (
+    balanced,
+    offsets,
+    on_the_way,
+    path_state,
+    recovered,
+    right_hand_side,
+    tangential,
 )
-from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, joined, keep
 from signorini.errors import SolveFailed, told
-from signorini.friction.history.plane import Landing, PathState, Segment, follow, initial_state, land
-from signorini.friction.law import OPEN, STICK
-from signorini.friction.problem import CoulombProblem
-from signorini.friction.spatial import SpatialProblem, StopSettings, at_rest, follow_stopping, land_spatial
-from signorini.law.bound import plain
+from signorini.friction.history.plane import Landing, PathState, Segment
+from signorini.friction.spatial import StopSettings
 from signorini.solution.results import PairEvent
-from signorini.solution.state import LoadPoint, State, next_state
+from signorini.solution.state import State
 
 _NAMED = 12  # nodes that a message lists
 _JUMPS = 100  # most that one part of a step may hold
@@ -39,7 +36,6 @@ _HOLD = "hold the bodies that slide, press them more, or prescribe their motion 
 _LESS = "less friction, or a prescribed motion in place of the load"
 _FOLLOW = f'{_LESS}; jump = "follow" looks for the equilibrium behind the jump'
 _NO_LANDING = "no equilibrium that it could land on was found"
-_SPENT = 1e-9  # of the friction bound: what a slipping pair may lack of it
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -105,7 +101,7 @@ def _beyond_jumps(part: StepPart, how: str, *, jumps: bool, stops: StopSettings 
     """Part after part, from one jump to the next; ``how`` for the clock, the others as of `_Path`."""
     prepared = part.prepared
     prepared.clock.increment(f"{part.where}, {how}")
-    refuse_overlap(prepared, _offset(prepared, part.end)[: len(prepared.interface)], part.where)
+    refuse_overlap(prepared, offsets(prepared, part.end)[: len(prepared.interface)], part.where)
     behind: list[FollowedPart] = []
     while True:
         path = _follow(part, stops)
@@ -123,7 +119,9 @@ def _beyond_jumps(part: StepPart, how: str, *, jumps: bool, stops: StopSettings 
             behind += begun
             part = part.rest(path.cut.part, behind[-1].after)
             continue
-        landing = _landing(path) if jumps and len(behind) < _JUMPS else None
+        landing = None
+        if jumps and len(behind) < _JUMPS:
+            landing = part.prepared.paths.land(path.start, path.segment, stops)
         if jump is None or landing is None:
             if jumps and jump is not None and not lost.hopeless:
                 lost = SolveFailed(f"{lost.sentence}; {_NO_LANDING}{lost.details}", status="jump", motion=lost.motion)
@@ -165,27 +163,16 @@ def _so_far(path: _Path) -> list[FollowedPart]:
 
 
 def _follow(part: StepPart, stops: StopSettings | None) -> _Path:
-    """The history up to a load, in the plane or in space."""
+    """The history up to the load at the end of a part."""
     prepared = part.prepared
+
+    def tell(done: float) -> None:
+        prepared.clock.says(f"{part.where} at {part.interval.fraction(done):.1%}")
+
     with prepared.clock.phase("complementarity"):
-        start, b = _start(prepared, part.before), right_hand_side(prepared, part.end)
-        if isinstance(prepared.law, SpatialProblem):
-
-            def tell(done: float) -> None:
-                prepared.clock.says(f"{part.where} at {part.interval.fraction(done):.1%}")
-
-            segment = follow_stopping(prepared.law, start, b, settings=stops, tell=tell)
-        else:
-            segment = follow(prepared.law, start, b)
+        start, b = path_state(prepared, part.before), right_hand_side(prepared, part.end)
+        segment = prepared.paths.follow(start, b, stops, tell)
     return _Path(part=part, start=start, segment=undisturbed(part, segment), stops=stops)
-
-
-def _landing(path: _Path) -> Landing | None:
-    """Where a jump lands, in the plane or in space."""
-    law = path.part.prepared.law
-    if isinstance(law, SpatialProblem):
-        return land_spatial(law, path.start, path.segment, settings=path.stops)
-    return land(law, path.start, path.segment)
 
 
 def _trace(path: _Path) -> tuple[tuple[MethodRun, ...], ...]:
@@ -207,8 +194,7 @@ def _part_along(path: _Path) -> FollowedPart:
         visited = _visited(path)
         after = visited[-1].state
     last = max(0, len(segment.pieces) - 2)
-    before = part.before.tangential.copy()
-    before[_along(prepared)] = _tangential(prepared, segment.pieces[last].h)
+    before = tangential(prepared, part.before, segment.pieces[last].h)
     # the law of the rate, on the last piece, is the law of the increment from where the piece began
     certificate = certified(prepared, after, before, part.where)
     return FollowedPart(
@@ -226,8 +212,8 @@ def _landed(part: StepPart, state: State, landing: Landing) -> FollowedPart:
     """From a jump at the end of a part to where it lands, at the same load."""
     prepared, interval = part.prepared, part.interval
     with prepared.clock.phase("recovery"):
-        recovered = _recovered(prepared, state, state.point, landing.state)
-        after = set_free(prepared, state, recovered, taken=recovered.dissipation - state.dissipation)
+        landed = recovered(prepared, state, state.point, landing.state)
+        after = set_free(prepared, state, landed, taken=landed.dissipation - state.dissipation)
     # its slip is that of a whole curve: the law is asked of its last state alone
     certificate = certified(prepared, after, after.tangential, part.where)
     freed = after.released - state.released
@@ -247,73 +233,6 @@ def _landed(part: StepPart, state: State, landing: Landing) -> FollowedPart:
     )
 
 
-def set_free(prepared: Prepared, before: State, after: State, *, taken: Array) -> State:
-    """The state after something that happened at once at constant loads, with its energy.
-
-    Parameters
-    ----------
-    taken : (n,) by friction; what else the bodies lose is set free
-    """
-    loss = stored_energy(prepared, before) - stored_energy(prepared, after)
-    work = 0.5 * (before.external + after.external) @ (after.displacement - before.displacement)
-    return replace(
-        after,
-        dissipation=before.dissipation + taken,
-        work=before.work + float(work),
-        released=before.released + loss + float(work) - float(taken.sum()),
-    )
-
-
-def stored_energy(prepared: Prepared, state: State) -> float:
-    """In the bodies, elastic foundations and compliant interfaces."""
-    u = state.displacement
-    strain = float(u @ (prepared.K @ u)) if u.any() else 0.0
-    return 0.5 * strain + interface_energy(prepared, state)
-
-
-def interface_energy(prepared: Prepared, state: State) -> float:
-    """In compliant interfaces."""
-    interface = prepared.interface
-    forces = np.where(interface.rows(prepared.absent), 0.0, state.forces)
-    return 0.5 * float(forces**2 @ (interface.compliance / interface.areas))
-
-
-def _offset(prepared: Prepared, point: LoadPoint) -> Array:
-    """(d n,) Motions of all pairs that loads do not cause: gaps and what supports impose, no slip of the past."""
-    _, imposed = applied(prepared, point)
-    none = np.zeros(len(point.gap) * (prepared.interface.directions - 1))
-    offset: Array = np.concatenate([point.gap, none]) + moved_by_supports(prepared, imposed)
-    return offset
-
-
-def right_hand_side(prepared: Prepared, point: LoadPoint) -> Array:
-    """b of the law at a point of the load history."""
-    condensed = prepared.condensed
-    reduced = condensed.reduce(free_load(prepared, point))
-    return condensed.right_hand_side(reduced.load, _offset(prepared, point)[condensed.active_rows])
-
-
-def _start(prepared: Prepared, state: State) -> PathState:
-    """The state in the scaled units of the law; overlaps of bodies that nothing has moved yet press first."""
-    condensed, rows, active, law = (
-        prepared.condensed,
-        prepared.condensed.active_rows,
-        prepared.condensed.active,
-        prepared.law,
-    )
-    b, n = right_hand_side(prepared, state.point), law.pairs
-    h = condensed.root * np.concatenate([state.gap, state.tangential])[rows]
-    slip, dissipation = condensed.root[n:] * state.slip[_along(prepared)], state.dissipation[active]
-    if not state.forces.any() and not state.displacement.any() and (h[:n] < 0.0).any():
-        pressed = at_rest(law, b, motion=h) if isinstance(law, SpatialProblem) else initial_state(law, b)
-        return replace(pressed, slip=slip + pressed.slip, dissipation=dissipation + pressed.dissipation)
-    r, status = state.forces[rows] / condensed.root, state.status[active]
-    if isinstance(law, CoulombProblem):  # friction that has risen since leaves some to spare
-        spare = (status > STICK) & (np.abs(r[n:]) < (1.0 - _SPENT) * law.bound.at(r[:n]))
-        status = np.where(spare, STICK, status)
-    return PathState(b=b, h=h, r=r, state=status, anchor=h[n:], slip=slip, dissipation=dissipation)
-
-
 def _visited(path: _Path) -> tuple[Snapshot, ...]:
     """The states at the start, at every event and at the end, with work and displacement where they are whole.
 
@@ -324,9 +243,9 @@ def _visited(path: _Path) -> tuple[Snapshot, ...]:
     whole = part.whole or bool(state.point.given.any())
     last, since, losses, found = state, 0.0, _losses(segment), []
     if start.r.any() and not state.forces.any():
-        pressed = _recovered(prepared, state, state.point, start)
+        pressed = recovered(prepared, state, state.point, start)
         lost = float(pressed.dissipation.sum() - state.dissipation.sum())
-        last = _balanced(prepared, state, pressed, lost)
+        last = balanced(prepared, state, pressed, lost)
         found.append(Snapshot(load_factor=interval.factor(0.0), what="start", state=last))
     reached = path.reached
     visited = {event.factor: event.state for event in segment.events if 0.0 < event.factor < reached}
@@ -336,15 +255,15 @@ def _visited(path: _Path) -> tuple[Snapshot, ...]:
         visited = dict(sorted((ends | visited).items()))
     for factor, now in {**visited, reached: segment.end}.items():
         s = 1.0 if factor == reached else factor / reached
-        point, recovered = state.point.towards(part.end, s), whole or s == 1.0
-        if recovered:
+        point, known = state.point.towards(part.end, s), whole or s == 1.0
+        if known:
             lost = sum(loss for t, loss in losses if since < t <= factor)
-            here = _balanced(prepared, last, _recovered(prepared, last, point, now), lost)
+            here = balanced(prepared, last, recovered(prepared, last, point, now), lost)
             last, since = here, factor
         else:
-            here = _on_the_way(prepared, last, point, now)
+            here = on_the_way(prepared, last, point, now)
         what = interval.ends if s == 1.0 else "event" if factor in happens else "increment"
-        found.append(Snapshot(load_factor=interval.factor(s), what=what, state=here, whole=recovered, worked=recovered))
+        found.append(Snapshot(load_factor=interval.factor(s), what=what, state=here, whole=known, worked=known))
     return tuple(found)
 
 
@@ -353,86 +272,11 @@ def _losses(segment: Segment) -> list[tuple[float, float]]:
     return [(two.factor, float(-0.5 * (one.r + two.r) @ (two.h - one.h))) for one, two in pairwise(segment.pieces)]
 
 
-def _on_the_way(prepared: Prepared, last: State, point: LoadPoint, now: PathState) -> State:
-    """The contacts at an event; the bodies are not looked at."""
-    condensed, n = prepared.condensed, len(prepared.interface)
-    rows, active = condensed.active_rows, condensed.active
-    forces, moved = np.zeros(len(point.given)), np.full(prepared.interface.directions * n, np.nan)
-    forces[rows] = condensed.root * now.r
-    moved[rows] = now.h / condensed.root
-    status, slip, dissipation = np.full(n, OPEN), last.slip.copy(), last.dissipation.copy()
-    status[active], status[prepared.interface.tied] = plain(now.state), STICK
-    forces, status = settled(prepared, forces, status)
-    slip[_along(prepared)] = now.slip / condensed.root[now.pairs :]
-    dissipation[active] = now.dissipation
-    return replace(
-        last,
-        point=point,
-        forces=forces + point.given,
-        gap=moved[:n],
-        tangential=moved[n:],
-        slip=slip,
-        status=status,
-        dissipation=dissipation,
-    )
-
-
-def _recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState) -> State:
-    """The whole state at an event or at an end; its work is that of the trapezoidal rule."""
-    condensed, interface, T = prepared.condensed, prepared.interface, prepared.constraints.transform
-    n, rows = len(interface), condensed.active_rows
-    seen = _on_the_way(prepared, last, point, now)
-    (loads, imposed), offset = applied(prepared, point), _offset(prepared, point)
-    moved = np.concatenate([seen.gap, seen.tangential])
-    reduced = condensed.reduce(free_load(prepared, point))
-    free = condensed.displacement(reduced, moved[rows], seen.forces[rows], offset[rows])
-    displacement = T @ free + imposed
-    outside = np.setdiff1d(np.arange(len(moved)), rows)
-    moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
-    moved[n:] -= last.tangential
-    forces, ties = seen.forces.copy(), condensed.ties
-    forces[ties.rows] = ties.forces(T.T @ (loads + interface.B.T @ forces - prepared.K @ displacement))
-    after = next_state(
-        last,
-        prepared.K,
-        prepared.constraints,
-        interface,
-        point=point,
-        loads=loads,
-        displacement=displacement,
-        forces=forces,
-        moved=moved,
-        status=seen.status,
-    )
-    return replace(after, slip=seen.slip, dissipation=seen.dissipation)
-
-
-def _balanced(prepared: Prepared, last: State, here: State, lost: float) -> State:
-    """The same with its exact work: what is stored, what contact takes on linear pieces, and what is set free.
-
-    With ``K u = f + B^T r`` and ``B u = h - C r - h_0`` the work of the loads and of the interferences h_0 is the
-    change of the energy stored less ``int r . dh``. Overlaps that press before anything moves work by themselves.
-    """
-    stored = stored_energy(prepared, here) - stored_energy(prepared, last)
-    return replace(here, work=last.work + stored + lost + here.released - last.released)
-
-
-def _tangential(prepared: Prepared, h: Array) -> Array:
-    """Tangential displacements of the active pairs, length."""
-    n = prepared.law.pairs
-    return h[n:] / prepared.condensed.root[n:]
-
-
-def _along(prepared: Prepared) -> BoolArray:
-    """((d - 1) n,) Tangential rows of the active pairs."""
-    return np.tile(prepared.condensed.active, prepared.interface.directions - 1)
-
-
 def _events(path: _Path) -> tuple[PairEvent, ...]:
     """The events by contact and node."""
     prepared, reached = path.part.prepared, path.reached
     interface, labels = prepared.interface, [contact.label for contact in prepared.model.contacts]
-    pairs = np.nonzero(prepared.condensed.active)[0]
+    pairs = np.nonzero(prepared.paths.active)[0]
     found = []
     for event in path.segment.events:
         own = pairs[list(event.pairs)]
@@ -458,7 +302,7 @@ def _lost(path: _Path, *, follows: bool) -> SolveFailed:
             f"{where}: the exact path was lost", remedy="follow the step in increments", evidence=segment.message
         )
         return SolveFailed(lost, status="not_found")
-    pairs = np.nonzero(prepared.condensed.active)[0][list(segment.jump.pairs)]
+    pairs = np.nonzero(prepared.paths.active)[0][list(segment.jump.pairs)]
     nodes = ", ".join(str(node) for node in prepared.model.mesh.labels[prepared.interface.node[pairs[:_NAMED]]])
     if len(pairs) > _NAMED:
         nodes += f" and {len(pairs) - _NAMED} more"

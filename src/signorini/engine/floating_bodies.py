@@ -9,7 +9,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, extent
 from signorini.engine.increments import applied, certified, moving_away
-from signorini.engine.prepare import Prepared, contact_law
+from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart
 from signorini.errors import SolveFailed
 from signorini.fem.loads import nodal_volumes
@@ -18,7 +18,6 @@ from signorini.friction.answer import PULLED_AWAY
 from signorini.friction.approach import approach
 from signorini.friction.history.plane import Segment
 from signorini.friction.law import OPEN
-from signorini.iterative.bodies import Bodies
 from signorini.solution.state import State, next_state
 
 DRIVES = 1e-11
@@ -97,7 +96,7 @@ def change_of_loads(part: StepPart) -> Array:
 def standing(prepared: Prepared, state: State) -> tuple[BoolArray, BoolArray, float]:
     """(n,) Pairs that press, (n,) those of the law that do not, and the largest gap of pairs that touch."""
     n = len(state.gap)
-    there = ~prepared.absent & ~prepared.interface.tied & ~prepared.bodies.held
+    there = ~prepared.absent & ~prepared.interface.tied & ~prepared.solver.held
     presses = there & (state.forces[:n] > _PRESSES * prepared.scale.force)
     apart = there & ~presses
     size = max(prepared.scale.length, _LENGTH_PER_GAP * float(np.abs(state.gap[apart]).max(initial=0.0)))
@@ -138,10 +137,8 @@ def _approach(part: StepPart, apart: BoolArray, motion: Array, loose: Array, rel
     prepared, state, n = part.prepared, part.before, len(apart)
     interface = prepared.interface
     after = next_state(
+        prepared,
         state,
-        prepared.K,
-        prepared.constraints,
-        interface,
         point=state.point,
         loads=applied(prepared, state.point)[0],
         displacement=state.displacement + prepared.motions @ motion,
@@ -171,7 +168,8 @@ def resting(part: StepPart) -> StepPart:
     part as given where there is no such body, and where bodies are not condensed.
     """
     prepared, state = part.prepared, part.before
-    if not prepared.floating.shape[1] or isinstance(prepared.bodies, Bodies):
+    paths = prepared.solver.paths
+    if not prepared.floating.shape[1] or paths is None:
         return part
     presses, apart, width = standing(prepared, state)
     touches = presses | (apart & (state.gap <= width))
@@ -183,15 +181,13 @@ def resting(part: StepPart) -> StepPart:
         return part
     seen = np.abs(moved @ loose).max(axis=1) > _FEELS * float(np.abs(moved).max())
     ways = unfelt(loose.T)
-    bodies = prepared.bodies.moving(ways)
     rigid = np.asarray(prepared.motions @ (prepared.floating @ loose))
     place = np.linalg.lstsq(rigid, state.displacement - applied(prepared, state.point)[1])[0]
     return replace(
         part,
         prepared=replace(
             prepared,
-            bodies=bodies,
-            law_or_none=contact_law(prepared.interface, bodies, prepared.scale),
+            solver=paths.moving(ways, prepared.interface, prepared.scale),
             floating=prepared.floating @ ways,
             resting=rigid @ place,
         ),
@@ -202,7 +198,7 @@ def resting(part: StepPart) -> StepPart:
 
 def undisturbed(part: StepPart, segment: Segment) -> Segment:
     """The segment as far as nothing touches a body that rests."""
-    waits = part.waiting[part.prepared.condensed.active] if part.awake else np.zeros(0, np.bool_)
+    waits = part.waiting[part.prepared.paths.active] if part.awake else np.zeros(0, np.bool_)
     for event in segment.events if part.awake else ():
         if event.what == "closes" and waits[list(event.pairs)].any():
             return replace(

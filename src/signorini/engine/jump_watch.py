@@ -16,7 +16,6 @@ from signorini.engine.increments import follow_increments
 from signorini.engine.limit_load import known
 from signorini.engine.step_parts import FollowedPart, StepPart, keep, reached
 from signorini.errors import SolveFailed
-from signorini.friction.spatial import SpatialProblem
 from signorini.solution.state import State
 
 _SAME_LOAD = 1e-9  # part of a step: how far behind the end of an increment a jump at its very end may be seen
@@ -61,12 +60,12 @@ def follow_watchfully(part: StepPart, number: int, *, stops: bool = False) -> Fo
 
 def _far(part: StepPart, before: State, after: State) -> bool:
     """Whether an increment moves a pair farther than all loads compress bodies that contact alone holds."""
-    prepared, law = part.prepared, part.prepared.law_or_none
-    if not isinstance(law, SpatialProblem) or not law.floating or not before.forces.any():
+    paths = part.prepared.solver.paths
+    if part.prepared.interface.directions == 2 or paths is None or not paths.law.floating or not before.forces.any():
         return False
-    rows = prepared.condensed.active_rows
-    moved = np.concatenate([after.gap - before.gap, after.tangential - before.tangential])[rows]
-    return bool(np.abs(prepared.condensed.root * moved).max(initial=0.0) > (law.scale or 1.0))
+    condensed = paths.condensed
+    moved = np.concatenate([after.gap - before.gap, after.tangential - before.tangential])[condensed.active_rows]
+    return bool(np.abs(condensed.root * moved).max(initial=0.0) > (paths.law.scale or 1.0))
 
 
 def _done(part: StepPart, followed: FollowedPart | None) -> float:
@@ -79,7 +78,7 @@ def _done(part: StepPart, followed: FollowedPart | None) -> float:
 
 def _jump(part: StepPart, state: State, low: float, high: float) -> SolveFailed | None:
     """The first jump between the fractions low and high of a part, from the state at low; None where none is seen."""
-    if not isinstance(part.prepared.law_or_none, SpatialProblem):
+    if part.prepared.interface.directions == 2 or part.prepared.solver.paths is None:
         return None
     begin = part.before.point
     interval = replace(part.interval, low=part.interval.fraction(low), high=part.interval.fraction(high), ends="jump")

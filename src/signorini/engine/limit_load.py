@@ -6,8 +6,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from signorini.arrays import frozen
-from signorini.engine.events import right_hand_side
 from signorini.engine.increments import leaving
+from signorini.engine.path_states import right_hand_side
 from signorini.engine.step_parts import StepPart, reached
 from signorini.errors import SolveFailed, told
 from signorini.friction.space.overload import overload
@@ -26,14 +26,14 @@ def known(stop: SolveFailed, part: StepPart) -> SolveFailed:
     ----------
     part : to which it came; what was followed of it is in ``stop.reached``
     """
-    prepared, law, interval = part.prepared, part.prepared.law_or_none, part.interval
-    if stop.status != "not_found" or not isinstance(law, SpatialProblem):
+    prepared, paths, interval = part.prepared, part.prepared.solver.paths, part.interval
+    if stop.status != "not_found" or paths is None or not isinstance(paths.law, SpatialProblem):
         return stop
     followed = reached(stop)
     state = part.before if followed is None else followed.after
     low = interval.low if followed is None else followed.snapshots[-1].load_factor - interval.factor(0.0) + interval.low
-    held = state.forces[prepared.condensed.active_rows] / prepared.condensed.root
-    problem = replace(law, b=frozen(right_hand_side(prepared, state.point)))
+    held = state.forces[paths.condensed.active_rows] / paths.condensed.root
+    problem = replace(paths.law, b=frozen(right_hand_side(prepared, state.point)))
     found = overload(problem, held, right_hand_side(prepared, part.end))
     if found is None:
         return stop

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the condensed interface loses its digits, contact is solved on the bodies as they are.
+"""Contact by multipliers on the bodies as they are, where the condensed interface does not fit or loses its digits.
 
 What a thin body yields to a force is many orders of magnitude more than what it is compressed by; a dense compliance
 keeps the digits of the large one. The stiffness of the bodies has both. So where the condensed way finds nothing, and
@@ -8,49 +8,163 @@ nothing is proved either, multipliers are iterated with factors of the bodies an
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
+import numpy as np
 import scipy.sparse as sp
 
-from signorini.engine.prepare import Prepared, as_they_are
-from signorini.fem.stiffness import reduced_stiffness
-from signorini.iterative.bodies import Bodies
-from signorini.model.step import Step
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.engine.examine import Examined
+from signorini.engine.solver import Answer, Increment
+from signorini.errors import InputError
+from signorini.interface.interface import Interface
+from signorini.iterative.bodies import Bodies, make_bodies
+from signorini.iterative.solve import Load, solve_iteratively
+from signorini.solution.scale import Scale
 
-GIVEN_WAY = "the condensed interface gave no certified answer; contact was solved on the bodies as they are"
-"""What a step says that was solved so."""
+MAX_ENTRIES = 3_000_000
+"""Entries of K: what factors some dozen times within minutes."""
 
-_MOST = 3_000_000  # entries of K: what factors some dozen times within minutes
-_PATIENCE = 30  # rounds: what converges takes some 20 in all
-
-
-def gives_way(prepared: Prepared, step: Step) -> bool:
-    """Whether a step that is lost may go the other way: pairs that were left out come first, exact paths have none."""
-    return step.path != "exact" and not prepared.limited and has_another_way(prepared)
-
-
-def has_another_way(prepared: Prepared) -> bool:
-    """Whether there is another way than the condensed interface, and nobody has asked for this one alone."""
-    interface = prepared.interface
-    return (
-        prepared.backend == "auto"
-        and not isinstance(prepared.bodies, Bodies)
-        and bool(prepared.bodies.active.any())
-        and 0 < prepared.K.nnz <= _MOST
-        and not interface.facets.any()
-        and not (interface.anisotropy != 1.0).any()
-    )
+PATIENCE = 30
+"""Rounds without progress after which an increment is given up: what converges takes some 20 in all."""
 
 
-def given_way(prepared: Prepared, *, patience: int = _PATIENCE) -> Prepared:
-    """The same model, its bodies as they are and factored with the springs of their contacts.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MultiplierSolver:
+    """The method of multipliers on stiffness and pairs in blocks of nodes.
+
+    Attributes
+    ----------
+    bodies : stiffness and pairs
+    """
+
+    bodies: Bodies
+
+    @property
+    def name(self) -> str:
+        """Of the back end, for reports."""
+        return self.bodies.name
+
+    @property
+    def active(self) -> BoolArray:
+        """(n,) Pairs that the law is asked of."""
+        return self.bodies.active
+
+    @property
+    def held(self) -> BoolArray:
+        """(n,) Pairs that supports hold on both sides."""
+        return self.bodies.held
+
+    @property
+    def settled(self) -> BoolArray:
+        """(n,) Pairs that the law need not be asked of, because supports or ties hold them."""
+        return self.bodies.settled
+
+    @property
+    def ties(self) -> None:
+        """None: tied pairs have multipliers as others do."""
+
+    @property
+    def paths(self) -> None:
+        """None: nothing is condensed."""
+
+    @property
+    def softness(self) -> None:
+        """None: that is not known."""
+
+    def under(self, interface: Interface, scale: Scale, absent: BoolArray) -> MultiplierSolver:  # noqa: ARG002
+        """Bodies without pairs that are switched off; the law is asked for in every increment.
+
+        Parameters
+        ----------
+        interface, scale : not looked at
+        absent : (n,) pairs that are switched off
+        """
+        return replace(self, bodies=self.bodies.among(~absent)) if absent.any() else self
+
+    def factored(self, nodes: IntArray, points: Array, *, patience: int) -> MultiplierSolver:
+        """Iterate with factors in place of multigrid, see `Bodies.factored`.
+
+        Parameters
+        ----------
+        nodes, points : (z,) node of each free displacement, and (nodes, d) where they are
+        patience : rounds without progress after which an increment is given up
+        """
+        return replace(self, bodies=self.bodies.factored(nodes, points, patience=patience))
+
+    def solve(self, increment: Increment) -> Answer:
+        """Solve one increment, from as far ahead of the state as the last increment led."""
+        state, last = increment.state, increment.last
+        u, r = state.displacement, state.forces
+        if last is not None:
+            u, r = 2.0 * u - last.displacement, 2.0 * r - last.forces
+        scale = increment.system.scale
+        return self.solve_near(increment, u[increment.system.constraints.leaders], r, scale.length)
+
+    def solve_near(self, increment: Increment, free: Array, forces: Array, length: float) -> Answer:
+        """Solve one increment.
+
+        Parameters
+        ----------
+        free, forces : (z,) displacements and (d n,) forces of the pairs near which the answer may be
+        length : to whose digits motions are wanted
+        """
+        bodies, rows, system = self.bodies, self.bodies.rows, increment.system
+        load = Load(
+            f=bodies.blocks.spread(increment.f),
+            offset=increment.offset[rows].reshape(bodies.directions, -1),
+            bound=system.interface.bound(bodies.pairs),
+            force=system.scale.force,
+            length=length,
+            floating=increment.floating,
+        )
+        start = bodies.blocks.spread(free)
+        with increment.clock.phase("complementarity"):
+            found = solve_iteratively(bodies, load, start, forces[rows].reshape(bodies.directions, -1))
+        carried, moved = np.zeros(len(increment.offset)), np.zeros(len(increment.offset))
+        carried[rows], moved[rows] = found.forces, found.moved
+        return Answer(
+            outcome=found.outcome,
+            message=found.message,
+            forces=carried,
+            moved=moved,
+            free=found.free,
+            status=found.state,
+            trace=found.trace,
+        )
+
+
+def make_multipliers(examined: Examined, K: sp.csr_array, B: sp.csr_array, candidates: BoolArray) -> MultiplierSolver:
+    """Put bodies and pairs into blocks.
 
     Parameters
     ----------
-    patience : rounds without progress after which an increment is given up
+    examined : the model
+    K : (z, z) stiffness of the free displacements
+    B : (d n, z) relative displacements of the pairs in terms of them
+    candidates : (n,) pairs that may touch
+
+    Raises
+    ------
+    InputError
+        If a section of the friction cone is no circle.
     """
-    T, nodes = prepared.constraints.transform, prepared.constraints.nodes
-    K, B = reduced_stiffness(prepared.K, T), sp.csr_array(prepared.interface.B @ T)
-    bodies = as_they_are(prepared, K, B, prepared.bodies.active).among(~prepared.absent)
-    bodies = bodies.factored(nodes, prepared.space.places, patience=patience)
-    return replace(prepared, bodies=bodies, law_or_none=None)
+    T, d, interface = examined.constraints.transform, examined.space.dimension, examined.interface
+    if interface.facets.any() or (interface.anisotropy != 1.0).any():
+        i = int(interface.contact[np.argmax((interface.facets > 0) | (interface.anisotropy != 1.0).any(axis=1))])
+        raise InputError(
+            "two coefficients and facets need the condensed interface, and this model is solved by iteration, because "
+            "its factor does not fit or because it was asked for; expected one coefficient and no facets",
+            where=("contact", i),
+        )
+    bodies = make_bodies(
+        K,
+        B,
+        interface,
+        examined.constraints.nodes,
+        examined.constraints.leaders % d,
+        points=examined.space.mesh.points,
+        rigid=sp.csr_array(T.T @ examined.motions),
+        candidates=candidates,
+    )
+    return MultiplierSolver(bodies=bodies)

@@ -99,7 +99,7 @@ def formulate(model: Model | Prepared, *, E_n: float, E_tau: float) -> PaperForm
     """
     prepared = model if isinstance(model, Prepared) else prepare(model)
     E_n, E_tau = number(E_n, ("E_n",), above=0.0), number(E_tau, ("E_tau",), above=0.0)
-    interface, condensed = prepared.interface, prepared.condensed
+    interface, condensed = prepared.interface, prepared.paths.condensed
     for i, contact in enumerate(prepared.model.contacts):
         if contact.friction in ("stick", "tied") or contact.normal_compliance or contact.tangential_compliance:
             raise InputError("the paper's law has a finite friction and its own penalties", where=("contact", i))
@@ -139,7 +139,7 @@ def solve_literally(formulation: PaperFormulation) -> PaperAnswer:
     seen. ``solved`` and ``message`` say whether it may be used. Where the LCP is not solved, all multipliers are 0.
     """
     prepared, problem = formulation.prepared, formulation.problem
-    interface, condensed = prepared.interface, prepared.condensed
+    interface, condensed = prepared.interface, prepared.paths.condensed
     n, rows = len(interface), condensed.active_rows
     pairs = rows[: len(rows) // 2]
     # large penalties leave rounding in M itself; how much is too much the certificate says, on the law
@@ -159,10 +159,8 @@ def solve_literally(formulation: PaperFormulation) -> PaperAnswer:
     status[pairs] = np.where(slip[:, 2] > 0, OPEN, closed)
     before = initial_state(prepared.model.factors()[0], prepared.space.number_of_dofs, interface)
     state = next_state(
+        prepared,
         before,
-        prepared.K,
-        prepared.constraints,
-        interface,
         point=_full_load(prepared),
         loads=loads,
         displacement=displacement,
@@ -170,14 +168,13 @@ def solve_literally(formulation: PaperFormulation) -> PaperAnswer:
         moved=moved,
         status=status,
     )
-    penalised = replace(
+    penalties = replace(
         interface,
         normal_compliance=np.full(n, 1.0 / formulation.E_n),
         tangential_compliance=np.full(n, 1.0 / formulation.E_tau),
     )
-    certificate = certify(
-        prepared.K, loads, prepared.motions, prepared.constraints, penalised, state, before.tangential, prepared.scale
-    )
+    penalised = replace(prepared, interface=penalties)
+    certificate = certify(penalised, state, loads=loads, before=before.tangential)
     return PaperAnswer(
         lcp=found,
         pressure=forces[:n] / interface.area,
@@ -192,7 +189,7 @@ def solve_literally(formulation: PaperFormulation) -> PaperAnswer:
 
 def _condition(prepared: Prepared, problem: PaperProblem, formulation: PaperFormulation) -> float:
     """``|K_c|_1 |K_c^-1|_1``, the second factor estimated through the factorised bodies."""
-    condensed, interface, T = prepared.condensed, prepared.interface, prepared.constraints.transform
+    condensed, interface, T = prepared.paths.condensed, prepared.interface, prepared.constraints.transform
     n = len(interface)
     penalty = np.concatenate([np.full(n, formulation.E_n), np.full(n, formulation.E_tau)]) * np.tile(interface.area, 2)
     B = interface.B @ T

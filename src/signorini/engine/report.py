@@ -11,8 +11,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
 from signorini.engine.cycles import judge, make_cycles
-from signorini.engine.energy import heat_of
-from signorini.engine.events import interface_energy, stored_energy
+from signorini.engine.energy import interface_energy, stored_energy, thermal_energy
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart
@@ -41,7 +40,7 @@ def step_result(
     finished : whether it goes to the end of the step
     """
     before, state, certificates = followed.before, followed.after, followed.certificates
-    heat = heat_of(prepared)
+    heat = thermal_energy(prepared)
     instants = tuple(_instants(prepared, followed, cycle_ends, heat))
     cycles = make_cycles(followed, cycle_ends) if len(cycle_ends) > 1 else ()
     steadiness, words = judge(cycles, prepared.scale) if cycles else ("", "")

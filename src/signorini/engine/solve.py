@@ -9,7 +9,7 @@ from math import ceil
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray
+from signorini.arrays import Array
 from signorini.clock import Clock
 from signorini.engine.automatic import follow_automatically
 from signorini.engine.contact_changes import nominal_gap, relaxed, staged, switched
@@ -19,7 +19,6 @@ from signorini.engine.increments import follow_increments, measured
 from signorini.engine.jump_watch import follow_watchfully
 from signorini.engine.limit_load import known
 from signorini.engine.memory_check import refuse_fields
-from signorini.engine.multipliers import GIVEN_WAY, given_way, gives_way
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
 from signorini.engine.step_parts import (
@@ -53,6 +52,9 @@ from signorini.solution.state import LoadPoint, State, initial_state
 
 RELAXED = "friction is lower than what pairs carried: they slip at once, before the loads of the step"
 """What a step says whose change of friction lets pairs slip."""
+
+GIVEN_WAY = "the condensed interface gave no certified answer; contact was solved on the bodies as they are"
+"""What a step says that was solved so."""
 
 _BEHIND_A_JUMP = 10  # increments
 _ENOUGH = 16  # in space, where no increments were asked for: none needs to be shorter than 1/16 of a straight part
@@ -107,7 +109,7 @@ def _first(prepared: Prepared) -> Checkpoint:
     zero = dict.fromkeys(model.scaled_names, 0.0)
     state = initial_state(zero, prepared.space.number_of_dofs, interface)
     standing = Standing(released=prepared.released)
-    return Checkpoint.of(model, interface, state, standing, Loading(), _near(prepared))
+    return Checkpoint.of(model, interface, state, standing, Loading(), prepared.near)
 
 
 def _fitting(prepared: Prepared, start: Checkpoint) -> Checkpoint:
@@ -134,11 +136,6 @@ def _fitting(prepared: Prepared, start: Checkpoint) -> Checkpoint:
     return replace(start, state=state)
 
 
-def _near(prepared: Prepared) -> BoolArray:
-    """(n,) Pairs that the law of contact is asked of, or that supports or ties decide."""
-    return prepared.bodies.active | prepared.bodies.settled
-
-
 def _follow(
     prepared: Prepared, begin: Checkpoint, wellposed: bool, after_step: Callable[[History], None] | None
 ) -> History:
@@ -148,7 +145,7 @@ def _follow(
     nothing was found without them, the step is solved again with all pairs, and so are those after it.
     """
     model, interface, state, standing = prepared.model, prepared.interface, begin.state, begin.standing
-    if (state.status[~(_near(prepared) | interface.tied)] != OPEN).any():
+    if (state.status[~(prepared.near | interface.tied)] != OPEN).any():
         prepared = prepared.widened()
     schedule = list(stages(model, factors=state.point.factors, before=standing))
     prepared.clock.expect(sum(_expected(stage) for stage in schedule))
@@ -158,7 +155,7 @@ def _follow(
     end, loaded = begin, bool(state.forces.any())
     try:
         for stage in schedule:
-            prepared = prepared.upheld(stage.released)
+            prepared = prepared.supported(stage.released)
             loading = loading_of(stage, prepared.loads, prepared.constraints, end.loading)
             why = ""
             while True:
@@ -174,7 +171,7 @@ def _follow(
                     with prepared.clock.again(why):
                         prepared = prepared.widened()
             result = step_result(now, stage, followed, cycle_ends)
-            after = Checkpoint.of(model, interface, followed.after, stage.standing, loading, _near(prepared))
+            after = Checkpoint.of(model, interface, followed.after, stage.standing, loading, prepared.near)
             steps, end, before = [*steps, result], after, now  # at once, whenever an interruption comes
             if after_step is not None and len(steps) < len(schedule):
                 words = f"{len(steps)} of {len(schedule)} steps are finished"
@@ -274,15 +271,20 @@ def _on_interface_or_bodies(stage: Stage, part: StepPart) -> FollowedPart:
         return _with_bodies_at_rest(stage, part)
     except SolveFailed as failure:
         lost = known(failure, part)
-        if lost.status != "not_found" or lost.hopeless or not gives_way(part.prepared, stage.step):
+        if lost.status != "not_found" or lost.hopeless or not _gives_way(part.prepared, stage.step):
             raise lost from None
     clock = part.prepared.clock
     try:
         with clock.again("once more, on the bodies as they are"):
-            followed = _iterated(stage, replace(part, prepared=given_way(part.prepared)))
+            followed = _iterated(stage, replace(part, prepared=part.prepared.with_multipliers()))
     except (SolveFailed, NotPositiveDefinite):
         raise lost from None
     return replace(followed, notes=(*followed.notes, GIVEN_WAY))
+
+
+def _gives_way(prepared: Prepared, step: Step) -> bool:
+    """Whether a step that is lost may go the other way: pairs that were left out come first, exact paths have none."""
+    return step.path != "exact" and not prepared.limited and prepared.has_multipliers
 
 
 def _with_bodies_at_rest(stage: Stage, part: StepPart) -> FollowedPart:
@@ -354,7 +356,7 @@ def _history(
         status=status,
         message=message,
         steps=tuple(steps),
-        backend=prepared.bodies.name,
+        backend=prepared.solver.name,
         timings=dict(prepared.clock.seconds),
         pairs=len(prepared.interface),
         end=end,

@@ -99,7 +99,7 @@ def _completed(prepared: Prepared, offset: Array) -> Array:
     """Offsets of held dofs, and with them what equations and ties make of them."""
     constraints = prepared.constraints
     completed = constraints.completed(offset)
-    ties = prepared.ties
+    ties = prepared.solver.ties
     if ties is None or not len(ties.rows):
         return completed
     result: Array = completed + constraints.transform @ ties.closing(prepared.interface.B[ties.rows] @ completed)

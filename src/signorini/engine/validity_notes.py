@@ -14,7 +14,8 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
 from signorini.arrays import BoolArray, IntArray, extent
-from signorini.engine.prepare import Examined, Prepared
+from signorini.engine.examine import Examined
+from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart
 from signorini.fem.boundary import boundary
 from signorini.fem.rigid import Part

@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.engine.increments import advance, applied, free_load, moved_by_supports
+from signorini.engine.increments import advance
+from signorini.engine.path_states import right_hand_side
 from signorini.engine.prepare import Prepared
 from signorini.engine.report import contacts_of
 from signorini.errors import SolveFailed
@@ -36,13 +37,13 @@ def assess(prepared: Prepared, state: State | None = None) -> WellPosedness:
     prepared : under the law that is asked about
     state : at whose loads, and from whose slips, other equilibria are looked for; None asks about the model alone
     """
-    if prepared.law_or_none is None:
+    if prepared.solver.paths is None:
         friction = float(prepared.interface.friction.max(initial=0.0))
         words = "not examined: that needs the condensed interface, and this model is solved by iteration"
         return WellPosedness(friction=friction, bound=None, verdict="not decided", words=words)
     if prepared.limited:  # other loads, and other solutions, may close pairs that are far apart
         prepared = replace(prepared.widened(), absent=prepared.absent)
-    law = prepared.law
+    law = prepared.paths.law
     held = law.locked if isinstance(law, CoulombProblem) else law.locked.all(axis=1)
     slope = float(law.bound.slopes[0][~held].max(initial=0.0))
     friction, bound = np.inf if slope >= STEEP else slope, mu_low(law)
@@ -114,9 +115,4 @@ def _starts(problem: Law) -> list[Array | IntArray]:
 
 def _posed(prepared: Prepared, law: Law, state: State) -> Law:
     """The law at the loads of a state, slips counted from where it stands."""
-    condensed = prepared.condensed
-    _, imposed = applied(prepared, state.point)
-    offset = np.concatenate([state.point.gap, -state.tangential]) + moved_by_supports(prepared, imposed)
-    load: Array = condensed.reduce(free_load(prepared, state.point)).load
-    b = condensed.right_hand_side(load, offset[condensed.active_rows])
-    return replace(law, b=b)
+    return replace(law, b=right_hand_side(prepared, state.point, state.tangential))

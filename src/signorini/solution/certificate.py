@@ -9,11 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray
-from signorini.fem.supports import Constraints
+from signorini.arrays import Array
 from signorini.interface.interface import Interface
-from signorini.solution.scale import Scale
 from signorini.solution.state import State
+from signorini.solution.system import System
 
 TOLERANCE = 1e-8
 """Every number of a certificate is at most this, or the answer is no solution."""
@@ -22,7 +21,7 @@ NUMBERS = ("equilibrium", "penetration", "tension", "cone", "complementarity")
 """What a certificate measures."""
 
 _MOST_ROUNDING = 1e-6  # of the data: where digits beyond are lost, of forces or of displacements, nothing is certified
-_FARTHEST = 1e9  # lengths of the data: a body that has left is no solution
+_MAX_LENGTHS = 1e9  # lengths of the data: a body that has left is no solution
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,28 +71,21 @@ class Certificate:
 
 
 def certify(
-    K: sp.csr_array,
-    loads: Array,
-    motions: sp.csr_array,
-    constraints: Constraints,
-    interface: Interface,
+    system: System,
     state: State,
+    *,
+    loads: Array,
     before: Array,
-    scale: Scale,
-    absent: BoolArray | None = None,
     yielding: Callable[[Array], Array] | None = None,
 ) -> Certificate:
     """Measure a state.
 
     Parameters
     ----------
-    K : (dofs, dofs) stiffness, supports not applied
-    loads : (dofs,) nodal forces
-    motions : (dofs, k) rigid motions of all parts, see :func:`signorini.fem.rigid.rigid_motions`
+    system : the problem as posed
     state : its displacement and pair forces are the answer to be measured
+    loads : (dofs,) nodal forces
     before : ((d - 1) n,) tangential displacement at which the slip increment began
-    scale : sizes of forces and lengths
-    absent : (n,) pairs whose contact is switched off: the law of contact is not asked of them
     yielding : displacements under forces on the free displacements: what slender bodies lack of equilibrium is many
         roundings of the load, and may be so where it moves them by no more than the last digits of their displacements
 
@@ -101,11 +93,12 @@ def certify(
     -------
     Certificate; every number infinite where something is not finite or a body has left
     """
+    interface, constraints, scale, motions = system.interface, system.constraints, system.scale, system.motions
     u, r, n = state.displacement, state.forces, len(interface)
-    if not (np.isfinite(u).all() and np.isfinite(r).all()) or np.abs(u).max(initial=0.0) > _FARTHEST * scale.length:
+    if not (np.isfinite(u).all() and np.isfinite(r).all()) or np.abs(u).max(initial=0.0) > _MAX_LENGTHS * scale.length:
         return Certificate(equilibrium=np.inf, penetration=np.inf, tension=np.inf, cone=np.inf, complementarity=np.inf)
     applied = loads + interface.B.T @ r
-    residual = constraints.transform.T @ (K @ u - applied)
+    residual = constraints.transform.T @ (system.K @ u - applied)
     balance = motions.T @ (state.external + constraints.foundation_forces(u) + interface.B.T @ r)
     moved = interface.B @ u
     moved = (moved + interface.compliance * r / interface.areas) / scale.length
@@ -116,13 +109,13 @@ def certify(
     bound = np.where(interface.tied, np.inf, interface.most(r[:n]) / scale.force)
     room = bound - interface.effort(tangential)
     friction = _friction(interface, bound, tangential, sliding, room)
-    if absent is not None:
-        gap, normal, room, friction = (np.where(absent, 0.0, part) for part in (gap, normal, room, friction))
-        tension = np.where(absent, 0.0, tension)
+    gap, normal, tension, room, friction = (
+        np.where(system.absent, 0.0, part) for part in (gap, normal, tension, room, friction)
+    )
     equilibrium = _largest(np.abs(np.concatenate([residual, balance]))) / scale.force
     rounding = 0.0
     if equilibrium > TOLERANCE:
-        rounding = _rounding(K, u, motions, scale.force)
+        rounding = _rounding(system.K, u, motions, scale.force)
         if yielding is None or not np.abs(yielding(residual)).max(initial=0.0) <= _MOST_ROUNDING * scale.length:
             rounding = min(rounding, _MOST_ROUNDING)
     return Certificate(

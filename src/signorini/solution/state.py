@@ -8,13 +8,12 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 import numpy as np
-import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
-from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface
 from signorini.law.states import OPEN
 from signorini.short import Short
+from signorini.solution.system import System
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -85,7 +84,14 @@ class State(Short):
 
 
 def initial_state(factors: Mapping[str, float], dofs: int, interface: Interface) -> State:
-    """Nothing has moved; overlaps have not pressed yet."""
+    """Nothing has moved, and overlaps have not pressed yet.
+
+    Parameters
+    ----------
+    factors : load factors by name
+    dofs : number of displacements
+    interface : the n pairs
+    """
     n, d, gap = len(interface), interface.directions, interface.gap
     return State(
         point=LoadPoint(factors=MappingProxyType(dict(factors)), gap=gap, given=np.zeros(d * n)),
@@ -104,10 +110,8 @@ def initial_state(factors: Mapping[str, float], dofs: int, interface: Interface)
 
 
 def next_state(
+    system: System,
     state: State,
-    K: sp.csr_array,
-    constraints: Constraints,
-    interface: Interface,
     *,
     point: LoadPoint,
     loads: Array,
@@ -120,21 +124,21 @@ def next_state(
 
     Parameters
     ----------
-    state : before
+    system : the problem as posed
+    state : before the increment
     point : of the load history, at the end of the increment
-    K : (dofs, dofs) stiffness, supports not applied
-    loads, displacement : (dofs,)
+    loads, displacement : (dofs,) nodal forces and displacements there
     forces, moved : (d n,) forces of the pairs; gaps and slip increments
-    status : (n,)
+    status : (n,) codes of the pairs
 
     Notes
     -----
     Work is trapezoidal in time, that of interferences included; dissipation is that of the forces at the end.
     """
-    n = len(interface)
-    inner = K @ displacement - interface.B.T @ forces
+    interface, n = system.interface, len(system.interface)
+    inner = system.K @ displacement - interface.B.T @ forces
     # the loads where a displacement is free on its own, whatever equilibrium takes where it is held, tied or linked
-    external = np.where(constraints.alone, loads, inner)
+    external = np.where(system.constraints.alone, loads, inner)
     increment = moved[n:]
     work = 0.5 * (state.external + external) @ (displacement - state.displacement)
     work -= 0.5 * (state.forces + forces)[:n] @ (point.gap - state.point.gap)

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A model on its mesh, and what can be checked of it without solving."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import scipy.sparse as sp
+
+from signorini.arrays import Array
+from signorini.engine.duplicate_check import refuse_idle, refuse_same_contacts
+from signorini.engine.free_motion_check import refuse_unheld
+from signorini.fem.links import linked_nodes
+from signorini.fem.loads import nodal_loads
+from signorini.fem.locking import refuse_locking
+from signorini.fem.rigid import Part, free_motions, make_parts, rigid_motions
+from signorini.fem.space import Space, make_space
+from signorini.fem.supports import Constraints, make_constraints
+from signorini.interface.interface import Interface, make_interface
+from signorini.model.model import Model
+from signorini.model.stage import Stage, Standing, stages
+from signorini.solution.checkpoint import Checkpoint
+from signorini.solution.scale import Loading, Scale, data_scale, loading_of
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Examined:
+    """A model on its mesh, checked; nothing is assembled yet.
+
+    Attributes
+    ----------
+    loads : name to nodal forces at factor 1, each (dofs,)
+    parts, motions : connected pieces and their rigid motions, (dofs, motions of all parts)
+    floating : (motions, k) rigid motions that supports leave free and contact must hold
+    scale : sizes from the data
+    """
+
+    model: Model
+    space: Space
+    constraints: Constraints
+    interface: Interface
+    loads: Mapping[str, Array]
+    parts: tuple[Part, ...]
+    motions: sp.csr_array
+    floating: Array
+    scale: Scale
+
+
+def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
+    """Put a model on its mesh and check what can be checked without solving.
+
+    Parameters
+    ----------
+    start : from which its history goes on
+
+    Raises
+    ------
+    InputError
+        If something in the model does not fit the mesh or the start, a load never acts, two contacts are between the
+        same sides, or a body can move freely: it is named, with its motion.
+    """
+    refuse_locking(model)
+    factors = {} if start is None else start.state.point.factors
+    before = Standing() if start is None else start.standing
+    refuse_idle(model, factors)
+    schedule = list(stages(model, factors=factors, before=before))
+    refuse_same_contacts(model, schedule)
+    carriers = len(model.obstacles) + len(model.rigid_bodies)
+    space = make_space(model.mesh, axisymmetric=model.axisymmetric, obstacles=carriers, linked=linked_nodes(model))
+    first, sometimes = schedule[0].released, schedule[-1].loosened
+    constraints = make_constraints(space, model, without=first)
+    always = make_constraints(space, model, without=sometimes) if sometimes != first else constraints
+    loads = nodal_loads(space, model)
+    interface = make_interface(space, model, always)
+    if start is not None:
+        start.check(model, interface)
+    parts = make_parts(space, model)
+    motions = rigid_motions(space, parts)
+    refuse_unheld(model, space, constraints, interface, parts, motions, schedule)
+    loading = most_imposed(schedule, loads, constraints, None if start is None else start.loading)
+    return Examined(
+        model=model,
+        space=space,
+        constraints=constraints,
+        interface=interface,
+        loads=loads,
+        parts=parts,
+        motions=motions,
+        floating=floating_motions(motions, constraints, interface),
+        scale=data_scale(space, model, loading, interface),
+    )
+
+
+def most_imposed(
+    schedule: Iterable[Stage], loads: Mapping[str, Array], constraints: Constraints, before: Loading | None = None
+) -> Loading:
+    """The most that is imposed in any step of a schedule, or was before.
+
+    Parameters
+    ----------
+    schedule : the steps
+    loads : name to nodal forces at factor 1, each (dofs,)
+    constraints : with what supports prescribe at factor 1
+    before : what was imposed before the first step
+    """
+    most = before or Loading()
+    for stage in schedule:
+        most = loading_of(stage, loads, constraints, most)
+    return most
+
+
+def floating_motions(motions: sp.csr_array, constraints: Constraints, interface: Interface) -> Array:
+    """(motions, k) Combinations of rigid motions that neither supports nor ties resist.
+
+    Parameters
+    ----------
+    motions : (dofs, motions of all parts)
+    constraints, interface : the supports, and the pairs with their ties
+    """
+    return free_motions(motions, constraints, interface.B[interface.rows(interface.tied)])

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""States of bodies and pairs, in units of the problem, from and to states of a path, in the scaled units of its law."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray
+from signorini.engine.energy import stored_energy
+from signorini.engine.increments import applied, free_load, moved_by_supports, settled
+from signorini.engine.prepare import Prepared
+from signorini.friction.history.plane import PathState
+from signorini.friction.law import OPEN, STICK
+from signorini.law.bound import plain
+from signorini.solution.state import LoadPoint, State, next_state
+
+_SPENT = 1e-9  # of the friction bound: what a slipping pair may lack of it
+
+
+def offsets(prepared: Prepared, point: LoadPoint) -> Array:
+    """(d n,) Motions of all pairs that loads do not cause: gaps and what supports impose, no slip of the past."""
+    _, imposed = applied(prepared, point)
+    none = np.zeros(len(point.gap) * (prepared.interface.directions - 1))
+    offset: Array = np.concatenate([point.gap, none]) + moved_by_supports(prepared, imposed)
+    return offset
+
+
+def right_hand_side(prepared: Prepared, point: LoadPoint, slipped: Array | None = None) -> Array:
+    """(d a,) b of the law at a point of the load history.
+
+    Parameters
+    ----------
+    prepared : condensed
+    point : of the load history
+    slipped : ((d - 1) n,) tangential displacements that slips are counted from, length; from the beginning if not given
+    """
+    condensed, offset = prepared.paths.condensed, offsets(prepared, point)
+    if slipped is not None:
+        offset[len(point.gap) :] -= slipped
+    reduced = condensed.reduce(free_load(prepared, point))
+    return condensed.right_hand_side(reduced.load, offset[condensed.active_rows])
+
+
+def path_state(prepared: Prepared, state: State) -> PathState:
+    """A state in the scaled units of the law; overlaps of bodies that nothing has moved yet press first."""
+    paths, condensed, active = prepared.paths, prepared.paths.condensed, prepared.paths.active
+    b, n, rows = right_hand_side(prepared, state.point), paths.law.pairs, condensed.active_rows
+    h = condensed.root * np.concatenate([state.gap, state.tangential])[rows]
+    slip, dissipation = condensed.root[n:] * state.slip[_tangential_rows(prepared)], state.dissipation[active]
+    if not state.forces.any() and not state.displacement.any() and (h[:n] < 0.0).any():
+        pressed = paths.pressed(b, h)
+        return replace(pressed, slip=slip + pressed.slip, dissipation=dissipation + pressed.dissipation)
+    r, status = state.forces[rows] / condensed.root, state.status[active]
+    if prepared.interface.directions == 2:  # friction that has risen since leaves some to spare
+        spare = (status > STICK) & (np.abs(r[n:]) < (1.0 - _SPENT) * paths.law.bound.at(r[:n]))
+        status = np.where(spare, STICK, status)
+    return PathState(b=b, h=h, r=r, state=status, anchor=h[n:], slip=slip, dissipation=dissipation)
+
+
+def on_the_way(prepared: Prepared, last: State, point: LoadPoint, now: PathState) -> State:
+    """The contacts at an event; the bodies are not looked at.
+
+    Parameters
+    ----------
+    prepared : condensed
+    last : a state before, to whose slips and dissipation those of the path are added
+    point : of the load history
+    now : the state of the path there
+    """
+    condensed, n = prepared.paths.condensed, len(prepared.interface)
+    rows, active = condensed.active_rows, condensed.active
+    forces, moved = np.zeros(len(point.given)), np.full(prepared.interface.directions * n, np.nan)
+    forces[rows] = condensed.root * now.r
+    moved[rows] = now.h / condensed.root
+    status, slip, dissipation = np.full(n, OPEN), last.slip.copy(), last.dissipation.copy()
+    status[active], status[prepared.interface.tied] = plain(now.state), STICK
+    forces, status = settled(prepared, forces, status)
+    slip[_tangential_rows(prepared)] = now.slip / condensed.root[now.pairs :]
+    dissipation[active] = now.dissipation
+    return replace(
+        last,
+        point=point,
+        forces=forces + point.given,
+        gap=moved[:n],
+        tangential=moved[n:],
+        slip=slip,
+        status=status,
+        dissipation=dissipation,
+    )
+
+
+def recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState) -> State:
+    """The whole state at an event or at an end; its work is that of the trapezoidal rule.
+
+    Parameters
+    ----------
+    prepared, point, now : as of `on_the_way`
+    last : the last state that was recovered
+    """
+    condensed, interface, T = prepared.paths.condensed, prepared.interface, prepared.constraints.transform
+    n, rows = len(interface), condensed.active_rows
+    seen = on_the_way(prepared, last, point, now)
+    (loads, imposed), offset = applied(prepared, point), offsets(prepared, point)
+    moved = np.concatenate([seen.gap, seen.tangential])
+    reduced = condensed.reduce(free_load(prepared, point))
+    free = condensed.displacement(reduced, moved[rows], seen.forces[rows], offset[rows])
+    displacement = T @ free + imposed
+    outside = np.setdiff1d(np.arange(len(moved)), rows)
+    moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
+    moved[n:] -= last.tangential
+    forces, ties = seen.forces.copy(), condensed.ties
+    forces[ties.rows] = ties.forces(T.T @ (loads + interface.B.T @ forces - prepared.K @ displacement))
+    after = next_state(
+        prepared,
+        last,
+        point=point,
+        loads=loads,
+        displacement=displacement,
+        forces=forces,
+        moved=moved,
+        status=seen.status,
+    )
+    return replace(after, slip=seen.slip, dissipation=seen.dissipation)
+
+
+def balanced(prepared: Prepared, last: State, here: State, lost: float) -> State:
+    """A recovered state with its exact work: what is stored, what contact takes on linear pieces, and what is set free.
+
+    With ``K u = f + B^T r`` and ``B u = h - C r - h_0`` the work of the loads and of the interferences h_0 is the
+    change of the energy stored less ``int r . dh``. Overlaps that press before anything moves work by themselves.
+
+    Parameters
+    ----------
+    prepared : condensed
+    last, here : the last state with its exact work, and the state
+    lost : what contact takes in between, ``-int r . dh``
+    """
+    stored = stored_energy(prepared, here) - stored_energy(prepared, last)
+    return replace(here, work=last.work + stored + lost + here.released - last.released)
+
+
+def tangential(prepared: Prepared, state: State, h: Array) -> Array:
+    """((d - 1) n,) Tangential displacements of a state, of active pairs those of a path, length.
+
+    Parameters
+    ----------
+    prepared : condensed
+    state : of all pairs
+    h : (d a,) motions of the active pairs, scaled
+    """
+    paths, moved = prepared.paths, state.tangential.copy()
+    n = paths.law.pairs
+    moved[_tangential_rows(prepared)] = h[n:] / paths.condensed.root[n:]
+    return moved
+
+
+def _tangential_rows(prepared: Prepared) -> BoolArray:
+    """((d - 1) n,) Tangential rows of the active pairs."""
+    return np.tile(prepared.solver.active, prepared.interface.directions - 1)

@@ -1,0 +1,373 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The one door to what solves increments of contact, and the way through it that is taken where it fits in memory.
+
+`ContactSolver` is the door. `CondensedSolver` condenses the bodies onto their pairs and follows paths from event to
+event too; `signorini.engine.multipliers` iterates on the bodies as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, Protocol, Self
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.attempt import MethodRun
+from signorini.clock import Clock
+from signorini.condense.condensed import Condensed
+from signorini.condense.ties import Ties
+from signorini.friction.history.plane import Landing, PathState, Segment, follow, initial_state, land
+from signorini.friction.problem import CoulombProblem
+from signorini.friction.result import CoulombResult
+from signorini.friction.solve import solve_coulomb
+from signorini.friction.spatial import (
+    SpatialProblem,
+    SpatialResult,
+    StopSettings,
+    at_rest,
+    follow_stopping,
+    land_spatial,
+    solve_spatial,
+)
+from signorini.interface.interface import Interface
+from signorini.solution.scale import Scale
+from signorini.solution.state import State
+from signorini.solution.system import System
+
+_BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
+_REFINEMENTS = 2
+_LENGTH_PER_GAP = 1e-4  # of the largest gap or displacement: times the law's tolerance, 1e-10, a few roundings of it
+
+Law = CoulombProblem | SpatialProblem
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Increment:
+    """What an increment asks of a solver.
+
+    Attributes
+    ----------
+    system : bodies, supports, pairs and sizes of the data
+    f : (z,) forces on the free displacements
+    offset : (d n,) relative displacements of the pairs that f does not cause: gaps, supports, slips of the past, length
+    state : before the increment
+    last : the state an increment as long as this one before, where there is one
+    start : what a condensed law starts from: states (a,) in the plane, ``r - h`` (3 a,) in space; None: as the state is
+    floating : whether contact alone holds a body
+    clock : counts the seconds
+    """
+
+    system: System
+    f: Array
+    offset: Array
+    state: State
+    last: State | None = None
+    start: Array | IntArray | None = None
+    floating: bool
+    clock: Clock
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Answer:
+    """What a solver answers.
+
+    Attributes
+    ----------
+    outcome, message : how it ended, in one word and in words
+    forces, moved : (d n,) forces of the pairs; gaps, length, and slip increments of those that the law is asked of
+    free : (z,) free displacements
+    status : (a,) codes of :mod:`signorini.law.states`, of the pairs that the law is asked of
+    trace : the methods tried, in order
+    lost : by how much motions of the pairs differ from those of the bodies, length: digits that are lost
+    escape : (k,) combination of the floating motions along which bodies leave, where it is known
+    """
+
+    outcome: str
+    message: str
+    forces: Array
+    moved: Array
+    free: Array
+    status: IntArray
+    trace: tuple[MethodRun, ...]
+    lost: float = 0.0
+    escape: Array | None = None
+
+    @property
+    def solved(self) -> bool:
+        """Whether a solution was found; the certificate is measured by who asked."""
+        return self.outcome == "solved"
+
+
+class ContactSolver(Protocol):
+    """Bodies and their contact pairs, made ready once for every load."""
+
+    @property
+    def name(self) -> str:
+        """Of the back end, for reports."""
+
+    @property
+    def active(self) -> BoolArray:
+        """(n,) Pairs that the law of contact is asked of."""
+
+    @property
+    def held(self) -> BoolArray:
+        """(n,) Pairs that supports hold on both sides."""
+
+    @property
+    def settled(self) -> BoolArray:
+        """(n,) Pairs that the law need not be asked of, because supports or ties hold them."""
+
+    @property
+    def ties(self) -> Ties | None:
+        """Tied pairs, where they are no unknowns of the law."""
+
+    @property
+    def paths(self) -> CondensedSolver | None:
+        """What follows paths from event to event; None where nothing is condensed."""
+
+    @property
+    def softness(self) -> Callable[[Array], Array] | None:
+        """Displacements (z,) under forces (z,) where springs hold every pair, length; None where that is not known."""
+
+    def under(self, interface: Interface, scale: Scale, absent: BoolArray) -> Self:
+        """Bodies as they are under another law, without pairs that are switched off; nothing is factorised again.
+
+        Parameters
+        ----------
+        interface : with the friction of the moment
+        scale : sizes of the data
+        absent : (n,) pairs that are switched off
+
+        Raises
+        ------
+        LinAlgError
+            If the pairs that are left do not hold the bodies.
+        """
+
+    def solve(self, increment: Increment) -> Answer:
+        """Solve one increment."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class CondensedSolver:
+    """The law of contact on the condensed interface.
+
+    Attributes
+    ----------
+    condensed : the interface as the bodies feel it
+    law : of the active pairs, without load, in the scaled units of `Condensed`
+    """
+
+    condensed: Condensed
+    law: Law
+
+    @staticmethod
+    def of(condensed: Condensed, interface: Interface, scale: Scale) -> CondensedSolver:
+        """The law of the active pairs, with no load yet.
+
+        Parameters
+        ----------
+        condensed : the interface as the bodies feel it
+        interface : the n pairs and their friction
+        scale : sizes of the data
+        """
+        kind = CoulombProblem if interface.directions == 2 else SpatialProblem
+        data = _friction(condensed, interface)
+        law = kind(
+            image=condensed.image, b=np.zeros(len(condensed.root)), scale=_size(condensed, interface, scale), **data
+        )
+        return CondensedSolver(condensed=condensed, law=law)
+
+    @property
+    def name(self) -> str:
+        """Of the back end, for reports."""
+        return self.condensed.name
+
+    @property
+    def active(self) -> BoolArray:
+        """(n,) Pairs that the law is asked of."""
+        return self.condensed.active
+
+    @property
+    def held(self) -> BoolArray:
+        """(n,) Pairs that supports hold on both sides."""
+        return self.condensed.held
+
+    @property
+    def settled(self) -> BoolArray:
+        """(n,) Pairs that the law need not be asked of, because supports or ties hold them."""
+        return self.condensed.settled
+
+    @property
+    def ties(self) -> Ties:
+        """Tied pairs, which are no unknowns of the law."""
+        return self.condensed.ties
+
+    @property
+    def paths(self) -> CondensedSolver:
+        """Itself."""
+        return self
+
+    @property
+    def softness(self) -> Callable[[Array], Array]:
+        """Displacements under forces where springs hold every pair, see `Condensed.on_springs`."""
+        return self.condensed.on_springs
+
+    def under(self, interface: Interface, scale: Scale, absent: BoolArray) -> CondensedSolver:
+        """Bodies under another law, see `ContactSolver.under`; the law shares what it has computed.
+
+        Parameters
+        ----------
+        interface, scale : friction, gaps and sizes of the data of the moment
+        absent : (n,) pairs that are switched off
+        """
+        if absent.any():
+            return CondensedSolver.of(self.condensed.among(~absent), interface, scale)
+        size = _size(self.condensed, interface, scale)
+        return replace(self, law=replace(self.law, scale=size, **_friction(self.condensed, interface)))
+
+    def moving(self, ways: Array, interface: Interface, scale: Scale) -> CondensedSolver:
+        """Bodies of whose k rigid motions only some combinations occur: springs hold the others.
+
+        Parameters
+        ----------
+        ways : (k, m) the combinations
+        interface, scale : as of `of`
+        """
+        return CondensedSolver.of(self.condensed.moving(ways), interface, scale)
+
+    def solve(self, increment: Increment) -> Answer:
+        """Solve one increment.
+
+        What equilibrium and the motions of the pairs lack in the end, on the problem as posed, is added to the
+        condensed problem, and what that changes to the displacements: it was condensed with rounding, which gaps far
+        larger than what the loads move (an arc that leaves its foundation) and thin bodies magnify, whose loads alone
+        would bend them far.
+        """
+        condensed, law, system, f = self.condensed, self.law, increment.system, increment.f
+        offset, interface, scale = increment.offset, system.interface, system.scale
+        rows, T, ties = condensed.active_rows, system.constraints.transform, condensed.ties
+        forces, moved, free = np.zeros(len(offset)), np.zeros(len(offset)), np.zeros_like(f)
+        residual, misfit, b, lost = f, offset[rows], np.zeros(len(rows)), 0.0
+        guided = np.concatenate([np.zeros(law.pairs, dtype=np.bool_), law.locked.T.ravel()])
+        start = self._start(increment.state) if increment.start is None else increment.start
+        for _ in range(_REFINEMENTS + 1):
+            with increment.clock.phase("complementarity"):
+                reduced = condensed.reduce(residual)
+                b = b + condensed.right_hand_side(reduced.load, misfit)
+                result = self._solve(b, start)
+            if not result.solved:
+                break
+            with increment.clock.phase("recovery"):
+                before = moved[rows], forces[rows]
+                forces[rows] = condensed.root * np.concatenate([result.normal_force, result.tangential_force.T.ravel()])
+                moved[rows] = np.concatenate([result.gap, result.slip.T.ravel()]) / condensed.root
+                free = free + condensed.displacement(reduced, moved[rows] - before[0], forces[rows] - before[1], misfit)
+                u = T @ free
+                forces[ties.rows] = 0.0
+                residual = f + T.T @ (interface.B.T @ forces - system.K @ u)
+                forces[ties.rows] = ties.forces(residual)
+                residual += ties.B.T @ forces[ties.rows]
+                misfit = (offset + interface.B @ u - moved)[rows] + condensed.compliance * forces[rows]
+                misfit[guided] = 0.0
+            lost = float(np.abs(misfit).max(initial=0.0))
+            if max(np.abs(residual).max(initial=0.0) / scale.force, lost / scale.length) <= _BALANCED:
+                break
+            start = result.y if isinstance(result, SpatialResult) else result.state
+        return Answer(
+            outcome=result.outcome,
+            message=result.message,
+            forces=forces,
+            moved=moved,
+            free=free,
+            status=result.state,
+            trace=result.trace,
+            lost=lost,
+            escape=None if result.escape is None or not law.floating else self.floating(result.escape),
+        )
+
+    def floating(self, escape: Array) -> Array:
+        """(k,) The combination of floating motions that a motion of the pairs (d a,) is."""
+        return np.asarray(np.linalg.lstsq(self.law.motions, escape, rcond=None)[0], dtype=np.float64)
+
+    def _start(self, state: State) -> Array | IntArray | None:
+        """What the law's solver starts from: the states of the pairs, in space their ``y = r - h``; None at rest."""
+        condensed, rows = self.condensed, self.condensed.active_rows
+        if not state.forces.any():
+            return None
+        r = state.forces[rows] / condensed.root
+        if isinstance(self.law, CoulombProblem):
+            return self.law.bound.coded(state.status[condensed.active], r[: len(rows) // 2])
+        still = np.concatenate([state.gap, np.zeros_like(state.tangential)])[rows]
+        start: Array = r - condensed.root * still
+        return start
+
+    def _solve(self, b: Array, start: Array | IntArray | None) -> CoulombResult | SpatialResult:
+        law = replace(self.law, b=b)
+        if isinstance(law, SpatialProblem):
+            return solve_spatial(law, None if start is None else np.asarray(start, dtype=np.float64))
+        return solve_coulomb(law, None if start is None else np.asarray(start, dtype=np.int64))
+
+    def pressed(self, b: Array, h: Array) -> PathState:
+        """The state in which overlaps of bodies press that nothing has moved yet.
+
+        Parameters
+        ----------
+        b, h : (d a,) load of the law, and the motions of the pairs before
+        """
+        if isinstance(self.law, SpatialProblem):
+            return at_rest(self.law, b, motion=h)
+        return initial_state(self.law, b)
+
+    def follow(self, start: PathState, b: Array, stops: StopSettings | None, tell: Callable[[float], None]) -> Segment:
+        """Follow the load of the law straight to another.
+
+        Parameters
+        ----------
+        start : where the history stands
+        b : (d a,) load at the end
+        stops : how increments are chosen in space; None: event by event
+        tell : is called in space with the part that is behind
+        """
+        if isinstance(self.law, SpatialProblem):
+            return follow_stopping(self.law, start, b, settings=stops, tell=tell)
+        return follow(self.law, start, b)
+
+    def land(self, start: PathState, segment: Segment, stops: StopSettings | None) -> Landing | None:
+        """Where a jump at the end of a segment lands; None where that is not found.
+
+        Parameters
+        ----------
+        start : where the segment began
+        segment : as far as it was followed
+        stops : as of `follow`
+        """
+        if isinstance(self.law, SpatialProblem):
+            return land_spatial(self.law, start, segment, settings=stops)
+        return land(self.law, start, segment)
+
+
+def _friction(condensed: Condensed, interface: Interface) -> dict[str, Any]:
+    """The friction of the active pairs as the laws take it, forces scaled."""
+    active = condensed.active
+    area = interface.area[active] / condensed.root[: int(active.sum())]
+    adheres, limited = interface.adhesion[active].any(), np.isfinite(interface.shear_limit[active]).any()
+    bounds = {
+        "adhesion": interface.adhesion[active] * area if adheres else None,
+        "limit": interface.shear_limit[active] * area if limited else None,
+    }
+    if interface.directions == 2:
+        return {"friction": interface.friction[active], **bounds}
+    return {"friction": interface.coefficients[active], "facets": interface.facets[active], **bounds}
+
+
+def _size(condensed: Condensed, interface: Interface, scale: Scale) -> float:
+    """Of the right-hand side of the law: what compresses, for forces to have their digits.
+
+    Gaps far larger than that, and displacements of what bends, leave their rounding in it.
+    """
+    gap = float(np.abs(interface.gap[condensed.active]).max(initial=0.0))
+    size = max(scale.compressed, _LENGTH_PER_GAP * max(gap, scale.length))
+    return size * (float(condensed.root.max(initial=0.0)) or 1.0)

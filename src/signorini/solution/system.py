@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The discrete problem that every state is measured on: bodies, supports, pairs and the sizes of the data."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import scipy.sparse as sp
+
+from signorini.arrays import BoolArray
+from signorini.fem.supports import Constraints
+from signorini.interface.interface import Interface
+from signorini.solution.scale import Scale
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class System:
+    """Equilibrium ``K u = f + B^T r`` under supports, with the law of contact on gaps, slips and forces of n pairs.
+
+    Attributes
+    ----------
+    K : (dofs, dofs) stiffness of bodies and elastic foundations, supports not applied
+    constraints : what supports hold and prescribe
+    interface : the pairs, with their B and their law
+    motions : (dofs, k) rigid motions of all parts, see :func:`signorini.fem.rigid.rigid_motions`
+    scale : sizes of forces and lengths
+    absent : (n,) pairs whose contact is switched off: the law of contact is not asked of them
+    """
+
+    K: sp.csr_array
+    constraints: Constraints
+    interface: Interface
+    motions: sp.csr_array
+    scale: Scale
+    absent: BoolArray
