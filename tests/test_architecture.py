@@ -305,7 +305,7 @@ PENDING = {
     #
     "deck": "nouns parameters constants",
     #
-    "engine": "files nouns parameters constants",
+    "engine": "nouns parameters constants",
     #
     "errors": "nouns parameters",
     #
@@ -335,7 +335,7 @@ PENDING = {
     #
     "short": "constants",
     #
-    "solution": "signatures nouns parameters constants",
+    "solution": "nouns parameters constants",
     #
     "sources": "nouns",
     #
