@@ -11,7 +11,7 @@ import numpy as np
 from signorini.arrays import Array, IntArray, frozen
 from signorini.attempt import MethodRun
 from signorini.engine.prepare import Prepared
-from signorini.engine.solver import Answer, Increment
+from signorini.engine.solver import Increment, IncrementAnswer
 from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, keep
 from signorini.errors import SolveFailed, told
 from signorini.fem.rigid import describe_motion
@@ -143,7 +143,9 @@ def advance(
     return new, certified(prepared, new, state.tangential, where), answer.trace
 
 
-def _polished(prepared: Prepared, increment: Increment, answer: Answer, length: float) -> Answer | None:
+def _polished(
+    prepared: Prepared, increment: Increment, answer: IncrementAnswer, length: float
+) -> IncrementAnswer | None:
     """An answer with the digits that the condensed interface has lost; None where that does not settle.
 
     Rounding of forces moves slender bodies by many roundings of their displacements. Equilibrium between both has
@@ -283,7 +285,7 @@ def refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
         )
 
 
-def _failure(prepared: Prepared, answer: Answer, where: str) -> SolveFailed:
+def _failure(prepared: Prepared, answer: IncrementAnswer, where: str) -> SolveFailed:
     """The reason, and the bodies that leave by name, with their motion."""
     if answer.escape is None:
         return SolveFailed(f"{where}: {answer.message}", status=answer.outcome)

@@ -15,7 +15,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.engine.examine import Examined
-from signorini.engine.solver import Answer, Increment
+from signorini.engine.solver import Increment, IncrementAnswer
 from signorini.errors import InputError
 from signorini.interface.interface import Interface
 from signorini.iterative.bodies import Bodies, make_bodies
@@ -92,7 +92,7 @@ class MultiplierSolver:
         """
         return replace(self, bodies=self.bodies.factored(nodes, points, patience=patience))
 
-    def solve(self, increment: Increment) -> Answer:
+    def solve(self, increment: Increment) -> IncrementAnswer:
         """Solve one increment, from as far ahead of the state as the last increment led."""
         state, last = increment.state, increment.last
         u, r = state.displacement, state.forces
@@ -101,7 +101,7 @@ class MultiplierSolver:
         scale = increment.system.scale
         return self.solve_near(increment, u[increment.system.constraints.leaders], r, scale.length)
 
-    def solve_near(self, increment: Increment, free: Array, forces: Array, length: float) -> Answer:
+    def solve_near(self, increment: Increment, free: Array, forces: Array, length: float) -> IncrementAnswer:
         """Solve one increment.
 
         Parameters
@@ -123,7 +123,7 @@ class MultiplierSolver:
             found = solve_iteratively(bodies, load, start, forces[rows].reshape(bodies.directions, -1))
         carried, moved = np.zeros(len(increment.offset)), np.zeros(len(increment.offset))
         carried[rows], moved[rows] = found.forces, found.moved
-        return Answer(
+        return IncrementAnswer(
             outcome=found.outcome,
             message=found.message,
             forces=carried,

@@ -33,8 +33,8 @@ from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.stage import stages
 from signorini.solution.checkpoint import Checkpoint
+from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.scale import Loading, data_scale
-from signorini.solution.system import System
 
 _UNCONDENSED = (
     "an exact path needs the condensed interface, and this model is solved by iteration, because its factor does not "
@@ -43,7 +43,7 @@ _UNCONDENSED = (
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Prepared(Examined, System):
+class Prepared(Examined, DiscreteModel):
     """A model ready for any load.
 
     Attributes

@@ -32,9 +32,9 @@ from signorini.friction.spatial import (
     solve_spatial,
 )
 from signorini.interface.interface import Interface
+from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.scale import Scale
 from signorini.solution.state import State
-from signorini.solution.system import System
 
 _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
 _REFINEMENTS = 2
@@ -59,7 +59,7 @@ class Increment:
     clock : counts the seconds
     """
 
-    system: System
+    system: DiscreteModel
     f: Array
     offset: Array
     state: State
@@ -70,7 +70,7 @@ class Increment:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Answer:
+class IncrementAnswer:
     """What a solver answers.
 
     Attributes
@@ -146,7 +146,7 @@ class ContactSolver(Protocol):
             If the pairs that are left do not hold the bodies.
         """
 
-    def solve(self, increment: Increment) -> Answer:
+    def solve(self, increment: Increment) -> IncrementAnswer:
         """Solve one increment."""
 
 
@@ -238,7 +238,7 @@ class CondensedSolver:
         """
         return CondensedSolver.of(self.condensed.moving(ways), interface, scale)
 
-    def solve(self, increment: Increment) -> Answer:
+    def solve(self, increment: Increment) -> IncrementAnswer:
         """Solve one increment.
 
         What equilibrium and the motions of the pairs lack in the end, on the problem as posed, is added to the
@@ -276,7 +276,7 @@ class CondensedSolver:
             if max(np.abs(residual).max(initial=0.0) / scale.force, lost / scale.length) <= _BALANCED:
                 break
             start = result.y if isinstance(result, SpatialResult) else result.state
-        return Answer(
+        return IncrementAnswer(
             outcome=result.outcome,
             message=result.message,
             forces=forces,

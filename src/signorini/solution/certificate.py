@@ -11,8 +11,8 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array
 from signorini.interface.interface import Interface
+from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.state import State
-from signorini.solution.system import System
 
 TOLERANCE = 1e-8
 """Every number of a certificate is at most this, or the answer is no solution."""
@@ -71,7 +71,7 @@ class Certificate:
 
 
 def certify(
-    system: System,
+    system: DiscreteModel,
     state: State,
     *,
     loads: Array,

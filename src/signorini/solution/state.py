@@ -13,7 +13,7 @@ from signorini.arrays import Array, IntArray
 from signorini.interface.interface import Interface
 from signorini.law.states import OPEN
 from signorini.short import Short
-from signorini.solution.system import System
+from signorini.solution.discrete_model import DiscreteModel
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -110,7 +110,7 @@ def initial_state(factors: Mapping[str, float], dofs: int, interface: Interface)
 
 
 def next_state(
-    system: System,
+    system: DiscreteModel,
     state: State,
     *,
     point: LoadPoint,

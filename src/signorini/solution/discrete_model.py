@@ -14,7 +14,7 @@ from signorini.solution.scale import Scale
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class System:
+class DiscreteModel:
     """Equilibrium ``K u = f + B^T r`` under supports, with the law of contact on gaps, slips and forces of n pairs.
 
     Attributes
