@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """LCP solvers against each other in one run: times, ratios, success over the bank, and a large obstacle problem.
 
-    OMP_NUM_THREADS=1 python benchmarks/lcp.py             # n = 30, 300, 1000, bank
-    OMP_NUM_THREADS=1 python benchmarks/lcp.py --large     # n = 3000 too, and the obstacle problem with 10^6 unknowns
+    OMP_NUM_THREADS=1 python -m benchmarks.lcp             # n = 30, 300, 1000, bank
+    OMP_NUM_THREADS=1 python -m benchmarks.lcp --large     # n = 3000 too, and the obstacle problem with 10^6 unknowns
 
 QuantEcon, lemkelcp (PyPI) and Siconos (Debian's python3-siconos) are measured where they are installed. Times are CPU
 seconds, taken in turn, solver after solver, round after round. Every answer is judged by the natural residual of the
@@ -20,12 +20,12 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from lcp_contact import cylinder, rough_block
-from lcp_siconos import Siconos
 
+from benchmarks import lcp_problems as problems
+from benchmarks.lcp_contact import cylinder, rough_block
+from benchmarks.lcp_siconos import Siconos
 from signorini import lcp
 from signorini.arrays import Array
-from signorini.lcp import problems
 
 Solver = Callable[[problems.PosedLCP], Array | None]
 Run = Callable[[problems.PosedLCP], tuple[float, Array | None]]

@@ -14,11 +14,11 @@ from dataclasses import replace
 import numpy as np
 import scipy.linalg
 
+from benchmarks.lcp_problems import PosedLCP
 from signorini.arrays import Array
 from signorini.engine.prepare import Prepared, prepare
 from signorini.friction.problem import CoulombProblem
 from signorini.gallery.cylinder import zhu_cylinder
-from signorini.lcp.problems import PosedLCP
 from signorini.meshing.plane import rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Support

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Run every method on every problem of the bank and write the table of docs/choosing_an_lcp_method.md.
 
-python benchmarks/lcp_methods.py
+python -m benchmarks.lcp_methods
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from pathlib import Path
 
 import scipy.sparse as sp
 
+from benchmarks import lcp_problems as problems
 from signorini import lcp
-from signorini.lcp import problems
 
 PAGE = Path(__file__).parent.parent / "docs" / "choosing_an_lcp_method.md"
 BEGIN, END = "<!-- table written by benchmarks/lcp_methods.py -->\n", "<!-- end of table -->\n"

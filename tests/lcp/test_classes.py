@@ -8,9 +8,9 @@ from itertools import combinations
 import numpy as np
 import pytest
 
+from benchmarks import lcp_problems as problems
 from signorini import lcp
 from signorini.errors import InputError
-from signorini.lcp import problems
 
 
 @pytest.mark.parametrize("seed", range(40))

@@ -8,8 +8,8 @@ import pytest
 import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, aslinearoperator
 
+from benchmarks import lcp_problems as problems
 from signorini import lcp
-from signorini.lcp import problems
 
 BANK = problems.bank()
 ALL = frozenset({"any"})

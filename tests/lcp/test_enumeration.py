@@ -6,8 +6,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from benchmarks import lcp_problems as problems
 from signorini import lcp
-from signorini.lcp import problems, screening
+from signorini.lcp import screening
 
 
 def everything(A, q, tolerance, lack):  # noqa: ARG001

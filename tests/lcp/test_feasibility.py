@@ -6,8 +6,8 @@ import re
 import numpy as np
 import pytest
 
+from benchmarks import lcp_problems as problems
 from signorini import lcp
-from signorini.lcp import problems
 
 
 @pytest.mark.parametrize("seed", range(3))

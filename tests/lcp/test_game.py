@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from benchmarks import lcp_problems as problems
 from signorini import lcp
-from signorini.lcp import problems
 
 
 @pytest.mark.parametrize("n", [2, 30, 41, 100, 300])

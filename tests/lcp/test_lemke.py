@@ -6,9 +6,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from benchmarks import lcp_problems as problems
 from signorini import lcp
 from signorini.errors import InputError
-from signorini.lcp import problems
 
 KOSTREVA_CYCLING = np.array([[1.0, 2, 0], [0, 1, 2], [2, 0, 1]])
 KOSTREVA_UNSOLVABLE = np.array([[1.0, -1, 3], [2, -1, 3], [-1, -2, 0]])

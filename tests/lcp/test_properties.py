@@ -9,8 +9,8 @@ import scipy.sparse as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from benchmarks import lcp_problems as problems
 from signorini import lcp
-from signorini.lcp import problems
 
 seeds = st.integers(0, 2**31)
 sizes = st.integers(1, 25)

@@ -9,9 +9,9 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
+from benchmarks import lcp_problems as problems
 from signorini import lcp
 from signorini.errors import InputError
-from signorini.lcp import problems
 from signorini.lcp.solution import Attempt
 
 M, q = np.array([[2.0, 1.0], [1.0, 2.0]]), np.array([-5.0, -6.0])

@@ -6,8 +6,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from benchmarks import lcp_problems as problems
 from signorini import lcp
-from signorini.lcp import problems, walk
+from signorini.lcp import walk
 from signorini.lcp.delayed import SOLVED, DelayedTableau, Tolerances
 from signorini.lcp.tableau import DELAYED, Tableau
 

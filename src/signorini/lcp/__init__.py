@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Linear complementarity problems: find z with ``0 <= z  _|_  w = M z + q >= 0``. Stands alone, knows no mechanics."""
 
-from signorini.lcp import problems
 from signorini.lcp.block import BlockPivoting
 from signorini.lcp.box import BoxLCP, MixedLCP
 from signorini.lcp.classes import (
@@ -61,6 +60,5 @@ __all__ = [
     "is_symmetric",
     "is_z",
     "natural_residual",
-    "problems",
     "solve",
 ]

@@ -41,9 +41,9 @@ class ProjectedMultigrid:
 
     Examples
     --------
-    >>> from signorini.lcp import problems, solve
-    >>> posed = problems.obstacle(30)
-    >>> solve(posed.M, posed.q, method=ProjectedMultigrid()).status.name
+    >>> from signorini.lcp import solve
+    >>> laplacian = sp.diags_array([-1.0, 2.0, -1.0], offsets=[-1, 0, 1], shape=(900, 900))
+    >>> solve(laplacian, np.sin(np.arange(900.0)), method=ProjectedMultigrid()).status.name
     'SOLVED'
     """
 

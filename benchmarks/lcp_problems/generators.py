@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from benchmarks.lcp_problems.posed import PosedLCP
 from signorini.arrays import Array
-from signorini.lcp.problems.posed import PosedLCP
 
 MADE = "generated from a chosen answer"
 

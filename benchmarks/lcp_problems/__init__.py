@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A bank of linear complementarity problems with known answers, and generators of more."""
 
-from signorini.lcp.problems.bank import bank
-from signorini.lcp.problems.contact import frictional_contact, gap_slip_contact
-from signorini.lcp.problems.generators import (
+from benchmarks.lcp_problems.bank import bank
+from benchmarks.lcp_problems.contact import frictional_contact, gap_slip_contact
+from benchmarks.lcp_problems.generators import (
     badly_scaled,
     bimatrix_game,
     degenerate,
@@ -12,8 +12,8 @@ from signorini.lcp.problems.generators import (
     random_psd,
     with_solution,
 )
-from signorini.lcp.problems.obstacle import obstacle
-from signorini.lcp.problems.posed import PosedLCP
+from benchmarks.lcp_problems.obstacle import obstacle
+from benchmarks.lcp_problems.posed import PosedLCP
 
 __all__ = [
     "PosedLCP",

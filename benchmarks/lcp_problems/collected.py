@@ -3,14 +3,15 @@
 
 from __future__ import annotations
 
-from importlib.resources import files
+from pathlib import Path
 
 import numpy as np
 
+from benchmarks.lcp_problems.known import DEFINITE
+from benchmarks.lcp_problems.posed import PosedLCP
 from signorini.arrays import Array
-from signorini.lcp.problems.known import DEFINITE
-from signorini.lcp.problems.posed import PosedLCP
 
+_FOLDER = Path(__file__).parent / "siconos"
 _CPS = "Cottle, Pang, Stone (1992)"
 _MURTY = "Murty (1988), Linear Complementarity, chapter 6"
 
@@ -51,7 +52,7 @@ def collected() -> list[PosedLCP]:
 
 
 def _read(name: str, source: str, answer: list[float] | None, unique: bool, traits: tuple[str, ...]) -> PosedLCP:
-    M, q = parse((files("signorini.lcp.problems") / "siconos" / f"lcp_{name}.dat").read_text())
+    M, q = parse((_FOLDER / f"lcp_{name}.dat").read_text())
     return PosedLCP(
         name=f"Siconos, {name}",
         source=source,

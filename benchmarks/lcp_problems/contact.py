@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from benchmarks.lcp_problems.posed import PosedLCP
 from signorini.arrays import Array
-from signorini.lcp.problems.posed import PosedLCP
 
 
 def half_plane_compliance(m: int, *, poisson: float = 0.3) -> tuple[Array, Array, Array]:

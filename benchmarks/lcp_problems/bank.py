@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from signorini.lcp.problems.collected import collected
-from signorini.lcp.problems.contact import frictional_contact, gap_slip_contact
-from signorini.lcp.problems.generators import badly_scaled, degenerate, infeasible, random_p, random_psd
-from signorini.lcp.problems.known import known
-from signorini.lcp.problems.obstacle import obstacle
-from signorini.lcp.problems.posed import PosedLCP
+from benchmarks.lcp_problems.collected import collected
+from benchmarks.lcp_problems.contact import frictional_contact, gap_slip_contact
+from benchmarks.lcp_problems.generators import badly_scaled, degenerate, infeasible, random_p, random_psd
+from benchmarks.lcp_problems.known import known
+from benchmarks.lcp_problems.obstacle import obstacle
+from benchmarks.lcp_problems.posed import PosedLCP
 
 
 def bank(*, seed: int = 0) -> list[PosedLCP]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.lcp.problems.posed import PosedLCP
+from benchmarks.lcp_problems.posed import PosedLCP
 
 
 def obstacle(side: int) -> PosedLCP:

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from benchmarks.lcp_problems.posed import PosedLCP
 from signorini.arrays import Array
-from signorini.lcp.problems.posed import PosedLCP
 
 DEFINITE = ("P", "positive definite", "monotone", "symmetric", "copositive plus")
 
