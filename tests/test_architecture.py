@@ -297,13 +297,9 @@ RULES = {
 }
 
 PENDING = {
-    "bench": "nouns parameters constants",
-    #
     "checks": "parameters constants",
     #
     "condense": "signatures nouns parameters classes constants",
-    #
-    "deck": "nouns parameters constants",
     #
     "engine": "nouns parameters constants",
     #
@@ -312,8 +308,6 @@ PENDING = {
     "fem": "signatures nouns parameters classes constants",
     #
     "friction": "files nouns parameters classes constants",
-    #
-    "gallery": "signatures nouns parameters",
     #
     "interface": "files signatures nouns parameters classes constants",
     #
@@ -339,7 +333,6 @@ PENDING = {
     #
     "sources": "nouns",
     #
-    "verify": "constants",
 }
 """Rules that a room does not keep yet: what it keeps is taken out, and modules that move take their rules along."""
 

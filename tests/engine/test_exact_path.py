@@ -29,7 +29,7 @@ def test_increments_converge_to_the_exact_path():
     contact = exact.contact("foundation")
     errors = []
     for number in (1, 10, 100, 1000):
-        found = sg.solve(zhu_cylinder(refine=2, increments=number)).contact("foundation")
+        found = sg.solve(zhu_cylinder(refine=2, steps=[sg.Step(increments=number)])).contact("foundation")
         errors.append(np.abs(found.traction - contact.traction).max() / (0.4 * HERTZ.peak_pressure))
     assert errors[0] > 0.3
     assert (np.diff(errors) < 0).all()

@@ -20,7 +20,12 @@ _ENTRIES = 40.0
 
 
 def blocks(dofs: int, *, timer: Timer = time.perf_counter, repeats: int = REPEATS) -> Iterator[dict[str, Any]]:
-    """Time two cubes with about ``dofs`` unknowns, mu = 0.3, one increment; by default on the wall.
+    """Time two cubes with about ``dofs`` unknowns, mu = 0.3, one increment.
+
+    Parameters
+    ----------
+    timer : tells seconds, by default on the wall
+    repeats : of the condensed solves
 
     Yields
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which steps of the hard set have one solution, and which have several: by bound, by enumeration, by search."""
+"""Steps of the hard set with one solution, and with several: by bound, by enumeration, by search."""
 
 from __future__ import annotations
 

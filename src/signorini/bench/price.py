@@ -26,7 +26,7 @@ from signorini.solution.state import LoadPoint
 Timer = Callable[[], float]
 
 REPEATS = 5
-_LONG, _LEAST = 40.0, 3  # seconds, and how many repeats have to do where they take longer
+_REPEATS_SECONDS, _MIN_REPEATS = 40.0, 3  # where repeats take longer, the fewest have to do
 
 
 class TimerClock(Clock):
@@ -55,6 +55,9 @@ def warm_up(model: Model, timer: Timer) -> None:
 def price(name: str, model: Model, timer: Timer, *, repeats: int = REPEATS) -> dict[str, Any]:
     """Time a model of one contact: a row of the contract; contact and linear solves interleaved, medians of repeats.
 
+    name : of the row
+    timer : tells seconds, on the wall or of the CPU
+    repeats : as long as they take less than 40 s, but three at least
     contact_seconds : all after assembly, up to tractions, displacements and the certificate
     linear_seconds : analyse, factorise and solve the same matrix with the contact nodes fixed, same back end
     ratio : of the two
@@ -64,7 +67,9 @@ def price(name: str, model: Model, timer: Timer, *, repeats: int = REPEATS) -> d
     assembly: list[float] = []
     cpu: list[float] = []
     phases: list[dict[str, float]] = []
-    while len(contact) < min(_LEAST, repeats) or (len(contact) < repeats and sum(contact) + sum(linear) < _LONG):
+    while len(contact) < min(_MIN_REPEATS, repeats) or (
+        len(contact) < repeats and sum(contact) + sum(linear) < _REPEATS_SECONDS
+    ):
         clock, began, cpu_began = TimerClock(timer), timer(), time.process_time()
         prepared = prepare(model, clock=clock)
         history = solve_prepared(prepared)
@@ -98,9 +103,12 @@ def price(name: str, model: Model, timer: Timer, *, repeats: int = REPEATS) -> d
 
 
 def iterated(row: dict[str, Any], model: Model, timer: Timer) -> dict[str, Any]:
-    """The same model on the bodies as they are, once: a row beside one of `price`, with its assembly and linear solve.
+    """Time the model of a row of `price` once, iterated on its bodies: a row with that one's assembly and linear solve.
 
-    Its memory is nothing that can be told of a part of a process.
+    Parameters
+    ----------
+    row : of the condensed solve
+    model, timer : as :func:`price` had them; memory cannot be told of a part of a process
     """
     began, cpu_began = timer(), time.process_time()
     history = solve_prepared(prepare(model, backend=ITERATIVE))

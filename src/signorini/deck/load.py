@@ -16,41 +16,13 @@ from signorini.deck.inp.card import Card
 from signorini.deck.meshes import deck_mesh
 from signorini.deck.scan import line_of
 from signorini.deck.syntax import parse
-from signorini.deck.table import check_keys
-from signorini.deck.tables import (
-    deck_bodies,
-    deck_contacts,
-    deck_equations,
-    deck_foundations,
-    deck_loads,
-    deck_materials,
-    deck_obstacles,
-    deck_rigid_bodies,
-    deck_steps,
-    deck_supports,
-)
+from signorini.deck.tables import FIELDS, check_keys, deck_bodies, deck_materials, deck_parts
 from signorini.errors import InputError, Where
 from signorini.model.model import Model
 from signorini.model.prints import Prints
 from signorini.sources import Reach
 
-_KEYS = (
-    "title",
-    "kind",
-    "thickness",
-    "units",
-    "mesh",
-    "material",
-    "body",
-    "support",
-    "foundation",
-    "load",
-    "contact",
-    "obstacle",
-    "rigid_body",
-    "equation",
-    "step",
-)
+_KEYS = ("title", "kind", "thickness", "units", "mesh", "material", "body", *FIELDS)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -75,7 +47,7 @@ class Deck:
     prints: Prints | None = None
 
     def locate(self, error: InputError) -> DeckError:
-        """The same error with the line of the deck that caused it; for what is found after reading."""
+        """An error that is found after reading with the line of the deck that caused it."""
         return _located(error, self.path, self.lines)
 
 
@@ -93,7 +65,7 @@ class KeywordDeck(Deck):
     reach: Reach
 
     def locate(self, error: InputError) -> DeckError:
-        """The same error with file and line of the keyword that caused it."""
+        """An error that is found after reading with file and line of the keyword that caused it."""
         return located(error, self.places, self.path, lambda cell: element_card(self.path, self.reach, cell))
 
 
@@ -120,7 +92,12 @@ def read(
 def load(
     path: str | Path, *, small_strain: bool = False, deck_increments: bool = False, allow: Iterable[str | Path] = ()
 ) -> Deck:
-    """Read a deck and keep its lines, so that errors found later can be told with theirs; see :func:`read`."""
+    """Read a deck and keep its lines, so that errors found later can be told with theirs.
+
+    Parameters
+    ----------
+    path, small_strain, deck_increments, allow : as :func:`read` has them
+    """
     path = Path(path)
     reach = Reach.of(path, allow)
     if path.suffix.lower() == ".inp":
@@ -160,17 +137,7 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int], reach
     materials = deck_materials(data)
     bodies = deck_bodies(data, materials)
     mesh = deck_mesh(data["mesh"], reach)
-    parts: dict[str, Any] = {
-        "supports": deck_supports(data),
-        "foundations": deck_foundations(data),
-        "loads": deck_loads(data),
-        "contacts": deck_contacts(data, reach, mesh),
-        "obstacles": deck_obstacles(data, reach, mesh),
-        "rigid_bodies": deck_rigid_bodies(data),
-        "equations": deck_equations(data),
-    }
-    if "step" in data:
-        parts["steps"] = deck_steps(data)
+    parts: dict[str, Any] = deck_parts(data, reach, mesh)
     parts |= {key: data[key] for key in ("title", "kind", "thickness", "units") if key in data}
     model = Model(mesh, bodies=bodies, **parts)
     named = {entry["material"] for entry in data["body"]}

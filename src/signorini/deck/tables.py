@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Materials, bodies, supports, loads, contacts and steps: from tables of a deck to the model's own classes."""
+"""From tables of a deck to the model's own classes, with the checks that all tables share."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+import difflib
+import inspect
+from collections.abc import Callable, Collection, Mapping
+from typing import Any, TypeVar
 
 from signorini.checks import text
-from signorini.deck.table import check_keys, make, table, tables
 from signorini.errors import InputError, Where, one_of
 from signorini.model.body import Body
 from signorini.model.conditions import Foundation, Load, Support
@@ -23,34 +24,9 @@ from signorini.model.triangulated import Surface
 from signorini.model.varying import Along
 from signorini.sources import Reach
 
-_CONTACT_KEYS = (
-    "name",
-    "between",
-    "nonmortar",
-    "mortar",
-    "plane",
-    "circle",
-    "profile",
-    "sphere",
-    "cylinder",
-    "cone",
-    "torus",
-    "surface",
-    "friction",
-    "shear_limit",
-    "adhesion",
-    "gap",
-    "interference",
-    "normal_compliance",
-    "tangential_compliance",
-    "coupling",
-    "side",
-    "search",
-    "adjust",
-    "friction_axis",
-    "facets",
-)
-_OBSTACLES = {
+Made = TypeVar("Made")
+
+OBSTACLES = {
     "plane": Plane,
     "circle": Circle,
     "profile": Profile,
@@ -60,7 +36,84 @@ _OBSTACLES = {
     "torus": Torus,
     "surface": Surface,
 }
-_OBSTACLE_KEYS = ("name", *_OBSTACLES, "u", "rotation", "force", "moment", "point")
+"""Rigid shapes by their keys."""
+
+_SIDES = ("nonmortar", "mortar")
+_CONTACT_KEYS = (
+    "name",
+    "between",
+    *_SIDES,
+    *OBSTACLES,
+    *(key for key in inspect.signature(Contact).parameters if key not in ("name", *_SIDES)),
+)
+_OBSTACLE_KEYS = ("name", *OBSTACLES, "u", "rotation", "force", "moment", "point")
+
+
+def table(value: Any, where: Where) -> dict[str, Any]:
+    """A table, or what was found instead."""
+    if not isinstance(value, dict):
+        raise InputError(f"is {value!r}; expected a table", where=where)
+    return value
+
+
+def tables(data: Mapping[str, Any], key: str) -> list[dict[str, Any]]:
+    """The entries of an array of tables, none if the key is not there."""
+    value = data.get(key, [])
+    if isinstance(value, dict):
+        raise InputError(f"is a single table; expected [[{key}]], in double brackets, for each", where=(key,))
+    if not isinstance(value, list):
+        raise InputError(f"is {value!r}; expected [[{key}]] tables", where=(key,))
+    return [table(entry, (key, i)) for i, entry in enumerate(value)]
+
+
+def check_keys(data: Mapping[str, Any], where: Where, *, known: Collection[str], needed: Collection[str] = ()) -> None:
+    """Refuse keys that are not known (the nearest known one is named) and tables that lack one.
+
+    Parameters
+    ----------
+    data : a table
+    where : its path in the deck
+    known, needed : keys that it may have, and those that it must
+
+    Examples
+    --------
+    >>> check_keys({"nx": 2, "hight": 1.0}, ("mesh",), known=["nx", "ny", "height"])
+    Traceback (most recent call last):
+    signorini.errors.InputError: mesh.hight: unknown key; did you mean 'height'? Known: nx, ny, height
+    """
+    for key in data:
+        if key not in known:
+            near = difflib.get_close_matches(key, known, n=1)
+            hint = f"; did you mean '{near[0]}'?" if near else "."
+            raise InputError(f"unknown key{hint} Known: {', '.join(known)}", where=(*where, key))
+    for key in needed:
+        if key not in data:
+            raise InputError(f"has no '{key}'; expected it", where=where)
+
+
+def make(kind: Callable[..., Made], data: Mapping[str, Any], where: Where) -> Made:
+    """Call a constructor with the keys of a table: its parameters are the known keys, those without default needed.
+
+    Parameters
+    ----------
+    kind : the constructor
+    data : the table
+    where : its path in the deck
+
+    Raises
+    ------
+    InputError
+        What :func:`check_keys` or the constructor finds wrong, with the path from the top of the deck.
+    """
+    parameters = inspect.signature(kind).parameters
+    needed = [name for name, parameter in parameters.items() if parameter.default is parameter.empty]
+    check_keys(data, where, known=list(parameters), needed=needed)
+    if "name" in data:
+        text(data["name"], (*where, "name"))
+    try:
+        return kind(**data)
+    except InputError as error:
+        raise error.inside(*where) from error
 
 
 def deck_materials(data: Mapping[str, Any]) -> dict[str, Material]:
@@ -86,39 +139,53 @@ def deck_bodies(data: Mapping[str, Any], materials: Mapping[str, Material]) -> l
     return bodies
 
 
-def deck_supports(data: Mapping[str, Any]) -> list[Support]:
-    """``[[support]]``."""
-    return [_placed(Support, entry, ("support", i)) for i, entry in enumerate(tables(data, "support"))]
+FIELDS = {
+    "support": "supports",
+    "foundation": "foundations",
+    "load": "loads",
+    "contact": "contacts",
+    "obstacle": "obstacles",
+    "rigid_body": "rigid_bodies",
+    "equation": "equations",
+    "step": "steps",
+}
+"""Arrays of tables beside ``[[body]]``, and the fields of the model that they give."""
 
 
-def deck_foundations(data: Mapping[str, Any]) -> list[Foundation]:
-    """``[[foundation]]``."""
-    return [make(Foundation, entry, ("foundation", i)) for i, entry in enumerate(tables(data, "foundation"))]
+def deck_parts(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> dict[str, list[Any]]:
+    """Supports, loads, contacts, steps and so on: fields of the model, those that the deck has.
+
+    Parameters
+    ----------
+    data : the whole deck
+    reach : files that it may name
+    mesh : its mesh, whose boundaries may be rigid shapes
+    """
+    kinds: dict[str, Callable[..., Any]] = {
+        "support": Support,
+        "foundation": Foundation,
+        "load": Load,
+        "rigid_body": RigidBody,
+        "equation": Equation,
+        "step": Step,
+    }
+    parts: dict[str, list[Any]] = {}
+    for key, field in FIELDS.items():
+        for i, entry in enumerate(tables(data, key)):
+            where: Where = (key, i)
+            if key in kinds:
+                if key in ("support", "load"):
+                    _refuse_place(entry.get("on", ""), where)
+                made = make(kinds[key], entry, where)
+            else:
+                made = (_contact if key == "contact" else _obstacle)(entry, where, reach, mesh)
+            parts.setdefault(field, []).append(made)
+    return parts
 
 
-def deck_loads(data: Mapping[str, Any]) -> list[Load]:
-    """``[[load]]``."""
-    return [_placed(Load, entry, ("load", i)) for i, entry in enumerate(tables(data, "load"))]
-
-
-def deck_equations(data: Mapping[str, Any]) -> list[Equation]:
-    """``[[equation]]``."""
-    return [make(Equation, entry, ("equation", i)) for i, entry in enumerate(tables(data, "equation"))]
-
-
-def deck_rigid_bodies(data: Mapping[str, Any]) -> list[RigidBody]:
-    """``[[rigid_body]]``."""
-    return [make(RigidBody, entry, ("rigid_body", i)) for i, entry in enumerate(tables(data, "rigid_body"))]
-
-
-def deck_steps(data: Mapping[str, Any]) -> list[Step]:
-    """``[[step]]``."""
-    return [make(Step, entry, ("step", i)) for i, entry in enumerate(tables(data, "step"))]
-
-
-def deck_contacts(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> list[Contact]:
-    """``[[contact]]``, each with a ``mortar`` boundary or a rigid obstacle; its file is one that the deck may name."""
-    return [_contact(entry, ("contact", i), reach, mesh) for i, entry in enumerate(tables(data, "contact"))]
+def _refuse_place(on: Any, where: Where) -> None:
+    if not isinstance(on, str | list):
+        raise InputError(f"is {on!r}; expected a name, or the coordinates of a node", where=(*where, "on"))
 
 
 def _along(entry: dict[str, Any], where: Where) -> Along:
@@ -131,16 +198,11 @@ def _along(entry: dict[str, Any], where: Where) -> Along:
     return make(Along, {"axis": axes[0], "at": entry[axes[0]], "values": entry["mu"]}, where)
 
 
-def deck_obstacles(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> list[Rigid]:
-    """``[[obstacle]]``, each with a shape; its file is one that the deck may name."""
-    return [_obstacle(entry, ("obstacle", i), reach, mesh) for i, entry in enumerate(tables(data, "obstacle"))]
-
-
 def _shape(key: str, value: Any, where: Where, reach: Reach, mesh: Mesh) -> Obstacle:
     """A rigid shape; profiles and surfaces may be in a file, or be a boundary of the deck's mesh."""
     entry = {"file": value} if key == "surface" and isinstance(value, str) else table(value, where)
     if key not in ("profile", "surface") or not {"file", "boundary"} & set(entry):
-        return make(_OBSTACLES[key], entry, where)
+        return make(OBSTACLES[key], entry, where)
     from signorini.fem.profile import mesh_profile, read_profile  # brings scikit-fem and meshio with it
     from signorini.fem.surface import mesh_surface, read_surface
 
@@ -172,26 +234,19 @@ def _refuse_body(mesh: Mesh, name: str) -> None:
 def _obstacle(entry: dict[str, Any], where: Where, reach: Reach, mesh: Mesh) -> Rigid:
     check_keys(entry, where, known=_OBSTACLE_KEYS, needed=["name"])
     given = dict(entry)
-    shapes = [key for key in _OBSTACLES if key in given]
+    shapes = [key for key in OBSTACLES if key in given]
     if len(shapes) != 1:
-        raise InputError(f"has {len(shapes)} shapes; expected one of {', '.join(_OBSTACLES)}", where=where)
+        raise InputError(f"has {len(shapes)} shapes; expected one of {', '.join(OBSTACLES)}", where=where)
     key = shapes[0]
     given["shape"] = _shape(key, given.pop(key), (*where, key), reach, mesh)
     return make(Rigid, given, where)
-
-
-def _placed(kind: Any, entry: dict[str, Any], where: Where) -> Any:
-    on = entry.get("on", "")
-    if not isinstance(on, str | list):
-        raise InputError(f"is {on!r}; expected a name, or the coordinates of a node", where=(*where, "on"))
-    return make(kind, entry, where)
 
 
 def _sided(entry: dict[str, Any], where: Where) -> dict[str, Any]:
     """The table of a contact with its sides by name: of those "between" which it is, the coarser one is nonmortar."""
     if "between" not in entry:
         return dict(entry)
-    named = [key for key in ("nonmortar", "mortar", *_OBSTACLES) if key in entry]
+    named = [key for key in (*_SIDES, *OBSTACLES) if key in entry]
     both = entry["between"]
     if named or not isinstance(both, list) or len(both) != 2:
         found = f"goes with no '{named[0]}'" if named else f"is {both!r}"
@@ -208,10 +263,10 @@ def _contact(entry: dict[str, Any], where: Where, reach: Reach, mesh: Mesh) -> C
     given = _sided(entry, where)
     if isinstance(given.get("friction"), dict):
         given["friction"] = _along(given["friction"], (*where, "friction"))
-    sides = [key for key in ("mortar", *_OBSTACLES) if key in given]
+    sides = [key for key in ("mortar", *OBSTACLES) if key in given]
     if len(sides) != 1:
         found = "both " + " and ".join(f"'{key}'" for key in sides) if sides else "no other side"
-        raise InputError(f"has {found}; expected one of mortar, {', '.join(_OBSTACLES)}", where=where)
+        raise InputError(f"has {found}; expected one of mortar, {', '.join(OBSTACLES)}", where=where)
     key = sides[0]
     if key == "mortar":
         text(given["mortar"], (*where, "mortar"))

@@ -12,15 +12,13 @@ from typing import Any
 
 import numpy as np
 
+from signorini.deck.tables import FIELDS, OBSTACLES
 from signorini.errors import InputError
 from signorini.model.model import Model
-from signorini.model.obstacle import Circle, Plane, Profile
-from signorini.model.revolved import Cone, Cylinder, Torus
-from signorini.model.triangulated import Surface
 from signorini.model.varying import Along
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
-_OBSTACLES = {kind: kind.__name__.lower() for kind in (Plane, Circle, Profile, Cylinder, Cone, Torus, Surface)}
+_SHAPES = {kind: key for key, kind in reversed(OBSTACLES.items())}  # a sphere is a circle
 _FREE = ("u", "force", "rotation")  # where None means free and is said
 
 
@@ -84,20 +82,9 @@ def _lines(model: Model, mesh: str) -> Iterator[str]:
             yield from ("", f"[material.{_key(materials[body.material])}]", *_entries(_given(body.material)))
     for body in model.bodies:
         yield from ("", "[[body]]", *_entries(_given(body) | {"material": materials[body.material]}))
-    for key, members in (
-        ("support", model.supports),
-        ("foundation", model.foundations),
-        ("load", model.loads),
-        ("obstacle", model.obstacles),
-        ("rigid_body", model.rigid_bodies),
-        ("equation", model.equations),
-    ):
-        for member in members:
+    for key, field in FIELDS.items():
+        for member in getattr(model, field):
             yield from ("", f"[[{key}]]", *_entries(_given(member)))
-    for contact in model.contacts:
-        yield from ("", "[[contact]]", *_entries(_given(contact)))
-    for step in model.steps:
-        yield from ("", "[[step]]", *_entries(_given(step)))
 
 
 def _given(part: Any) -> dict[str, Any]:
@@ -106,8 +93,8 @@ def _given(part: Any) -> dict[str, Any]:
     for field in fields(part):
         value = getattr(part, field.name)
         default = field.default_factory() if field.default_factory is not MISSING else field.default
-        if type(value) in _OBSTACLES:
-            found[_OBSTACLES[type(value)]] = _given(value)
+        if type(value) in _SHAPES:
+            found[_SHAPES[type(value)]] = _given(value)
         elif isinstance(value, np.ndarray) or (value is not default and value != default):
             found[field.name] = value
     return found

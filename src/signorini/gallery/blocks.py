@@ -191,7 +191,7 @@ def dragged_block(*, friction: float = 0.2) -> Model:
 
 
 def _along_x(mesh: Mesh, name: str, low: float, high: float) -> BoolArray:
-    """Which facets of a boundary have their middle between two coordinates."""
+    """Whether each facet of a boundary has its middle between two coordinates."""
     (facets,) = mesh.facets(name)
     middle = mesh.points[facets].mean(axis=1)[:, 0]
     return np.asarray((low < middle) & (middle < high))

@@ -28,7 +28,6 @@ def zhu_cylinder(
     refine: int = 1,
     compliance: float = 0.0,
     spread: Literal["traction", "displacement"] = "traction",
-    increments: int = 1,
     cells: Cells = "quad",
     contact_length: float = 4.0,
     contact_spacing: float = 0.5,
@@ -43,11 +42,10 @@ def zhu_cylinder(
     refine : the paper's mesh (76 cells) with every edge divided by it
     compliance : of the interface in both directions, length per pressure; 1 / E_n is the paper's penalty
     spread : "traction", uniform on the cut, or "displacement", a rigid cut that carries the same force
-    increments : of the one step
     cells : "quad" or "triangle"
     contact_length, contact_spacing : see :func:`signorini.meshing.plane.quarter_disk`
     force : on the whole cylinder per thickness
-    steps : instead of one step with ``increments``
+    steps : by default one, of one increment
 
     Examples
     --------
@@ -76,5 +74,5 @@ def zhu_cylinder(
                 name="foundation",
             )
         ],
-        steps=steps or [Step(name="press", increments=increments)],
+        steps=steps or [Step(name="press", increments=1)],
     )

@@ -50,7 +50,7 @@ def upside_down(mesh: Mesh) -> Mesh:
 
 
 def with_seat(mesh: Mesh, side: str, radius: float) -> Mesh:
-    """The facets of a side within a distance of the axis as the boundary "seat"."""
+    """The mesh with the facets of a side within a radius of the axis as the boundary "seat"."""
     (facets,) = mesh.facets(side)
     far = np.sqrt((mesh.points[facets][..., :-1] ** 2).sum(axis=-1)).max(axis=1)
     return replace(mesh, boundaries={**mesh.boundaries, "seat": facets[far <= radius * (1.0 + 1e-9)]})

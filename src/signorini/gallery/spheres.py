@@ -62,7 +62,8 @@ def equal_spheres(*, approach: float, n: int = 4, other: int | None = None, cell
     ----------
     approach : of the equators, both together, length; the seat is 1.3 times as wide as Hertz's contact
     n : see :func:`hemisphere`
-    other : the same of the second sphere; None for one alone, which its plane of symmetry stands for
+    other : cells of the second sphere; None for one alone, which its plane of symmetry stands for
+    cells : see :func:`hemisphere`
     """
     seat = 1.3 * float(np.sqrt(0.5 * RADIUS * approach))
     parts = {"upper": hemisphere(radius=RADIUS, seat=seat, n=n, cells=cells)}

@@ -21,7 +21,7 @@ from signorini.reference.lame import hollow_sphere, press_fit_pressure, thick_cy
 from signorini.verify.check import Check, farthest, table
 
 _SOURCE = "Lame; Timoshenko, Goodier section 28"
-_EXPANSION, _COLDER = 1e-3, -5.0
+_EXPANSION, _COOLING = 1e-3, -5.0  # per degree, degrees
 _HALVES: tuple[tuple[Cells, int | tuple[int, int]], ...] = (
     ("quad", 64),
     ("quad8", (24, 16)),
@@ -67,10 +67,10 @@ def shrink_fits() -> Iterator[Check]:
         cooled = replace(
             model,
             bodies=[shaft, Body("hub", Elastic(E=1000.0, nu=0.3, expansion=_EXPANSION))],
-            loads=[Load("hub", temperature=_COLDER)],
+            loads=[Load("hub", temperature=_COOLING)],
         )
         # in plane strain the length is held: the free strain across is (1 + nu) alpha T
-        overlap = -2.0 * _EXPANSION * _COLDER * (1.3 if kind == "plane strain" else 1.0)
+        overlap = -2.0 * _EXPANSION * _COOLING * (1.3 if kind == "plane strain" else 1.0)
         case = f"B09 shrink fit of two rings, {kind}, {_say(cells, along)}"
         yield from _worst_node(case, cooled, fit_pressure(kind, overlap), 1e-3)
 

@@ -18,7 +18,7 @@ from signorini.deck.error import DeckError
 from signorini.errors import one_of
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([EeDd][+-]?\d+)?")
-MOST = 10**10
+NUMBER_LIMIT = 10**10
 """Numbers of nodes and elements are smaller: they have at most ten digits."""
 
 
@@ -52,11 +52,13 @@ class Row:
     ----------
     fields : without the empty ones at the end
     path, line : where it stands, the line from 1
+    scope : of its names and numbers
     """
 
     fields: tuple[str, ...]
     path: Path
     line: int
+    scope: Scope = DECK
 
     def error(self, message: str) -> DeckError:
         """The message with the place of the line."""
@@ -70,6 +72,12 @@ class Row:
 
     def number(self, i: int, what: str, default: float | None = None) -> float:
         """Field i as a number; D may stand for E in its exponent.
+
+        Parameters
+        ----------
+        i : from 0
+        what : is expected there, in words
+        default : where the field is empty
 
         Raises
         ------
@@ -85,9 +93,9 @@ class Row:
         return value
 
     def whole(self, i: int, what: str, default: int | None = None) -> int:
-        """Field i as a whole number."""
+        """Field i as a whole number; ``what`` is expected there, the default where it is empty."""
         value = self.number(i, what, default)
-        if value != int(value) or abs(value) >= MOST:
+        if value != int(value) or abs(value) >= NUMBER_LIMIT:
             raise self.error(
                 f"has '{self.fields[i]}' in field {i + 1}; expected {what}, a whole number of at most ten digits"
             )
@@ -130,7 +138,7 @@ class Card:
                     fields = [field.strip() for field in words.split(",")]
                     while fields and not fields[-1]:
                         fields.pop()
-                    yield Row(fields=tuple(fields), path=path, line=first + offset)
+                    yield Row(fields=tuple(fields), path=path, line=first + offset, scope=self.scope)
 
     def row_with(self, field: int) -> Row:
         """The data line that holds a field, counted from 0 through all lines."""
@@ -166,7 +174,7 @@ class Card:
         return " ".join(self.parameters.get(name, default).upper().split())
 
     def choice(self, name: str, known: Collection[str], default: str) -> str:
-        """A parameter that is one of the known words, in capitals."""
+        """The parameter ``name``, one of the known words, in capitals; the default without it."""
         found = self.get(name, default)
         if found not in known:
             raise self.error(f"{name}: {one_of(found, known, 'value')}")

@@ -54,7 +54,7 @@ def _couplings(
     equations: list[DeckEquation] = []
     for card, kinematic in _pairs(cards):
         card.refuse_unknown(("REF NODE", "SURFACE"), ("CONSTRAINT NAME",))
-        surface = known.surfaces.find(card.value("SURFACE"), card.scope, card)
+        surface = known.surfaces.find(card.value("SURFACE"), card)
         card.value("REF NODE", "a node")
         reference = named_node(card, "REF NODE", known)
         refuse_shared(card, (reference,), bodies)

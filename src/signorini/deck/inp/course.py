@@ -21,7 +21,7 @@ _SAME_VECTOR_TOL = 1e-9  # of an axis or a direction, as written with ten digits
 
 Hold = Literal["", "value", "place"]
 """What a slot is held at in a step: nothing, a value, or the place where the step finds it."""
-_NOTHING: tuple[float, int, Hold] = (0.0, 0, "")  # magnitude, amplitude, hold of a slot without a value
+_NO_VALUE: tuple[float, int, Hold] = (0.0, 0, "")  # magnitude, amplitude, hold of a slot without a value
 _UNSET: tuple[float, int, int, Hold] = (0.0, 0, -1, "")  # the same with the source
 
 
@@ -53,7 +53,7 @@ class Pattern:
         return self.factor(k, steps, steps[k].end) if k >= 0 else 0.0
 
     def factor(self, k: int, steps: Sequence[DeckStep], time: float) -> float:
-        """The factor at a time in step k: of the amplitude, or on the straight line to the end of the step."""
+        """The factor at a time in step k of the steps: of the amplitude, or on the straight line to the step's end."""
         step, amplitude = steps[k], self.amplitudes[k]
         if amplitude is not None:
             return self.shares[k] * amplitude.at(time if amplitude.total else time - step.start)
@@ -88,7 +88,16 @@ class Course:
     def put(
         self, slots: IntArray, value: float, label: str, card: Card, amplitude: Amplitude | None, *, adds: bool
     ) -> None:
-        """Give slots a value; what was set in this step is added to it, or replaced by it.
+        """Give slots a value.
+
+        Parameters
+        ----------
+        slots : (m,)
+        value : of each
+        label : what the deck calls the place
+        card : the keyword, at its line
+        amplitude : that the value follows, or None
+        adds : the value is added to what was set in this step, otherwise it replaces that
 
         Raises
         ------
@@ -107,7 +116,14 @@ class Course:
             self._first.setdefault(slot, source)
 
     def freeze(self, slots: IntArray, label: str, card: Card) -> None:
-        """Hold slots where the last step left them: at the value that it took them to, or in whatever place."""
+        """Hold slots where the last step left them: at the value that it took them to, or in whatever place.
+
+        Parameters
+        ----------
+        slots : (m,)
+        label : what the deck calls the place
+        card : the keyword, at its line
+        """
         source = self._source(label, card)
         for slot in slots.tolist():
             known = not self._ends or slot in self._reached
@@ -176,7 +192,7 @@ class Course:
         groups: dict[tuple[int, tuple[float, ...], tuple[int, ...], tuple[Hold, ...]], list[tuple[int, float]]] = {}
         labels: dict[str, int] = {}
         for slot, source in self._first.items():
-            history = [ends.get(slot, _NOTHING) for ends in self._ends]
+            history = [ends.get(slot, _NO_VALUE) for ends in self._ends]
             size = max((value for value, _, _ in history), key=abs, default=0.0)
             shares = tuple(round(value / size, 12) if size else 0.0 for value, _, _ in history)
             named = labels.setdefault(self._sources[source][0], source)

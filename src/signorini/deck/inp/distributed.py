@@ -34,7 +34,7 @@ def read_dload(card: Card, known: Known, courses: Courses) -> None:
         if kind == "GRAV" and not row.fields[0]:  # as CAE writes it for the whole model
             label, elements = "", np.concatenate([section.elements for section in known.sections])
         else:
-            label, elements = known.elements.find(row.text(0, "an element or an element set"), card.scope, row)
+            label, elements = known.elements.find(row.text(0, "an element or an element set"), row)
         at = card.at(row)
         if kind[:1] == "P" and kind[1:].isdigit():
             keys = known.faces.keys(elements, kind, row, "*DLOAD")
@@ -66,7 +66,7 @@ def read_dsload(card: Card, known: Known, courses: Courses) -> None:
         kind = row.text(1, "the kind of load, P").upper()
         if kind != "P":
             raise row.error(f"*DSLOAD: '{kind}' is not supported; expected P")
-        surface = known.surfaces.find(row.text(0, "a surface"), card.scope, row)
+        surface = known.surfaces.find(row.text(0, "a surface"), row)
         surface.refuse_bare(row)
         value = row.number(2, "the pressure")
         courses.pressure.put(surface.keys, value, surface.name, card.at(row), amplitude, adds=True)

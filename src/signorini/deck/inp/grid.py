@@ -11,7 +11,7 @@ from typing import cast
 import numpy as np
 
 from signorini.arrays import Array, IntArray, distinct
-from signorini.deck.inp.card import MOST, Card, Scope
+from signorini.deck.inp.card import NUMBER_LIMIT, Card, Scope
 from signorini.deck.inp.elements import ElementType, element_type, unknown_type
 from signorini.deck.inp.keywords import of_keyword
 from signorini.deck.inp.numbering import Numbering
@@ -42,7 +42,7 @@ class DeckGrid:
 
     @property
     def all_groups(self) -> tuple[ElementGroup, ...]:
-        """Those of cells and of skins."""
+        """Groups of cells and of skins."""
         return self.groups + self.skins
 
     @property
@@ -160,7 +160,7 @@ def _nodes(cards: Sequence[Card]) -> tuple[Numbering, Array]:
             card.refuse_unknown(("NSET", "INPUT"))
             tables.append(number_table(card, "a number and up to 3 coordinates", least=1, most=7)[:, :4])
         table = np.vstack(tables)
-        wrong = (table[:, 0] != np.rint(table[:, 0])) | (table[:, 0] < 1) | (table[:, 0] >= MOST)
+        wrong = (table[:, 0] != np.rint(table[:, 0])) | (table[:, 0] < 1) | (table[:, 0] >= NUMBER_LIMIT)
         if wrong.any():
             raise _at_node(own, tables, int(np.argmax(wrong))).error(
                 f"a node has the number {table[wrong, 0][0]:g}; expected a whole number >= 1 of at most ten digits"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which keywords are read, which can be left out without changing the answer, and which cannot."""
+"""Keywords that are read, and that can be left out without changing the answer; finding them, and what they name."""
 
 from __future__ import annotations
 

@@ -104,7 +104,7 @@ def rigid_slots(rigid: Sequence[DeckRigid], nodes: IntArray, axes: Sequence[int]
 
 
 def rigid_motion(axis: int, dimension: int) -> int | None:
-    """Which displacement or rotation of a rigid body a direction from 0 is, None where the plane has none.
+    """Number of the displacement or rotation of a rigid body in a direction from 0, None where the plane has none.
 
     >>> rigid_motion(5, 2), rigid_motion(5, 3), rigid_motion(2, 2)
     (2, 5, None)
@@ -163,23 +163,23 @@ def _members(card: Card, known: Known) -> tuple[str, IntArray]:
     found = []
     for key in given:
         sets = known.elements if key == "ELSET" else known.nodes
-        label, members = sets.find(card.value(key), card.scope, card)
+        label, members = sets.find(card.value(key), card)
         found.append((label, nodes_of(known.grid, members) if key == "ELSET" else members))
     return found[0][0], distinct(np.concatenate([members for _, members in found]))
 
 
 def named_node(card: Card, key: str, known: Known) -> int:
-    """The node that a parameter of a card names, -1 without the parameter."""
+    """The known node that a card names by the parameter ``key``, -1 without it."""
     if key not in card.parameters:
         return -1
-    label, members = known.nodes.find(card.value(key, "a node"), card.scope, card)
+    label, members = known.nodes.find(card.value(key, "a node"), card)
     if len(members) != 1:
         raise card.error(f"{key}: '{label}' holds {len(members)} nodes; expected one")
     return int(members[0])
 
 
 def refuse_shared(card: Card, own: tuple[int, ...], others: Sequence[DeckRigid]) -> None:
-    """Reference nodes of a card, -1 for none, that another rigid body or coupling has too, stop."""
+    """Stop where a card's own reference nodes, -1 for none, are those of others: rigid bodies or couplings."""
     for other in others:
         if set(own) & {other.reference, other.turning} - {-1}:
             raise card.error(
@@ -205,13 +205,13 @@ def make_equations(cards: Sequence[Card], known: Known, rigid: Sequence[DeckRigi
         card.refuse_unknown((), ("LOAD CASE",))
         rows = card.rows()
         for row in rows:
-            for terms in _spread(_terms(row, rows, card, known, rigid), row):
+            for terms in _spread(_terms(row, rows, known, rigid), row):
                 found.append(DeckEquation(equation=Equation(terms), card=card.at(row)))
     return found
 
 
 def _terms(
-    row: Row, rows: Iterator[Row], card: Card, known: Known, rigid: Sequence[DeckRigid]
+    row: Row, rows: Iterator[Row], known: Known, rigid: Sequence[DeckRigid]
 ) -> list[tuple[list[str | int], str, float]]:
     """Places, direction and coefficient of every term of an equation; they follow the line with their number."""
     count = row.whole(0, "the number of terms")
@@ -225,7 +225,7 @@ def _terms(
         if len(line.fields) > 3 * (count - len(terms)) or not line.fields:
             raise line.error(f"*EQUATION: has {len(line.fields)} fields; expected 3 for each of {count} terms")
         for start in range(0, len(line.fields), 3):
-            members = known.nodes.find(line.text(start, "a node or a node set"), card.scope, line)[1]
+            members = known.nodes.find(line.text(start, "a node or a node set"), line)[1]
             axis = line.whole(start + 1, "a direction")
             value = line.number(start + 2, "a coefficient")
             if value == 0.0:

@@ -108,7 +108,7 @@ def _boundary(card: Card, known: Known, courses: Courses) -> None:
     if fixed and amplitude is not None:
         raise card.error("FIXED goes with no AMPLITUDE: nodes stay where they are")
     for row in card.rows():
-        label, nodes = _nodes(row, card, known, "single nodes")
+        label, nodes = _nodes(row, known, "single nodes")
         axes, value = _held(row, known.dimension)
         slots, rest = rigid_slots(courses.rigid, nodes, axes)
         if len(rest) and axes[-1] > known.dimension and value != 0.0:
@@ -136,9 +136,9 @@ def _held(row: Row, dimension: int) -> tuple[tuple[int, ...], float]:
     return tuple(range(first, last + 1)), value
 
 
-def _nodes(row: Row, card: Card, known: Known, singly: str) -> tuple[str, IntArray]:
+def _nodes(row: Row, known: Known, singly: str) -> tuple[str, IntArray]:
     """Label and nodes of a data line; the label ``singly`` where it gives a number, not a set."""
-    label, nodes = known.nodes.find(row.text(0, "a node or a node set"), card.scope, row)
+    label, nodes = known.nodes.find(row.text(0, "a node or a node set"), row)
     return singly if label.startswith("node ") and label not in known.nodes else label, nodes
 
 
@@ -146,7 +146,7 @@ def _cload(card: Card, known: Known, courses: Courses) -> None:
     card.refuse_unknown(("OP", "AMPLITUDE"), ("LOAD CASE",))
     amplitude = find_amplitude(card, known.amplitudes)
     for row in card.rows():
-        label, nodes = _nodes(row, card, known, "forces on single nodes")
+        label, nodes = _nodes(row, known, "forces on single nodes")
         axis = row.whole(1, "a direction")
         value = row.number(2, "the force")
         slots, rest = rigid_slots(courses.rigid, nodes, [axis])
@@ -166,7 +166,7 @@ def _initial_temperatures(outside: Sequence[Card], known: Known) -> Array:
         card.refuse_unknown(("TYPE",))
         card.choice("TYPE", ("TEMPERATURE",), "")
         for row in card.rows():
-            nodes = known.nodes.find(row.text(0, "a node or a node set"), card.scope, row)[1]
+            nodes = known.nodes.find(row.text(0, "a node or a node set"), row)[1]
             temperatures[nodes] = row.number(1, "the temperature")
     return temperatures
 
@@ -175,7 +175,7 @@ def _temperature(card: Card, known: Known, courses: Courses) -> None:
     card.refuse_unknown(("OP", "AMPLITUDE"))
     amplitude = find_amplitude(card, known.amplitudes)
     for row in card.rows():
-        nodes = known.nodes.find(row.text(0, "a node or a node set"), card.scope, row)[1]
+        nodes = known.nodes.find(row.text(0, "a node or a node set"), row)[1]
         value = row.number(1, "the temperature")
         initial = courses.initial[nodes]
         if amplitude is not None and initial.any():

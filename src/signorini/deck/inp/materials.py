@@ -149,7 +149,7 @@ def make_sections(
         substance = referred(card, "MATERIAL", materials, "material")
         if substance.elastic is None:
             raise substance.card.error(f"'{card.value('MATERIAL')}' has no *ELASTIC")
-        name, members = elements.find(card.value("ELSET"), card.scope, card)
+        name, members = elements.find(card.value("ELSET"), card)
         members = distinct(members)
         if not len(members):
             raise card.error(f"element set '{name}' is empty")

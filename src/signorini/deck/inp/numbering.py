@@ -60,7 +60,13 @@ class Numbering:
         return index[at[found]], np.nonzero(~found)[0]
 
     def index(self, scope: Scope, numbers: IntArray, at: Card | Row | Callable[[int], Card]) -> IntArray:
-        """Indices of numbers, all of which must be there; otherwise ``at`` is blamed, or gives by place what is."""
+        """Indices of numbers of a scope, all of which must be there; else ``at`` is blamed, or gives by place what is.
+
+        Raises
+        ------
+        DeckError
+            If one of them is not there.
+        """
         found, missing = self.find(scope.name, numbers)
         if len(missing):
             inside = f" in instance '{scope.name}'" if scope.name else ""

@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.checks import LARGEST
-from signorini.deck.inp.card import MOST, Card
+from signorini.deck.inp.card import NUMBER_LIMIT, Card
 
 _EXPONENT = bytes.maketrans(b"Dd", b"ee")
 _LETTERS = b"abcdfghijklmnopqrstuvwxyzABCDFGHIJKLMNOPQRSTUVWXYZ"  # but not e: 1e5
@@ -56,6 +56,7 @@ def number_table(card: Card, what: str, *, least: int, most: int) -> Array:
 
     Parameters
     ----------
+    card : of which the lines are
     what : what a line should hold, for messages
     least, most : numbers of a line
 
@@ -80,6 +81,8 @@ def record_table(card: Card, size: int, what: str) -> IntArray:
 
     Parameters
     ----------
+    card : of which the lines are
+    size : numbers of a record
     what : what a record should hold, for messages
 
     Raises
@@ -93,7 +96,10 @@ def record_table(card: Card, size: int, what: str) -> IntArray:
         if found is None or len(found[0]) % size or (found[0] != np.rint(found[0])).any():
             return _records(card, size, what)
         ends = np.cumsum(found[1])
-        if not np.isin(np.arange(size, len(found[0]) + 1, size), ends).all() or np.abs(found[0]).max(initial=0) >= MOST:
+        if (
+            not np.isin(np.arange(size, len(found[0]) + 1, size), ends).all()
+            or np.abs(found[0]).max(initial=0) >= NUMBER_LIMIT
+        ):
             return _records(card, size, what)
         tables.append(found[0].astype(np.int64).reshape(-1, size))
     return np.vstack(tables) if tables else np.empty((0, size), np.int64)
@@ -104,7 +110,7 @@ def whole_numbers(card: Card) -> IntArray | None:
     lists = []
     for part in _parts(card):
         found = bulk(part.chunks[0][2])
-        if found is None or (found[0] != np.rint(found[0])).any() or np.abs(found[0]).max(initial=0) >= MOST:
+        if found is None or (found[0] != np.rint(found[0])).any() or np.abs(found[0]).max(initial=0) >= NUMBER_LIMIT:
             return None
         lists.append(found[0].astype(np.int64))
     return np.concatenate(lists) if lists else np.empty(0, np.int64)

@@ -104,12 +104,12 @@ def _sides(card: Card, known: Known) -> Iterator[tuple[Row, DeckSurface, DeckSur
     """Slave and master surface of every data line."""
     card.row("the slave and the master surface")
     for row in card.rows():
-        slave, master = (_side(card, row, i, known) for i in (0, 1))
+        slave, master = (_side(row, i, known) for i in (0, 1))
         yield row, slave, master
 
 
-def _side(card: Card, row: Row, i: int, known: Known) -> DeckSurface:
-    surface = known.surfaces.find(row.text(i, "a surface"), card.scope, row)
+def _side(row: Row, i: int, known: Known) -> DeckSurface:
+    surface = known.surfaces.find(row.text(i, "a surface"), row)
     surface.refuse_bare(row)
     if not len(surface.keys):
         raise row.error(f"surface '{surface.name}' has no edge of an element")
@@ -127,7 +127,7 @@ def _adjusted(card: Card, slave: DeckSurface, known: Known) -> dict[str, Any]:
     word = card.value("ADJUST", "a distance or a node set")
     distance = to_number(word)
     if distance is None:
-        name, members = known.nodes.find(word, card.scope, card)
+        name, members = known.nodes.find(word, card)
         if not np.isin(slave.nodes, members).all():
             raise card.error(f"ADJUST={name} does not hold all nodes of the slave surface, which is not supported")
         return {"gap": "zero"}
@@ -150,8 +150,8 @@ def _clearances(cards: Sequence[Card], known: Known) -> dict[tuple[str, str], tu
 
 
 def named_sides(card: Card, known: Known, what: str) -> tuple[str, str]:
-    """Names of the surfaces that a card has as SLAVE and MASTER; what is expected there in words."""
-    slave, master = (known.surfaces.find(card.value(key, what), card.scope, card) for key in ("SLAVE", "MASTER"))
+    """Names of the known surfaces that a card has as SLAVE and MASTER; ``what`` is expected there, in words."""
+    slave, master = (known.surfaces.find(card.value(key, what), card) for key in ("SLAVE", "MASTER"))
     return slave.name, master.name
 
 
@@ -232,7 +232,7 @@ def _switched(card: Card, known: Known, pairs: Sequence[Pair]) -> dict[str, bool
     found: dict[str, bool] = {}
     card.row("the slave and the master surface")
     for row in card.rows():
-        slave, master = (known.surfaces.find(row.text(i, "a surface"), card.scope, row).name for i in (0, 1))
+        slave, master = (known.surfaces.find(row.text(i, "a surface"), row).name for i in (0, 1))
         names = [pairs[i].contact.label for i in pairs_between(pairs, (slave, master), row)]
         found |= dict.fromkeys(names, "ADD" in card.parameters)
     return found

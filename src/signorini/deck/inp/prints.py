@@ -107,7 +107,7 @@ def _contact_tables(
 
 def _members(card: Card, key: str, sets: Sets) -> tuple[str, IntArray]:
     if card.parameters.get(key):
-        return sets.find(card.parameters[key], card.scope, card)
+        return sets.find(card.parameters[key], card)
     return "all", np.arange(len(sets.numbering.labels))
 
 

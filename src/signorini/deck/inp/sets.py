@@ -5,11 +5,12 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Container, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from signorini.arrays import IntArray, distinct
-from signorini.deck.inp.card import MOST, Card, Row, Scope, to_number
+from signorini.deck.inp.card import NUMBER_LIMIT, Card, Row, Scope, to_number
 from signorini.deck.inp.grid import DeckGrid, nodes_of
 from signorini.deck.inp.keywords import of_keyword
 from signorini.deck.inp.numbering import Numbering
@@ -61,22 +62,22 @@ class Sets:
         inner = scope.prefixed(word)
         return next((name for name in (inner, word) if name in self), None)
 
-    def find(self, word: str, scope: Scope, at: Card | Row) -> tuple[str, IntArray]:
-        """Label and members of a set or of a single number; instances go before a dot: ``PART-1.7``.
+    def find(self, word: str, at: Card | Row) -> tuple[str, IntArray]:
+        """Label and members of a set or a single number that a card names; instances go before a dot: ``PART-1.7``.
 
         Raises
         ------
         DeckError
             If there is no such set or number.
         """
-        name = self.key(word, scope)
+        name = self.key(word, at.scope)
         if name is not None:
             return self.spelled(name), self[name]
         outer, dot, inner = word.rpartition(".")
         number = to_number(inner if dot and outer and not outer.isdigit() else word)
-        if number is None or number != int(number) or abs(number) >= MOST:
+        if number is None or number != int(number) or abs(number) >= NUMBER_LIMIT:
             raise at.error(one_of(word, self.names, f"{self.numbering.what} set"))
-        place = Scope(name=outer.upper()) if dot and outer and not outer.isdigit() else scope
+        place = Scope(name=outer.upper()) if dot and outer and not outer.isdigit() else at.scope
         members = self.numbering.index(place, np.array([int(number)]), at)
         return f"{self.numbering.what} {word}", members
 
@@ -122,26 +123,26 @@ def _define(card: Card, sets: Sets, elements: Sets, grid: DeckGrid) -> None:
     key = card.keyword
     card.refuse_unknown((key, "GENERATE", "INSTANCE", "ELSET", "INPUT"), ("INTERNAL", "UNSORTED", "FREQUENCY"))
     name = card.scope.prefixed(card.value(key))
-    inside = Scope(name=card.parameters["INSTANCE"].upper()) if card.parameters.get("INSTANCE") else card.scope
+    if card.parameters.get("INSTANCE"):
+        card = replace(card, scope=Scope(name=card.parameters["INSTANCE"].upper()))
     if key == "NSET" and card.parameters.get("ELSET"):
-        members = elements.find(card.parameters["ELSET"], inside, card)[1]
-        sets.add(name, nodes_of(grid, members))
+        sets.add(name, nodes_of(grid, elements.find(card.parameters["ELSET"], card)[1]))
         return
     if "GENERATE" in card.parameters:
-        sets.add(name, _generated(card, sets.numbering, inside))
+        sets.add(name, _generated(card, sets.numbering))
         return
     numbers = whole_numbers(card)
     if numbers is not None:
-        sets.add(name, sets.numbering.index(inside, numbers, lambda field: card.at(card.row_with(field))))
+        sets.add(name, sets.numbering.index(card.scope, numbers, lambda field: card.at(card.row_with(field))))
         return
     sets.add(name, np.empty(0, np.int64))
     for row in card.rows():
         for word in row.fields:
             if word:
-                sets.add(name, sets.find(word, inside, row)[1])
+                sets.add(name, sets.find(word, row)[1])
 
 
-def _generated(card: Card, numbering: Numbering, scope: Scope) -> IntArray:
+def _generated(card: Card, numbering: Numbering) -> IntArray:
     """Members from first to last by steps; numbers in between that nothing has are left out, as CalculiX does."""
     pieces: list[IntArray] = [np.empty(0, np.int64)]
     for row in card.rows():
@@ -149,5 +150,5 @@ def _generated(card: Card, numbering: Numbering, scope: Scope) -> IntArray:
         step = row.whole(2, "the step", 1)
         if step < 1 or last < first or (last - first) // step > _MAX_GENERATED:
             raise row.error(f"*{card.keyword}: goes from {first} to {last} by {step}; expected an ascending range")
-        pieces.append(numbering.find(scope.name, np.arange(first, last + 1, step))[0])
+        pieces.append(numbering.find(card.scope.name, np.arange(first, last + 1, step))[0])
     return np.concatenate(pieces)

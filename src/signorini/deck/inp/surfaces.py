@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import IntArray, distinct
-from signorini.deck.inp.card import Card, Row, Scope
+from signorini.deck.inp.card import Card, Row
 from signorini.deck.inp.grid import DeckGrid
 from signorini.deck.inp.keywords import of_keyword
 from signorini.deck.inp.sets import Sets
@@ -66,7 +66,13 @@ class ElementFaces:
         ]
 
     def keys(self, elements: IntArray, face: str, at: Row, name: str) -> IntArray:
-        """Keys of one face, as ``S2`` or ``P2``, of elements."""
+        """Keys of one face, as ``S2`` or ``P2``, of elements.
+
+        Raises
+        ------
+        DeckError
+            At the line ``at`` of the keyword ``name``, if they have no such face.
+        """
         number = int(face[1:]) if face[1:].isdigit() else 0
         keys: IntArray = FACES * elements + min(number, FACES) - 1
         if not 1 <= number <= FACES or (self.ends[keys, 0] < 0).any():
@@ -153,15 +159,15 @@ class Surfaces:
             raise card.error(f"there is another surface '{surface.name}'")
         self._by_name[surface.name.upper()] = surface
 
-    def find(self, word: str, scope: Scope, at: Card | Row) -> DeckSurface:
-        """The surface that is called ``word`` in a scope.
+    def find(self, word: str, at: Card | Row) -> DeckSurface:
+        """The surface that a card or one of its lines calls ``word``.
 
         Raises
         ------
         DeckError
-            At ``at``, if there is no such surface.
+            If there is no such surface.
         """
-        for name in (scope.prefixed(word).upper(), word.upper()):
+        for name in (at.scope.prefixed(word).upper(), word.upper()):
             if name in self._by_name:
                 return self._by_name[name]
         raise at.error(one_of(word, [surface.name for surface in self._by_name.values()], "surface"))
@@ -191,7 +197,7 @@ def make_surfaces(cards: Sequence[Card], faces: ElementFaces, nodes: Sets, eleme
         name = card.scope.prefixed(card.value("NAME"))
         given = None
         if card.choice("TYPE", ("ELEMENT", "NODE"), "ELEMENT") == "NODE":
-            members = [nodes.find(row.text(0, "a node or a node set"), card.scope, row)[1] for row in card.rows()]
+            members = [nodes.find(row.text(0, "a node or a node set"), row)[1] for row in card.rows()]
             given = distinct(np.concatenate([np.empty(0, np.int64), *members]))
         keys = _of_elements(card, faces, elements) if given is None else faces.between(given)
         surfaces.add(DeckSurface(name=name, keys=keys, given=given, faces=faces), card)
@@ -201,7 +207,7 @@ def make_surfaces(cards: Sequence[Card], faces: ElementFaces, nodes: Sets, eleme
 def _of_elements(card: Card, faces: ElementFaces, elements: Sets) -> IntArray:
     pieces: list[IntArray] = [np.empty(0, np.int64)]
     for row in card.rows():
-        members = elements.find(row.text(0, "an element or an element set"), card.scope, row)[1]
+        members = elements.find(row.text(0, "an element or an element set"), row)[1]
         face = row.fields[1].upper() if len(row.fields) > 1 else ""
         if not face:
             pieces += [faces.outer_of(members), faces.under(members)]
