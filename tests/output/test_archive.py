@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import signorini as sg
+from signorini.attempt import MethodRun
 from signorini.cli import main
 from signorini.deck.write import write_deck
 from signorini.errors import InputError
@@ -120,6 +121,12 @@ def test_what_is_no_archive_is_refused(content: bytes | None, tmp_path: Path) ->
 def test_another_version_is_refused() -> None:
     with pytest.raises(InputError, match="another version"):
         from_plain({"$": "class", "name": "Support", "of": {"on": "a"}}, lambda _: np.empty(0))
+
+
+def test_files_from_before_a_class_was_renamed_are_read() -> None:
+    written = {"method": "newton", "iterations": 3, "changes": {"$": "tuple", "of": [2, 0, 0]}, "end": "solved"}
+    found = from_plain({"$": "class", "name": "Attempt", "of": written}, lambda _: np.empty(0))
+    assert found == MethodRun(method="newton", iterations=3, changes=(2, 0, 0), end="solved")
 
 
 def test_unknown_endings_are_refused(solution: sg.Solution) -> None:

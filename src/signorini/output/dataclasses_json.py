@@ -39,6 +39,7 @@ _HOMES = (
     "signorini.solution.scale",
     "signorini.solution.state",
 )
+_FORMER_NAMES = {"Attempt": "MethodRun"}  # of classes: files that were written before are read
 _MARK = "$"
 _DIGEST_SIZE = 16  # bytes: enough to find damage; who forges a file makes the digests anew
 _MAX_INLINE = 32  # entries: smaller arrays stay in the text
@@ -130,10 +131,11 @@ def from_plain(plain: Any, get: Callable[[str], AnyArray]) -> Any:
     if mark in ("table", "proxy"):
         pairs = {key: from_plain(part, get) for key, part in plain["of"]}
         return pairs if mark == "table" else MappingProxyType(pairs)
-    made_of = _kinds().get(plain["name"])
+    name = str(plain["name"])
+    made_of = _kinds().get(_FORMER_NAMES.get(name, name))
     expected = {field.name for field in fields(made_of)} if made_of is not None else set()
     if made_of is None or set(plain["of"]) != expected:
-        raise InputError(f"holds a {plain['name']} as another version of signorini has it; expected this version's")
+        raise InputError(f"holds a {name} as another version of signorini has it; expected this version's")
     made: Any = object.__new__(made_of)
     for key, part in plain["of"].items():
         object.__setattr__(made, key, from_plain(part, get))

@@ -191,12 +191,12 @@ class Publisher:
             raise OSError(error.errno or 0, words) from error
 
     def _publish(self, history: History) -> list[Path]:
-        folder, running = self.folder, history.status == RUNNING
+        folder, clock = self.folder, self.clock
         with tempfile.TemporaryDirectory(dir=folder, prefix=_ASIDE_PREFIX) as name:
             aside = Path(name)
-            with (self.clock.spending if running else self.clock.phase)("output"):
-                names = self._growing(history, aside) if running else self._everything(history, aside)
-            seconds = self.clock.seconds | {"total": time.perf_counter() - self.started}
+            with (clock.spending if history.status == RUNNING else clock.phase)("output"):
+                names = self._write(history, aside)
+            seconds = clock.seconds | {"total": time.perf_counter() - self.started}
             words = json.dumps(summary(history, seconds, self.deck), indent=2, allow_nan=False, ensure_ascii=False)
             (aside / SUMMARY).write_text(words + "\n", encoding="utf-8")
             names.append(SUMMARY)
@@ -209,29 +209,27 @@ class Publisher:
             self._written |= set(names)
         return [folder / file for file in names]
 
-    def _growing(self, history: History, aside: Path) -> list[str]:
-        """What further steps add; the tables that users of other codes expect come in the end."""
-        last = self.folder / ARCHIVE if ARCHIVE in self._written else None
-        self._archive.write(history, aside / ARCHIVE, last=last)
-        return [*_write_tables(history, Fields(history.model), aside, done=self._written), ARCHIVE]
+    def _write(self, history: History, aside: Path) -> list[str]:
+        """All files but the summary; their names. Fields that are in the folder already stay as they are.
 
-    def _everything(self, history: History, aside: Path) -> list[str]:
-        """All files but the summary; their names. Fields that were written while the run went on stay as they are."""
-        if not history.steps:
-            if history.escape is None:
-                return []
+        While the run goes on the archive grows, and the tables that users of other codes expect wait for the end.
+        """
+        if not history.steps and history.escape is None:
+            return []
+        running, prints, fields = history.status == RUNNING, self.prints, Fields(history.model)
+        names = _write_tables(history, fields, aside, done=self._written) if history.steps else []
+        if running:
+            last = self.folder / ARCHIVE if ARCHIVE in self._written else None
+            self._archive.write(history, aside / ARCHIVE, last=last)
+        else:
             write_archive(history, aside / ARCHIVE)
-            return [ARCHIVE]
-        fields, prints = Fields(history.model), self.prints
-        names = _write_tables(history, fields, aside, done=self._written)
-        write_archive(history, aside / ARCHIVE)
         names.append(ARCHIVE)
-        if prints is not None:
+        if history.steps and not running and prints is not None:
             write_frd(history, fields, aside / "solution.frd", prints.times)
             names.append("solution.frd")
-        if prints is not None and prints.tables:
-            write_dat(history, fields, prints, aside / "solution.dat")
-            names.append("solution.dat")
+            if prints.tables:
+                write_dat(history, fields, prints, aside / "solution.dat")
+                names.append("solution.dat")
         return names
 
 
