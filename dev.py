@@ -72,10 +72,11 @@ def test() -> None:
     with tempfile.TemporaryDirectory() as folder:
         for deck in sorted((ROOT / "examples").glob("*.toml")):
             run_deck(deck, folder)
-        say("examples/zhu_table1.py, zhu_figures.py, zhu_convergence.py, readme_picture.py")
+        say("examples/zhu_table1.py, zhu_figures.py, zhu_convergence.py, fretting.py, readme_picture.py")
         run("python", "examples/zhu_table1.py")
         run("python", "examples/zhu_figures.py", folder)
         run("python", "examples/zhu_convergence.py")
+        run("python", "examples/fretting.py", folder)
         run("python", "examples/readme_picture.py", str(Path(folder) / "cylinder.png"))
     say("verification suite")
     run("signorini", "verify", "--all")
@@ -109,6 +110,7 @@ def figures() -> None:
     """The pictures of README and docs."""
     install()
     run("python", "examples/zhu_figures.py")
+    run("python", "examples/fretting.py")
     run("python", "examples/readme_picture.py")
 
 

@@ -193,7 +193,7 @@ LARGEST_FILE = 400  # lines
 LARGEST_FUNCTION = 59  # lines without signature and docstring
 MOST_PARAMETERS = 9
 NAMED_FROM = 3  # parameters on which a public function names all of them
-NO_NOUN = re.compile(r"(The same|That|Those|These|Them|Which)\b")
+NO_NOUN = re.compile(r"(The same|That|Those|These|Them)\b")
 """Beginnings of a docstring that refer to what stands above it, until someone moves it."""
 SAYS_NOTHING = re.compile(
     "ABOUT|ACROSS|ALONG|APART|AROUND|BARELY|BELOW|BESIDE|BETWEEN|BEYOND|CLEARLY|CLOSE|COARSER|COLDER|"
