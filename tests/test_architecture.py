@@ -315,7 +315,7 @@ PENDING = {
     #
     "law": "constants",
     #
-    "lcp": "nouns parameters classes constants",
+    "lcp": "parameters classes constants",
     #
     "memory": "parameters",
     #
