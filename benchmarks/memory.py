@@ -11,11 +11,11 @@ from __future__ import annotations
 import subprocess
 import sys
 
-from signorini.bench.cubes import cubes
 from signorini.engine.examine import examine
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.fem.stiffness import stiffness
+from signorini.gallery.cubes import cubes
 from signorini.memory import peak_memory
 
 

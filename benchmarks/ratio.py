@@ -11,7 +11,7 @@ import time
 from typing import Any
 
 from benchmarks import command, page
-from signorini.bench.cylinder import cylinder
+from signorini.bench.models import cylinder
 
 HEAD = (
     "unknowns",

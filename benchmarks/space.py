@@ -11,7 +11,7 @@ import time
 from typing import Any
 
 from benchmarks import command, page
-from signorini.bench.cubes import blocks
+from signorini.bench.models import blocks
 
 LARGE = 200_000
 """Unknowns from which one run has to do."""

@@ -7,10 +7,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from signorini.bench.cubes import blocks
-from signorini.bench.cylinder import cylinder
 from signorini.bench.equilibria import equilibria
 from signorini.bench.hard import hard, spread
+from signorini.bench.models import blocks, cylinder
 from signorini.errors import InputError, one_of
 
 NAMES = ("cylinder", "cubes", "hard")

@@ -9,130 +9,49 @@ from typing import Protocol, TypeVar
 from signorini.deck.inp.card import Card
 from signorini.errors import one_of
 
-OUTPUT = (
-    "CONTACT OUTPUT",
-    "ELEMENT OUTPUT",
-    "ENERGY FILE",
-    "ENERGY OUTPUT",
-    "ENERGY PRINT",
-    "FACE PRINT",
-    "FILE FORMAT",
-    "FILE OUTPUT",
-    "FILTER",
-    "MONITOR",
-    "NODE OUTPUT",
-    "OUTPUT",
-    "PREPRINT",
-    "PRINT",
-    "RESTART",
-    "SECTION FILE",
-    "SECTION PRINT",
-    "TIME POINTS",
-    "USER OUTPUT VARIABLES",
+# fmt: off
+_OUTPUT = (
+    "CONTACT OUTPUT", "ELEMENT OUTPUT", "ENERGY FILE", "ENERGY OUTPUT", "ENERGY PRINT", "FACE PRINT", "FILE FORMAT",
+    "FILE OUTPUT", "FILTER", "MONITOR", "NODE OUTPUT", "OUTPUT", "PREPRINT", "PRINT", "RESTART", "SECTION FILE",
+    "SECTION PRINT", "TIME POINTS", "USER OUTPUT VARIABLES",
 )
-"""What to write, which does not change the answer."""
+"""Requests for output that is not written here: they do not change the answer."""
 
 PRINTED = ("CONTACT FILE", "CONTACT PRINT", "EL FILE", "EL PRINT", "NODE FILE", "NODE PRINT")
-"""What to write, which is written: ``.frd`` always, ``.dat`` as asked for."""
+"""Requests for output that is written: ``.frd`` always, ``.dat`` as asked for."""
 
 HARMLESS = (
-    *OUTPUT,
-    "CONDUCTIVITY",
-    "CONTACT CONTROLS",
-    "CONTACT STABILIZATION",
-    "CONTROLS",
-    "DAMPING",
-    "DIAGNOSTICS",
-    "GAP CONDUCTANCE",
-    "GAP HEAT GENERATION",
-    "HOURGLASS STIFFNESS",
-    "PHYSICAL CONSTANTS",
-    "SECTION CONTROLS",
-    "SOLUTION TECHNIQUE",
-    "SPECIFIC HEAT",
+    *_OUTPUT, "CONDUCTIVITY", "CONTACT CONTROLS", "CONTACT STABILIZATION", "CONTROLS", "DAMPING", "DIAGNOSTICS",
+    "GAP CONDUCTANCE", "GAP HEAT GENERATION", "HOURGLASS STIFFNESS", "PHYSICAL CONSTANTS", "SECTION CONTROLS",
+    "SOLUTION TECHNIQUE", "SPECIFIC HEAT",
 )
-"""What does not act in a static analysis of displacements, and how other programs find the answer."""
+"""Keywords that do not act in a static analysis of displacements, or tell other programs how to find the answer."""
 
 MODEL_WORDS = (
-    "AMPLITUDE",
-    "BOUNDARY",
-    "CLEARANCE",
-    "CONTACT PAIR",
-    "COUPLING",
-    "DENSITY",
-    "DISTRIBUTING",
-    "ELASTIC",
-    "ELEMENT",
-    "ELSET",
-    "EQUATION",
-    "EXPANSION",
-    "FRICTION",
-    "HEADING",
-    "INITIAL CONDITIONS",
-    "KINEMATIC",
-    "MATERIAL",
-    "NODE",
-    "NSET",
-    "ORIENTATION",
-    "RIGID BODY",
-    "SOLID SECTION",
-    "SURFACE",
-    "SURFACE BEHAVIOR",
-    "SURFACE INTERACTION",
-    "TIE",
+    "AMPLITUDE", "BOUNDARY", "CLEARANCE", "CONTACT PAIR", "COUPLING", "DENSITY", "DISTRIBUTING", "ELASTIC",
+    "ELEMENT", "ELSET", "EQUATION", "EXPANSION", "FRICTION", "HEADING", "INITIAL CONDITIONS", "KINEMATIC",
+    "MATERIAL", "NODE", "NSET", "ORIENTATION", "RIGID BODY", "SOLID SECTION", "SURFACE", "SURFACE BEHAVIOR",
+    "SURFACE INTERACTION", "TIE",
 )
-"""What is read outside the steps."""
+"""Keywords that are read outside the steps."""
 
 STEP_WORDS = (
-    *PRINTED,
-    "AMPLITUDE",
-    "BOUNDARY",
-    "CHANGE CONTACT PAIR",
-    "CHANGE FRICTION",
-    "CLOAD",
-    "DLOAD",
-    "DSLOAD",
-    "ELSET",
-    "FRICTION",
-    "MODEL CHANGE",
-    "NSET",
-    "STATIC",
-    "TEMPERATURE",
+    *PRINTED, "AMPLITUDE", "BOUNDARY", "CHANGE CONTACT PAIR", "CHANGE FRICTION", "CLOAD", "DLOAD", "DSLOAD",
+    "ELSET", "FRICTION", "MODEL CHANGE", "NSET", "STATIC", "TEMPERATURE",
 )
-"""What is read inside the steps."""
+"""Keywords that are read inside the steps."""
 
 STRUCTURE = (
-    "ASSEMBLY",
-    "END ASSEMBLY",
-    "END INSTANCE",
-    "END PART",
-    "END STEP",
-    "INCLUDE",
-    "INSTANCE",
-    "PART",
-    "STEP",
+    "ASSEMBLY", "END ASSEMBLY", "END INSTANCE", "END PART", "END STEP", "INCLUDE", "INSTANCE", "PART", "STEP",
 )
-"""What orders the others."""
+"""Keywords that order the others."""
 
 _PARAMETERS = (
-    "AUGMENTED LAGRANGE",
-    "CONSTRAINT NAME",
-    "CONVERT SDI",
-    "ELASTIC SLIP",
-    "EXTENSION ZONE",
-    "LOAD CASE",
-    "LONG TERM",
-    "PIN NSET",
-    "POSITION TOLERANCE",
-    "REF NODE",
-    "ROT NODE",
-    "MECHANICAL CONSTRAINT",
-    "SLIP TOLERANCE",
-    "SMALL SLIDING",
-    "TIE NSET",
-    "TIME RESET",
-    "TOTAL TIME AT START",
+    "AUGMENTED LAGRANGE", "CONSTRAINT NAME", "CONVERT SDI", "ELASTIC SLIP", "EXTENSION ZONE", "LOAD CASE",
+    "LONG TERM", "PIN NSET", "POSITION TOLERANCE", "REF NODE", "ROT NODE", "MECHANICAL CONSTRAINT",
+    "SLIP TOLERANCE", "SMALL SLIDING", "TIE NSET", "TIME RESET", "TOTAL TIME AT START",
 )
+# fmt: on
 _KNOWN = {word.replace(" ", ""): word for word in (*HARMLESS, *MODEL_WORDS, *STEP_WORDS, *STRUCTURE, *_PARAMETERS)}
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The price of contact in space: a cube pressed and pushed on another, on meshes that match and do not."""
+"""The models whose price is told: the paper's cylinder, and a cube pressed and pushed on another in space."""
 
 from __future__ import annotations
 
@@ -13,10 +13,24 @@ from signorini.bench.price import REPEATS, Timer, iterated, price, warm_up
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.gallery.cubes import cubes
+from signorini.gallery.cylinder import zhu_cylinder
 from signorini.iterative.bodies import ITERATIVE
 
 _ENTRIES = 40.0
 """Numbers held at the worst time of the contact solve, of z^(4/3): their pages are touched before a long run."""
+
+
+def cylinder(dofs: int, *, timer: Timer = time.perf_counter) -> Iterator[dict[str, Any]]:
+    """Time the cylinder with about ``dofs`` unknowns, mu = 0 and 0.4, one increment; by default on the wall.
+
+    Yields
+    ------
+    rows of the contract, see :func:`signorini.bench.price.price`
+    """
+    refine = max(1, round(np.sqrt(dofs / (2 * 76))))
+    warm_up(zhu_cylinder(refine=refine), timer)
+    for friction in (0.0, 0.4):
+        yield price("cylinder", zhu_cylinder(friction=friction, refine=refine), timer)
 
 
 def blocks(dofs: int, *, timer: Timer = time.perf_counter, repeats: int = REPEATS) -> Iterator[dict[str, Any]]:
