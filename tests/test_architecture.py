@@ -31,6 +31,7 @@ BASE = {
     "meshio_fixes",
     "hdf5",
     "memory",
+    "outcome",
     "short",
     "sources",
     "_version",

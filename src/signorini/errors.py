@@ -6,6 +6,8 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
+from signorini.outcome import Outcome
+
 Where = tuple[str | int, ...]
 
 _BRIEF = 200  # characters
@@ -61,7 +63,7 @@ class SolveFailed(SignoriniError):
 
     Attributes
     ----------
-    status : ``"no_equilibrium"`` (proved), ``"not_found"`` or ``"jump"``, as in ``summary.json``
+    status : NO_EQUILIBRIUM (proved), NOT_FOUND or JUMP, with its ``advice``
     solution : the steps that were finished before, or None
     motion : array (nodes, d) of displacements along which bodies run away, or None
     reached : the part of the step that was followed before, or None
@@ -71,11 +73,11 @@ class SolveFailed(SignoriniError):
     def __init__(
         self, message: str, *, status: str, solution: object | None = None, motion: object | None = None
     ) -> None:
-        self.status = status
+        self.status = Outcome(status)
         self.motion = motion
         self.solution = solution
         self.reached: object | None = None
-        self.hopeless = status == "no_equilibrium"
+        self.hopeless = self.status == Outcome.NO_EQUILIBRIUM
         super().__init__(message)
 
     @property

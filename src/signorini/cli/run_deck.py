@@ -20,12 +20,13 @@ from signorini.iterative.bodies import ITERATIVE
 from signorini.linalg.multifrontal import compiled
 from signorini.linalg.registry import BACKENDS
 from signorini.linalg.threads import one_thread
+from signorini.outcome import Outcome
 from signorini.output.archive import read_archive
 from signorini.output.checkpoint import read_checkpoint
 from signorini.output.folder import Publisher, own_folder
 from signorini.output.table import history_table
 from signorini.solution.checkpoint import Checkpoint
-from signorini.solution.history import INTERRUPTED, History
+from signorini.solution.history import History
 
 
 @one_thread()
@@ -90,7 +91,7 @@ def _told(
     if history.solved:
         return 0
     sys.stdout.flush()
-    if history.status == INTERRUPTED:
+    if history.status == Outcome.INTERRUPTED:
         print(f"signorini: {deck.path}: {history.message}; results in {folder}", file=sys.stderr)
         return 130
     print(f"signorini: {deck.path}: no certified solution ({history.status}): {history.message}", file=sys.stderr)

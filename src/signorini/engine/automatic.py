@@ -21,6 +21,7 @@ from signorini.engine.increments import follow_increments, is_straight
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, StepPart
 from signorini.errors import SolveFailed, told
+from signorini.outcome import Outcome
 
 MOST = 4096
 """Increments of one straight part of a step; in space the part of it that they need not undercut."""
@@ -63,7 +64,7 @@ def follow_automatically(
             with prepared.clock.again(why):
                 fine, words = _followed(part, number, jump)
         except SolveFailed as failure:
-            certain = failure.hopeless or (jump == "stop" and failure.status == "jump" and number >= _CERTAIN)
+            certain = failure.hopeless or (jump == "stop" and failure.status == Outcome.JUMP and number >= _CERTAIN)
             if certain or more * number > most:
                 raise
             coarse, number = None, more * number
@@ -92,7 +93,7 @@ def follow_automatically(
             if number > MOST
             else f"{number // _VAIN} changed it by no more, they lead to different answers",
         ),
-        status="not_found",
+        status=Outcome.NOT_FOUND,
     )
 
 
@@ -124,22 +125,24 @@ def _followed(part: StepPart, number: int, jump: Literal["stop", "follow"] | Non
         followed = follow_to_events(part, number, jumps=jump == "follow")
         return followed, f"{_counted(len(followed.trace))} to events, none needs to be shorter than 1/{number}"
     except SolveFailed as failure:
-        if failure.status == "jump" and jump == "stop":
+        if failure.status == Outcome.JUMP and jump == "stop":
             raise
         if failure.hopeless:
-            raise _told(failure, str(failure), "no_equilibrium") from failure
+            raise _told(failure, str(failure), Outcome.NO_EQUILIBRIUM) from failure
         try:
             followed = follow_increments(part, number)
         except SolveFailed as nothing:
             words = f"{failure.sentence}; nor do {_counted(number)} go on: {nothing.sentence}"
             words = f"{words}{failure.details}{nothing.details}"
-            status = failure.status if nothing.status == "not_found" else nothing.status  # a jump is one all the same
+            status = (
+                failure.status if nothing.status == Outcome.NOT_FOUND else nothing.status
+            )  # a jump is one all the same
             raise _told(failure, words, status, nothing) from failure
         note = f"{failure.sentence}; followed in {number} increments to what is a candidate"
-        return replace(followed, notes=(note,) if failure.status == "jump" else ()), _counted(number)
+        return replace(followed, notes=(note,) if failure.status == Outcome.JUMP else ()), _counted(number)
 
 
-def _told(failure: SolveFailed, words: str, status: str, last: SolveFailed | None = None) -> SolveFailed:
+def _told(failure: SolveFailed, words: str, status: Outcome, last: SolveFailed | None = None) -> SolveFailed:
     """A failure in other words, with the part of the way that increments to events have reached, or the last ones."""
     said = SolveFailed(words, status=status, motion=failure.motion if last is None else last.motion)
     said.reached = failure.reached or (last and last.reached)

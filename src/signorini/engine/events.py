@@ -26,6 +26,7 @@ from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, joined
 from signorini.errors import SolveFailed, told
 from signorini.friction.history.plane import Landing, PathState, Segment
 from signorini.friction.spatial import StopSettings
+from signorini.outcome import Outcome
 from signorini.solution.results import PairEvent
 from signorini.solution.state import State
 
@@ -61,7 +62,7 @@ class _Path:
     @property
     def cut(self) -> _Path:
         """This path, of a part that ends where it was followed to."""
-        ends: Literal["event", "jump"] = "event" if self.segment.outcome == "disturbed" else "jump"
+        ends: Literal["event", "jump"] = "event" if self.segment.outcome == Outcome.DISTURBED else "jump"
         return replace(self, part=self.part.cut(self.reached, ends))
 
 
@@ -108,7 +109,7 @@ def _beyond_jumps(part: StepPart, how: str, *, jumps: bool, stops: StopSettings 
         jump = path.segment.jump
         if path.segment.followed:
             return joined([*behind, _part_along(path)])
-        if path.segment.outcome == "disturbed":
+        if path.segment.outcome == Outcome.DISTURBED:
             found = [_part_along(path.cut)] if path.reached > 0.0 else []
             behind += found
             part = resting(part.woken.rest(path.cut.part, found[0].after if found else part.before))
@@ -124,7 +125,9 @@ def _beyond_jumps(part: StepPart, how: str, *, jumps: bool, stops: StopSettings 
             landing = part.prepared.paths.land(path.start, path.segment, stops)
         if jump is None or landing is None:
             if jumps and jump is not None and not lost.hopeless:
-                lost = SolveFailed(f"{lost.sentence}; {_NO_LANDING}{lost.details}", status="jump", motion=lost.motion)
+                lost = SolveFailed(
+                    f"{lost.sentence}; {_NO_LANDING}{lost.details}", status=Outcome.JUMP, motion=lost.motion
+                )
             raise keep(lost, [*behind, *_so_far(path)])
         cut = path.cut
         followed = _part_along(cut)
@@ -143,7 +146,7 @@ def _anew(path: _Path, behind: list[FollowedPart]) -> list[FollowedPart]:
     part = path.part
     if path.reached == 0.0 or not part.prepared.floating.shape[1]:
         return []
-    path = replace(path, segment=replace(path.segment, outcome="disturbed"))
+    path = replace(path, segment=replace(path.segment, outcome=Outcome.DISTURBED))
     found = _so_far(path)
     try:
         approach = approached(part.rest(path.cut.part, found[0].after)) if found else None
@@ -301,7 +304,7 @@ def _lost(path: _Path, *, follows: bool) -> SolveFailed:
         lost = told(
             f"{where}: the exact path was lost", remedy="follow the step in increments", evidence=segment.message
         )
-        return SolveFailed(lost, status="not_found")
+        return SolveFailed(lost, status=Outcome.NOT_FOUND)
     pairs = np.nonzero(prepared.paths.active)[0][list(segment.jump.pairs)]
     nodes = ", ".join(str(node) for node in prepared.model.mesh.labels[prepared.interface.node[pairs[:_NAMED]]])
     if len(pairs) > _NAMED:
@@ -316,6 +319,6 @@ def _lost(path: _Path, *, follows: bool) -> SolveFailed:
     if segment.jump.hopeless is not None:
         words += f", and beyond {part.interval.fraction(segment.jump.hopeless):.6%} there is none at all"
     evidence = f"acting nodes {nodes}; {segment.jump.proof}"
-    failure = SolveFailed(told(words, remedy=remedy, evidence=evidence), status="jump", motion=motion)
+    failure = SolveFailed(told(words, remedy=remedy, evidence=evidence), status=Outcome.JUMP, motion=motion)
     failure.hopeless = segment.jump.hopeless is not None
     return failure

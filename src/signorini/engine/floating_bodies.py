@@ -18,6 +18,7 @@ from signorini.friction.answer import PULLED_AWAY
 from signorini.friction.approach import approach
 from signorini.friction.history.plane import Segment
 from signorini.friction.law import OPEN
+from signorini.outcome import Outcome
 from signorini.solution.state import State, next_state
 
 DRIVES = 1e-11
@@ -83,7 +84,7 @@ def _pulled_away(part: StepPart, motion: Array, share: float) -> SolveFailed:
     """Loads pull bodies away along a motion of the parts, with a share of what they do on rigid motions."""
     said, moved = moving_away(part.prepared, motion)
     words = f"{part.where} at {100.0 * part.interval.low:.6g}%: {said}: {PULLED_AWAY.format(margin=share)}"
-    return SolveFailed(words, status="no_equilibrium", motion=moved)
+    return SolveFailed(words, status=Outcome.NO_EQUILIBRIUM, motion=moved)
 
 
 def change_of_loads(part: StepPart) -> Array:
@@ -206,7 +207,7 @@ def undisturbed(part: StepPart, segment: Segment) -> Segment:
                 end=replace(event.state, state=np.where(waits, OPEN, event.state.state)),
                 events=tuple(earlier for earlier in segment.events if earlier.factor < event.factor),
                 pieces=tuple(piece for piece in segment.pieces if piece.factor <= event.factor),
-                outcome="disturbed",
+                outcome=Outcome.DISTURBED,
                 jump=None,
                 message=f"something touches a body that rests at factor {event.factor:.12g}",
             )

@@ -17,6 +17,7 @@ from signorini.errors import SolveFailed, told
 from signorini.fem.rigid import describe_motion
 from signorini.friction.law import OPEN, STICK
 from signorini.linalg import NotPositiveDefinite
+from signorini.outcome import Outcome
 from signorini.solution.certificate import Certificate, certify
 from signorini.solution.state import LoadPoint, State, next_state
 
@@ -268,7 +269,7 @@ def certified(prepared: Prepared, state: State, before: Array, where: str) -> Ce
             "neither stick nor open: it holds back a tangential force that nothing presses"
         )
         remedy = f"finite friction of '{contact.label}', or a 'shear_limit'"
-    raise SolveFailed(told(words, remedy=remedy, evidence=str(certificate)), status="not_found")
+    raise SolveFailed(told(words, remedy=remedy, evidence=str(certificate)), status=Outcome.NOT_FOUND)
 
 
 def refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
@@ -281,7 +282,7 @@ def refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
         raise SolveFailed(
             f"{where}: contact '{contact.label}': supports press node {number} "
             f"{-gap[pair]:.4g} into the other side and leave it no way out",
-            status="no_equilibrium",
+            status=Outcome.NO_EQUILIBRIUM,
         )
 
 

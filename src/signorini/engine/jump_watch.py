@@ -16,6 +16,7 @@ from signorini.engine.increments import follow_increments
 from signorini.engine.limit_load import known
 from signorini.engine.step_parts import FollowedPart, StepPart, keep, reached
 from signorini.errors import SolveFailed
+from signorini.outcome import Outcome
 from signorini.solution.state import State
 
 _SAME_LOAD = 1e-9  # part of a step: how far behind the end of an increment a jump at its very end may be seen
@@ -38,7 +39,7 @@ def follow_watchfully(part: StepPart, number: int, *, stops: bool = False) -> Fo
         followed = follow_increments(part, number)
     except SolveFailed as failure:
         lost, found = known(failure, part), reached(failure)
-        if lost.status != "not_found":
+        if lost.status != Outcome.NOT_FOUND:
             raise lost from None
         jump = _jump(part, found.after if found else part.before, _done(part, found), 1.0)
         if jump is None:
@@ -86,7 +87,7 @@ def _jump(part: StepPart, state: State, low: float, high: float) -> SolveFailed 
     try:
         follow_to_events(between, 1)
     except SolveFailed as failure:
-        return failure if failure.status == "jump" else None
+        return failure if failure.status == Outcome.JUMP else None
     return None
 
 

@@ -12,6 +12,7 @@ from signorini.engine.step_parts import StepPart, reached
 from signorini.errors import SolveFailed, told
 from signorini.friction.space.overload import overload
 from signorini.friction.spatial import SpatialProblem
+from signorini.outcome import Outcome
 
 _WORDS = "forces in the friction cones of all pairs cannot balance more load, however they are shared"
 
@@ -27,7 +28,7 @@ def known(stop: SolveFailed, part: StepPart) -> SolveFailed:
     part : to which it came; what was followed of it is in ``stop.reached``
     """
     prepared, paths, interval = part.prepared, part.prepared.solver.paths, part.interval
-    if stop.status != "not_found" or paths is None or not isinstance(paths.law, SpatialProblem):
+    if stop.status != Outcome.NOT_FOUND or paths is None or not isinstance(paths.law, SpatialProblem):
         return stop
     followed = reached(stop)
     state = part.before if followed is None else followed.after
@@ -46,7 +47,7 @@ def known(stop: SolveFailed, part: StepPart) -> SolveFailed:
             remedy="hold the bodies against it, or change loads or friction",
             evidence=stop.sentence,
         ),
-        status="no_equilibrium",
+        status=Outcome.NO_EQUILIBRIUM,
         motion=motion,
     )
     proof.reached = stop.reached

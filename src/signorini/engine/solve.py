@@ -43,9 +43,10 @@ from signorini.linalg.threads import one_thread
 from signorini.model.model import Model
 from signorini.model.stage import Stage, Standing, stages
 from signorini.model.step import Step
+from signorini.outcome import Outcome
 from signorini.solution.certificate import TOLERANCE
 from signorini.solution.checkpoint import Checkpoint
-from signorini.solution.history import INTERRUPTED, RUNNING, History
+from signorini.solution.history import History
 from signorini.solution.results import StepResult
 from signorini.solution.scale import Loading, data_scale, loading_of
 from signorini.solution.state import LoadPoint, State, initial_state
@@ -96,7 +97,7 @@ def solve_prepared(
     refuse_fields(prepared.model)
     begin = _first(prepared) if start is None else _fitting(prepared, start)
     history = _follow(prepared, begin, wellposed, after_step)
-    if raise_on_failure and history.status == INTERRUPTED:
+    if raise_on_failure and history.status == Outcome.INTERRUPTED:
         raise Interrupted(history.message, solution=history)
     if raise_on_failure and not history.solved:
         raise SolveFailed(history.message, status=history.status, solution=history)
@@ -175,9 +176,9 @@ def _follow(
             steps, end, before = [*steps, result], after, now  # at once, whenever an interruption comes
             if after_step is not None and len(steps) < len(schedule):
                 words = f"{len(steps)} of {len(schedule)} steps are finished"
-                after_step(_history(prepared, RUNNING, words, steps, end, loaded))
+                after_step(_history(prepared, Outcome.RUNNING, words, steps, end, loaded))
     except (SolveFailed, KeyboardInterrupt) as stop:
-        status = INTERRUPTED
+        status = Outcome.INTERRUPTED
         number = min(len(steps) + 1, len(schedule))
         words = f"interrupted in step {number} of {len(schedule)}; {len(steps)} steps were finished"
         if isinstance(stop, SolveFailed):
@@ -187,7 +188,7 @@ def _follow(
         if part is not None:
             steps.append(step_result(now, schedule[len(steps)], part, (), finished=False))
         return replace(_history(prepared, status, words, steps, last, loaded), escape=_motion(stop))
-    history = _history(prepared, "solved", "", steps, end, loaded)
+    history = _history(prepared, Outcome.SOLVED, "", steps, end, loaded)
     return replace(history, wellposedness=assess(now, end.state)) if wellposed else history
 
 
@@ -271,7 +272,7 @@ def _on_interface_or_bodies(stage: Stage, part: StepPart) -> FollowedPart:
         return _with_bodies_at_rest(stage, part)
     except SolveFailed as failure:
         lost = known(failure, part)
-        if lost.status != "not_found" or lost.hopeless or not _gives_way(part.prepared, stage.step):
+        if lost.status != Outcome.NOT_FOUND or lost.hopeless or not _gives_way(part.prepared, stage.step):
             raise lost from None
     clock = part.prepared.clock
     try:
@@ -324,7 +325,7 @@ def _as_asked(stage: Stage, part: StepPart) -> FollowedPart:
             followed = follow_increments(part, _BEHIND_A_JUMP)
         except SolveFailed as nothing:
             words = f"{failure.sentence}; nor do increments go on: {nothing.sentence}{nothing.details}"
-            status = failure.status if nothing.status == "not_found" else nothing.status  # a jump is proved
+            status = failure.status if nothing.status == Outcome.NOT_FOUND else nothing.status  # a jump is proved
             worse = SolveFailed(words, status=status, motion=nothing.motion)
             worse.reached = failure.reached  # the exact path goes farther
             raise worse from failure
@@ -349,7 +350,7 @@ def _increments(step: Step, interval: Interval, stage: Stage) -> int:
 
 
 def _history(
-    prepared: Prepared, status: str, message: str, steps: list[StepResult], end: Checkpoint | None, loaded: bool
+    prepared: Prepared, status: Outcome, message: str, steps: list[StepResult], end: Checkpoint | None, loaded: bool
 ) -> History:
     return History(
         model=prepared.model,

@@ -32,6 +32,7 @@ from signorini.friction.spatial import (
     solve_spatial,
 )
 from signorini.interface.interface import Interface
+from signorini.outcome import Outcome
 from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.scale import Scale
 from signorini.solution.state import State
@@ -84,7 +85,7 @@ class IncrementAnswer:
     escape : (k,) combination of the floating motions along which bodies leave, where it is known
     """
 
-    outcome: str
+    outcome: Outcome
     message: str
     forces: Array
     moved: Array
@@ -97,7 +98,7 @@ class IncrementAnswer:
     @property
     def solved(self) -> bool:
         """Whether a solution was found; the certificate is measured by who asked."""
-        return self.outcome == "solved"
+        return self.outcome == Outcome.SOLVED
 
 
 class ContactSolver(Protocol):
@@ -277,7 +278,7 @@ class CondensedSolver:
                 break
             start = result.y if isinstance(result, SpatialResult) else result.state
         return IncrementAnswer(
-            outcome=result.outcome,
+            outcome=Outcome(result.outcome),
             message=result.message,
             forces=forces,
             moved=moved,

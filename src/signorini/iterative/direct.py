@@ -11,6 +11,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array, IntArray
 from signorini.errors import SolveFailed
 from signorini.linalg import NotPositiveDefinite, factorise
+from signorini.outcome import Outcome
 
 _MOST = 1e8  # entries in all factorisations together: a minute or two
 _FEWEST = 3000  # entries: what a factorisation of less costs
@@ -49,7 +50,7 @@ class Direct:
         A = sp.csr_array(self._K + springs)
         self._left -= max(A.nnz, _FEWEST)
         if self._left < 0:
-            raise SolveFailed("multipliers did not settle within the work that they may take", status="not_found")
+            raise SolveFailed("multipliers did not settle within the work that they may take", status=Outcome.NOT_FOUND)
         try:
             factor = factorise(A, self._none, nodes=self._nodes, points=self._points)
         except NotPositiveDefinite:

@@ -21,7 +21,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
@@ -34,11 +33,10 @@ from signorini.law.bound import FrictionBound
 from signorini.law.section import FrictionSection
 from signorini.law.states import OPEN, STICK
 from signorini.linalg.krylov import conjugate_gradients
+from signorini.outcome import Outcome
 
 TOLERANCE = 1e-10
 """Of the sizes of the data: equilibrium, gaps that should be closed, forces that should have settled."""
-
-Outcome = Literal["solved", "not_found"]
 
 _ROUNDS = 200
 _NEWTON = 20  # steps a round
@@ -74,7 +72,7 @@ class Answer:
     @property
     def outcome(self) -> Outcome:
         """In one word."""
-        return "solved" if self.solved else "not_found"
+        return Outcome.SOLVED if self.solved else Outcome.NOT_FOUND
 
     @property
     def message(self) -> str:

@@ -17,6 +17,7 @@ from pathlib import Path
 from signorini.clock import Clock
 from signorini.errors import InputError
 from signorini.model.prints import Prints
+from signorini.outcome import Outcome
 from signorini.output.archive import GrowingArchive, write_archive
 from signorini.output.checkpoint import write_checkpoint
 from signorini.output.contact_csv import write_contacts
@@ -27,7 +28,7 @@ from signorini.output.history_csv import write_history
 from signorini.output.series import FIELDS, frames, write_series
 from signorini.output.summary import summary
 from signorini.output.vtu import write_bodies, write_surfaces
-from signorini.solution.history import RUNNING, History
+from signorini.solution.history import History
 
 try:
     import fcntl
@@ -194,7 +195,7 @@ class Publisher:
         folder, clock = self.folder, self.clock
         with tempfile.TemporaryDirectory(dir=folder, prefix=_ASIDE_PREFIX) as name:
             aside = Path(name)
-            with (clock.spending if history.status == RUNNING else clock.phase)("output"):
+            with (clock.spending if history.status == Outcome.RUNNING else clock.phase)("output"):
                 names = self._write(history, aside)
             seconds = clock.seconds | {"total": time.perf_counter() - self.started}
             words = json.dumps(summary(history, seconds, self.deck), indent=2, allow_nan=False, ensure_ascii=False)
@@ -216,7 +217,7 @@ class Publisher:
         """
         if not history.steps and history.escape is None:
             return []
-        running, prints, fields = history.status == RUNNING, self.prints, Fields(history.model)
+        running, prints, fields = history.status == Outcome.RUNNING, self.prints, Fields(history.model)
         names = _write_tables(history, fields, aside, done=self._written) if history.steps else []
         if running:
             last = self.folder / ARCHIVE if ARCHIVE in self._written else None

@@ -9,19 +9,13 @@ from dataclasses import dataclass
 from signorini.arrays import Array
 from signorini.errors import InputError, one_of
 from signorini.model.model import Model
+from signorini.outcome import Outcome
 from signorini.short import Short
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.results import ContactResult, StepResult
 from signorini.solution.wellposedness import WellPosedness
 
 PHASES = ("read", "assembly", "factorisation", "condensation", "complementarity", "recovery", "output", "total")
-
-
-INTERRUPTED = "interrupted"
-"""Status of a history that was stopped from outside."""
-
-RUNNING = "running"
-"""Status of a history whose next step is being solved; of one that stays so, the process was killed."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -31,7 +25,7 @@ class History(Short):
     Attributes
     ----------
     model : what was solved
-    status : "solved", or why not: "no_equilibrium" (proved), "not_found", "jump", "interrupted", "running"
+    status : SOLVED, or why not, with its ``advice``; RUNNING while the next step is being solved
     message : the same in words, empty where solved
     steps : certified, in order; the last one may not be finished, see `StepResult`
     backend : of the factorisation
@@ -44,7 +38,7 @@ class History(Short):
     """
 
     model: Model
-    status: str
+    status: Outcome
     message: str
     steps: tuple[StepResult, ...]
     backend: str
@@ -55,10 +49,14 @@ class History(Short):
     loaded: bool = False
     escape: Array | None = None
 
+    def __post_init__(self) -> None:
+        """An archive holds the word alone."""
+        object.__setattr__(self, "status", Outcome(self.status))
+
     @property
     def solved(self) -> bool:
         """Whether every step was solved and certified."""
-        return self.status == "solved"
+        return self.status == Outcome.SOLVED
 
     @property
     def last(self) -> StepResult:

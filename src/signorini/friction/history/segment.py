@@ -8,9 +8,9 @@ from typing import Literal
 
 from signorini.arrays import Array
 from signorini.friction.history.state import PathState
+from signorini.outcome import Outcome
 
 What = Literal["closes", "opens", "slips", "sticks", "kinks"]
-Outcome = Literal["followed", "jump", "not_found", "disturbed"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,11 +83,11 @@ class Segment:
 
     Attributes
     ----------
-    end : the last state reached; at the end of the segment where ``outcome`` is "followed"
+    end : the last state reached; at the end of the segment where ``outcome`` is FOLLOWED
     events : in order
     pieces : the ends of the linear pieces in order, the start first
-    outcome : "followed", "jump" (no gradual continuation), "not_found" (neither rates nor proof of a jump), or
-        "disturbed": cut short because another problem goes on from there
+    outcome : FOLLOWED, JUMP (no gradual continuation), NOT_FOUND (neither rates nor proof of a jump), or DISTURBED: cut
+        short because another problem goes on from there
     jump : where, who and why, or None
     pivots : states tried
     factorisations, updates : dense factorisations, and changes of a factorised state by one unknown
@@ -109,7 +109,7 @@ class Segment:
     @property
     def followed(self) -> bool:
         """Whether the end of the segment was reached."""
-        return self.outcome == "followed"
+        return self.outcome == Outcome.FOLLOWED
 
     @property
     def departure(self) -> Jump | None:

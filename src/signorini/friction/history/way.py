@@ -9,8 +9,9 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.errors import InputError
-from signorini.friction.history.segment import Breakpoint, Event, Jump, Outcome, Segment, What
+from signorini.friction.history.segment import Breakpoint, Event, Jump, Segment, What
 from signorini.friction.history.state import PathState
+from signorini.outcome import Outcome
 
 
 class Way:

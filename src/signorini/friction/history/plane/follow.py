@@ -28,6 +28,7 @@ from signorini.friction.history.way import Way, check_loads
 from signorini.friction.law import OPEN, SLIP_PLUS, STICK, UNDECIDED
 from signorini.friction.problem import CoulombProblem
 from signorini.law.bound import SIGN, plain
+from signorini.outcome import Outcome
 
 _APART = 1e-2  # of the first kink of a bound: what counts as zero beside it
 _ROUNDING = 1e-14  # of the data
@@ -104,7 +105,7 @@ def follow(problem: CoulombProblem, start: PathState, b_end: Array, *, settings:
         failure = walk.turn() or walk.advance()
         if failure is not None:
             return walk.ended(failure)
-    return walk.segment("followed", None, f"followed through {len(walk.events)} events")
+    return walk.segment(Outcome.FOLLOWED, None, f"followed through {len(walk.events)} events")
 
 
 class Walk(Way):
@@ -341,9 +342,9 @@ class Walk(Way):
         """The segment up to a jump, or to where nothing was found."""
         if not failure.proved:
             message = f"at factor {self.factor:.12g}: {failure.proof}"
-            return self.segment("not_found", None, message)
+            return self.segment(Outcome.NOT_FOUND, None, message)
         jump = explain(self.problem, self.now, self.b_end, self.factor, self.acting, failure, self.width)
-        return self.segment("jump", jump, f"no gradual continuation at factor {self.factor:.12g}: {jump.proof}")
+        return self.segment(Outcome.JUMP, jump, f"no gradual continuation at factor {self.factor:.12g}: {jump.proof}")
 
     @property
     def effort(self) -> tuple[int, int, int]:

@@ -33,6 +33,7 @@ from signorini.friction.spatial.result import SpatialResult
 from signorini.friction.spatial.rigid import pulled_away
 from signorini.friction.spatial.solve import SpatialSettings, solve_spatial
 from signorini.law.bound import STEEP
+from signorini.outcome import Outcome
 
 SHORTEST = 1e-12
 """Part of the segment below which an increment counts as none."""
@@ -126,7 +127,7 @@ def follow_stopping(
             break
     if lost is not None:
         return walk.ended(lost)
-    return walk.segment("followed", None, f"followed through {len(walk.events)} events")
+    return walk.segment(Outcome.FOLLOWED, None, f"followed through {len(walk.events)} events")
 
 
 def at_rest(problem: SpatialProblem, b: Array, *, motion: Array | None = None) -> PathState:
@@ -471,14 +472,14 @@ class Walk(Way):
     def ended(self, lost: NoRates) -> Segment:
         """The segment up to a jump, or to where nothing was found."""
         if not lost.proved:
-            return self.segment("not_found", None, lost.proof)
+            return self.segment(Outcome.NOT_FOUND, None, lost.proof)
         n, r = self.problem.pairs, self.now.r
         pressed = r[:n] > self.width
         spent = pressed & (spare(self.problem, r) <= self.near)
         leaves, refused = self._leaves, self.refused
         acting = np.flatnonzero(spent) if leaves else acting_pairs(self.rate_problem, self.now, self.near)
         if self._overloaded:
-            return self.segment("jump", self.bearing.jump(self.now, self.factor, pressed, lost.proof), lost.proof)
+            return self.segment(Outcome.JUMP, self.bearing.jump(self.now, self.factor, pressed, lost.proof), lost.proof)
         slide = sliding(self.problem, self.pieces[-2:], pressed) if self.limited else None
         jump = Jump(
             factor=self.factor,
@@ -488,7 +489,7 @@ class Walk(Way):
             gross_sliding=bool(leaves and pressed.any() and spent[pressed].all()) or slide is not None,
             escape=slide,
         )
-        return self.segment("jump", jump, lost.proof)
+        return self.segment(Outcome.JUMP, jump, lost.proof)
 
     @property
     def effort(self) -> tuple[int, int, int]:
