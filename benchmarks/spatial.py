@@ -17,6 +17,8 @@ import numpy as np
 from benchmarks.page import seconds, table, write
 from benchmarks.spatial_problems import hard_random, punch
 from signorini.arrays import Array
+from signorini.fem.boundary import Boundary
+from signorini.fem.facets import facet_nodes
 from signorini.friction.history.plane import PathState
 from signorini.friction.spatial import (
     SpatialProblem,
@@ -28,9 +30,8 @@ from signorini.friction.spatial import (
     solve_spatial,
     split,
 )
-from signorini.interface.spatial import make_surface, mortar_coupling
-from signorini.interface.spatial.faces import node_places
-from signorini.interface.spatial.facing import near_pairs
+from signorini.interface.facing import near_pairs
+from signorini.interface.mortar import mortar_coupling
 
 PAGE = Path(__file__).parent.parent / "docs" / "three_dimensions.md"
 FRICTIONS = (0.1, 0.3, 0.6, 1.0)
@@ -143,7 +144,7 @@ def plane_side(n: int, kind: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
     number = np.arange((n + 1) ** 2).reshape(n + 1, n + 1)
     quads = np.stack([number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]], axis=-1).reshape(-1, 4)
     corners = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]) if kind in (3, 6) else quads
-    a, b = node_places(kind).T
+    a, b = facet_nodes(3, kind).T
     weights = np.column_stack([1 - a - b, a, b])
     if corners.shape[1] == 4:
         weights = np.column_stack([(1 - a) * (1 - b), (1 + a) * (1 - b), (1 + a) * (1 + b), (1 - a) * (1 + b)]) / 4
@@ -159,7 +160,7 @@ def two_sides(n: int, kind: int, m: int, other: int):
     points = np.column_stack([flat, np.zeros(len(flat))])
     reverse = {3: [0, 2, 1], 4: [0, 3, 2, 1], 6: [0, 2, 1, 5, 4, 3], 8: [0, 3, 2, 1, 7, 6, 5, 4]}
     reverse[9] = [*reverse[8], 8]
-    return points, make_surface(points, upper[:, reverse[kind]]), make_surface(points, lower + len(above))
+    return points, Boundary.of(points, upper[:, reverse[kind]]), Boundary.of(points, lower + len(above))
 
 
 def mortar() -> str:
@@ -174,7 +175,7 @@ def mortar() -> str:
         start = time.process_time()
         mortar_coupling(one, two)
         spent = time.process_time() - start
-        pieces = [side.blocks[0].plane_pieces[:, 0] for side in (one, two)]
+        pieces = [side.blocks[0].plane_pieces for side in (one, two)]
         tested = len(near_pairs(*pieces, search=0.5)[0])
         rows.append((n**2, (3 * n // 2) ** 2, f"{tested / n**2:.1f}", seconds(spent), f"{1e3 * spent / n**2:.2f}"))
     head = ("nonmortar faces", "mortar faces", "pairs tested a face", "seconds", "ms a face")

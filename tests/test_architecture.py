@@ -310,7 +310,7 @@ PENDING = {
     #
     "friction": "files nouns parameters classes constants",
     #
-    "interface": "files signatures nouns parameters classes constants",
+    "interface": "files parameters constants",
     #
     "iterative": "nouns parameters classes constants",
     #

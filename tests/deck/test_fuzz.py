@@ -54,13 +54,13 @@ def test_other_inputs_are_read(sound: Any, tmp_path: Path) -> None:
 
 def test_functions_that_no_sound_deck_calls_are_compiled_before_seconds_count(monkeypatch: pytest.MonkeyPatch) -> None:
     called = set()
-    for place, name in (("mortar", "widen"), ("node_to_face", "meet")):
-        module = import_module(f"signorini.interface.spatial.{place}")
+    for place, name in (("face_parts", "integrate"), ("points", "meet")):
+        module = import_module(f"signorini.interface.{place}")
         original = getattr(module, name)
         monkeypatch.setattr(module, name, lambda *a, name=name, original=original: called.add(name) or original(*a))
     for model in fuzz.rare_models():
         examine(model)
-    assert called == {"widen", "meet"}
+    assert called == {"integrate", "meet"}
 
 
 def busy() -> None:

@@ -3,8 +3,8 @@
 
 import numpy as np
 
-from signorini.interface.spatial.faces import node_places
-from signorini.interface.spatial.surface import make_surface
+from signorini.fem.boundary import Boundary
+from signorini.fem.facets import facet_nodes
 
 
 def rotation(seed):
@@ -28,7 +28,7 @@ def grid(x, y, kind, jiggle=0.0, seed=0):
         corners = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
     if kind in (3, 4):
         return nodes, corners
-    ends = node_places(kind)
+    ends = facet_nodes(3, kind)
     shape = corners.shape[1]
     weights = {6: _linear(ends, 3), 8: _linear(ends, 4), 9: _linear(ends, 4)}[kind]
     everything = np.einsum("ka,mad->mkd", weights, nodes[corners])
@@ -62,4 +62,4 @@ def two_sides(upper, lower, *, gap=0.0, turn=None):
     )
     if turn is not None:
         points = points @ turn.T
-    return points, make_surface(points, turned(faces_1)), make_surface(points, faces_2 + len(above))
+    return points, Boundary.of(points, turned(faces_1)), Boundary.of(points, faces_2 + len(above))

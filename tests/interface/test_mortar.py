@@ -12,7 +12,6 @@ from signorini.errors import InputError
 from signorini.fem.boundary import boundary
 from signorini.fem.space import make_space
 from signorini.interface.mortar import mortar_coupling
-from signorini.interface.overlap import find_overlaps
 from signorini.meshing.plane import rectangle
 from signorini.model.mesh import Mesh, join
 
@@ -34,9 +33,8 @@ def two_sides(upper, lower, angle=0.0):
 
 def coupled(mesh, measure=lambda x, *_: np.ones(x.shape[:-1])):
     space = make_space(mesh)
-    first, second = (boundary(space, name, ()).blocks[0] for name in ("upper.bottom", "lower.top"))
-    overlaps = find_overlaps(mesh.points, first, second, None, ())
-    return first, second, mortar_coupling(mesh.points, first, second, overlaps, measure, ())
+    first, second = (boundary(space, name, ()) for name in ("upper.bottom", "lower.top"))
+    return first, second, mortar_coupling(first, second, measure=measure)
 
 
 def opposite(coupling, mesh, side):
@@ -133,7 +131,7 @@ def pushes(coupling):
 
 def nodal_pushes(side):
     """``- int N n`` of all nodes of a side, n outward."""
-    return -side.nodal(side.outward)
+    return -side.nodal(block.outward for block in side.blocks)
 
 
 @pytest.mark.parametrize("counts", [(4, 4), (3, 7), (7, 4)])

@@ -9,8 +9,10 @@ import pytest
 import skfem
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
+from signorini.fem.boundary import Boundary
 from signorini.friction.spatial import STICK, SpatialProblem, solve_spatial, split
-from signorini.interface.spatial import frames, make_surface, mortar_coupling
+from signorini.interface.frames import frames
+from signorini.interface.mortar import mortar_coupling
 from tests.helpers.face_samples import rotation
 
 E, NU, PRESSURE, FRICTION = 2000.0, 0.3, 25.0, 0.5
@@ -47,7 +49,7 @@ def box(kind, n, low, high):
 
 def surface_load(mesh, z):
     """``int N_k`` over the faces at a height, (n,)."""
-    side = make_surface(mesh.p.T, faces(mesh, z))
+    side = Boundary.of(mesh.p.T, faces(mesh, z))
     load = np.zeros(mesh.nvertices)
     load[side.nodes] = side.nodal_areas
     return load
@@ -66,8 +68,8 @@ def pressed(kinds, counts, traction, seed):
         turn[np.ix_(dofs[:, k], dofs[:, k])] = Q
     K = turn @ K @ turn.T
     points = np.concatenate([x_1, x_2]) @ Q.T
-    side = make_surface(points, faces(upper, 0.0)[:, ::-1])
-    other = make_surface(points, faces(lower, 0.0) + n_1)
+    side = Boundary.of(points, faces(upper, 0.0)[:, ::-1])
+    other = Boundary.of(points, faces(lower, 0.0) + n_1)
     coupling = mortar_coupling(side, other)
     axes = frames(coupling.normals)
     gap = np.sum((coupling.relative @ points) * axes[:, 0], axis=1)

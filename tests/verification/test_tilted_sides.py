@@ -11,9 +11,6 @@ from signorini.fem.boundary import boundary
 from signorini.fem.space import make_space
 from signorini.gallery.spheres import equal_spheres
 from signorini.interface.mortar import mortar_coupling
-from signorini.interface.overlap import find_overlaps
-from signorini.interface.spatial import make_surface
-from signorini.interface.spatial import mortar_coupling as mortar_in_space
 from signorini.interface.tilt import normals_between, turned
 from signorini.meshing.plane import quarter_disk, rectangle
 from signorini.meshing.solid import extruded
@@ -118,9 +115,7 @@ def test_forces_of_every_pair_balance_with_their_moments_in_the_plane():
     upper, lower = (quarter_disk(radius=1.0, contact_length=0.5, contact_spacing=h) for h in (0.1, 0.125))
     mesh = join({"upper": upper, "lower": replace(lower, points=lower.points * [1.0, -1.0] - [0.0, 0.1])})
     space = make_space(mesh)
-    sides = [boundary(space, name, ()).blocks[0] for name in ("upper.arc", "lower.arc")]
-    overlaps = find_overlaps(mesh.points, *sides, 0.5, ())
-    coupling = mortar_coupling(mesh.points, *sides, overlaps, lambda x, *_: np.ones(x.shape[:-1]), ())
+    coupling = mortar_coupling(*(boundary(space, name, ()) for name in ("upper.arc", "lower.arc")), search=0.5)
     assert np.abs(coupling.normals[:, 0]).max() < 0.1  # their own are tilted by up to 45 degrees and more
     np.testing.assert_allclose(moments(coupling, mesh.points), 0.0, atol=1e-14)
 
@@ -128,10 +123,7 @@ def test_forces_of_every_pair_balance_with_their_moments_in_the_plane():
 def test_forces_of_every_pair_balance_with_their_moments_in_space():
     mesh = equal_spheres(approach=4.0, n=1, other=2, cells="triangle").mesh
     space = make_space(mesh)
-    sides = [
-        make_surface(mesh.points, boundary(space, f"{name}.seat", ()).blocks[0].facets) for name in ("upper", "lower")
-    ]
-    coupling = mortar_in_space(*sides)
+    coupling = mortar_coupling(*(boundary(space, f"{name}.seat", ()) for name in ("upper", "lower")))
     np.testing.assert_allclose(moments(coupling, mesh.points), 0.0, atol=1e-10)
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
@@ -22,10 +23,32 @@ class Boundary:
 
     Attributes
     ----------
+    points : (p, d) of all nodes of the mesh, length
     blocks : facets by the number of their nodes, ascending; all linear or all quadratic; in the plane one block
     """
 
+    points: Array
     blocks: tuple[FacetBlock, ...]
+
+    @classmethod
+    def of(cls, points: ArrayLike, *facets: ArrayLike) -> Boundary:
+        """Facets of no cells, as they are.
+
+        Parameters
+        ----------
+        points : (p, d) of all nodes, length
+        facets : arrays (m, k) of nodes, see :mod:`signorini.fem.facets` for the order; each a block
+
+        Examples
+        --------
+        >>> side = Boundary.of([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+        >>> side.nodal_areas.round(12).tolist(), side.nodal_normals[0].tolist()
+        ([0.5, 0.5, 0.5, 0.5], [0.0, 0.0, 1.0])
+        """
+        x = np.asarray(points, float)
+        kinds = [np.asarray(nodes, np.int64) for nodes in facets]
+        none = np.full(max(map(len, kinds)), -1)
+        return cls(points=x, blocks=tuple(FacetBlock(facets=f, points=x[f], cells=none[: len(f)]) for f in kinds))
 
     @property
     def dimension(self) -> int:
@@ -41,6 +64,11 @@ class Boundary:
     def nodes(self) -> IntArray:
         """(n,) Sorted nodes."""
         return np.unique(np.concatenate([block.nodes for block in self.blocks]))
+
+    @cached_property
+    def corner_nodes(self) -> IntArray:
+        """Sorted nodes at corners of facets: those that carry pairs."""
+        return np.unique(np.concatenate([block.corner_nodes.ravel() for block in self.blocks]))
 
     @property
     def cells(self) -> IntArray:
@@ -62,14 +90,36 @@ class Boundary:
         normals: Array = total / np.linalg.norm(total, axis=1, keepdims=True)
         return normals
 
-    def nodal(self, integrands: Iterable[Array]) -> Array:
+    @cached_property
+    def nodal_areas(self) -> Array:
+        """(n,) ``int N_k`` of the hats of the corners, length or area; 0 at other nodes."""
+        return self.nodal((block.weights for block in self.blocks), corners=True)
+
+    @cached_property
+    def nodal_normal_areas(self) -> Array:
+        """(n, d) ``int N_k n`` of the hats of the corners, n outward; 0 at other nodes."""
+        return self.nodal((block.outward for block in self.blocks), corners=True)
+
+    @property
+    def nodal_lengths(self) -> Array:
+        """(n,) Tributary length of every node; in space the side of a square of its area."""
+        total = self.nodal(block.weights for block in self.blocks)
+        return total if self.dimension == 2 else np.sqrt(np.maximum(total, 0.0))
+
+    def nodal(self, integrands: Iterable[Array], *, corners: bool = False) -> Array:
         """``int N_k f`` at every node, (n, ...) in the order of ``nodes``.
 
         Parameters
         ----------
         integrands : for every block f at the quadrature points times what belongs to them, (m, q, ...)
+        corners : N are the hats of the corners; 0 at other nodes
         """
-        return self._gathered(block.nodal(own) for block, own in zip(self.blocks, integrands, strict=True))
+        parts = zip(self.blocks, integrands, strict=True)
+        return self._gathered(block.nodal(own, corners=corners) for block, own in parts)
+
+    def at_facets(self, block: FacetBlock) -> Array:
+        """(m, k, d) Outward unit normals of the boundary at the nodes of the facets of one of its blocks."""
+        return self.nodal_normals[np.searchsorted(self.nodes, block.facets)]
 
     def _gathered(self, parts: Iterable[Array]) -> Array:
         """Values at the nodes of every block, summed at those of all, (n, ...)."""
@@ -106,9 +156,8 @@ def boundary(space: Space, name: str, where: Where) -> Boundary:
         found = outer_faces(space.faces, kinds, len(points), name, where)
     else:
         found = [_outer_edges(space, kinds[0], name, where)]
-    return Boundary(
-        blocks=tuple(FacetBlock(facets=facets, points=points[facets], cells=cells) for facets, cells in found)
-    )
+    blocks = (FacetBlock(facets=facets, points=points[facets], cells=cells) for facets, cells in found)
+    return Boundary(points=points, blocks=tuple(blocks))
 
 
 def _outer_edges(space: Space, given: IntArray, name: str, where: Where) -> tuple[IntArray, IntArray]:

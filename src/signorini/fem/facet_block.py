@@ -9,8 +9,10 @@ from functools import cached_property
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.fem.facets import facet_nodes, facet_rule, facet_shapes
+from signorini.fem.facets import facet_nodes, facet_pieces, facet_rule, facet_shapes
 from signorini.meshing.faces import CORNERS
+
+_PARALLEL_TOL = 1e-10  # of the largest face: rounding of coordinates is below it
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -40,19 +42,50 @@ class FacetBlock:
         return int(self.points.shape[2])
 
     @property
+    def count(self) -> int:
+        """Nodes of a facet, k."""
+        return int(self.facets.shape[1])
+
+    @property
     def corners(self) -> int:
         """Corners of a facet; its other nodes are in the middle of an edge, or of the facet."""
-        return 2 if self.dimension == 2 else CORNERS[self.facets.shape[1]]
+        return 2 if self.dimension == 2 else CORNERS[self.count]
+
+    @property
+    def corner_nodes(self) -> IntArray:
+        """(m, 2, 3 or 4) Nodes of the facets that carry pairs."""
+        return self.facets[:, : self.corners]
 
     @property
     def quadratic(self) -> bool:
         """Whether the facets have nodes in the middle."""
-        return self.facets.shape[1] > self.corners
+        return self.count > self.corners
 
     @cached_property
     def shapes(self) -> tuple[Array, Array]:
         """Shape functions of a facet at its quadrature points (q, k), and their derivatives (q, k, d - 1)."""
-        return facet_shapes(self.dimension, self.facets.shape[1], self._rule[0])
+        return facet_shapes(self.count, self.places)
+
+    @cached_property
+    def hats(self) -> Array:
+        """The linear or bilinear functions of the corners at the quadrature points, (q, corners)."""
+        return facet_shapes(self.corners, self.places)[0]
+
+    @cached_property
+    def plane_pieces(self) -> Array:
+        """(p, 3 or 4, 3) Corners of the plane pieces that stand for faces, piece after piece of every face."""
+        reference = facet_pieces(self.count)
+        weights = facet_shapes(self.count, reference.reshape(-1, 2))[0].reshape(*reference.shape[:2], -1)
+        return np.einsum("sac,mcd->msad", weights, self.points).reshape(-1, reference.shape[1], 3)
+
+    @cached_property
+    def parallelograms(self) -> bool:
+        """Whether every piece is a triangle or a parallelogram, which quadrature of low degree integrates exactly."""
+        corners = self.plane_pieces
+        if corners.shape[1] == 3:
+            return True
+        skew = np.abs(corners[:, 0] - corners[:, 1] + corners[:, 2] - corners[:, 3]).max(initial=0.0)
+        return bool(skew <= _PARALLEL_TOL * np.ptp(corners, axis=1).max(initial=0.0))
 
     @cached_property
     def at(self) -> Array:
@@ -82,35 +115,24 @@ class FacetBlock:
         normals: Array = total / np.linalg.norm(total, axis=1, keepdims=True) + 0.0
         return normals
 
-    def nodal(self, integrand: Array) -> Array:
-        """``int N_k f`` at every node, (k, ...) in the order of ``nodes``.
+    def nodal(self, integrand: Array, *, corners: bool = False) -> Array:
+        """``int N_k f`` at every node, (n, ...) in the order of ``nodes``.
 
         Parameters
         ----------
         integrand : (m, q, ...) f at the quadrature points times what belongs to them, ``weights`` in the plane
+        corners : N are the hats of the corners; 0 at other nodes
         """
-        shares = np.einsum("qa,mq...->ma...", self.shapes[0], integrand)
+        shapes = self.hats if corners else self.shapes[0]
+        shares = np.einsum("qa,mq...->ma...", shapes, integrand)
         result = np.zeros((len(self.nodes), *integrand.shape[2:]))
-        np.add.at(result, np.searchsorted(self.nodes, self.facets), shares)
+        np.add.at(result, np.searchsorted(self.nodes, self.facets[:, : shapes.shape[1]]), shares)
         return result
-
-    @property
-    def nodal_lengths(self) -> Array:
-        """Tributary length of every node, (n,); in space the side of a square of its area."""
-        total = self.nodal(self.weights)
-        return total if self.dimension == 2 else np.sqrt(np.maximum(total, 0.0))
-
-    @property
-    def nodal_normals(self) -> Array:
-        """Outward unit normals at the nodes, averaged with the sizes of their facets, (n, d)."""
-        normals: Array = self.nodal_spans / np.linalg.norm(self.nodal_spans, axis=1, keepdims=True)
-        return normals
 
     @cached_property
     def nodal_spans(self) -> Array:
         """Outward unit normals of the facets at the nodes times their sizes, summed, (n, d)."""
-        count = self.facets.shape[1]
-        own = outward_normals(self.points, facet_shapes(self.dimension, count, facet_nodes(self.dimension, count))[1])
+        own = outward_normals(self.points, facet_shapes(self.count, facet_nodes(self.dimension, self.count))[1])
         length = np.linalg.norm(own, axis=-1)  # 0 where a side of the facet is, at its ends
         own *= (self.weights.sum(axis=1)[:, None] / np.where(length > 0.0, length, 1.0))[..., None]
         total = np.zeros((len(self.nodes), self.dimension))
@@ -121,7 +143,7 @@ class FacetBlock:
     def level_spans(self) -> Array:
         """Mean normals of the facets times their sizes, summed at the nodes, (n, d)."""
         total = np.zeros((len(self.nodes), self.dimension))
-        every = np.repeat(self.outward.sum(axis=1)[:, None], self.facets.shape[1], axis=1)
+        every = np.repeat(self.outward.sum(axis=1)[:, None], self.count, axis=1)
         np.add.at(total, np.searchsorted(self.nodes, self.facets), every)
         return total
 
@@ -132,7 +154,7 @@ class FacetBlock:
 
     @property
     def _rule(self) -> tuple[Array, Array]:
-        return facet_rule(self.dimension, self.facets.shape[1])
+        return facet_rule(self.dimension, self.count)
 
 
 def outward_normals(points: Array, slopes: Array) -> Array:

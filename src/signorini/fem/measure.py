@@ -52,12 +52,14 @@ def nodal_areas(model: Model, side: Boundary) -> Array:
     return side.nodal(facet_areas(model, block) for block in side.blocks)
 
 
-def nodal_contact_areas(model: Model, side: FacetBlock, opposite: IntArray) -> Array:
+def nodal_contact_areas(model: Model, side: Boundary, opposite: IntArray) -> Array:
     """``int N_k n dS`` of every node of a side in contact, (k, d) in the order of its nodes, n its outward normals.
 
     Parameters
     ----------
+    model : tells the thickness
+    side : in contact; plane
     opposite : (m,) numbers of the cells that its facets touch
     """
-    across = contact_measure(model, side.at, side.cells, opposite)
-    return side.nodal(side.outward * across[..., None])
+    (block,) = side.blocks
+    return side.nodal([block.outward * contact_measure(model, block.at, block.cells, opposite)[..., None]])

@@ -11,9 +11,8 @@ import scipy.sparse as sp
 from signorini.arrays import Array
 from signorini.fem.boundary import Boundary
 from signorini.fem.facet_block import FacetBlock
-from signorini.fem.facets import facet_shapes
+from signorini.interface.common_parts import dual_functions
 from signorini.interface.coupling import Coupling
-from signorini.interface.dual import dual_functions
 
 
 def corner_coupling(side: Boundary, areas: Sequence[Array], normals: Sequence[Array], count: int) -> Coupling:
@@ -31,7 +30,7 @@ def corner_coupling(side: Boundary, areas: Sequence[Array], normals: Sequence[Ar
     ----------
     Popp, Wohlmuth, Gee, Wall (2012), SIAM Journal on Scientific Computing 34:B421-B446.
     """
-    nodes = np.unique(np.concatenate([block.facets[:, : block.corners].ravel() for block in side.blocks]))
+    nodes = side.corner_nodes
     by_block = [_of_block(*given, count) for given in zip(side.blocks, areas, normals, strict=True)]
     forces = tuple(sp.csr_array(sum(parts[1:], parts[0])[nodes]) for parts in zip(*by_block, strict=True))
     vectors = np.column_stack([force.sum(axis=1) for force in forces])
@@ -40,8 +39,7 @@ def corner_coupling(side: Boundary, areas: Sequence[Array], normals: Sequence[Ar
 
 def _of_block(block: FacetBlock, areas: Array, normals: Array, count: int) -> tuple[sp.csr_array, ...]:
     """The forces of facets of one kind, for each direction (count, count): rows of corners, columns of nodes."""
-    corners = block.facets[:, : block.corners]
-    hats = facet_shapes(block.dimension, block.corners, block.places)[0]
+    corners, hats = block.corner_nodes, block.hats
     mass = np.einsum("mq,qa,qb->mab", areas, hats, hats)
     multiplier = np.einsum("mab,qb,mq,mqd->dmqa", dual_functions(mass), hats, areas, normals)
     values = np.einsum("dmqa,qj->dmaj", multiplier, block.shapes[0])

@@ -4,14 +4,17 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.errors import InputError
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.coupling import Coupling
-from signorini.interface.spatial.frames import frames
 
-_SAME = 1e-9  # of the size of the mesh: two nodes on one plane across an axis
+_ONE_PLANE_TOL = 1e-9  # of the size of the mesh: two nodes on one plane across an axis
+LEAST_SINE = 0.1
+"""Between an axis and a normal: below it the axis gives no tangent."""
 
 
 def in_symmetry_planes(space: Space, constraints: Constraints, coupling: Coupling) -> Array:
@@ -40,7 +43,7 @@ def symmetric_partners(
     """
     partner = np.full((len(nodes), space.dimension), -1)
     points = space.mesh.points
-    close = _SAME * float(np.ptp(points, axis=0).max())
+    close = _ONE_PLANE_TOL * float(np.ptp(points, axis=0).max())
     own, other = _held(space, constraints, nodes), _held(space, constraints, mortar)
     for axis in range(space.dimension):
         there = mortar[other[:, axis]]
@@ -110,3 +113,37 @@ def along_tangents(ratio: tuple[float, float], axis: tuple[float, float, float] 
     along = np.abs(axes @ np.array(axis, float))
     first: Array = (along[:, 0] >= along[:, 1])[:, None]
     return np.where(first, ratio, ratio[::-1])
+
+
+def frames(normals: Array, axis: ArrayLike | None = None) -> Array:
+    """(k, 3, 3) Rows n, t1, t2 of every pair, right-handed: t1 is the part of an axis across the normal.
+
+    Parameters
+    ----------
+    normals : (k, 3) unit normals, into the nonmortar body
+    axis : (3,) direction of the first tangents, of the fibres of a surface for instance; the coordinate axis that the
+        normals follow least where not given. Where a normal runs along it another coordinate axis takes its place
+
+    Raises
+    ------
+    InputError
+        For an axis without length.
+
+    Examples
+    --------
+    >>> frames(np.array([[0.0, 0.0, 1.0]]), axis=(2.0, 0.0, 5.0))[0].tolist()
+    [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+    """
+    followed = (normals**2).sum(axis=0)
+    direction = np.eye(3)[np.argmin(followed)] if axis is None else np.asarray(axis, dtype=np.float64)
+    length = float(np.linalg.norm(direction))
+    if not length > 0:
+        raise InputError("is zero; expected a direction", where=("axis",))
+    along = np.tile(direction / length, (len(normals), 1))
+    across = along - np.sum(along * normals, axis=1)[:, None] * normals
+    size = np.linalg.norm(across, axis=1)
+    lost = size < LEAST_SINE
+    least = np.eye(3)[np.argmin(np.abs(normals[lost]), axis=1)]
+    across[lost] = least - np.sum(least * normals[lost], axis=1)[:, None] * normals[lost]
+    first = across / np.linalg.norm(across, axis=1, keepdims=True)
+    return np.stack([normals, first, np.cross(normals, first)], axis=1) + 0.0

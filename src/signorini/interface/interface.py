@@ -16,10 +16,9 @@ from signorini.fem.obstacles import carried
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.coupling import along
-from signorini.interface.frames import along_tangents, tangents
+from signorini.interface.frames import LEAST_SINE, along_tangents, tangents
 from signorini.interface.moments import moments_of_rows
 from signorini.interface.pairing import Pairs, Sides, make_pairs
-from signorini.interface.spatial.frames import ALONG
 from signorini.law.bound import FrictionBound
 from signorini.law.section import FrictionSection
 from signorini.model.contact import ratios
@@ -229,7 +228,7 @@ def _refuse_no_fibre(
         axis = np.array(data.friction_axis) / np.linalg.norm(data.friction_axis)
         own = contact == i
         off = np.linalg.norm(axis - (normals[own] @ axis)[:, None] * normals[own], axis=1)
-        lost = np.flatnonzero(off < ALONG)
+        lost = np.flatnonzero(off < LEAST_SINE)
         if len(lost):
             number = space.mesh.labels[node[own][lost[0]]]
             raise InputError(

@@ -3,35 +3,21 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from collections.abc import Sequence
 
 import numpy as np
 from scipy.spatial import KDTree
 
 from signorini.arrays import Array, IntArray
-from signorini.fem.facet_block import FacetBlock
+from signorini.fem.boundary import Boundary
 
 # of the tributary length: how far a partner may lie beside the normal
 _BESIDE = 0.05
 
 
-class Side(Protocol):
-    """What is asked of a side: a plane boundary, or a surface in space."""
-
-    @property
-    def nodes(self) -> IntArray:
-        """(k,) Sorted nodes."""
-
-    @property
-    def nodal_lengths(self) -> Array:
-        """(k,) Tributary length of every node."""
-
-    @property
-    def nodal_normals(self) -> Array:
-        """(k, d) Outward unit normals."""
-
-
-def match_nodes(points: Array, nonmortar: Side, mortar: Side, labels: IntArray) -> tuple[IntArray, str]:
+def match_nodes(
+    nonmortar: Boundary, mortar: Boundary, labels: IntArray, *, faces: bool = False
+) -> tuple[IntArray, str]:
     """For every nonmortar node its partner on the mortar side, one to one, or why there is none.
 
     The nearest node is the partner, looked for from either side: where a curved surface leaves a flat one only the
@@ -39,15 +25,19 @@ def match_nodes(points: Array, nonmortar: Side, mortar: Side, labels: IntArray) 
 
     Parameters
     ----------
-    points : (n, d) coordinates of all nodes, length
-    labels : (n,) their numbers, for messages
+    nonmortar, mortar : both sides
+    labels : (n,) numbers of all nodes, for messages
+    faces : whether faces have to be opposite faces too: where a quadrilateral is opposite two triangles, or triangles
+        are cut along the other diagonal, uniform pressure does not pass from node to node
 
     Returns
     -------
     partner : (k,) nodes, in the order of ``nonmortar.nodes``
     reason : empty where the sides match; otherwise what is in the way, in words
     """
-    first, second = nonmortar.nodes, mortar.nodes
+    points, first, second = nonmortar.points, nonmortar.nodes, mortar.nodes
+    if nonmortar.dimension == 3 and (nonmortar.quadratic or mortar.quadratic):
+        return first, "quadratic faces have no pairs at their middle nodes; expected linear faces"
     if len(first) != len(second):
         return first, (
             f"the nonmortar side has {len(first)} nodes and the mortar side {len(second)}; expected matching meshes, "
@@ -79,12 +69,33 @@ def match_nodes(points: Array, nonmortar: Side, mortar: Side, labels: IntArray) 
             f"the surfaces do not face each other at node {labels[first[worst]]}, {_spell(points[first[worst]])}: both "
             "outward normals point the same way"
         )
+    if faces and not _same_faces(nonmortar, mortar, partner):
+        return partner, "nodes are opposite nodes, but not faces opposite faces; expected meshes that match"
     return partner, ""
 
 
-def facing_cells(side: FacetBlock, other: FacetBlock) -> IntArray:
+def _same_faces(nonmortar: Boundary, mortar: Boundary, partner: IntArray) -> bool:
+    """Whether the faces of one side are those of the other with every node replaced by its partner."""
+    place = np.zeros(len(nonmortar.points), np.int64)
+    place[nonmortar.nodes] = partner
+    for count in (3, 4):
+        one = [place[block.facets] for block in nonmortar.blocks if block.count == count]
+        other = [block.facets for block in mortar.blocks if block.count == count]
+        if bool(one) != bool(other) or (one and not np.array_equal(_ordered(one), _ordered(other))):
+            return False
+    return True
+
+
+def _ordered(faces: Sequence[IntArray]) -> IntArray:
+    """Faces in an order, and with their nodes in one, that depends on which they are alone."""
+    rows = np.sort(np.concatenate(faces), axis=1)
+    return rows[np.lexsort(rows.T)]
+
+
+def facing_cells(side: Boundary, other: Boundary) -> IntArray:
     """For every facet of a side the cell of the nearest facet of the other, (m,)."""
-    _, nearest = KDTree(other.points.mean(axis=1)).query(side.points.mean(axis=1))
+    own, there = (np.concatenate([block.points.mean(axis=1) for block in one.blocks]) for one in (side, other))
+    _, nearest = KDTree(there).query(own)
     cells: IntArray = other.cells[nearest]
     return cells
 

@@ -10,12 +10,12 @@ from scipy.spatial import KDTree
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
+from signorini.fem.boundary import Boundary
 from signorini.fem.facet_block import FacetBlock
-from signorini.fem.line import line_shapes
-from signorini.interface.near import near
+from signorini.fem.facets import line_shapes
+from signorini.interface.facing import FACING, near, search_distance
 from signorini.interface.tilt import normals_between, turns
 
-FACING = -0.05  # cosine between outward normals: from here on two facets look at each other
 _EMPTY = 1e-12  # of the length of a facet: a shorter piece is none
 
 
@@ -63,41 +63,42 @@ def parameter(places: Array, at: Array) -> Array:
 
 def interpolate(points: Array, s: Array) -> Array:
     """Points (p, q, d) at coordinates s (p, q) of facets with nodes (p, 2 or 3, d)."""
-    shapes, _ = line_shapes(points.shape[1], s.ravel())
-    found: Array = np.einsum("pqa,pad->pqd", shapes.reshape(*s.shape, points.shape[1]), points)
+    found: Array = np.einsum("pqa,pad->pqd", line_shapes(points.shape[1], s)[0], points)
     return found
 
 
 def find_overlaps(
-    points: Array, nonmortar: FacetBlock, mortar: FacetBlock, search: float | None, where: Where, share: float = 0.5
+    nonmortar: Boundary, mortar: Boundary, *, share: float = 0.5, search: float | None = None, where: Where = ()
 ) -> Overlaps:
     """Pieces of facets that look at each other, along the normals between both sides where these are tilted.
 
     Parameters
     ----------
-    points : (n, 2) of all nodes
-    search : how far apart they can be, length; None: half the size of the smaller side
+    nonmortar, mortar : both sides
     share : of the nonmortar side in the stiffness of both, see :mod:`signorini.interface.tilt`
+    search : how far apart they can be, length; None: half the size of the smaller side
+    where : what errors call the contact
 
     Raises
     ------
     InputError
         If there are none: because the sides look the same way, or are too far apart.
     """
-    search = search_distance(points, nonmortar, mortar, search)
-    first, second = _near(points, nonmortar, mortar, search)
-    facing = np.sum(nonmortar.normals[first] * mortar.normals[second], axis=1) < FACING
-    found, distance = _pieces(points, nonmortar, mortar, first, second, nonmortar.normals)
-    there = _within(found, distance, search, nonmortar.lengths)
+    (own,), (other,) = nonmortar.blocks, mortar.blocks
+    search = search_distance(nonmortar, mortar, search)
+    first, second = _near(own, other, search)
+    facing = np.sum(own.normals[first] * other.normals[second], axis=1) < FACING
+    found, distance = _pieces(own, other, first, second, own.normals)
+    there = _within(found, distance, search, own.lengths)
     if not (there & facing).any():
-        raise _apart(points, nonmortar, mortar, first[there], search, where)
+        raise _apart(nonmortar, mortar, first[there], search, where)
     found, distance = _take(found, there & facing), distance[there & facing]
-    seen = _take(found, _nearest_layer(found, np.abs(distance), nonmortar.lengths))
+    seen = _take(found, _nearest_layer(found, np.abs(distance), own.lengths))
     outward = _between(nonmortar, mortar, seen, share)
-    found, distance = _pieces(points, nonmortar, mortar, first[facing], second[facing], outward)
-    there = _within(found, distance, search, nonmortar.lengths)
+    found, distance = _pieces(own, other, first[facing], second[facing], outward)
+    there = _within(found, distance, search, own.lengths)
     found, distance = _take(found, there), distance[there]
-    return _take(found, _nearest_layer(found, np.abs(distance), nonmortar.lengths))
+    return _take(found, _nearest_layer(found, np.abs(distance), own.lengths))
 
 
 def _within(found: Overlaps, distance: Array, search: float, lengths: Array) -> BoolArray:
@@ -105,40 +106,28 @@ def _within(found: Overlaps, distance: Array, search: float, lengths: Array) -> 
     return (found.high - found.low > _EMPTY * lengths[found.first]) & (np.abs(distance) <= search)
 
 
-def _between(nonmortar: FacetBlock, mortar: FacetBlock, seen: Overlaps, share: float) -> Array:
+def _between(nonmortar: Boundary, mortar: Boundary, seen: Overlaps, share: float) -> Array:
     """(m, 2) Outward normals along which the facets of the nonmortar side see what is opposite."""
-    own, other = (turns(side.normals, _at_nodes(side)) for side in (nonmortar, mortar))
+    own, other = (turns(side.blocks[0].normals, side.at_facets(side.blocks[0])) for side in (nonmortar, mortar))
+    normals, others = nonmortar.blocks[0].normals, mortar.blocks[0].normals
     np.maximum.at(own, seen.first, other[seen.second])
-    opposite = np.zeros_like(nonmortar.normals)
-    np.add.at(opposite, seen.first, (seen.high - seen.low)[:, None] * mortar.normals[seen.second])
-    return normals_between(nonmortar.normals, opposite, own, share)
+    opposite = np.zeros_like(normals)
+    np.add.at(opposite, seen.first, (seen.high - seen.low)[:, None] * others[seen.second])
+    return normals_between(normals, opposite, own, share)
 
 
-def _at_nodes(side: FacetBlock) -> Array:
-    """(m, k, 2) Mean normals of a side at the nodes of its facets."""
-    return side.nodal_normals[np.searchsorted(side.nodes, side.facets)]
-
-
-def search_distance(points: Array, nonmortar: FacetBlock, mortar: FacetBlock, search: float | None) -> float:
-    """How far apart facets can be and still be opposite each other: as given, or half the size of the smaller side."""
-    if search is not None:
-        return search
-    return min(0.5 * float(np.linalg.norm(np.ptp(points[side.nodes], axis=0))) for side in (nonmortar, mortar))
-
-
-def _near(points: Array, nonmortar: FacetBlock, mortar: FacetBlock, search: float) -> tuple[IntArray, IntArray]:
+def _near(nonmortar: FacetBlock, mortar: FacetBlock, search: float) -> tuple[IntArray, IntArray]:
     """Pairs of facets that may be opposite each other."""
-    ends = [points[side.facets[:, :2]] for side in (nonmortar, mortar)]
-    centres = [end.mean(axis=1) for end in ends]
+    centres = [side.points[:, :2].mean(axis=1) for side in (nonmortar, mortar)]
     radii = [side.lengths / 2.0 for side in (nonmortar, mortar)]
     return near(centres[0], centres[1], radii[0] + radii[1].max(), search)
 
 
 def _pieces(
-    points: Array, nonmortar: FacetBlock, mortar: FacetBlock, first: IntArray, second: IntArray, outward: Array
+    nonmortar: FacetBlock, mortar: FacetBlock, first: IntArray, second: IntArray, outward: Array
 ) -> tuple[Overlaps, Array]:
     """Pieces of all pairs, empty ones included, and the distances at their middles along normals (m, 2)."""
-    one, two, normal = points[nonmortar.facets[first]], points[mortar.facets[second]], outward[first]
+    one, two, normal = nonmortar.points[first], mortar.points[second], outward[first]
     along = np.column_stack([-normal[:, 1], normal[:, 0]])
     own, other = (np.einsum("pad,pd->pa", x - one[:, :1], along) for x in (one, two))
     low = np.maximum(0.0, other[:, :2].min(axis=1))
@@ -171,18 +160,15 @@ def _take(found: Overlaps, chosen: BoolArray) -> Overlaps:
     return Overlaps(**{key: getattr(found, key)[chosen] for key in Overlaps.__dataclass_fields__})
 
 
-def _apart(
-    points: Array, nonmortar: FacetBlock, mortar: FacetBlock, turned: IntArray, search: float, where: Where
-) -> InputError:
-    """Why no facets are opposite each other."""
+def _apart(nonmortar: Boundary, mortar: Boundary, turned: IntArray, search: float, where: Where) -> InputError:
+    """Why no facets are opposite each other; those of the nonmortar side that turn their back are named."""
     if len(turned):
-        node = nonmortar.facets[turned[0], 0]
-        at = ", ".join(f"{x:.6g}" for x in points[node])
+        at = ", ".join(f"{x:.6g}" for x in nonmortar.blocks[0].points[turned[0], 0])
         return InputError(
             f"the surfaces do not face each other at ({at}): both outward normals point the same way",
             where=where,
         )
-    distance, nearest = KDTree(points[mortar.nodes]).query(points[nonmortar.nodes])
+    distance, nearest = KDTree(mortar.points[mortar.nodes]).query(nonmortar.points[nonmortar.nodes])
     closest = int(np.argmin(distance))
     cosine = float(nonmortar.nodal_normals[closest] @ mortar.nodal_normals[nearest[closest]])
     found = (

@@ -16,16 +16,13 @@ from signorini.fem.facet_block import FacetBlock
 from signorini.fem.measure import contact_measure, facet_areas, nodal_areas, nodal_contact_areas
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
-from signorini.interface import spatial
 from signorini.interface.corners import corner_coupling
 from signorini.interface.coupling import Coupling, FacetGaps, geometric_gap, joined_gaps, picked, point_coupling
 from signorini.interface.frames import in_symmetry_planes, symmetric_partners
 from signorini.interface.gaps import initial_gaps, normal_gap, refuse_deep_overlap, resolved
 from signorini.interface.matching import facing_cells, match_nodes
 from signorini.interface.mortar import mortar_coupling
-from signorini.interface.overlap import find_overlaps
-from signorini.interface.segments import node_to_segment
-from signorini.interface.tilt import areas_between
+from signorini.interface.points import node_pairs, node_to_facet
 from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle, Plane
@@ -200,60 +197,44 @@ def _couple(
     space: Space, model: Model, side: Boundary, mortar: Boundary, contact: Contact, where: Where
 ) -> tuple[Coupling, str]:
     """The coupling of two meshed sides, and its name."""
-    if side.dimension == 3:
-        return _couple_in_space(space, side, mortar, contact, where, _share(model, side, mortar))
-    (own,), (other,) = side.blocks, mortar.blocks
-    return _couple_in_plane(space, model, own, other, contact, where)
-
-
-def _couple_in_plane(
-    space: Space, model: Model, side: FacetBlock, mortar: FacetBlock, contact: Contact, where: Where
-) -> tuple[Coupling, str]:
-    """The same for edges."""
-    points, count = space.mesh.points, len(space.mesh.points)
-    linear = not (side.quadratic or mortar.quadratic)
-    if contact.coupling == "nodes" or (contact.coupling == "auto" and linear):
-        partner, reason = match_nodes(points, side, mortar, space.mesh.labels)
-        if reason and contact.coupling == "nodes":
-            raise InputError(reason, where=where)
+    _refuse_no_area(space, side, mortar, where)
+    share = _share(model, side, mortar)
+    if contact.coupling == "nodes" or (contact.coupling == "auto" and not (side.quadratic or mortar.quadratic)):
+        faces = contact.coupling == "auto" and side.dimension == 3
+        partner, reason = match_nodes(side, mortar, space.mesh.labels, faces=faces)
         if not reason:
-            relative = sp.csr_array(picked(side.nodes, count) - picked(partner, count))
-            areas = -nodal_contact_areas(model, side, facing_cells(side, mortar))
-            opposite = mortar.nodal_normals[np.searchsorted(mortar.nodes, partner)]
-            areas = areas_between(areas, side.nodal_normals, opposite, _share(model, side, mortar))
-            return point_coupling(side.nodes, areas, relative), "nodes"
+            return node_pairs(side, mortar, partner, _nodal_areas(model, side, mortar)[1], share), "nodes"
+        if contact.coupling == "nodes":
+            raise InputError(reason, where=where)
     if contact.coupling == "node-to-segment":
-        areas = -nodal_contact_areas(model, side, facing_cells(side, mortar))
-        return node_to_segment(points, side, mortar, areas, contact.search, where), "node-to-segment"
-    overlaps = find_overlaps(points, side, mortar, contact.search, where, _share(model, side, mortar))
-    return mortar_coupling(points, side, mortar, overlaps, partial(contact_measure, model), where), "mortar"
+        nodes, areas = _nodal_areas(model, side, mortar)
+        return node_to_facet(side, mortar, nodes, areas, search=contact.search, where=where), "node-to-segment"
+    measure = partial(contact_measure, model)
+    return mortar_coupling(side, mortar, share=share, search=contact.search, measure=measure, where=where), "mortar"
 
 
-def _share(model: Model, *sides: Boundary | FacetBlock) -> float:
+def _nodal_areas(model: Model, side: Boundary, mortar: Boundary) -> tuple[IntArray, Array]:
+    """Nodes that can bear forces, all of edges and the corners of faces, and normals into the body times area there."""
+    if side.dimension == 2:
+        return side.nodes, -nodal_contact_areas(model, side, facing_cells(side, mortar))
+    nodes = side.corner_nodes
+    return nodes, -side.nodal_normal_areas[np.searchsorted(side.nodes, nodes)]
+
+
+def _share(model: Model, *sides: Boundary) -> float:
     """Of the first of two sides in the stiffness of both, 0 to 1: of the moduli of the cells there."""
     moduli = np.array([body.material.smallest_modulus for body in model.bodies])[model.body_of_cells()]
     first, second = (float(moduli[side.cells].mean()) for side in sides)
     return first / (first + second)
 
 
-def _couple_in_space(
-    space: Space, side: Boundary, mortar: Boundary, contact: Contact, where: Where, share: float
-) -> tuple[Coupling, str]:
-    """The same for faces."""
-    own, other = (_surface(space.mesh.points, one) for one in (side, mortar))
-    if contact.coupling == "nodes" or (contact.coupling == "auto" and not (side.quadratic or mortar.quadratic)):
-        coupling, reason = spatial.node_pairs(own, other, share=share, faces=contact.coupling == "auto")
-        if coupling is not None:
-            return coupling, "nodes"
-        if contact.coupling == "nodes":
-            raise InputError(reason, where=where)
-    if contact.coupling == "node-to-segment":
-        return spatial.node_to_face(own, other, search=contact.search, where=where), "node-to-segment"
-    return spatial.mortar_coupling(own, other, share=share, search=contact.search, where=where), "mortar"
-
-
-def _surface(points: Array, side: Boundary) -> spatial.Surface:
-    return spatial.make_surface(points, *(block.facets for block in side.blocks))
+def _refuse_no_area(space: Space, side: Boundary, mortar: Boundary, where: Where) -> None:
+    """A face of a collapsed cell may have no area: it has no normal either."""
+    for block in (*side.blocks, *mortar.blocks):
+        flat = np.flatnonzero(np.linalg.norm(block.outward.sum(axis=1), axis=1) <= 0.0)
+        if len(flat):
+            numbers = space.mesh.labels[block.facets[flat[0]]].tolist()
+            raise InputError(f"has a face without area, with nodes {numbers}", where=where)
 
 
 def _refuse_no_normal(space: Space, coupling: Coupling, where: Where) -> None:

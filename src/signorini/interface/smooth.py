@@ -22,7 +22,7 @@ import scipy.sparse as sp
 from numba import njit
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.fem.facet_block import outward_normals
+from signorini.fem.facet_block import FacetBlock, outward_normals
 from signorini.fem.facets import facet_nodes, facet_shapes
 
 _CORNER = 2.0 * np.sin(np.radians(35.0) / 2)  # between normals of neighbours: from here on they meet in a corner
@@ -34,21 +34,6 @@ _KNOWN = 1e-6  # of the largest entry: a curvature that the nodes say less about
 _ROUNDS = 8  # of correcting for z^2 and for the limit above: each gains a digit and more
 _SIDE = 0.5  # least 1 - 2 k b: beyond it a surface has turned too far from its facet to be one over it
 _MANY = 10_000  # facets at once: 30 nodes each take 100 MB
-
-
-class Facets(NamedTuple):
-    """Facets of one kind.
-
-    Attributes
-    ----------
-    nodes : (m, k), corners first
-    points : (m, k, d) their places
-    corners : 2 of an edge, 3 or 4 of a face
-    """
-
-    nodes: IntArray
-    points: Array
-    corners: int
 
 
 class Smooth(NamedTuple):
@@ -171,15 +156,16 @@ def bows(one: Smooth, two: Smooth, i: IntArray, j: IntArray, nodes: Array, point
     return result
 
 
-def smooth_surfaces(kinds: Sequence[Facets]) -> tuple[Smooth, ...]:
+def smooth_surfaces(kinds: Sequence[FacetBlock]) -> tuple[Smooth, ...]:
     """What facets of all kinds of one side stand for.
 
     Examples
     --------
+    >>> from signorini.fem.boundary import Boundary
     >>> angle = np.linspace(0.0, 1.0, 4)
     >>> points = 2.0 * np.stack([np.sin(angle), np.cos(angle)], axis=1)[::-1]
     >>> nodes = np.array([[0, 1], [1, 2], [2, 3]])
-    >>> (circle,) = smooth_surfaces([Facets(nodes, points[nodes], 2)])
+    >>> (circle,) = smooth_surfaces(Boundary.of(points, nodes).blocks)
     >>> middle = points[nodes].mean(axis=1)[:, None]
     >>> up = rises(circle, np.arange(3), middle, np.full((3, 1, 2), 0.5), circle.normal)
     >>> np.linalg.norm(middle[:, 0] + up * circle.normal, axis=1).round(9).tolist()
@@ -201,7 +187,7 @@ def smooth_surfaces(kinds: Sequence[Facets]) -> tuple[Smooth, ...]:
     smooth = _smooth_already(kinds, bend, one, two) & bent
     result, start, none = [], 0, np.zeros((0, 0))
     for kind in kinds:
-        own = slice(start, start + len(kind.nodes))
+        own = slice(start, start + len(kind.facets))
         # length of the gradient of the module's formula over the origin
         size = np.sqrt(1.0 - 2.0 * arch[own] * level[own] + np.sum(slope[own] ** 2, axis=1))[:, None, None]
         itself = np.where(smooth[own], 0.0, 1.0)
@@ -220,11 +206,11 @@ def smooth_surfaces(kinds: Sequence[Facets]) -> tuple[Smooth, ...]:
         )
         nodal, lean = _at_nodes(kind, surface)
         result.append(surface._replace(nodal=nodal, lean=lean))
-        start += len(kind.nodes)
+        start += len(kind.facets)
     return tuple(result)
 
 
-def _smooth_already(kinds: Sequence[Facets], bend: Array, one: IntArray, two: IntArray) -> BoolArray:
+def _smooth_already(kinds: Sequence[FacetBlock], bend: Array, one: IntArray, two: IntArray) -> BoolArray:
     """Facets that meet their neighbours nearly without a kink, (m,): they stand for themselves, as parabolas may.
 
     Parabolas of a circle meet at an angle of a twelfth of the cubed angle that each turns by.
@@ -232,8 +218,8 @@ def _smooth_already(kinds: Sequence[Facets], bend: Array, one: IntArray, two: In
     facet, node = _incidence(kinds)
     normals, turn, start = [], [], 0
     for kind in kinds:
-        d, k = kind.points.shape[2], kind.nodes.shape[1]
-        own = outward_normals(kind.points, facet_shapes(d, k, facet_nodes(d, k)[: kind.corners])[1])
+        d, k = kind.dimension, kind.count
+        own = outward_normals(kind.points, facet_shapes(k, facet_nodes(d, k)[: kind.corners])[1])
         size = np.linalg.norm(own, axis=2, keepdims=True)
         normals.append((own / np.where(size > 0.0, size, 1.0)).reshape(-1, d))
         ends = kind.points[:, _edges(kind)]
@@ -251,7 +237,7 @@ def _smooth_already(kinds: Sequence[Facets], bend: Array, one: IntArray, two: In
     return np.asarray(kink < _KINK * np.concatenate(turn) ** 3 / 12.0, dtype=np.bool_)
 
 
-def _flat(kind: Facets) -> Smooth:
+def _flat(kind: FacetBlock) -> Smooth:
     """Facets that stand for themselves."""
     m, k, d = kind.points.shape
     none, vector, tensor, nodal = np.zeros(m), np.zeros((m, d)), np.zeros((m, d, d)), np.zeros((m, k))
@@ -261,7 +247,7 @@ def _flat(kind: Facets) -> Smooth:
     )
 
 
-def _normals(kind: Facets) -> Array:
+def _normals(kind: FacetBlock) -> Array:
     """Outward unit normals of the corners of facets, (m, d)."""
     x = kind.points[:, : kind.corners]
     if x.shape[2] == 2:
@@ -272,7 +258,7 @@ def _normals(kind: Facets) -> Array:
     return np.asarray(normal / np.linalg.norm(normal, axis=1, keepdims=True))
 
 
-def _edges(kind: Facets) -> IntArray:
+def _edges(kind: FacetBlock) -> IntArray:
     """First and second end of every edge of a facet, (e, 2) places among its nodes."""
     if kind.points.shape[2] == 2:
         return np.array([[0, 1]])
@@ -280,11 +266,11 @@ def _edges(kind: Facets) -> IntArray:
     return np.stack([first, np.roll(first, -1)], axis=1)
 
 
-def _bent(kind: Facets) -> BoolArray:
+def _bent(kind: FacetBlock) -> BoolArray:
     """Which edges of quadratic facets have their middle node beside the straight line, (m, e)."""
     ends = kind.points[:, _edges(kind)]
     count = ends.shape[1]
-    if kind.nodes.shape[1] == kind.corners:
+    if kind.facets.shape[1] == kind.corners:
         return np.zeros((len(ends), count), np.bool_)
     along = ends[:, :, 1] - ends[:, :, 0]
     off = kind.points[:, kind.corners : kind.corners + count] - ends[:, :, 0]
@@ -297,7 +283,7 @@ def _apart(normals: Array, one: IntArray, two: IntArray) -> Array:
     return np.asarray(np.linalg.norm(normals[one] - normals[two], axis=1))
 
 
-def _neighbours(kinds: Sequence[Facets], normals: Array, bent: BoolArray) -> tuple[IntArray, IntArray]:
+def _neighbours(kinds: Sequence[FacetBlock], normals: Array, bent: BoolArray) -> tuple[IntArray, IntArray]:
     """Facets and those that share a corner and go on smoothly there, themselves too; none that go on into a plane."""
     facet, node = _incidence(kinds)
     entry, other = _sharing(node)
@@ -320,19 +306,19 @@ def _neighbours(kinds: Sequence[Facets], normals: Array, bent: BoolArray) -> tup
     return one[kept], two[kept]
 
 
-def _incidence(kinds: Sequence[Facets]) -> tuple[IntArray, IntArray]:
+def _incidence(kinds: Sequence[FacetBlock]) -> tuple[IntArray, IntArray]:
     """Every corner of every facet: number of the facet, and node."""
     facet, node, start = [], [], 0
     for kind in kinds:
-        facet.append(np.repeat(start + np.arange(len(kind.nodes)), kind.corners))
-        node.append(kind.nodes[:, : kind.corners].ravel())
-        start += len(kind.nodes)
+        facet.append(np.repeat(start + np.arange(len(kind.facets)), kind.corners))
+        node.append(kind.corner_nodes.ravel())
+        start += len(kind.facets)
     return np.concatenate(facet), np.concatenate(node)
 
 
-def _quadrilaterals(kinds: Sequence[Facets]) -> Array:
+def _quadrilaterals(kinds: Sequence[FacetBlock]) -> Array:
     """Of every corner of every facet what it counts: a triangle half a quadrilateral."""
-    counts = [np.full(kind.nodes[:, : kind.corners].size, 0.5 if kind.corners == 3 else 1.0) for kind in kinds]
+    counts = [np.full(kind.corner_nodes.size, 0.5 if kind.corners == 3 else 1.0) for kind in kinds]
     return np.concatenate(counts)
 
 
@@ -345,34 +331,34 @@ def _sharing(node: IntArray) -> tuple[IntArray, IntArray]:
     return np.repeat(order, each), order[np.repeat(np.repeat(start, count), each) + within]
 
 
-def _rim(kinds: Sequence[Facets], size: int) -> BoolArray:
+def _rim(kinds: Sequence[FacetBlock], size: int) -> BoolArray:
     """Nodes at the end of the side, (size,)."""
     rim = np.zeros(size, np.bool_)
     if kinds[0].points.shape[2] == 2:
         rim[np.bincount(_incidence(kinds)[1], minlength=size) == 1] = True
         return rim
-    edges = np.sort(np.concatenate([kind.nodes[:, _edges(kind)].reshape(-1, 2) for kind in kinds]), axis=1)
+    edges = np.sort(np.concatenate([kind.facets[:, _edges(kind)].reshape(-1, 2) for kind in kinds]), axis=1)
     once, times = np.unique(edges, axis=0, return_counts=True)
     rim[once[times == 1]] = True
     return rim
 
 
-def _all_points(kinds: Sequence[Facets]) -> Array:
-    points = np.zeros((max(int(kind.nodes.max()) for kind in kinds) + 1, kinds[0].points.shape[2]))
+def _all_points(kinds: Sequence[FacetBlock]) -> Array:
+    points = np.zeros((max(int(kind.facets.max()) for kind in kinds) + 1, kinds[0].points.shape[2]))
     for kind in kinds:
-        points[kind.nodes] = kind.points
+        points[kind.facets] = kind.points
     return points
 
 
-def _stencil(kinds: Sequence[Facets], one: IntArray, two: IntArray, size: int) -> sp.csr_array:
+def _stencil(kinds: Sequence[FacetBlock], one: IntArray, two: IntArray, size: int) -> sp.csr_array:
     """(m, size) The nodes that say how a facet's surface bends: corners, and middles of edges that bend."""
     facet, node = _incidence(kinds)
     rows, columns, start = [facet], [node], 0
     for kind in kinds:
         i, edge = np.nonzero(_bent(kind))
         rows.append(start + i)
-        columns.append(kind.nodes[i, kind.corners + edge])
-        start += len(kind.nodes)
+        columns.append(kind.facets[i, kind.corners + edge])
+        start += len(kind.facets)
     count = start
     i, j = np.concatenate(rows), np.concatenate(columns)
     lie = sp.csr_array((np.ones(len(i)), (i, j)), shape=(count, size))
@@ -418,7 +404,7 @@ def _axes(normal: Array) -> Array:
     return np.stack([first, np.cross(normal, first)], axis=1)
 
 
-def _at_nodes(kind: Facets, surface: Smooth) -> tuple[Array, Array]:
+def _at_nodes(kind: FacetBlock, surface: Smooth) -> tuple[Array, Array]:
     """``nodal`` and ``lean``; over middle nodes of facets without a bent edge means of those at the corners."""
     m, k, d = kind.points.shape
     each = np.repeat(np.arange(m), k)

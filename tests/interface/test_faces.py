@@ -5,9 +5,10 @@ import numpy as np
 import pytest
 
 from signorini.errors import InputError
-from signorini.interface.spatial.faces import CORNERS, node_places, pieces, shapes_at, slopes_at
-from signorini.interface.spatial.frames import frames
-from signorini.interface.spatial.surface import make_surface
+from signorini.fem.boundary import Boundary
+from signorini.fem.facets import facet_nodes, facet_pieces, facet_shapes
+from signorini.interface.frames import frames
+from signorini.meshing.faces import CORNERS
 from tests.helpers.face_samples import grid, rotation, turned
 
 KINDS = tuple(CORNERS)
@@ -15,26 +16,26 @@ KINDS = tuple(CORNERS)
 
 @pytest.mark.parametrize("count", KINDS)
 def test_shape_functions_interpolate_their_polynomials(count):
-    np.testing.assert_allclose(shapes_at(count, node_places(count)), np.eye(count), atol=1e-15)
+    np.testing.assert_allclose(facet_shapes(count, facet_nodes(3, count))[0], np.eye(count), atol=1e-15)
     x = np.random.default_rng(count).uniform(-0.2, 0.8, (20, 2))
     degree = {3: 1, 4: 1, 6: 2, 8: 2, 9: 2}[count]
     for i in range(degree + 1):
         for j in range(degree + 1 - i):
-            f = node_places(count)[:, 0] ** i * node_places(count)[:, 1] ** j
-            np.testing.assert_allclose(shapes_at(count, x) @ f, x[:, 0] ** i * x[:, 1] ** j, atol=1e-14)
+            f = facet_nodes(3, count)[:, 0] ** i * facet_nodes(3, count)[:, 1] ** j
+            np.testing.assert_allclose(facet_shapes(count, x)[0] @ f, x[:, 0] ** i * x[:, 1] ** j, atol=1e-14)
 
 
 @pytest.mark.parametrize("count", KINDS)
 def test_slopes_are_derivatives(count):
     x, h = np.random.default_rng(count).uniform(-0.2, 0.8, (5, 2)), 1e-6
     for e, step in enumerate(h * np.eye(2)):
-        difference = (shapes_at(count, x + step) - shapes_at(count, x - step)) / (2 * h)
-        np.testing.assert_allclose(slopes_at(count, x)[:, e], difference, atol=1e-8)
+        difference = (facet_shapes(count, x + step)[0] - facet_shapes(count, x - step)[0]) / (2 * h)
+        np.testing.assert_allclose(facet_shapes(count, x)[1][..., e], difference, atol=1e-8)
 
 
 @pytest.mark.parametrize("count", KINDS)
 def test_pieces_tile_the_reference_face(count):
-    corners = pieces(count)
+    corners = facet_pieces(count)
     a, b = corners[:, 2] - corners[:, 0], corners[:, -1] - corners[:, 1]
     areas = 0.5 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
     assert (areas > 0).all()
@@ -45,7 +46,7 @@ def test_pieces_tile_the_reference_face(count):
 def test_normals_and_areas_of_a_turned_rectangle(count):
     flat, faces = grid([0, 0.5, 2], [0, 0.3, 1], count, 0.5)
     Q = rotation(count)
-    side = make_surface(np.column_stack([flat, np.zeros(len(flat))]) @ Q.T, turned(faces))
+    side = Boundary.of(np.column_stack([flat, np.zeros(len(flat))]) @ Q.T, turned(faces))
     np.testing.assert_allclose(side.nodal_normals, np.tile(-Q[:, 2], (len(side.nodes), 1)), atol=1e-14)
     np.testing.assert_allclose(side.nodal_areas.sum(), 2.0)
 
@@ -54,7 +55,7 @@ def test_normals_and_areas_of_a_turned_rectangle(count):
 def test_normals_of_a_curved_quadratic_face_are_those_of_its_surface(count):
     flat, faces = grid(np.linspace(-1, 1, 5), np.linspace(-1, 1, 5), count)
     x, y = flat.T
-    side = make_surface(np.column_stack([flat, x**2 + 0.5 * x * y - 0.3 * y**2]), faces)
+    side = Boundary.of(np.column_stack([flat, x**2 + 0.5 * x * y - 0.3 * y**2]), faces)
     exact = np.column_stack([-2 * x - 0.5 * y, -0.5 * x + 0.6 * y, np.ones(len(x))])
     exact /= np.linalg.norm(exact, axis=1, keepdims=True)
     np.testing.assert_allclose(side.nodal_normals, exact, atol=1e-13)
@@ -70,23 +71,11 @@ def test_frames_are_right_handed_and_follow_an_axis():
         frames(normals, axis=(0, 0, 0))
 
 
-def test_bad_faces_are_named():
-    points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [2, 0, 0]]
-    with pytest.raises(InputError, match=r"faces\[0\]: has a face without area, with nodes \[1, 2, 4\]"):
-        make_surface(points, [[0, 1, 3]])
-    with pytest.raises(InputError, match=r"faces\[0\]: names node 7 of 4"):
-        make_surface(points, [[0, 1, 7]])
-    with pytest.raises(InputError, match="c = 3, 4, 6, 8 or 9"):
-        make_surface(points, [[0, 1]])
-    with pytest.raises(InputError, match="expected at least one face"):
-        make_surface(points)
-
-
 def test_normals_weigh_faces_by_their_areas():
     """A roof of a square and a triangle of one area looks up at its ridge, an arch of both kinds outward."""
     s = 2**-0.5
     points = np.array([[0, 0, 0], [0, 1, 0], [-s, 1, -s], [-s, 0, -s], [2 * s, 0.5, -2 * s]])
-    side = make_surface(points, [[0, 1, 2, 3]], [[1, 0, 4]])
+    side = Boundary.of(points, [[0, 1, 2, 3]], [[1, 0, 4]])
     np.testing.assert_allclose(side.nodal_normals[:2], [[0, 0, 1]] * 2, atol=1e-15)
 
     angle = np.radians(np.arange(0, 100, 10.0))
@@ -94,7 +83,7 @@ def test_normals_weigh_faces_by_their_areas():
     i = np.arange(9)
     squares = np.column_stack([i, i + 1, i + 11, i + 10])
     halves = np.concatenate([squares[::2][:, [0, 1, 2]], squares[::2][:, [0, 2, 3]]])
-    side = make_surface(points, squares[1::2], halves)
+    side = Boundary.of(points, squares[1::2], halves)
     meet = [2, 4, 6, 8]  # both halves of one square and another whole one
     radial = side.points[meet] * [1, 0, 1]
     np.testing.assert_allclose(side.nodal_normals[meet], radial, atol=1e-12)

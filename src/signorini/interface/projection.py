@@ -7,7 +7,7 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import Array, IntArray
-from signorini.interface.spatial.faces import shapes, slopes
+from signorini.fem.facets import shapes, slopes
 
 _STEPS = 20
 _STILL = 1e-10  # of a reference face: the step after that is rounding

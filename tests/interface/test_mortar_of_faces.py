@@ -9,13 +9,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from signorini.errors import InputError
+from signorini.fem.boundary import Boundary
+from signorini.fem.facet_block import outward_normals
+from signorini.fem.facets import facet_shapes, gauss_rule
 from signorini.interface.coupling import geometric_gap
+from signorini.interface.facing import near_pairs
 from signorini.interface.gaps import resolved
-from signorini.interface.spatial.faces import shapes_at
-from signorini.interface.spatial.facing import near_pairs
-from signorini.interface.spatial.mortar import mortar_coupling
-from signorini.interface.spatial.node_to_face import node_pairs, node_to_face
-from signorini.interface.spatial.surface import make_surface, reference_rule
+from signorini.interface.matching import match_nodes
+from signorini.interface.mortar import mortar_coupling
+from signorini.interface.points import node_pairs, node_to_facet
 from tests.helpers.face_samples import grid, rotation, turned, two_sides
 
 KINDS = (3, 4, 6, 8, 9)
@@ -35,13 +37,21 @@ def passed(coupling):
     return coupling.area @ coupling.relative
 
 
+def on_facets(side, other, **given):
+    """Corners of a side on the faces opposite."""
+    nodes = side.corner_nodes
+    areas = -side.nodal_normal_areas[np.searchsorted(side.nodes, nodes)]
+    return node_to_facet(side, other, nodes, areas, **given)
+
+
 def nodal_integrals(side):
     """``int N`` of every shape function of a side, (n,)."""
     total = np.zeros(len(side.points))
     for block in side.blocks:
-        places, weights = reference_rule(block.corners.shape[1], 6)
-        size = np.linalg.norm(block.outward(places), axis=2) * weights
-        np.add.at(total, block.faces, size @ shapes_at(block.nodes_a_face, places))
+        places, weights = gauss_rule(block.corners, 6)
+        shapes, slopes = facet_shapes(block.count, places)
+        size = np.linalg.norm(outward_normals(block.points, slopes), axis=2) * weights
+        np.add.at(total, block.facets, size @ shapes)
     return total
 
 
@@ -54,9 +64,10 @@ def nodal_pushes(side):
     """``- int N n`` of every shape function of a side, n outward, (n, 3)."""
     total = np.zeros((len(side.points), 3))
     for block in side.blocks:
-        places, weights = reference_rule(block.corners.shape[1], 6)
-        shapes = shapes_at(block.nodes_a_face, places)
-        np.add.at(total, block.faces, -np.einsum("mqd,q,qa->mad", block.outward(places), weights, shapes))
+        places, weights = gauss_rule(block.corners, 6)
+        shapes, slopes = facet_shapes(block.count, places)
+        outward = outward_normals(block.points, slopes)
+        np.add.at(total, block.facets, -np.einsum("mqd,q,qa->mad", outward, weights, shapes))
     return total
 
 
@@ -71,7 +82,7 @@ def test_covered_sides_reproduce_linear_fields_and_integrals(kinds, x, jiggle, s
     upper, lower = grid(x[0], x[1], kinds[0], jiggle, seed), grid(x[2], x[3], kinds[1], jiggle, seed + 1)
     points, side, other = two_sides(upper, lower, turn=rotation(seed))
     coupling = mortar_coupling(side, other)
-    np.testing.assert_array_equal(coupling.nodes, side.corners)
+    np.testing.assert_array_equal(coupling.nodes, side.corner_nodes)
     assert (coupling.area > 0).all()
     full = side.nodal_areas[np.searchsorted(side.nodes, coupling.nodes)]
     np.testing.assert_allclose(coupling.relative @ fields(points), 0.0, atol=1e-12)
@@ -96,10 +107,10 @@ def test_a_side_of_triangles_and_quadrilaterals_is_one_side():
     below, lower = grid(np.linspace(0, 1, 4), [0, 0.35, 1], 3, 0.4)
     points = np.zeros((len(flat) + len(below), 3))
     points[:, :2] = np.concatenate([flat, below])
-    upper = make_surface(points, *(turned(faces) for faces in mixed))
+    upper = Boundary.of(points, *(turned(faces) for faces in mixed))
     for one, two in (
-        (upper, make_surface(points, lower + len(flat))),
-        (make_surface(points, turned(lower + len(flat))), make_surface(points, *mixed)),
+        (upper, Boundary.of(points, lower + len(flat))),
+        (Boundary.of(points, turned(lower + len(flat))), Boundary.of(points, *mixed)),
     ):
         coupling = mortar_coupling(one, two)
         np.testing.assert_allclose(coupling.relative @ fields(points), 0.0, atol=1e-13)
@@ -126,7 +137,7 @@ def test_turning_and_shifting_space_changes_no_weight():
     before = mortar_coupling(side, other)
     moved = points @ rotation(7).T + [5.0, -3.0, 2.0]
     after = mortar_coupling(
-        make_surface(moved, *(b.faces for b in side.blocks)), make_surface(moved, *(b.faces for b in other.blocks))
+        Boundary.of(moved, *(b.facets for b in side.blocks)), Boundary.of(moved, *(b.facets for b in other.blocks))
     )
     np.testing.assert_allclose(after.relative.toarray(), before.relative.toarray(), atol=1e-12)
     np.testing.assert_allclose(after.area, before.area, rtol=1e-13)
@@ -137,7 +148,7 @@ def test_uniform_pressure_presses_curved_faces_where_they_are():
     below, lower = grid(np.linspace(-1, 1, 7), np.linspace(-1, 1, 7), 9)
     xy = np.concatenate([flat, below])
     points = np.column_stack([xy, 0.2 * (xy**2).sum(axis=1)])
-    side, other = make_surface(points, turned(faces)), make_surface(points, lower + len(flat))
+    side, other = Boundary.of(points, turned(faces)), Boundary.of(points, lower + len(flat))
     coupling = mortar_coupling(side, other)
     # rim faces overhang by what chords cut off; inside only the quadrature of rational functions is left
     inner = side.nodes[(np.abs(points[side.nodes, :2]) < 0.6).all(axis=1)]
@@ -151,7 +162,7 @@ def on_a_surface(height, upper, lower):
     """Both sides lifted onto z = height(x, y)."""
     points, side, other = two_sides(upper, lower)
     points[:, 2] = height(points[:, 0], points[:, 1])
-    return tuple(make_surface(points, *(block.faces for block in part.blocks)) for part in (side, other))
+    return tuple(Boundary.of(points, *(block.facets for block in part.blocks)) for part in (side, other))
 
 
 def gaps(side, coupling):
@@ -204,7 +215,7 @@ def test_a_ball_in_a_socket_has_its_clearance(kinds, clearance):
     below = np.column_stack([points[:, :2], np.full(len(points), -2.6)])
     radius = np.where(np.isin(np.arange(len(points)), side.nodes), 3.0, 3.0 + clearance)
     points = below / np.linalg.norm(below, axis=1, keepdims=True) * radius[:, None]
-    side, other = (make_surface(points, *(block.faces for block in part.blocks)) for part in (side, other))
+    side, other = (Boundary.of(points, *(block.facets for block in part.blocks)) for part in (side, other))
     faces, gap = gaps(side, mortar_coupling(side, other))
     assert np.abs(faces - clearance).max() > 3e-4
     np.testing.assert_allclose(gap, clearance, rtol=0.01)
@@ -224,10 +235,24 @@ def test_a_curved_side_on_a_flat_one_keeps_its_gaps():
     upper, lower = grid(np.linspace(-1, 1, 9), np.linspace(-1, 1, 9), 4), grid([-1, 0, 1], [-1, 0, 1], 4)
     points, side, other = two_sides(upper, lower)
     points[: len(upper[0]), 2] = 1e-4 * (points[: len(upper[0]), :2] ** 2).sum(axis=1)
-    side, other = (make_surface(points, *(block.faces for block in part.blocks)) for part in (side, other))
+    side, other = (Boundary.of(points, *(block.facets for block in part.blocks)) for part in (side, other))
     coupling = mortar_coupling(side, other)
     faces, gap = gaps(side, coupling)
     np.testing.assert_allclose(gap, faces, atol=1e-6)
+
+
+@pytest.mark.parametrize("bulge", np.linspace(0.15, 0.45, 13))
+def test_it_does_not_matter_which_corner_of_a_face_is_the_first(bulge):
+    """Where sides are tilted normals lie between both: how much a curved side turns has nothing to do with numbers."""
+    upper, lower = grid(np.linspace(-1, 1, 5), np.linspace(-1, 1, 5), 6), grid([-1, 0, 1], [-1, 0, 1], 4)
+    points, side, other = two_sides(upper, lower)
+    points[: len(upper[0]), 2] = bulge * (upper[0] ** 2).sum(axis=1)
+    (block,), (below,) = side.blocks, other.blocks
+    one, two = (
+        mortar_coupling(Boundary.of(points, block.facets[:, order]), Boundary.of(points, below.facets))
+        for order in (np.arange(6), [1, 2, 0, 4, 5, 3])
+    )
+    np.testing.assert_allclose(two.normal_areas, one.normal_areas, atol=1e-12)
 
 
 def test_of_faces_behind_each_other_only_the_nearest_are_opposite():
@@ -235,7 +260,7 @@ def test_of_faces_behind_each_other_only_the_nearest_are_opposite():
     n = len(flat)
     layers = [np.column_stack([flat, np.full(n, z)]) for z in (0.0, -0.1, -0.2)]
     points = np.concatenate(layers)
-    coupling = mortar_coupling(make_surface(points, turned(faces)), make_surface(points, faces + n, faces + 2 * n))
+    coupling = mortar_coupling(Boundary.of(points, turned(faces)), Boundary.of(points, faces + n, faces + 2 * n))
     np.testing.assert_allclose(coupling.area.sum(), 1.0)
     np.testing.assert_allclose((coupling.relative @ points)[:, 2], 0.1)
 
@@ -243,9 +268,9 @@ def test_of_faces_behind_each_other_only_the_nearest_are_opposite():
 def test_faces_that_look_the_same_way_or_are_too_far_apart_are_refused():
     flat, faces = grid([0, 1], [0, 1], 4)
     points = np.concatenate([np.column_stack([flat, np.full(4, z)]) for z in (0.0, 0.5)])
-    up, down = make_surface(points, faces), make_surface(points, turned(faces) + 4)
+    up, down = Boundary.of(points, faces), Boundary.of(points, turned(faces) + 4)
     with pytest.raises(InputError, match="no face of the nonmortar side has one of the mortar side opposite"):
-        mortar_coupling(up, make_surface(points, faces + 4), where=("contact", 0))
+        mortar_coupling(up, Boundary.of(points, faces + 4), where=("contact", 0))
     with pytest.raises(InputError, match=r"within 0\.1 along its normal"):
         mortar_coupling(up, down, search=0.1)
     assert len(mortar_coupling(up, down, search=0.6).nodes) == 4
@@ -258,7 +283,7 @@ def test_the_number_of_pairs_tested_grows_like_that_of_the_faces():
             grid(np.linspace(0, 1, n + 1), np.linspace(0, 1, n + 1), 4, 0.5),
             grid(np.linspace(0, 1, 3 * n // 2 + 1), np.linspace(0, 1, 3 * n // 2 + 1), 4, 0.5),
         )
-        corners = [part.blocks[0].plane_pieces[:, 0] for part in (side, other)]
+        corners = [part.blocks[0].plane_pieces for part in (side, other)]
         per_face.append(len(near_pairs(*corners, search=0.5)[0]) / n**2)
     assert max(per_face) < 16
     assert per_face[2] < 1.1 * per_face[1]
@@ -268,8 +293,8 @@ def test_the_number_of_pairs_tested_grows_like_that_of_the_faces():
 def test_nodes_on_faces_reproduce_linear_fields_but_not_pressure(kinds):
     upper, lower = grid([0, 0.4, 1], [0, 0.7, 1], kinds[0], 0.6), grid([0, 0.3, 1], [0, 0.2, 1], kinds[1], 0.6)
     points, side, other = two_sides(upper, lower, turn=rotation(2))
-    coupling = node_to_face(side, other)
-    np.testing.assert_array_equal(coupling.nodes, side.corners)
+    coupling = on_facets(side, other)
+    np.testing.assert_array_equal(coupling.nodes, side.corner_nodes)
     np.testing.assert_allclose(coupling.relative @ fields(points), 0.0, atol=1e-12)
     assert np.abs(passed(coupling)[other.nodes] + nodal_integrals(other)[other.nodes]).max() > 1e-3
 
@@ -279,10 +304,10 @@ def test_a_node_meets_a_curved_face_where_its_normal_does():
     points = np.concatenate(
         [[[0.3, 0.2, 1.0], [0.4, 0.2, 1.0], [0.3, 0.4, 1.0]], np.column_stack([below, 0.25 * (below**2).sum(axis=1)])]
     )
-    coupling = node_to_face(make_surface(points, [[0, 2, 1]]), make_surface(points, lower + 3), search=2.0)
+    coupling = on_facets(Boundary.of(points, [[0, 2, 1]]), Boundary.of(points, lower + 3), search=2.0)
     np.testing.assert_allclose((coupling.relative @ points)[0], [0, 0, 1 - 0.25 * 0.13], atol=1e-14)
     with pytest.raises(InputError, match="no node of the nonmortar side meets"):
-        node_to_face(make_surface(points, [[0, 1, 2]]), make_surface(points, lower + 3))
+        on_facets(Boundary.of(points, [[0, 1, 2]]), Boundary.of(points, lower + 3))
 
 
 @pytest.mark.parametrize("kind", [3, 4])
@@ -291,8 +316,9 @@ def test_matching_sides_pair_their_nodes(kind):
     order = np.random.default_rng(0).permutation(len(upper[0]))
     lower = upper[0][order], np.argsort(order)[upper[1]]
     points, side, other = two_sides(upper, lower, gap=0.05, turn=rotation(1))
-    coupling, reason = node_pairs(side, other)
+    partner, reason = match_nodes(side, other, np.arange(len(points)))
     assert not reason
+    coupling = node_pairs(side, other, partner, -side.nodal_normal_areas)
     np.testing.assert_allclose(
         coupling.relative @ points, np.tile(0.05 * rotation(1)[:, 2], (len(side.nodes), 1)), atol=1e-15
     )
@@ -302,12 +328,14 @@ def test_matching_sides_pair_their_nodes(kind):
 
 
 def test_sides_that_do_not_match_say_so():
-    _, side, other = two_sides(grid([0, 0.4, 1], [0, 1], 4), grid([0, 0.6, 1], [0, 1], 4))
-    assert "has no partner across the gap" in node_pairs(side, other)[1]
-    _, side, other = two_sides(grid([0, 1], [0, 1], 4), grid([0, 0.6, 1], [0, 1], 4))
-    assert "4 nodes and the mortar side 6" in node_pairs(side, other)[1]
-    _, side, other = two_sides(grid([0, 1], [0, 1], 8), grid([0, 1], [0, 1], 8))
-    assert node_pairs(side, other)[0] is None
+    for upper, lower, reason in (
+        (grid([0, 0.4, 1], [0, 1], 4), grid([0, 0.6, 1], [0, 1], 4), "has no partner across the gap"),
+        (grid([0, 1], [0, 1], 4), grid([0, 0.6, 1], [0, 1], 4), "4 nodes and the mortar side 6"),
+        (grid([0, 1], [0, 1], 8), grid([0, 1], [0, 1], 8), "quadratic faces have no pairs"),
+        (grid([0, 1], [0, 1], 3), grid([0, 1], [0, 1], 4), "not faces opposite faces"),
+    ):
+        points, side, other = two_sides(upper, lower)
+        assert reason in match_nodes(side, other, np.arange(len(points)), faces=True)[1]
 
 
 @pytest.mark.parametrize("kinds", [(6, 6), (8, 4), (9, 3), (6, 9)])
@@ -320,7 +348,7 @@ def test_a_fillet_beside_a_flat_feigns_no_overlap(kinds):
         )
         points = points.copy()
         points[side.nodes, 2] += rise(points[side.nodes, 0])
-        surfaces = [make_surface(points, *(block.faces for block in part.blocks)) for part in (side, other)]
+        surfaces = [Boundary.of(points, *(block.facets for block in part.blocks)) for part in (side, other)]
         coupling = mortar_coupling(*surfaces)
         mean = np.einsum("ki,ki->k", coupling.relative @ points, coupling.normals)
         return points[coupling.nodes, 0], mean, resolved(mean, coupling, np.ones(len(mean))), coupling.facets

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Common part of two plane pieces of faces, and integrals over it; compiled.
+"""Common part of two plane pieces of faces; compiled.
 
 Both pieces are projected along the normal that they see each other along: that of the nonmortar piece, or one between
-both. They are convex polygons there and are clipped (Sutherland, Hodgman 1974); the common polygon is cut into
-triangles from its centroid. Where faces are curved, a line along that normal tells which of their points are opposite.
+both. They are convex polygons there and are clipped (Sutherland, Hodgman 1974).
 """
 
 from __future__ import annotations
@@ -14,33 +13,14 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from signorini.arrays import Array, BoolArray, IntArray
-from signorini.interface.smooth import Smooth
-from signorini.interface.spatial.faces import shapes, slopes
-from signorini.interface.spatial.projection import land
+from signorini.arrays import Array, IntArray
+from signorini.fem.facets import slopes
 
 EMPTY = 1e-14  # of the area of a piece: a common part that is none
 _STEPS = 30
 
 
-class Side(NamedTuple):
-    """The faces of one side and the plane pieces that stand for them.
-
-    Attributes
-    ----------
-    corners : (p, 3 or 4, 3) of the pieces, piece after piece of every face
-    nodes : (m, c, 3) of the faces
-    places : (s, 3 or 4, 2) reference coordinates of the pieces of a face
-    smooth : the surfaces that the faces stand for
-    """
-
-    corners: Array
-    nodes: Array
-    places: Array
-    smooth: Smooth
-
-
-class _Sight(NamedTuple):
+class Sight(NamedTuple):
     """What of two pieces is seen along a normal: arrays that one pair after the other is written into.
 
     Attributes
@@ -60,9 +40,9 @@ class _Sight(NamedTuple):
 
 
 @njit(cache=True)
-def make_sight() -> _Sight:
+def make_sight() -> Sight:
     """Room for what one pair after the other is written into."""
-    return _Sight(
+    return Sight(
         np.empty((3, 3)), np.empty(3), np.empty((4, 2)), np.empty((4, 2)), np.empty((16, 2)), np.empty((16, 2))
     )
 
@@ -178,7 +158,7 @@ def _common(flat: Array, c: int, other: Array, o: int, polygon: Array, spare: Ar
 
 
 @njit(cache=True)
-def look(piece: Array, opposite: Array, normal: Array, sight: _Sight) -> tuple[float, int]:
+def look(piece: Array, opposite: Array, normal: Array, sight: Sight) -> tuple[float, int]:
     """Look from a piece along a normal at one of the other side: its area, and the corners of the common part."""
     whole = _plane(piece, normal, sight.axes, sight.centre, sight.flat)
     _flatten(opposite, sight.axes, sight.centre, sight.projected)
@@ -302,78 +282,3 @@ def turn(vector: Array, before: Array, after: Array) -> None:
         own += before[e] * vector[e]
     for e in range(3):
         vector[e] += 2.0 * own * after[e] - both / same * (before[e] + after[e])
-
-
-@njit(cache=True)
-def integrate(
-    first: Side,
-    second: Side,
-    normals: Array,
-    i: IntArray,
-    j: IntArray,
-    chosen: BoolArray,
-    rule: Array,
-    weights: Array,
-    mass: Array,
-    own: Array,
-    other: Array,
-) -> None:
-    """Add up integrals over the common parts of pairs of pieces.
-
-    With N the hats of the corners, N_j all functions of the nonmortar face, N_l those of the mortar face, at the same
-    Gauss points: ``mass = int N N``, ``own = int N N_j n``, ``other = int N N_l n``. The area and its outward normal n
-    are those of the nonmortar face itself, curved as it is, n turned as its piece is to the given normal.
-
-    Parameters
-    ----------
-    first, second : the nonmortar and the mortar side
-    normals : (p, 3) unit normals along which the first pieces see the second
-    i, j : (k,) pairs of pieces
-    chosen : (k,) pairs to integrate
-    rule, weights : (q, 3) barycentric coordinates and weights of a quadrature of the triangle, which sum to 1
-    mass, own : (m, corners, corners), (m, corners, c, 3), added to
-    other : (k, corners, c of the mortar faces, 3), added to
-    """
-    c, o, nodes, count_2 = first.corners.shape[1], second.corners.shape[1], first.nodes.shape[1], second.nodes.shape[1]
-    s_1, s_2 = len(first.places), len(second.places)
-    curved = nodes > c or count_2 > o
-    sight = make_sight()
-    axes, flat, projected, polygon = sight.axes, sight.flat, sight.projected, sight.polygon
-    hats, N, M, D = np.empty(4), np.empty(9), np.empty(9), np.empty((2, 9))
-    here, there, normal, upright, point = np.empty(2), np.empty(2), np.empty(3), np.empty(3), np.empty(3)
-    for k in range(len(i)):
-        if not chosen[k]:
-            continue
-        face = i[k] // s_1
-        upright_of(first.corners[i[k]], upright)
-        whole, count = look(first.corners[i[k]], second.corners[j[k]], normals[i[k]], sight)
-        m_x, m_y = middle_of(polygon, count)
-        for a in range(count):
-            b = (a + 1) % count
-            p_x, p_y, q_x, q_y = polygon[a, 0], polygon[a, 1], polygon[b, 0], polygon[b, 1]
-            triangle = 0.5 * ((p_x - m_x) * (q_y - m_y) - (p_y - m_y) * (q_x - m_x))
-            if triangle <= EMPTY * whole:
-                continue
-            for g in range(len(weights)):
-                x = rule[g, 0] * m_x + rule[g, 1] * p_x + rule[g, 2] * q_x
-                y = rule[g, 0] * m_y + rule[g, 1] * p_y + rule[g, 2] * q_y
-                stretch = place_in(flat, c, x, y, first.places[i[k] % s_1], here)
-                place_in(projected, o, x, y, second.places[j[k] % s_2], there)
-                share = weights[g] * triangle / stretch
-                w = share * true_area(first.nodes[face], here, D, normal)
-                turn(normal, upright, axes[2])
-                shapes(c, here[0], here[1], hats)
-                shapes(nodes, here[0], here[1], N)
-                if curved:
-                    point_at(first.nodes[face], N, point)
-                    land(point, axes[2], second.nodes[j[k] // s_2], there)
-                shapes(count_2, there[0], there[1], M)
-                for e in range(c):
-                    for f in range(c):
-                        mass[face, e, f] += w * hats[e] * hats[f]
-                    for d in range(3):
-                        force = share * hats[e] * normal[d]
-                        for f in range(nodes):
-                            own[face, e, f, d] += force * N[f]
-                        for f in range(count_2):
-                            other[k, e, f, d] += force * M[f]

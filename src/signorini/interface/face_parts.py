@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Integrals over the common parts of faces of any kinds; space."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.fem.boundary import Boundary
+from signorini.fem.facet_block import FacetBlock
+from signorini.fem.facets import facet_pieces, gauss_rule
+from signorini.interface.clip import overlap_areas
+from signorini.interface.common_parts import CommonParts, Opposite
+from signorini.interface.coupling import FacetGaps
+from signorini.interface.face_integrals import FacePieces, PiecePairs, Rule, Sums, integrate, spread_gaps
+from signorini.interface.facing import near_pairs, nearest_layers, piece_normals
+from signorini.interface.smooth import smooth_surfaces
+from signorini.interface.tilt import normals_between, turns
+
+_DEGREE = {3: 1, 4: 2, 6: 2, 8: 3, 9: 4}  # of the shape functions, by nodes of a face
+_GAP_POINTS = 3  # of Gauss a direction for gaps between surfaces: exact for hats times parabolas
+_RATIONAL_POINTS = 8  # of Gauss a direction where functions are no polynomials: exact to 1e-13
+
+
+class _Kind(NamedTuple):
+    """Faces of one kind, their pieces, the normals of these and by how much the side turns at them."""
+
+    block: FacetBlock
+    pieces: FacePieces
+    normals: Array
+    turn: Array
+
+    @property
+    def each(self) -> int:
+        """Pieces of a face."""
+        return len(self.pieces.places)
+
+
+class _Seen(NamedTuple):
+    """Pairs of pieces that are opposite each other, of one nonmortar and one mortar kind, and their common areas."""
+
+    other: _Kind
+    i: IntArray
+    j: IntArray
+    area: Array
+
+
+def face_parts(nonmortar: Boundary, mortar: Boundary, *, share: float, search: float) -> list[CommonParts]:
+    """Integrals over what the faces of both sides have in common, by kinds of nonmortar faces.
+
+    For clipping four plane pieces stand for each quadratic face, but the points that are opposite each other are on the
+    faces themselves. Areas and normals are those of the nonmortar faces.
+
+    Parameters
+    ----------
+    nonmortar, mortar, share, search : see :func:`signorini.interface.mortar.mortar_coupling`
+    """
+    own, others = _kinds(nonmortar), _kinds(mortar)
+    return [_parts_of(one, others, share, search) for one in own]
+
+
+def _kinds(side: Boundary) -> list[_Kind]:
+    found = []
+    for block, smooth in zip(side.blocks, smooth_surfaces(side.blocks), strict=True):
+        corners, places = block.plane_pieces, facet_pieces(block.count)
+        turn = np.repeat(turns(block.normals, side.at_facets(block)), len(places))
+        found.append(_Kind(block, FacePieces(corners, block.points, places, smooth), piece_normals(corners), turn))
+    return found
+
+
+def _parts_of(one: _Kind, others: list[_Kind], share: float, search: float) -> CommonParts:
+    near = [near_pairs(one.pieces.corners, other.pieces.corners, search) for other in others]
+    seen = _opposite(one, others, near, one.normals, search)
+    normals = _between(one, seen, share)
+    if (normals != one.normals).any():
+        seen = _opposite(one, others, near, normals, search)
+    block, gap_rule = one.block, _rule(_GAP_POINTS)
+    m, c = block.corner_nodes.shape
+    mass, own, over = np.zeros((m, c, c)), np.zeros((m, c, block.count, 3)), np.zeros((m, c))
+    ends, low, high = np.full((m, c), np.inf), np.full(m, np.inf), np.full(m, -np.inf)
+    opposite = []
+    for other, i, j, _ in seen:
+        pairs = PiecePairs(one.pieces, other.pieces, normals, i, j)
+        spread_gaps(pairs, ends, low, high)
+        gives = np.zeros((len(i), c, other.block.count, 3))
+        integrate(pairs, _rule(_points(block, other.block)), gap_rule, Sums(mass, own, gives, over))
+        opposite.append(Opposite(first=i // one.each, nodes=other.block.facets[j // other.each], other=gives))
+    met = low <= high
+    return CommonParts(
+        block=block,
+        mass=mass,
+        own=own,
+        over=over,
+        opposite=tuple(opposite),
+        gaps=FacetGaps(corners=block.corner_nodes[met], ends=ends[met], low=low[met], high=high[met]),
+        curved=any(kind.pieces.smooth.curved for kind in (one, *others)),
+    )
+
+
+def _opposite(
+    one: _Kind, others: list[_Kind], near: list[tuple[IntArray, IntArray]], normals: Array, search: float
+) -> list[_Seen]:
+    """Pairs of pieces that are opposite each other along normals (p, 3), by kinds of the mortar side."""
+    first = one.pieces.corners
+    found = [
+        (other, i, j, *overlap_areas(first, other.pieces.corners, normals, i, j))
+        for other, (i, j) in zip(others, near, strict=True)
+    ]
+    i, area, distance = (np.concatenate([part[k] for part in found]) for k in (1, 3, 4))
+    order = np.argsort(i, kind="stable")
+    chosen = np.empty(len(i), np.bool_)
+    # the pieces of a quadratic face are triangles or quadrilaterals in space, plane or nearly so
+    spans = np.cross(first[:, 2] - first[:, 0], first[:, -1] - first[:, 1])
+    whole = 0.5 * np.abs(np.sum(spans * normals, axis=1))
+    chosen[order] = nearest_layers(area[order], distance[order], i[order], whole, search)
+    by_kind = np.split(chosen, np.cumsum([len(part[1]) for part in found[:-1]]))
+    return [
+        _Seen(other, i[kept], j[kept], area[kept]) for (other, i, j, area, _), kept in zip(found, by_kind, strict=True)
+    ]
+
+
+def _between(one: _Kind, seen: list[_Seen], share: float) -> Array:
+    """(p, 3) Unit normals along which the pieces of nonmortar faces see what is opposite."""
+    turn, opposite = one.turn.copy(), np.zeros_like(one.normals)
+    for other, i, j, area in seen:
+        np.add.at(opposite, i, area[:, None] * other.normals[j])
+        np.maximum.at(turn, i, other.turn[j])
+    return normals_between(one.normals, opposite, turn, share)
+
+
+def _rule(points: int) -> Rule:
+    """Quadrature of a triangle with so many Gauss points a direction."""
+    places, weights = gauss_rule(3, points)
+    return Rule(np.column_stack([1.0 - places.sum(axis=1), places]), 2.0 * weights)
+
+
+def _points(block: FacetBlock, mortar: FacetBlock) -> int:
+    """Gauss points a direction that integrate hats times shape functions; collapsed they are exact to 2 k - 2."""
+    if not (block.parallelograms and mortar.parallelograms):
+        return _RATIONAL_POINTS
+    return (_DEGREE[block.corners] + max(_DEGREE[block.count], _DEGREE[mortar.count])) // 2 + 2

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What of two sides may be opposite each other, its number linear in that of both: by spheres, and where they look."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import KDTree
+
+from signorini.arrays import Array, BoolArray, IntArray, extent
+from signorini.fem.boundary import Boundary
+
+FACING = -0.05  # cosine between outward normals: from here on two facets look at each other
+
+
+def search_distance(nonmortar: Boundary, mortar: Boundary, search: float | None) -> float:
+    """How far apart facets can be and still be opposite each other, length.
+
+    Parameters
+    ----------
+    nonmortar, mortar : both sides
+    search : as given; None: half the size of the smaller side
+    """
+    if search is not None:
+        return search
+    return 0.5 * min(float(np.linalg.norm(extent(side.points[side.nodes]))) for side in (nonmortar, mortar))
+
+
+def near(points: Array, centres: Array, radius: Array | float, search: float) -> tuple[IntArray, IntArray]:
+    """Pairs of points and centres of what is around them that may be opposite each other along some normal.
+
+    Along the normal the other side can be twice as far as the closest centre, which is 60 degrees aside.
+
+    Parameters
+    ----------
+    points : (p, d) nodes, or centres of facets
+    centres : (m, d) of the facets of the other side
+    radius : (p,) or a number: how far from its centre a facet may reach, both sides together, length
+    search : how far apart they can be along the normal, length
+
+    Returns
+    -------
+    i, j : (k,) sorted by i, then by j
+
+    Examples
+    --------
+    >>> i, j = near(np.array([[0.0, 0.0], [5.0, 0.0]]), np.array([[0.0, 1.0], [5.0, 3.0]]), 0.5, 2.0)
+    >>> i.tolist(), j.tolist()
+    ([0], [0])
+    """
+    tree = KDTree(centres)
+    closest, _ = tree.query(points)
+    reach = radius + np.minimum(2.0 * closest, search)
+    lists = tree.query_ball_point(points, reach * (1.0 + 1e-9), return_sorted=True)
+    count = np.array([len(found) for found in lists], int)
+    return np.repeat(np.arange(len(count)), count), np.concatenate([np.asarray(found, int) for found in lists])
+
+
+def near_pairs(first: Array, second: Array, search: float) -> tuple[IntArray, IntArray]:
+    """Pairs of pieces that may overlap along the normal of the first, their number linear in that of the pieces.
+
+    Parameters
+    ----------
+    first, second : (p, c, 3) corners of the pieces
+    search : how far apart they can be along the normal, length
+
+    Returns
+    -------
+    i, j : (k,) sorted by i
+    """
+    centre_1, radius_1, normal_1 = _bounds(first)
+    centre_2, radius_2, normal_2 = _bounds(second)
+    i, j = near(centre_1, centre_2, radius_1 + radius_2.max(), search)
+    across = centre_2[j] - centre_1[i]
+    height = np.sum(across * normal_1[i], axis=1)
+    beside = np.sqrt(np.maximum(np.sum(across**2, axis=1) - height**2, 0.0))
+    facing = np.sum(normal_1[i] * normal_2[j], axis=1) < FACING
+    touching = beside <= (radius_1[i] + radius_2[j]) * (1.0 + 1e-9)
+    within = np.abs(height) <= search + radius_1[i] + radius_2[j]
+    chosen = facing & touching & within
+    return i[chosen], j[chosen]
+
+
+def nearest_layers(area: Array, distance: Array, i: IntArray, whole: Array, search: float) -> BoolArray:
+    """(k,) Pairs that are opposite each other within ``search``; where some lie behind others only the nearest.
+
+    Parameters
+    ----------
+    area, distance : (k,) common area and distance along the normal
+    i : (k,) first piece of each pair, sorted
+    whole : (p,) area of the first pieces
+    """
+    there = (area > 0) & (np.abs(distance) <= search)
+    order = np.lexsort([np.abs(distance), i])
+    covered = np.cumsum(np.where(there, area, 0.0)[order])
+    start = np.searchsorted(i, i, side="left")
+    before = np.concatenate([[0.0], covered])[start]
+    share = np.empty_like(area)
+    share[order] = covered - before
+    return there & (share <= whole[i] * (1.0 + 1e-6))
+
+
+def piece_normals(pieces: Array) -> Array:
+    """(p, 3) Outward unit normals of pieces with corners (p, 3 or 4, 3), from their diagonals."""
+    normal = np.cross(pieces[:, 2] - pieces[:, 0], pieces[:, -1] - pieces[:, 1])
+    return np.asarray(normal / np.linalg.norm(normal, axis=1, keepdims=True))
+
+
+def _bounds(pieces: Array) -> tuple[Array, Array, Array]:
+    """Centres, radii and outward unit normals of pieces."""
+    centre = pieces.mean(axis=1)
+    radius = np.linalg.norm(pieces - centre[:, None], axis=2).max(axis=1)
+    return centre, radius, piece_normals(pieces)
