@@ -12,14 +12,7 @@ from signorini.clock import Clock, Listener
 
 @contextmanager
 def progress(*, quiet: bool, seconds: Mapping[str, float] | None = None, note: str = "") -> Iterator[Clock]:
-    """A clock whose phases are shown while they last.
-
-    Parameters
-    ----------
-    quiet : show nothing
-    seconds : of another clock, from which it goes on
-    note : stands above the bar
-    """
+    """A clock whose phases are shown while they last, unless quiet, below a note; with the seconds of another."""
     with progress_bar(quiet=quiet, note=note) as tell:
         clock = Clock(tell)
         clock.seconds |= seconds or {}

@@ -252,12 +252,7 @@ def _clear(folder: Path) -> None:
 def _write_tables(history: History, fields: Fields, folder: Path, *, done: Collection[str] = ()) -> list[str]:
     """Rows and fields of the steps, and the state at the end of the last one; their names.
 
-    Parameters
-    ----------
-    history : with a step at least
-    fields : of its model
-    folder : to write into
-    done : names of fields that need not be written again
+    Fields whose names are in ``done`` are not written again.
     """
     write_contacts(history, folder / "contact.csv")
     names = ["contact.csv"]

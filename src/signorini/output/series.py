@@ -105,13 +105,9 @@ def write_series(
 
 
 def write_pvd(history: History, fields: Fields, path: Path) -> None:
-    """Write a series whose list is a file ``NAME.pvd``, with ``NAME_contact.pvd`` in space; see :func:`write_series`.
+    """Write a history as a series whose list is ``path``, ``NAME.pvd``, with ``NAME_contact.pvd`` in space.
 
-    Parameters
-    ----------
-    history : with a step at least
-    fields : of its model
-    path : of the list
+    The fields are those of its model; see :func:`write_series`.
 
     Raises
     ------

@@ -76,14 +76,9 @@ def _draw(axes: Axes, curve: Curve) -> None:
 
 
 def shade_status(axes: Axes, s: Array, status: NDArray[np.str_], colours: Mapping[str, str]) -> list[Artist]:
-    """Colour the background by status, from halfway to the node before to halfway to the next.
+    """Colour the background of axes by the status (n,) of nodes at s (n,), each from halfway to halfway between them.
 
-    Parameters
-    ----------
-    axes : with the coordinate s to the right
-    s : (n,) increasing coordinate
-    status : (n,) "open", "stick" or "slip"
-    colours : of a status; none: the background stays as it is
+    Nothing is drawn for a status that has no entry in ``colours``.
     """
     edges = np.concatenate([s[:1], 0.5 * (s[1:] + s[:-1]), s[-1:]])
     changes = [0, *(np.flatnonzero(status[1:] != status[:-1]) + 1), len(s)]

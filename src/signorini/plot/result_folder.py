@@ -19,6 +19,7 @@ from signorini.arrays import Array
 from signorini.errors import InputError, brief
 from signorini.meshio_fixes import read_meshio
 from signorini.output.fields import BodyFields
+from signorini.output.folder import ARCHIVE, SUMMARY, SURFACES
 from signorini.plot.patch import Patch, padded_faces
 from signorini.plot.picture_data import PictureData, Row
 from signorini.plot.style import STATUS_INK
@@ -47,8 +48,8 @@ class ResultFolder(PictureData):
     @cached_property
     def summary(self) -> dict[str, Any]:
         """``summary.json``."""
-        file = self._file("summary.json")
-        with self.checking("summary.json"):
+        file = self._file(SUMMARY)
+        with self.checking(SUMMARY):
             found = dict(json.loads(file.read_text(encoding="utf-8")))
             names = [[contact["name"] for contact in step["contacts"]] for step in found["steps"]]
             if any(not isinstance(name, str) for each in names for name in each) or any(n != names[0] for n in names):
@@ -70,7 +71,7 @@ class ResultFolder(PictureData):
     @property
     def archive(self) -> Path:
         """The file of the whole history, ``solution.h5``."""
-        return self._file("solution.h5")
+        return self._file(ARCHIVE)
 
     @cached_property
     def bodies(self) -> BodyFields:
@@ -96,8 +97,8 @@ class ResultFolder(PictureData):
     @cached_property
     def patches(self) -> list[Patch]:
         """``contact.vtu``: every contact in space after the last step."""
-        found, last = read_meshio(self._file("contact.vtu")), self.last_step
-        with self.checking("contact.vtu"):
+        found, last = read_meshio(self._file(SURFACES)), self.last_step
+        with self.checking(SURFACES):
             data, owner = found.point_data, np.concatenate(found.cell_data["contact"])
             faces = padded_faces(*(block.data for block in found.cells))
             return [
@@ -115,13 +116,7 @@ class ResultFolder(PictureData):
 
     @property
     def count(self) -> int:
-        """How many steps there are.
-
-        Raises
-        ------
-        InputError
-            If there is none.
-        """
+        """How many steps there are; an InputError if there is none."""
         if not self.summary["steps"]:
             raise InputError(f"the results in '{self.path}' hold no step")
         return super().count
@@ -141,13 +136,7 @@ class ResultFolder(PictureData):
         return found
 
     def instants_of(self, contact: str) -> list[Row]:
-        """Rows of ``history.csv`` of one contact.
-
-        Raises
-        ------
-        InputError
-            If there are none.
-        """
+        """Rows of ``history.csv`` of one contact; an InputError if there are none."""
         found = super().instants_of(contact)
         if not found:
             raise InputError(f"'{self._file('history.csv')}' has no row of '{contact}'")
@@ -181,7 +170,7 @@ class ResultFolder(PictureData):
         if not self.path.is_dir():
             raise InputError(f"there is no folder '{self.path}'; expected one that 'signorini run' has written")
         if not file.is_file():
-            why = "" if name == "summary.json" else self._why_not()
+            why = "" if name == SUMMARY else self._why_not()
             raise InputError(f"the folder '{self.path}' has no '{name}'{why}")
         return file
 

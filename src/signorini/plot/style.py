@@ -30,14 +30,7 @@ def dress(axes: Axes) -> None:
 
 
 def label(axes: Axes, *, x: str = "", y: str = "", title: str = "") -> None:
-    """Say what the axes are, and what the panel shows, above its left end; empty words are left out.
-
-    Parameters
-    ----------
-    axes : the panel
-    x, y : coordinate or quantity, with its unit in words
-    title : of the panel
-    """
+    """Write below and beside axes what x and y are, and above them a title; words that are empty are left out."""
     if x:
         axes.set_xlabel(x, fontsize=10, color=INK)
     if y:
@@ -47,30 +40,14 @@ def label(axes: Axes, *, x: str = "", y: str = "", title: str = "") -> None:
 
 
 def entitle(figure: Figure, title: str, words: str = "") -> None:
-    """Write the title of the model above a figure, and words on the picture below that.
-
-    Parameters
-    ----------
-    figure : the picture
-    title : of the model; empty: none
-    words : on what is shown; empty: none
-    """
+    """Write above a figure the title of the model, and below that words on what is shown; empty ones are left out."""
     lines = [line for line in (title, words) if line]
     if lines:
         figure.suptitle("\n".join(lines), fontsize=10.5 if words else 12, color=INK)
 
 
 def colour_bar(figure: Figure, mappable: Any, panels: Axes | Sequence[Axes], words: str, **shape: Any) -> Any:
-    """A bar beside panels that says which colour is which number.
-
-    Parameters
-    ----------
-    figure : the picture
-    mappable : of Matplotlib, with its colours
-    panels : that take part of their width
-    words : the quantity, with its unit in words
-    shape : further arguments of ``Figure.colorbar``
-    """
+    """Draw beside panels of a figure the colours of a mappable, with words on what they are; ``shape`` of the bar."""
     bar = figure.colorbar(mappable, ax=panels, **{"shrink": 0.85, "pad": 0.02} | shape)
     bar.set_label(words, fontsize=10, color=INK)
     bar.outline.set_visible(False)

@@ -66,14 +66,7 @@ def read_walls(summary: Mapping[str, Any]) -> list[Wall]:
 
 
 def draw_walls(axes: Axes, walls: list[Wall], *, moved: bool) -> None:
-    """Fill what obstacles fill of a panel, behind everything else; its limits stay.
-
-    Parameters
-    ----------
-    axes : the panel
-    walls : obstacles of a plane model
-    moved : to where they are after the last step
-    """
+    """Fill what walls fill of axes, behind everything else; ``moved``: where they are after the last step."""
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
     x, y = np.meshgrid(np.linspace(left, right, _POINTS_ACROSS), np.linspace(low, high, _POINTS_ACROSS))
     points = np.column_stack([x.ravel(), y.ravel()])
