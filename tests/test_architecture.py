@@ -316,8 +316,6 @@ PENDING = {
     #
     "law": "constants",
     #
-    "lcp": "parameters classes constants",
-    #
     "memory": "parameters",
     #
     "meshing": "files parameters",

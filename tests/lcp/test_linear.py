@@ -6,12 +6,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from signorini.lcp.linear import MANY, factorised
+from signorini.lcp.linear import LIGHT_ROWS_SIZE, factorised
 
 
 def system(rng: np.random.Generator, *, lone: int, light: int) -> np.ndarray:
     """Dense, but for some columns with one entry and some rows with two, in random order."""
-    n = MANY + 60
+    n = LIGHT_ROWS_SIZE + 60
     A = rng.standard_normal((n, n)) + n**0.5 * np.eye(n)
     A[:, :lone] = 0.0
     A[np.arange(lone), np.arange(lone)] = rng.uniform(1, 2, lone)
@@ -40,4 +40,4 @@ def test_singular_ones_are_named():
     assert factorised(zero) is None
     assert factorised(twice) is None
     assert factorised(lone) is None
-    assert factorised(np.zeros((MANY + 1, MANY + 1))) is None
+    assert factorised(np.zeros((LIGHT_ROWS_SIZE + 1, LIGHT_ROWS_SIZE + 1))) is None

@@ -4,15 +4,14 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
-from signorini.lcp.linear import factorised
+from signorini.lcp.linear import factorised, with_diagonal
 from signorini.lcp.problem import LCP
 from signorini.lcp.residual import Matrix
 
-ROUNDING = 1e-12
-"""Residual below which nothing is to be gained."""
+POLISHED_RESIDUAL = 1e-12  # natural residual below which nothing is to be gained
+POLISHING_STEPS = 3  # of Newton's method: a basis nearly found is right after the first
 
 
 def solve_on(
@@ -21,7 +20,14 @@ def solve_on(
     """z with ``(M z + q)_i = 0`` where active and ``z_i = 0`` elsewhere; None where that system is singular.
 
     Rows and columns are scaled by their largest entries before the factorisation; the refinement takes the residual of
-    the problem as posed. A shift (n,) is added to the diagonal of M.
+    the problem as posed.
+
+    Parameters
+    ----------
+    M, q : (n, n) array or CSR array, (n,)
+    active : (n,) mask
+    refinements : steps of iterative refinement
+    shift : (n,) what is added to the diagonal of M
 
     Examples
     --------
@@ -34,7 +40,7 @@ def solve_on(
         return z
     block = M[np.ix_(A, A)] if isinstance(M, np.ndarray) else M[A][:, A]
     if shift is not None:
-        block = block + (np.diag(shift[A]) if isinstance(block, np.ndarray) else sp.diags_array(shift[A]))
+        block = with_diagonal(block, shift[A])
     inverse = factorised(block)
     if inverse is None:
         return None
@@ -45,9 +51,7 @@ def solve_on(
     return z if np.isfinite(x).all() else None
 
 
-def polish(
-    problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None, attempts: int = 3
-) -> tuple[Array, float]:
+def polish(problem: LCP, M: Matrix, z: Array, *, active: BoolArray | None = None) -> tuple[Array, float]:
     """The best of z and a few steps of the active-set Newton method started there, never below 0, with its residual.
 
     A step solves for the given basis first, then for ``z_i > w_i`` (both as shares, see ``natural_residual``); it is
@@ -56,25 +60,25 @@ def polish(
 
     Parameters
     ----------
+    problem : that z is a candidate of
     M : the matrix of the problem with its entries, as a dense or CSR array
+    z : (n,)
+    active : (n,) the basis to try first, None for that of z
     """
     best = np.maximum(z, 0.0)
     least, own = problem.yardstick.unforgiving(best)
-    for attempt in range(attempts):
-        if own <= ROUNDING:
+    for step in range(POLISHING_STEPS):
+        if own <= POLISHED_RESIDUAL:
             break
         if active is None:
             share, w = problem.yardstick.shares(best)
             active = share > w
-        z = np.maximum(_or_nan(solve_on(M, problem.q, active), problem.n), 0.0)
+        found = solve_on(M, problem.q, active)
+        z = np.full(problem.n, np.nan) if found is None else np.maximum(found, 0.0)
         worst, its_own = problem.yardstick.unforgiving(z)
-        if worst < max(least, ROUNDING) and (least > ROUNDING or its_own < own):
+        if worst < max(least, POLISHED_RESIDUAL) and (least > POLISHED_RESIDUAL or its_own < own):
             best, least, own = z, worst, its_own
-        elif attempt > 0:
+        elif step > 0:
             break
         active = None
     return best, least
-
-
-def _or_nan(z: Array | None, n: int) -> Array:
-    return np.full(n, np.nan) if z is None else z

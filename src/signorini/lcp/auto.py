@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which methods to try, in which order, for a problem of given structure and size."""
+"""The chain of methods to try for a problem of given structure and size."""
 
 from __future__ import annotations
 
@@ -21,14 +21,10 @@ from signorini.lcp.newton import SemismoothNewton
 from signorini.lcp.problem import LCP
 from signorini.lcp.relaxation import ProjectedSOR
 
-SMALL = 60
-"""Up to here a sparse matrix is treated as a dense one."""
-
-MEDIUM = 1500
-"""Up to here Lemke's method is at least as fast as a few factorisations, and tried first."""
-
-LARGE = 5000
-"""From here on a dense tableau is the last resort."""
+DENSE_SIZE = 60  # unknowns up to which a sparse matrix is treated as a dense one
+LEMKE_SIZE = 1500  # unknowns up to which Lemke's method is as fast as a few factorisations, and tried first
+TABLEAU_SIZE = 5000  # unknowns from which a dense tableau is the last resort
+ENUMERATION_SIZE = 12  # unknowns up to which all supports are tried in milliseconds
 
 
 def methods_for(problem: LCP) -> list[Method]:
@@ -54,18 +50,18 @@ def methods_for(problem: LCP) -> list[Method]:
     direct: list[Method] = [BlockPivoting(max_steps=40), SemismoothNewton(max_steps=60)]
     other = np.random.default_rng(0).uniform(1.0, 2.0, problem.n) * problem.sizes[0]
     others: list[Method] = [InteriorPoint(), Lemke(covering=other)]
-    if isinstance(problem.M, np.ndarray) or problem.n <= SMALL:
-        last: list[Method] = [Enumeration() if problem.n <= 12 else Feasibility()]
+    if isinstance(problem.M, np.ndarray) or problem.n <= DENSE_SIZE:
+        last: list[Method] = [Enumeration() if problem.n <= ENUMERATION_SIZE else Feasibility()]
         if (M := problem.dense()) is not None and first_player(M, problem.q) is not None:
             return [LemkeHowson(), *direct, *others, *last]
-        if problem.n <= MEDIUM or (problem.n <= LARGE and looks_like_friction(problem.M)):
+        if problem.n <= LEMKE_SIZE or (problem.n <= TABLEAU_SIZE and looks_like_friction(problem.M)):
             return [Lemke(max_pivots=10 * problem.n + 1000), *direct, *others, *last]
         return [*direct, Lemke(), *others]
     positive = bool((problem.M.diagonal() > 0).all())
-    if positive and problem.n > LARGE and is_symmetric(problem.M):
+    if positive and problem.n > TABLEAU_SIZE and is_symmetric(problem.M):
         return [ProjectedMultigrid(), MPRGP(), *direct, InteriorPoint()]
-    sweeps: list[Method] = [ProjectedSOR()] if positive and problem.n > LARGE else []
-    return [*direct, InteriorPoint(), *sweeps, *([Lemke(), *others] if problem.n <= LARGE else [])]
+    sweeps: list[Method] = [ProjectedSOR()] if positive and problem.n > TABLEAU_SIZE else []
+    return [*direct, InteriorPoint(), *sweeps, *([Lemke(), *others] if problem.n <= TABLEAU_SIZE else [])]
 
 
 def looks_like_friction(M: Array) -> bool:

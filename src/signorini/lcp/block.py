@@ -51,9 +51,9 @@ class BlockPivoting:
     shift: float = 1e-8
 
     def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:
-        """See ``Method.attempt``."""
+        """Solve a problem from z0 to a tolerance, see ``Method.attempt``."""
         if isinstance(problem.M, LinearOperator):
-            return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note="It needs the entries of M.")
+            return Attempt.refused("It needs the entries of M.")
         active: BoolArray = np.zeros(problem.n, dtype=bool) if z0 is None else z0 > 0
         least, patience, z = problem.n + 1, self.patience, np.zeros(problem.n)
         limit = self.max_steps or 100 * problem.n + 1000

@@ -13,6 +13,7 @@ from scipy.sparse.linalg import LinearOperator
 
 from signorini.arrays import Array, frozen
 from signorini.errors import InputError
+from signorini.lcp.linear import scaled
 from signorini.lcp.method import Method
 from signorini.lcp.mixed import WithoutFree, eliminate_free
 from signorini.lcp.problem import LCP, read_problem
@@ -135,17 +136,14 @@ class Reduction:
 
     @staticmethod
     def of(problem: LCP, lower: Array, upper: Array) -> Reduction | None:
-        """The reduction; None where the block of the free variables is singular."""
+        """The reduction of a problem with bounds lower and upper, (n,); None where the free block is singular."""
         has_lower, has_upper = np.isfinite(lower), np.isfinite(upper)
         shift = np.where(has_lower, lower, np.where(has_upper, upper, 0.0))
         sign = np.where(lower == upper, 0.0, np.where(has_upper & ~has_lower, -1.0, 1.0))
         kept = np.flatnonzero(sign)
         M: Any = problem.M
-        turned = (
-            (sp.diags_array(sign) @ M @ sp.diags_array(sign)).tocsr() if sp.issparse(M) else sign[:, None] * M * sign
-        )
         q = sign * (problem.q + M @ shift)
-        part = turned[kept][:, kept]
+        part = scaled(M, sign, sign)[kept][:, kept]
         two = np.flatnonzero((has_lower & has_upper)[kept])
         select = sp.csr_array((np.ones(len(two)), (two, np.arange(len(two)))), shape=(len(kept), len(two)))
         whole = sp.block_array([[sp.csr_array(part), select], [-select.T, None]]) if len(two) else None
@@ -163,7 +161,7 @@ class Reduction:
 
 
 def box_residual(problem: LCP, lower: Array, upper: Array, z: Array) -> Residual:
-    """The natural residual of a problem with bounds, in the sizes of ``natural_residual``."""
+    """The natural residual of z (n,) in a problem with bounds lower and upper, in the sizes of ``natural_residual``."""
     unit, w, _ = problem.yardstick.sizes(z)
     below = np.where(np.isfinite(lower), unit * (z - np.where(np.isfinite(lower), lower, 0.0)), np.inf)
     above = np.where(np.isfinite(upper), unit * (np.where(np.isfinite(upper), upper, 0.0) - z), np.inf)

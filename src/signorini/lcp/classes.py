@@ -12,19 +12,21 @@ import scipy.sparse as sp
 from signorini.arrays import Array
 from signorini.errors import InputError
 
-LARGEST_EXACT = 20
+LARGEST_EXACT = 20  # rows: tests that take 2^n steps are offered up to it
+ROUNDING_TOL = 1e-12  # of the largest entry or eigenvalue: less counts as 0
+SMALLEST_PIVOT = 1e-13  # of the largest entry of a Schur complement: less counts as 0
 
 
-def is_symmetric(M: Any, *, tolerance: float = 1e-12) -> bool:
-    """Whether ``|M_ij - M_ji| <= tolerance max|M|``. Cost: n^2, or the nonzeros.
+def is_symmetric(M: Any) -> bool:
+    """Whether ``|M_ij - M_ji| <= 1e-12 max|M|``. Cost: n^2, or the nonzeros.
 
     >>> is_symmetric([[1.0, 2.0], [2.0, 3.0]])
     True
     """
     if sp.issparse(M):
-        return bool(abs(M - M.T).max() <= tolerance * abs(M).max())
+        return bool(abs(M - M.T).max() <= ROUNDING_TOL * abs(M).max())
     A = _square(M)
-    return bool(np.abs(A - A.T).max(initial=0.0) <= tolerance * np.abs(A).max(initial=0.0))
+    return bool(np.abs(A - A.T).max(initial=0.0) <= ROUNDING_TOL * np.abs(A).max(initial=0.0))
 
 
 def is_positive_definite(M: Any) -> bool:
@@ -41,7 +43,7 @@ def is_positive_definite(M: Any) -> bool:
     return True
 
 
-def is_positive_semidefinite(M: Any, *, tolerance: float = 1e-12) -> bool:
+def is_positive_semidefinite(M: Any) -> bool:
     """Whether x'Mx >= 0 for all x (M is monotone), by the least eigenvalue of ``M + M'``. Cost: about 4 n^3 / 3.
 
     >>> is_positive_semidefinite([[0.0, 1.0], [-1.0, 0.0]])
@@ -49,7 +51,7 @@ def is_positive_semidefinite(M: Any, *, tolerance: float = 1e-12) -> bool:
     """
     A = _square(M)
     values = la.eigvalsh(_unit_diagonal(A + A.T), check_finite=False)
-    return bool(values[0] >= -tolerance * len(A) * max(1.0, float(np.abs(values).max())))
+    return bool(values[0] >= -ROUNDING_TOL * len(A) * max(1.0, float(np.abs(values).max())))
 
 
 def is_z(M: Any) -> bool:
@@ -86,7 +88,7 @@ def is_k(M: Any) -> bool:
         return False
 
 
-def is_p(M: Any, *, tolerance: float = 1e-13) -> bool:
+def is_p(M: Any) -> bool:
     """Whether all principal minors are positive, exactly (up to rounding). Cost: about 2^n: n <= 20 only.
 
     The recursive test of Tsatsomeros and Li: M is P where M_11 > 0 and both the rest of M and the Schur complement of
@@ -109,7 +111,7 @@ def is_p(M: Any, *, tolerance: float = 1e-13) -> bool:
     A = _small(M, "P")
     stack = A[None]
     while stack.shape[1]:
-        if not (stack[:, 0, 0] > tolerance * np.abs(stack).max(axis=(1, 2), initial=0.0)).all():
+        if not (stack[:, 0, 0] > SMALLEST_PIVOT * np.abs(stack).max(axis=(1, 2), initial=0.0)).all():
             return False
         rest = stack[:, 1:, 1:]
         schur = rest - stack[:, 1:, :1] * stack[:, :1, 1:] / stack[:, :1, :1]
@@ -117,7 +119,7 @@ def is_p(M: Any, *, tolerance: float = 1e-13) -> bool:
     return True
 
 
-def is_copositive_plus(M: Any, *, tolerance: float = 1e-12) -> bool:
+def is_copositive_plus(M: Any) -> bool:
     """Whether x'Mx >= 0 for x >= 0, and ``(M + M') x = 0`` where x'Mx = 0. Cost: 2^n in general, n <= 20 only.
 
     Monotone matrices are recognised first, at any size. Otherwise every principal block B of ``M + M'`` is tested
@@ -138,17 +140,17 @@ def is_copositive_plus(M: Any, *, tolerance: float = 1e-12) -> bool:
     (True, False)
     """
     A = _square(M)
-    if is_positive_semidefinite(A, tolerance=tolerance):
+    if is_positive_semidefinite(A):
         return True
     S = _unit_diagonal(_small(A, "copositive plus") + A.T)
     for code in range(1, 2 ** len(S)):
         chosen = np.flatnonzero(code >> np.arange(len(S)) & 1)
         values, vectors = la.eigh(S[np.ix_(chosen, chosen)])
         for value, v in zip(values, vectors.T, strict=True):
-            positive = bool((v > tolerance).all() or (v < -tolerance).all())
-            if positive and value < -tolerance:
+            positive = bool((v > ROUNDING_TOL).all() or (v < -ROUNDING_TOL).all())
+            if positive and value < -ROUNDING_TOL:
                 return False
-            if positive and abs(value) <= tolerance and np.abs(S[:, chosen] @ v).max() > 1e3 * tolerance:
+            if positive and abs(value) <= ROUNDING_TOL and np.abs(S[:, chosen] @ v).max() > 1e3 * ROUNDING_TOL:
                 return False
     return True
 

@@ -17,16 +17,14 @@ from signorini.lcp.problem import LCP, read_problem
 from signorini.lcp.solution import Attempt
 from signorini.lcp.status import Status
 
-LARGEST = 20
-
-BATCH = 4096
-"""Supports that are solved for at once."""
+MAX_SIZE = 20  # unknowns: 2^20 supports take seconds
+BATCH = 4096  # supports that are solved for at once
 
 MARGIN = 1e-9
 """Of the largest entry of q, balanced: what every support must lack at least for a proof; less may be rounding."""
 
-_MOST_DOUBTFUL = 2000  # supports whose lack a linear programme tells, some milliseconds each
-_SHARP = 1e-10  # what such a programme may miss by
+_MAX_DOUBTFUL = 2000  # supports whose lack a linear programme tells, some milliseconds each
+_PROGRAMME_TOL = 1e-10  # what such a programme may miss by
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,10 +65,10 @@ class Enumeration:
     tolerance: float = 1e-11
 
     def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:  # noqa: ARG002
-        """See ``Method.attempt``."""
-        if problem.n > LARGEST or problem.dense() is None:
-            note = f"It needs the entries of M and n <= {LARGEST}; n is {problem.n}."
-            return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note=note)
+        """Solve a problem from z0 to a tolerance, see ``Method.attempt``."""
+        if problem.n > MAX_SIZE or problem.dense() is None:
+            note = f"It needs the entries of M and n <= {MAX_SIZE}; n is {problem.n}."
+            return Attempt.refused(note)
         faces, lack = _faces(problem, self.tolerance, only_first=True)
         if faces:
             return Attempt(z=faces[0].z, ending=Status.SOLVED, iterations=2**problem.n)
@@ -112,8 +110,8 @@ def all_solutions(M: Any, q: ArrayLike, *, tolerance: float = 1e-11) -> tuple[Fa
     [((0,), 0), ((0, 1), 1), ((1,), 0)]
     """
     problem = read_problem(M, q)
-    if problem.n > LARGEST or problem.dense() is None:
-        raise InputError(f"has n = {problem.n}; enumeration is offered to n = {LARGEST} with entries", where=("M",))
+    if problem.n > MAX_SIZE or problem.dense() is None:
+        raise InputError(f"has n = {problem.n}; enumeration is offered to n = {MAX_SIZE} with entries", where=("M",))
     return tuple(sorted(_faces(problem, tolerance, only_first=False)[0], key=lambda face: face.support))
 
 
@@ -136,7 +134,7 @@ def _margin(problem: LCP, lack: Array) -> float:
     """What every support lacks at least; of those that were not refused at once a linear programme tells it."""
     A, q, _ = _balanced(problem)
     doubtful = np.flatnonzero(lack == 0.0)
-    if len(doubtful) > _MOST_DOUBTFUL:
+    if len(doubtful) > _MAX_DOUBTFUL:
         return 0.0
     told = [_least_lack(A, q, members > 0) for members in _members(doubtful, problem.n)]
     return float(min([*told, lack.min(where=lack > 0.0, initial=np.inf)]))
@@ -151,7 +149,7 @@ def _least_lack(A: Array, q: Array, support: BoolArray) -> float:
         A_ub=np.column_stack([upper, -np.ones(len(upper))]),
         b_ub=np.concatenate([q, -q[support], np.zeros(size)]),
         bounds=[(None, None)] * size + [(0.0, None)],
-        options={"primal_feasibility_tolerance": _SHARP, "dual_feasibility_tolerance": _SHARP},
+        options={"primal_feasibility_tolerance": _PROGRAMME_TOL, "dual_feasibility_tolerance": _PROGRAMME_TOL},
     )
     return float(found.x[-1]) if found.status == 0 else 0.0
 

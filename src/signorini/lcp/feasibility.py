@@ -46,10 +46,10 @@ class Feasibility:
     margin: float = 1e-9
 
     def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:  # noqa: ARG002
-        """See ``Method.attempt``."""
+        """Solve a problem from z0 to a tolerance, see ``Method.attempt``."""
         M = problem.dense()
         if M is None:
-            return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note="The entries of M are needed.")
+            return Attempt.refused("The entries of M are needed.")
         found = linprog(problem.q, A_ub=M.T, b_ub=np.zeros(problem.n), bounds=(0.0, 1.0), method="highs")
         steps = int(getattr(found, "nit", 0))
         if found.status == 0:

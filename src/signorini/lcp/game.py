@@ -55,12 +55,12 @@ class LemkeHowson:
     rounds: int = 8
 
     def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:  # noqa: ARG002
-        """See ``Method.attempt``."""
+        """Solve a problem from z0 to a tolerance, see ``Method.attempt``."""
         M = problem.dense()
         first = None if M is None else first_player(M, problem.q)
         if M is None or first is None:
             note = "It needs M = [[0, A], [B, 0]], its variables in any order, with A, B > 0, and q < 0."
-            return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note=note)
+            return Attempt.refused(note)
         scaled = equilibrate(M, problem.q, *problem.sizes)
         limit, pivots = problem.n // 2 + 50, 0
         for path in range(self.rounds * self.starts):

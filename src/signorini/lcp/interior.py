@@ -7,12 +7,11 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
-import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator
 
 from signorini.arrays import Array
 from signorini.lcp.active import polish
-from signorini.lcp.linear import factorised
+from signorini.lcp.linear import factorised, scaled, with_diagonal
 from signorini.lcp.problem import LCP
 from signorini.lcp.solution import Attempt
 from signorini.lcp.status import Status
@@ -48,11 +47,11 @@ class InteriorPoint:
     shortening: float = 0.995
 
     def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:  # noqa: ARG002
-        """See ``Method.attempt``."""
+        """Solve a problem from z0 to a tolerance, see ``Method.attempt``."""
         if isinstance(problem.M, LinearOperator):
-            return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note="It needs the entries of M.")
+            return Attempt.refused("It needs the entries of M.")
         scale = np.sqrt(problem.sizes[1] / problem.sizes[0])
-        M: Any = problem.M * scale[:, None] * scale if isinstance(problem.M, np.ndarray) else _scaled(problem.M, scale)
+        M = scaled(problem.M, scale, scale)
         unit = float(np.abs(problem.q * scale).max()) or 1.0
         q = problem.q * scale / unit
         z, w = np.ones(problem.n), np.ones(problem.n)
@@ -80,7 +79,7 @@ class InteriorPoint:
     def _step(self, M: Any, q: Array, z: Array, w: Array) -> tuple[Array, Array] | None:
         """One predictor-corrector step."""
         diagonal = w / z
-        inverse = factorised(M + (sp.diags_array(diagonal) if sp.issparse(M) else np.diag(diagonal)))
+        inverse = factorised(with_diagonal(M, diagonal))
         if inverse is None:
             return None
         infeasibility = M @ z + q - w
@@ -102,10 +101,6 @@ def _longest(x: Array, dx: Array) -> float:
     """Largest step up to 1 / 0.995 that keeps x + step dx >= 0."""
     falling = dx < 0
     return min(1.0 / 0.995, float((-x[falling] / dx[falling]).min(initial=np.inf)))
-
-
-def _scaled(M: Any, scale: Array) -> Any:
-    return (sp.diags_array(scale) @ M @ sp.diags_array(scale)).tocsr()
 
 
 def _about(ending: Status) -> str:

@@ -20,10 +20,8 @@ from signorini.lcp.status import Status
 from signorini.lcp.tableau import Tableau
 from signorini.lcp.transform import principal_transform
 
-NOISE = 1e-14
-
-NEAR = 1e-6
-"""Of its largest value: where theta is below it at the end of a path, the end may be a solution hidden by a tie."""
+NOISE = 1e-14  # of the largest basic variable: less is rounding
+HIDDEN_TIE = 1e-6  # of its largest value: theta below it at the end of a path may be 0, hidden by a tie
 
 AS_NEAR_AS_ROUNDING = (
     "A problem so near is solved by the candidate, and rounding in M and q may be as large: neither a solution nor a "
@@ -75,10 +73,10 @@ class Lemke:
     check_every: int = 64
 
     def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:
-        """See ``Method.attempt``."""
+        """Solve a problem from z0 to a tolerance, see ``Method.attempt``."""
         M = problem.dense()
         if M is None:
-            return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note="Lemke needs the entries of M.")
+            return Attempt.refused("Lemke needs the entries of M.")
         scaled = equilibrate(M, problem.q, *problem.sizes)
         d = np.ones(problem.n) if self.covering is None else scaled.rows * self._covering(problem)
         basis: BoolArray = np.zeros(problem.n, dtype=bool) if z0 is None else z0 > 0
@@ -202,7 +200,7 @@ class Path:
         theta = tableau.values()[2]
         candidate = self._z_of(tableau.basic, np.maximum(tableau.rhs, 0.0))
         share = theta / self.largest_theta
-        if share <= NEAR:
+        if share <= HIDDEN_TIE:
             candidate, worst = self._polished(tableau.basic, tableau.rhs)
             solved = worst <= self.tolerance
             said = "polished." if solved else f"{share:.1e} of its largest value. {AS_NEAR_AS_ROUNDING}"

@@ -16,8 +16,20 @@ from signorini.arrays import Array, IntArray
 
 Inverse = Callable[[Array], Array]
 
-SMALLEST_PIVOT = 1e-15
-MANY = 200
+SMALLEST_PIVOT = 1e-15  # of a matrix with largest entries near 1: below it rounding decides
+LIGHT_ROWS_SIZE = 200  # unknowns from which looking for rows and columns of few entries pays
+
+
+def scaled(M: Any, rows: Array, columns: Array) -> Any:
+    """``diag(rows) M diag(columns)``, dense or CSR as M is."""
+    if sp.issparse(M):
+        return (sp.diags_array(rows) @ M @ sp.diags_array(columns)).tocsr()
+    return M * rows[:, None] * columns
+
+
+def with_diagonal(M: Any, diagonal: Array) -> Any:
+    """``M + diag(diagonal)``, dense or sparse as M is."""
+    return M + (sp.diags_array(diagonal) if sp.issparse(M) else np.diag(diagonal))
 
 
 def factorised(A: Any) -> Inverse | None:
@@ -35,7 +47,7 @@ def factorised(A: Any) -> Inverse | None:
     >>> factorised(np.ones((2, 2))) is None
     True
     """
-    if isinstance(A, np.ndarray) and len(A) > MANY:
+    if isinstance(A, np.ndarray) and len(A) > LIGHT_ROWS_SIZE:
         i, j = _lone_entries(A)
         if len(i) > len(A) // 10:
             return _without(A, i, j)
@@ -46,14 +58,14 @@ def factorised(A: Any) -> Inverse | None:
     if not (rows > 0).all() or not np.isfinite(rows).all():
         return None
     if sp.issparse(A):
-        scaled = sp.diags_array(1 / rows) @ A
+        balanced = sp.diags_array(1 / rows) @ A
     else:
-        scaled = np.empty(A.shape, order="F")  # as LAPACK wants it
-        np.divide(A, rows[:, None], out=scaled)
-    columns = _largest(scaled, 0)
+        balanced = np.empty(A.shape, order="F")  # as LAPACK wants it
+        np.divide(A, rows[:, None], out=balanced)
+    columns = _largest(balanced, 0)
     if not (columns > 0).all():
         return None
-    inner = _sparse(scaled @ sp.diags_array(1 / columns)) if sp.issparse(A) else _dense(scaled, columns)
+    inner = _sparse(balanced @ sp.diags_array(1 / columns)) if sp.issparse(A) else _dense(balanced, columns)
     if inner is None:
         return None
     return lambda b: (inner((b.T / rows).T).T / columns).T

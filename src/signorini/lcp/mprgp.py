@@ -13,6 +13,8 @@ from signorini.lcp.problem import LCP
 from signorini.lcp.solution import Attempt
 from signorini.lcp.status import Status
 
+POWER_STEPS = 12  # of the power method: the norm to a few per cent
+
 
 @dataclass(frozen=True, kw_only=True)
 class MPRGP:
@@ -49,10 +51,10 @@ class MPRGP:
     every: int = 25
 
     def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:
-        """See ``Method.attempt``."""
+        """Solve a problem from z0 to a tolerance, see ``Method.attempt``."""
         if not symmetric_in_products(problem):
             note = "M is not symmetric: x'My and y'Mx differ for random x, y."
-            return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note=note)
+            return Attempt.refused(note)
         scale = np.sqrt(problem.sizes[1] / problem.sizes[0])
         norm = _norm_estimate(problem, scale)
         unit = float(np.abs(scale * problem.q).max()) or 1.0
@@ -70,7 +72,7 @@ class MPRGP:
                 return Attempt(z=unit * scale * run.z, ending=Status.SOLVED, iterations=run.products)
             if not run.advance(self.gamma):
                 note = "p'Mp < 0: M is not positive semidefinite."
-                return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=run.products, note=note)
+                return Attempt.refused(note, iterations=run.products)
         return Attempt(z=unit * scale * run.z, ending=Status.MAX_ITERATIONS, iterations=run.products)
 
 
@@ -149,11 +151,11 @@ def symmetric_in_products(problem: LCP) -> bool:
     return abs(float(x @ My - y @ Mx)) <= 1e-12 * size
 
 
-def _norm_estimate(problem: LCP, scale: Array, *, steps: int = 12) -> float:
+def _norm_estimate(problem: LCP, scale: Array) -> float:
     """Largest eigenvalue of the scaled M, a few percent too large (power method)."""
     x = np.random.default_rng(1).standard_normal(problem.n)
     value = 0.0
-    for _ in range(steps):
+    for _ in range(POWER_STEPS):
         y = scale * (problem.M @ (scale * x))
         value = float(np.linalg.norm(y) / np.linalg.norm(x))
         if not value > 0:

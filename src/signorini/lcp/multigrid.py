@@ -55,11 +55,11 @@ class ProjectedMultigrid:
     coarse_rounds: int = 60
 
     def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:
-        """See ``Method.attempt``."""
+        """Solve a problem from z0 to a tolerance, see ``Method.attempt``."""
         M = problem.M
         if not sp.issparse(M) or not (M.diagonal() > 0).all() or not symmetric_in_products(problem):
             note = "It needs a sparse symmetric matrix with a positive diagonal."
-            return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note=note)
+            return Attempt.refused(note)
         scale = 1.0 / np.sqrt(M.diagonal())
         A = (sp.diags_array(scale) @ M @ sp.diags_array(scale)).tocsr()
         q = scale * problem.q

@@ -12,7 +12,7 @@ from scipy.sparse.linalg import LinearOperator
 
 from signorini.arrays import Array
 from signorini.lcp.active import polish
-from signorini.lcp.linear import factorised
+from signorini.lcp.linear import factorised, scaled, with_diagonal
 from signorini.lcp.problem import LCP
 from signorini.lcp.solution import Attempt
 from signorini.lcp.status import Status
@@ -54,12 +54,12 @@ class SemismoothNewton:
     damping: float = 1e-3
 
     def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:
-        """See ``Method.attempt``."""
+        """Solve a problem from z0 to a tolerance, see ``Method.attempt``."""
         if isinstance(problem.M, LinearOperator):
-            return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note="It needs the entries of M.")
+            return Attempt.refused("It needs the entries of M.")
         rows, columns = problem.sizes
         unit = float(np.abs(problem.q / rows).max()) or 1.0
-        M, q = _scale(problem.M, 1 / rows, columns), problem.q / rows / unit
+        M, q = scaled(problem.M, 1 / rows, columns), problem.q / rows / unit
         x = np.zeros(problem.n) if z0 is None else z0 / columns / unit
         merits: list[float] = []
         replaced = {"Fischer-Burmeister": 0, "Levenberg-Marquardt": 0}
@@ -109,8 +109,7 @@ class SemismoothNewton:
         replaced["Levenberg-Marquardt"] += 1
         normal = jacobian.T @ jacobian
         weight = self.damping * min(1.0, float(np.linalg.norm(phi)))
-        eye = sp.eye_array(len(q)) if sp.issparse(normal) else np.eye(len(q))
-        direction = _newton(normal + weight * eye, gradient)
+        direction = _newton(with_diagonal(normal, np.full(len(q), weight)), gradient)
         if direction is None:
             return None
         return _searched(M, q, x, direction, float(gradient @ direction), highest)
@@ -144,9 +143,3 @@ def _jacobian(M: Any, a: Array, b: Array) -> Any:
     if sp.issparse(M):
         return (sp.diags_array(a) + sp.diags_array(b) @ M).tocsr()
     return np.diag(a) + b[:, None] * M
-
-
-def _scale(M: Any, rows: Array, columns: Array) -> Any:
-    if sp.issparse(M):
-        return (sp.diags_array(rows) @ M @ sp.diags_array(columns)).tocsr()
-    return M * rows[:, None] * columns

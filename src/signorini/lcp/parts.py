@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which rows of M hang together, so that their sizes can be compared: the strongly connected parts of its graph."""
+"""The rows of M that hang together, so that their sizes can be compared: strongly connected parts of its graph."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
 from signorini.arrays import Array, IntArray
+from signorini.lcp.linear import scaled
 
-WEAK = 1e-10
-"""Entries below it, in balanced units, tie no rows together: what they carry of rounding is below all tolerances."""
+COUPLING = 1e-10  # balanced entries below it tie no rows together: the rounding they carry is below all tolerances
 
 
 @dataclass(frozen=True, kw_only=True)
-class Parts:
+class ConnectedRows:
     """The parts of a matrix; between them the factor of units that balancing leaves open is any number.
 
     Attributes
@@ -32,32 +32,32 @@ class Parts:
     across: Any | None
 
     @staticmethod
-    def of(magnitude: Any, rows: Array, columns: Array) -> Parts:
-        """The parts of ``|M|`` balanced by sizes of rows and columns (``lcp.residual.balance``).
+    def of(magnitude: Any, rows: Array, columns: Array) -> ConnectedRows:
+        """The parts of a matrix of a magnitude ``|M|`` balanced by sizes of rows and columns (``residual.balance``).
 
         Examples
         --------
         >>> M = np.array([[2.0, 1.0, 0.0], [1.0, 2.0, 0.0], [5.0, 0.0, 1.0]])
-        >>> parts = Parts.of(M, np.array([3.0, 3.0, 6.0]), np.ones(3))
+        >>> parts = ConnectedRows.of(M, np.array([3.0, 3.0, 6.0]), np.ones(3))
         >>> parts.label[0] == parts.label[1], parts.label[0] == parts.label[2]
         (np.True_, np.False_)
         """
         n = len(rows)
         if isinstance(magnitude, np.ndarray):
             if _reaches_all(magnitude, rows, columns) and _reaches_all(magnitude.T, 1.0 / columns, 1.0 / rows):
-                return Parts(label=np.zeros(n, dtype=np.int64), count=1, across=None)
-            strong: Any = sp.csr_array(magnitude * columns > WEAK * rows[:, None])
+                return ConnectedRows(label=np.zeros(n, dtype=np.int64), count=1, across=None)
+            strong: Any = sp.csr_array(magnitude * columns > COUPLING * rows[:, None])
         else:
-            strong = sp.csr_array(sp.diags_array(1.0 / rows) @ magnitude @ sp.diags_array(columns) > WEAK)
+            strong = sp.csr_array(scaled(magnitude, 1.0 / rows, columns) > COUPLING)
         count, label = connected_components(strong, directed=True, connection="strong")
         if count == 1:
-            return Parts(label=label, count=1, across=None)
+            return ConnectedRows(label=label, count=1, across=None)
         if isinstance(magnitude, np.ndarray):
-            return Parts(label=label, count=count, across=np.where(label[:, None] != label, magnitude, 0.0))
+            return ConnectedRows(label=label, count=count, across=np.where(label[:, None] != label, magnitude, 0.0))
         entries = magnitude.tocoo()
         foreign = label[entries.row] != label[entries.col]
         taken = (entries.data[foreign], (entries.row[foreign], entries.col[foreign]))
-        return Parts(label=label, count=count, across=sp.csr_array(taken, shape=magnitude.shape))
+        return ConnectedRows(label=label, count=count, across=sp.csr_array(taken, shape=magnitude.shape))
 
     def largest(self, sizes: Array) -> Array:
         """(n,) the largest size in the part of every row."""
@@ -74,5 +74,5 @@ def _reaches_all(magnitude: Array, rows: Array, columns: Array) -> bool:
     fresh = np.arange(len(rows)) == 0
     while fresh.any():
         reached |= fresh
-        fresh = ((fresh / rows) @ magnitude * columns > WEAK) & ~reached
+        fresh = ((fresh / rows) @ magnitude * columns > COUPLING) & ~reached
     return bool(reached.all())

@@ -44,10 +44,10 @@ class LeastIndex:
     noise: float = 1e-13
 
     def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:  # noqa: ARG002
-        """See ``Method.attempt``."""
+        """Solve a problem from z0 to a tolerance, see ``Method.attempt``."""
         M, n = problem.dense(), problem.n
         if M is None:
-            return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note="It needs the entries of M.")
+            return Attempt.refused("It needs the entries of M.")
         scaled = equilibrate(M, problem.q, *problem.sizes)
         tableau = Tableau(scaled.M, scaled.q, np.zeros(n))
         active = np.zeros(n, dtype=bool)

@@ -16,7 +16,7 @@ from signorini.arrays import Array
 from signorini.errors import InputError
 from signorini.lcp.residual import Matrix, Residual, Yardstick
 
-LARGEST_DENSE = 30_000
+LARGEST_DENSE = 30_000  # rows: 7 GB
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,7 +96,7 @@ def read_problem(M: Any, q: ArrayLike) -> LCP:
 
 
 def read_vector(values: ArrayLike, name: str, n: int) -> Array:
-    """A finite (n,) array, or an InputError that names it."""
+    """A finite (n,) array of values, or an InputError that has the name."""
     vector = _real(values, name)
     if vector.shape != (n,):
         raise InputError(f"has shape {vector.shape}; expected ({n},)", where=(name,))

@@ -51,14 +51,14 @@ class ProjectedSOR:
     polished: bool = True
 
     def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:
-        """See ``Method.attempt``."""
+        """Solve a problem from z0 to a tolerance, see ``Method.attempt``."""
         from signorini.lcp.kernels import sweeps
 
         if isinstance(problem.M, LinearOperator):
-            return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note="It needs the rows of M.")
+            return Attempt.refused("It needs the rows of M.")
         M = sp.csr_array(problem.M)
         if not (M.diagonal() > 0).all():
-            return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=0, note="It needs a positive diagonal.")
+            return Attempt.refused("It needs a positive diagonal.")
         z = np.zeros(problem.n) if z0 is None else np.maximum(z0, 0.0)
         ending, done = Status.MAX_ITERATIONS, 0
         while done < self.max_sweeps:

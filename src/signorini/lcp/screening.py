@@ -8,15 +8,15 @@ from numba import njit
 
 from signorini.arrays import Array, IntArray
 
-CLEARLY, BARELY, SINGULAR = 1e-9, 1e-13, 1e-6
-"""Pivots over the first: trusted above, 0 below; and what may remain of q where the block is singular."""
+TRUSTED_PIVOT, ZERO_PIVOT = 1e-9, 1e-13  # over the first pivot: relied on above, 0 below
+INCONSISTENCY = 1e-6  # of the largest unknown: what may remain of q where the block is singular
 
 
 @njit(cache=True)
 def eliminate(block: Array, size: int, order: IntArray) -> int:
     """Gauss elimination of ``block[:size, :size + 1]`` with complete pivoting; returns the rank.
 
-    The rank counts the pivots above ``BARELY`` times the first. The last column is the right-hand side; ``order``
+    The rank counts the pivots above ``ZERO_PIVOT`` times the first. The last column is the right-hand side; ``order``
     receives the unknown of every column.
     """
     for j in range(size):
@@ -30,7 +30,7 @@ def eliminate(block: Array, size: int, order: IntArray) -> int:
                     row, column, largest = i, j, abs(block[i, j])
         if step == 0:
             first = largest
-        if largest <= BARELY * first:
+        if largest <= ZERO_PIVOT * first:
             return step
         if row != step:
             for j in range(step, size + 1):
@@ -72,6 +72,12 @@ def lack_of(A: Array, q: Array, support: IntArray, size: int, tolerance: float, 
     In parts of its largest entry, or of 1 where that is more. A block is refused where q is far from its range, or
     where a z or w that its null space leaves alone is negative, each by more than the rounding of so conditioned a
     block; a block that is barely regular is never refused.
+
+    Parameters
+    ----------
+    A, q, tolerance : see `screen`
+    support, size : indices of the positive components, the first ``size`` of an array
+    block, order : (n, n + 1) and (n,) to work in
     """
     for i in range(size):
         for j in range(size):
@@ -79,20 +85,20 @@ def lack_of(A: Array, q: Array, support: IntArray, size: int, tolerance: float, 
         block[i, size] = -q[support[i]]
     rank = eliminate(block, size, order)
     condition = abs(block[0, 0] / block[rank - 1, rank - 1]) if rank > 0 else 1.0
-    if condition * CLEARLY >= 1.0:
+    if condition * TRUSTED_PIVOT >= 1.0:
         return 0.0
     scale = substitute_back(block, size, rank)
     left = 0.0
     for i in range(rank, size):
         left = max(left, abs(block[i, size]))
-    if left > SINGULAR * scale:
+    if left > INCONSISTENCY * scale:
         return left / scale
     room, lack = (tolerance + 1e-14 * size * condition) * scale, 0.0
     for k in range(rank):
         moved = 0.0
         for free in range(rank, size):
             moved = max(moved, abs(block[k, free]))
-        if moved <= CLEARLY and block[k, size] < -room:
+        if moved <= TRUSTED_PIVOT and block[k, size] < -room:
             lack = max(lack, -block[k, size])
     if lack > 0.0:
         return lack / scale
@@ -107,7 +113,7 @@ def lack_of(A: Array, q: Array, support: IntArray, size: int, tolerance: float, 
             for k in range(rank):
                 slope -= A[i, support[order[k]]] * block[k, free]
             moved = max(moved, abs(slope))
-        if moved <= CLEARLY and w < -room * sum_of_row:
+        if moved <= TRUSTED_PIVOT and w < -room * sum_of_row:
             lack = max(lack, -w)
     return lack / scale
 

@@ -48,6 +48,11 @@ class Attempt:
     note: str = ""
     ray: Ray | None = None
 
+    @staticmethod
+    def refused(note: str, *, iterations: int = 0) -> Attempt:
+        """A method that does not apply to a problem, and what it needs."""
+        return Attempt(z=None, ending=Status.NOT_APPLICABLE, iterations=iterations, note=note)
+
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class LCPSolution(Short):
