@@ -169,6 +169,16 @@ def test_plain_data(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert json.loads(capsys.readouterr().out) == json.loads((tmp_path / "summary.json").read_text())
 
 
+def test_a_moment_on_a_rigid_body_is_no_force(capsys):
+    """In words with the moment behind the force; as data the force alone, which is that on the bodies elsewhere."""
+    deck = str(DECK.with_name("rigid.inp"))
+    assert main(["check", deck]) == 0
+    assert "rigid Nhead (2)  force  total force (0, 0, 0.5) at factor 1" in capsys.readouterr().out
+    assert main(["check", deck, "--json"]) == 0
+    loads = json.loads(capsys.readouterr().out)["loads"]
+    assert [load["total_force"] for load in loads] == [[0.0, -10.0], [0.0, 0.0]]
+
+
 def test_what_is_finished_survives_an_interruption(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

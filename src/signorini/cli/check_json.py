@@ -8,6 +8,14 @@ from typing import Any
 
 from signorini.deck import Deck
 from signorini.engine.examine import Examined
+from signorini.model.conditions import Load
+
+
+def total_force(examined: Examined, load: Load) -> list[float]:
+    """The force of a load at factor 1, (d,); on a rigid body its moments follow."""
+    if load.force and load.on in {body.name for body in examined.model.rigid_bodies}:
+        return [part or 0.0 for part in load.force]
+    return list(examined.space.at_nodes(examined.loads[load.label]).sum(axis=0).tolist())
 
 
 def deck_data(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str, Any]:
@@ -52,7 +60,7 @@ def deck_data(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str,
             {
                 "name": load.label,
                 "kind": load.kind,
-                "total_force": examined.loads[load.label].reshape(-1, dimension).sum(axis=0).tolist(),
+                "total_force": total_force(examined, load)[:dimension],
             }
             for load in model.loads
         ],

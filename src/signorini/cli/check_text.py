@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.cli.check_json import total_force
 from signorini.cli.check_notes import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
 from signorini.deck import Deck
 from signorini.engine.duplicate_check import same_loads
@@ -133,13 +134,8 @@ def _equations(examined: Examined) -> tuple[str, ...]:
 
 
 def _loads(examined: Examined) -> Rows:
-    rows: Rows = []
-    rigid = {body.name for body in examined.model.rigid_bodies}
-    for load_ in examined.model.loads:
-        forces = examined.space.at_nodes(examined.loads[load_.label])
-        total = [part or 0.0 for part in load_.force] if load_.on in rigid and load_.force else forces.sum(axis=0)
-        rows.append((load_.label, load_.kind.replace("_", " "), f"total force {spell_vector(total)} at factor 1"))
-    return rows
+    totals = ((load, spell_vector(total_force(examined, load))) for load in examined.model.loads)
+    return [(load.label, load.kind.replace("_", " "), f"total force {total} at factor 1") for load, total in totals]
 
 
 def _contacts(examined: Examined) -> Rows:
