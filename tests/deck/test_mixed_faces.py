@@ -152,6 +152,7 @@ def test_a_converted_deck_and_an_archive_are_the_same_model(folder, tmp_path):
                 np.testing.assert_array_equal(mine, theirs)
 
 
+@pytest.mark.slow
 def test_a_run_draws_and_writes_both_kinds(folder, tmp_path, capsys):
     assert main(["check", str(folder / "deck.toml")]) == 0
     assert main(["run", str(folder / "deck.toml"), "-o", str(tmp_path / "out")]) == 0

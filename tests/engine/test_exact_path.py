@@ -22,6 +22,7 @@ def in_increments(steps, number):
     return [replace(step, increments=number) for step in steps]
 
 
+@pytest.mark.slow
 def test_increments_converge_to_the_exact_path():
     """First order at best (the findings of any increment: 1 is off by 36 % of mu p_0 in friction on this mesh)."""
     exact = sg.solve(zhu_cylinder(refine=2, steps=[sg.Step(name="press")]))

@@ -91,6 +91,7 @@ def test_elimination_has_the_rank_and_the_solution():
         np.testing.assert_allclose(A @ x, b, atol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", [problems.random_p, lambda n, rng: problems.random_psd(n, n, rng, skew=0.3)])
 def test_twenty_unknowns(make):
     posed = make(20, np.random.default_rng(3))

@@ -121,6 +121,7 @@ def test_summary(results: tuple[Results, dict[str, Any]]) -> None:
             assert_types(contact["name"], contact, CONTACT)
 
 
+@pytest.mark.slow
 def test_energy_is_accounted_for(results: tuple[Results, dict[str, Any]]) -> None:
     stored = 0.0
     for step in results[0].summary["steps"]:

@@ -92,6 +92,7 @@ def use() -> Iterator[object]:
         set_number(number)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backend", ["auto", "iterative"])
 @pytest.mark.parametrize("deck", ["plane", "space"])
 def test_a_run_gives_the_same_bytes_whatever_the_threads(deck: str, backend: str, tmp_path: Path, use) -> None:

@@ -29,6 +29,7 @@ def test_answers_proofs_and_restarts(seed):
     assert not verdict.failed, (sorted(case.kinds), verdict)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("seed", "kinds"), [(76, ("thin", "space")), (40057, ("thin", "space")), (132, ("thin", "space")), (20235, ())]
 )

@@ -40,6 +40,7 @@ def moment(arm, force):
     return np.cross(arm, force).sum(axis=0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("build", "given", "body"),
     [

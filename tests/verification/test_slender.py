@@ -84,6 +84,7 @@ def test_a_shim_passes_a_uniform_pressure_on(height, cells):
         np.testing.assert_allclose(contact.pressure, 100.0, rtol=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cells", ["hexahedron20", "tetra10"])
 def test_where_the_condensed_interface_has_lost_its_digits_the_bodies_have_them(cells):
     """Compliances of a shim 1000 times as wide as thick are 10^8 times those of the blocks."""

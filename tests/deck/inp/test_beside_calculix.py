@@ -120,6 +120,7 @@ def deck(folder: Path, words: str, steps: list[str], gap: float, increments: int
     return path
 
 
+@pytest.mark.slow
 @needs_ccx
 @pytest.mark.parametrize("case", CASES)
 def test_displacements_are_those_of_calculix(tmp_path: Path, case: str) -> None:
