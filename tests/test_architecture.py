@@ -300,13 +300,13 @@ RULES = {
 PENDING = {
     "checks": "parameters constants",
     #
-    "condense": "signatures nouns parameters classes constants",
+    "condense": "signatures nouns parameters constants",
     #
     "engine": "nouns parameters constants",
     #
     "errors": "nouns parameters",
     #
-    "fem": "signatures nouns parameters classes constants",
+    "fem": "signatures nouns parameters constants",
     #
     "friction": "files nouns parameters classes constants",
     #

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.condense.operator import Image
+from signorini.condense.operator import InterfaceOperator
 from signorini.gallery.blocks import dragged_block, four_blocks
 from signorini.gallery.cubes import cubes
 
@@ -28,8 +28,8 @@ def interface(seed, size=6, floats=2, locked=(2,)):
 @pytest.mark.parametrize("floats", [0, 1, 2, 4])
 def test_the_compliance_gives_the_image_form_back(floats):
     W, motions = interface(0, floats=floats)
-    posed = Image.of_form(W, motions)
-    soft = Image.of_compliance(posed.A, motions, posed.R)
+    posed = InterfaceOperator.of_form(W, motions)
+    soft = InterfaceOperator.of_compliance(posed.A, motions, posed.R)
     x = np.random.default_rng(1).normal(size=len(W))
     np.testing.assert_allclose(soft.applied(x), W @ x, atol=1e-13)
     assert "W" not in soft.__dict__
@@ -41,8 +41,11 @@ def test_the_compliance_gives_the_image_form_back(floats):
 def test_what_is_applied_does_not_know_what_was_made_before(seed):
     """A tree or a path forms the image; a history that is cut behind it and gone on with has not, and is the same."""
     W, motions = interface(seed)
-    x, given = np.random.default_rng(1).normal(size=len(W)), Image.of_form(W, motions)
-    for make in (lambda: Image.of_form(W, motions), lambda: Image.of_compliance(given.A, motions, given.R)):
+    x, given = np.random.default_rng(1).normal(size=len(W)), InterfaceOperator.of_form(W, motions)
+    for make in (
+        lambda: InterfaceOperator.of_form(W, motions),
+        lambda: InterfaceOperator.of_compliance(given.A, motions, given.R),
+    ):
         used = make()
         _ = used.W, used.A, used.factor, used.single
         assert np.array_equal(used.applied(x), make().applied(x))
@@ -54,8 +57,8 @@ def test_what_is_applied_does_not_know_what_was_made_before(seed):
 def test_locked_rows_stay_exactly_zero(seed, locked):
     """Also those among the first, which the factorisation of the motions mixes with others but for rounding."""
     W, motions = interface(seed, floats=3, locked=locked)
-    posed = Image.of_form(W, motions)
-    for image in (posed, Image.of_compliance(posed.A, motions, posed.R)):
+    posed = InterfaceOperator.of_form(W, motions)
+    for image in (posed, InterfaceOperator.of_compliance(posed.A, motions, posed.R)):
         assert np.flatnonzero(image.still).tolist() == list(locked)
         assert not image.W[list(locked)].any()
 
@@ -79,6 +82,6 @@ def test_what_is_solved_as_usual_forms_no_image_form(make, monkeypatch):
         raise AssertionError(f"W of {len(image.R)} rows was formed")
 
     never = cached_property(formed)
-    never.__set_name__(Image, "W")
-    monkeypatch.setattr(Image, "W", never)
+    never.__set_name__(InterfaceOperator, "W")
+    monkeypatch.setattr(InterfaceOperator, "W", never)
     assert sg.solve(make()).solved

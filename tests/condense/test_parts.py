@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Parts one by one against the whole: blocks, ties between them, and parts that nothing else holds."""
+"""BodyBlocks one by one against the whole: blocks, ties between them, and parts that nothing else holds."""
 
 import numpy as np
 import pytest
 import scipy.sparse as sp
 
 from signorini.condense.basis import make_basis
-from signorini.condense.body_blocks import independent, make_parts
+from signorini.condense.body_blocks import independent, make_body_blocks
 
 
 def stiff(rng, size, rigid=None):
@@ -38,7 +38,7 @@ def test_blocks_are_found_in_any_order(bodies):
 def test_balanced_forces_move_the_parts_as_the_pseudo_inverse_says(bodies):
     """But for a rigid motion."""
     rng, _, S, rigid = bodies
-    parts = make_parts(S, np.zeros((0, 9)), rigid, size=1.0)
+    parts = make_body_blocks(S, np.zeros((0, 9)), rigid, size=1.0)
     basis = make_basis(rigid).R
     force = rng.standard_normal(9)
     force -= basis @ (basis.T @ force)
@@ -52,7 +52,7 @@ def test_compliance_is_what_solving_gives(bodies):
     B = sp.random_array((7, 9), density=0.4, rng=rng).tocsr()
     for ties in (np.zeros((0, 9)), rng.standard_normal((2, 9))):
         held = rigid if not len(ties) else np.zeros((9, 0))  # two ties hold two motions
-        parts = make_parts(S, ties, held, size=1.0)
+        parts = make_body_blocks(S, ties, held, size=1.0)
         expected = B @ parts.solve(B.T.toarray())
         found = parts.compliance(B)
         np.testing.assert_allclose(found, expected, atol=1e-11)
@@ -63,6 +63,6 @@ def test_compliance_is_what_solving_gives(bodies):
 def test_what_nothing_holds_is_refused(bodies):
     _, _, S, rigid = bodies
     with pytest.raises(np.linalg.LinAlgError):
-        make_parts(S - 1e-9 * np.eye(9), np.zeros((0, 9)), np.zeros_like(rigid), size=1.0)
+        make_body_blocks(S - 1e-9 * np.eye(9), np.zeros((0, 9)), np.zeros_like(rigid), size=1.0)
     with pytest.raises(np.linalg.LinAlgError, match="do not see"):
         make_basis(np.ones((4, 2)))

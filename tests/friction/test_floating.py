@@ -6,7 +6,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from signorini.condense.operator import Image
+from signorini.condense.operator import InterfaceOperator
 from signorini.friction import OPEN, STICK, CoulombProblem, solve_coulomb
 from signorini.friction.plane.covering import follow
 from tests.helpers.coulomb_samples import block_on_floor
@@ -61,7 +61,7 @@ def test_an_unloaded_block_stays():
 def test_motions_that_are_none_are_refused():
     problem = block_on_floor(4, (-1.0, 0.0, 0.0))
     with pytest.raises(ValueError, match=r"motions: are no rigid motions: W R differs from R by"):
-        Image.of_form(problem.W, np.eye(8)[:, :1])
+        InterfaceOperator.of_form(problem.W, np.eye(8)[:, :1])
 
 
 def test_a_pair_given_twice_shares_its_force():

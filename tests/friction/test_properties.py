@@ -6,7 +6,7 @@ import dataclasses
 import numpy as np
 from hypothesis import strategies as st
 
-from signorini.condense.operator import Image
+from signorini.condense.operator import InterfaceOperator
 from signorini.friction import SLIP_MINUS, SLIP_PLUS, CoulombProblem, mu_low, solve_coulomb
 from tests.helpers.coulomb_samples import HELD, answer, for_all, random_problem
 
@@ -64,7 +64,7 @@ def test_mirror(seed, pairs):
 @for_all(seed=seeds, pairs=st.integers(2, 6))
 def test_basis_of_the_rigid_motions(seed, pairs):
     problem = random_problem(seed, pairs, 2, 0.3)
-    image = Image.of_form(problem.W, problem.motions @ np.array([[2.0, 0.3], [-1.0, 0.1]]))
+    image = InterfaceOperator.of_form(problem.W, problem.motions @ np.array([[2.0, 0.3], [-1.0, 0.1]]))
     other = dataclasses.replace(problem, image=image)
     here, there = solve_coulomb(problem), solve_coulomb(other)
     assert here.outcome == there.outcome

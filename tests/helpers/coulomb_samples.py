@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given, settings
 
 from signorini.condense.basis import make_basis
-from signorini.condense.operator import Image
+from signorini.condense.operator import InterfaceOperator
 from signorini.friction import CoulombProblem, certify
 from signorini.friction.cone import cone_system
 from signorini.friction.law import states
@@ -56,7 +56,7 @@ def with_stiffness(problem, factor):
     basis = make_basis(motions)
     A = factor * image.A
     leaning = basis.project(A)
-    few = Image.of_compliance(A, motions, basis.R)
+    few = InterfaceOperator.of_compliance(A, motions, basis.R)
     resultant = basis.coefficients(image.motions.T @ problem.b)
     b = few.load(root * problem.free_motion(problem.b) - leaning @ resultant, resultant)
     return dataclasses.replace(problem, image=few, b=b, scale=root * problem.scale)

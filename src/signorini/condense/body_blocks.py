@@ -24,7 +24,7 @@ _TILE = 64  # rows and columns mirrored at a time
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Part:
+class BodyBlock:
     """One block.
 
     Attributes
@@ -47,7 +47,7 @@ class Part:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Parts:
+class BodyBlocks:
     """All blocks, and the ties between them.
 
     Attributes
@@ -57,7 +57,7 @@ class Parts:
     gram : Cholesky factor of what they move of themselves, (t, t)
     """
 
-    blocks: tuple[Part, ...]
+    blocks: tuple[BodyBlock, ...]
     across: Array
     gram: Array
 
@@ -89,7 +89,7 @@ class Parts:
         return result
 
 
-def make_parts(stiffness: Array, ties: Array, rigid: Array, *, size: float) -> Parts:
+def make_body_blocks(stiffness: Array, ties: Array, rigid: Array, *, size: float) -> BodyBlocks:
     """Factorise.
 
     Parameters
@@ -108,19 +108,19 @@ def make_parts(stiffness: Array, ties: Array, rigid: Array, *, size: float) -> P
     --------
     Two nodes, one on a spring of stiffness 4, the other free; each is a part:
 
-    >>> parts = make_parts(np.diag([4.0, 0.0]), np.zeros((0, 2)), np.array([[0.0], [1.0]]), size=1.0)
+    >>> parts = make_body_blocks(np.diag([4.0, 0.0]), np.zeros((0, 2)), np.array([[0.0], [1.0]]), size=1.0)
     >>> [part.dofs.tolist() for part in parts.blocks], parts.solve(np.array([1.0, 0.0])).tolist()
     ([[0], [1]], [0.25, 0.0])
     """
     if len(ties):
         stiffness = stiffness + size * (ties.T @ ties)
-    blocks = tuple(_part(stiffness, dofs, rigid[dofs], size) for dofs in independent(stiffness))
-    untied = Parts(blocks=blocks, across=np.zeros((len(stiffness), 0)), gram=np.zeros((0, 0)))
+    blocks = tuple(_block(stiffness, dofs, rigid[dofs], size) for dofs in independent(stiffness))
+    untied = BodyBlocks(blocks=blocks, across=np.zeros((len(stiffness), 0)), gram=np.zeros((0, 0)))
     if not len(ties):
         return untied
     across = untied.solve(ties.T)
     gram = np.asarray(np.linalg.cholesky(ties @ across), dtype=np.float64)
-    return Parts(blocks=blocks, across=across, gram=gram)
+    return BodyBlocks(blocks=blocks, across=across, gram=gram)
 
 
 def independent(matrix: Array) -> list[IntArray]:
@@ -142,7 +142,7 @@ def independent(matrix: Array) -> list[IntArray]:
     return blocks
 
 
-def _part(stiffness: Array, dofs: IntArray, rigid: Array, size: float) -> Part:
+def _block(stiffness: Array, dofs: IntArray, rigid: Array, size: float) -> BodyBlock:
     """One block, held by springs where it floats."""
     first, last = dofs[0], dofs[-1] + 1
     together = last - first == len(dofs)
@@ -153,7 +153,7 @@ def _part(stiffness: Array, dofs: IntArray, rigid: Array, size: float) -> Part:
         Q = Q[:, : np.count_nonzero(left > _VANISHES * left[0])]
         matrix += size * (Q @ Q.T)
     cholesky, _ = scipy.linalg.cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)
-    return Part(dofs=dofs, cholesky=cholesky)
+    return BodyBlock(dofs=dofs, cholesky=cholesky)
 
 
 def inverse_of(cholesky: Array, *, overwrite: bool = False) -> Array:

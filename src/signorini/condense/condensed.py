@@ -14,8 +14,8 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.clock import Clock
 from signorini.condense.basis import Basis, make_basis
-from signorini.condense.body_blocks import make_parts
-from signorini.condense.operator import Image
+from signorini.condense.body_blocks import make_body_blocks
+from signorini.condense.operator import InterfaceOperator
 from signorini.condense.response import ByNodes, Response, keep_pairs
 from signorini.condense.ties import Ties, make_ties
 from signorini.interface.interface import Interface
@@ -59,7 +59,7 @@ class Condensed:
     """
 
     response: Response
-    image: Image
+    image: InterfaceOperator
     active: BoolArray
     held: BoolArray
     root: Array
@@ -225,7 +225,7 @@ def condense(
         compliance = (interface.compliance / interface.areas)[interface.rows(active)]
         if response is None:
             size = float(K_c.diagonal().mean()) if K_c.nnz else stiffness
-            parts = make_parts(factorisation.schur(), ties.B[:, dofs].toarray(), rigid[dofs], size=size)
+            parts = make_body_blocks(factorisation.schur(), ties.B[:, dofs].toarray(), rigid[dofs], size=size)
             response = ByNodes(factorisation=factorisation, parts=parts, B=B_c, rigid=rigid[dofs])
         return Condensed(
             response=response,
@@ -252,7 +252,7 @@ def _image(response: Response, root: Array, compliance: Array) -> dict[str, Any]
         raise np.linalg.LinAlgError("contact hardly resists a rigid motion")
     leaning = basis.project(A)
     A.flags.writeable = motions.flags.writeable = False
-    return {"image": Image.of_compliance(A, motions, basis.R), "_basis": basis, "_leaning": leaning}
+    return {"image": InterfaceOperator.of_compliance(A, motions, basis.R), "_basis": basis, "_leaning": leaning}
 
 
 def _interface_stiffness(

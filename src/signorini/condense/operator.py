@@ -35,7 +35,7 @@ _SOFTNESS = 0.1  # of the mean diagonal of A
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Image:
+class InterfaceOperator:
     """Compliance and rigid motions of a contact interface, scaled; make it by `of_form` or `of_compliance`.
 
     Attributes
@@ -47,9 +47,9 @@ class Image:
     Examples
     --------
     >>> held = np.zeros((1, 0))
-    >>> Image.of_form(np.array([[0.5]]), held).A.round(12).tolist()
+    >>> InterfaceOperator.of_form(np.array([[0.5]]), held).A.round(12).tolist()
     [[1.0]]
-    >>> Image.of_compliance(np.eye(1), held, held).W.round(12).tolist()
+    >>> InterfaceOperator.of_compliance(np.eye(1), held, held).W.round(12).tolist()
     [[0.5]]
     """
 
@@ -58,7 +58,7 @@ class Image:
     by_form: bool = False
 
     @classmethod
-    def of_form(cls, W: Array, motions: Array) -> Image:
+    def of_form(cls, W: Array, motions: Array) -> InterfaceOperator:
         """The interface of W, with ``W R = R`` to rounding whatever its accuracy: ``P W P + R R'``, P = I - R R'.
 
         A body that floats may travel far beyond its elastic motion, which multiplies the error of W R by as much.
@@ -99,7 +99,7 @@ class Image:
         return cls(motions=motions, R=R, by_form=True)._knowing(W=W)
 
     @classmethod
-    def of_compliance(cls, A: Array, motions: Array, R: Array) -> Image:
+    def of_compliance(cls, A: Array, motions: Array, R: Array) -> InterfaceOperator:
         """The interface of a given compliance A, (m, m), symmetric, with ``A R = 0``; nothing is copied.
 
         Raises
@@ -111,7 +111,7 @@ class Image:
         _ = result.factor
         return result
 
-    def _knowing(self, **known: Array) -> Image:
+    def _knowing(self, **known: Array) -> InterfaceOperator:
         """The same with what is given where cached properties keep their values."""
         self.__dict__.update(known)
         return self
@@ -139,7 +139,7 @@ class Image:
 
     @cached_property
     def W(self) -> Array:
-        """(m, m) Image form, symmetric, spectrum in [0, 1]."""
+        """(m, m) InterfaceOperator form, symmetric, spectrum in [0, 1]."""
         W = inverse_of(self.factor).T
         np.negative(W, out=W)
         W += self.R @ self.R.T
@@ -175,7 +175,7 @@ class Image:
         """b, (m,), of a free motion, (m,), whose rigid part does not count, and resultants ``R' b``, (k,).
 
         >>> held = np.zeros((1, 0))
-        >>> Image.of_form(np.array([[0.5]]), held).load(np.array([3.0]), np.zeros(0)).round(12).tolist()
+        >>> InterfaceOperator.of_form(np.array([[0.5]]), held).load(np.array([3.0]), np.zeros(0)).round(12).tolist()
         [1.5]
         """
         return softened(self.factor, free - self.R @ (self.R.T @ free)) + self.R @ resultant

@@ -24,7 +24,7 @@ import scipy.linalg
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.condense.body_blocks import Parts
+from signorini.condense.body_blocks import BodyBlocks
 from signorini.linalg.border import bordered
 from signorini.linalg.protocol import Factorisation, Reduced
 from signorini.linalg.registry import factorise
@@ -79,7 +79,7 @@ class ByNodes:
     """
 
     factorisation: Factorisation
-    parts: Parts
+    parts: BodyBlocks
     B: sp.csr_array
     rigid: Array
 

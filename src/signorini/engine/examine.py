@@ -14,7 +14,7 @@ from signorini.engine.free_motion_check import refuse_unheld
 from signorini.fem.links import linked_nodes
 from signorini.fem.loads import nodal_loads
 from signorini.fem.locking import refuse_locking
-from signorini.fem.rigid import Part, free_motions, make_parts, rigid_motions
+from signorini.fem.rigid import ConnectedBody, connected_bodies, free_motions, rigid_motions
 from signorini.fem.space import Space, make_space
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.interface import Interface, make_interface
@@ -41,7 +41,7 @@ class Examined:
     constraints: Constraints
     interface: Interface
     loads: Mapping[str, Array]
-    parts: tuple[Part, ...]
+    parts: tuple[ConnectedBody, ...]
     motions: sp.csr_array
     floating: Array
     scale: Scale
@@ -75,7 +75,7 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
     interface = make_interface(space, model, always)
     if start is not None:
         start.check(model, interface)
-    parts = make_parts(space, model)
+    parts = connected_bodies(space, model)
     motions = rigid_motions(space, parts)
     refuse_unheld(model, space, constraints, interface, parts, motions, schedule)
     loading = most_imposed(schedule, loads, constraints, None if start is None else start.loading)

@@ -10,7 +10,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array
 from signorini.errors import InputError
-from signorini.fem.rigid import Part, describe_motions, free_motions
+from signorini.fem.rigid import ConnectedBody, describe_motions, free_motions
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.interface import Interface, pairs_of
@@ -23,7 +23,7 @@ def refuse_unheld(
     space: Space,
     constraints: Constraints,
     interface: Interface,
-    parts: tuple[Part, ...],
+    parts: tuple[ConnectedBody, ...],
     motions: sp.csr_array,
     schedule: Sequence[Stage],
 ) -> None:
@@ -62,7 +62,11 @@ def left_out(error: InputError, stage: Stage) -> InputError:
 
 
 def refuse_free_motions(
-    space: Space, constraints: Constraints, interface: Interface, parts: tuple[Part, ...], motions: sp.csr_array
+    space: Space,
+    constraints: Constraints,
+    interface: Interface,
+    parts: tuple[ConnectedBody, ...],
+    motions: sp.csr_array,
 ) -> None:
     """A motion that neither supports nor contact can resist has no place that a solver could find."""
     dofs = space.dofs(np.unique(interface.B.indices // space.dimension)).ravel()
@@ -80,5 +84,5 @@ def refuse_free_motions(
         )
 
 
-def _say(parts: tuple[Part, ...], motions: Array) -> str:
+def _say(parts: tuple[ConnectedBody, ...], motions: Array) -> str:
     return ", and ".join(describe_motions(parts, motions))

@@ -18,7 +18,7 @@ from signorini.engine.examine import Examined
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart
 from signorini.fem.boundary import boundary
-from signorini.fem.rigid import Part
+from signorini.fem.rigid import ConnectedBody
 from signorini.law.states import OPEN
 from signorini.solution.state import State
 
@@ -172,7 +172,7 @@ def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
     """Bodies that strain or turn by a quarter of their size, contacts that slip by a tenth of theirs."""
     displacement = prepared.space.at_nodes(state.displacement)
     for part in prepared.parts:
-        if part.kind == Part.kind:
+        if part.kind == ConnectedBody.kind:
             change = float(np.linalg.norm(extent(displacement[part.nodes]))) / (2.0 * part.size)
             if change > _STRAINED:
                 yield (

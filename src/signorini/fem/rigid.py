@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.linalg
@@ -16,15 +17,13 @@ from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.model.model import Model
 
-# of the largest eigenvalue of the Gram matrix of the motions: below it a motion is not held
-_UNSEEN = 1e-12
-# of the largest coefficient of a motion: what eigenvectors leave to parts that are at rest
-_ROUNDED = 1e-10
-_ALONG = "move along"
+_HELD_LEAST = 1e-12  # of the largest eigenvalue of the Gram matrix of the motions: below it a motion is not held
+_REST_TOL = 1e-10  # of the largest coefficient of a motion: what eigenvectors leave to parts that are at rest
+_TRANSLATION = "move along"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Part:
+class ConnectedBody:
     """A connected piece of the mesh.
 
     Attributes
@@ -36,7 +35,7 @@ class Part:
     obstacle : number of the rigid obstacle, or rigid body, that it is instead, otherwise -1: no nodes, the point about
         which it rotates and the length that goes with its rotation
     axes : along which it can move
-    turns : about how many axes it can rotate
+    rotations : about how many axes it can rotate
     kind : what it is called: "body", "obstacle", "rigid body", "node"
     """
 
@@ -46,7 +45,7 @@ class Part:
     size: float
     obstacle: int = -1
     axes: tuple[int, ...] = (0, 1)
-    turns: int = 1
+    rotations: int = 1
     kind: str = "body"
 
     @property
@@ -60,88 +59,88 @@ class Part:
     @property
     def motions(self) -> int:
         """How many rigid motions it has."""
-        return len(self.axes) + self.turns
+        return len(self.axes) + self.rotations
 
 
-def make_parts(space: Space, model: Model) -> tuple[Part, ...]:
+def connected_bodies(space: Space, model: Model) -> tuple[ConnectedBody, ...]:
     """The connected pieces of the mesh in the order of their first nodes, then what moves without being meshed.
 
-    That are rigid obstacles, rigid bodies, and nodes of no cell that equations name.
+    Those are rigid obstacles, rigid bodies, and nodes of no cell that equations name.
     """
-    d = space.dimension
-    axes, turns = ((1,), 0) if model.axisymmetric else (tuple(range(d)), len(_turns(d)))
+    return (*_pieces(space, model), *_rigid(model), *_loose_nodes(space))
+
+
+def _freedom(model: Model) -> dict[str, Any]:
+    """Axes along which a body can move, and the number of those about which it can rotate."""
+    d = model.dimension
+    return (
+        {"axes": (1,), "rotations": 0}
+        if model.axisymmetric
+        else {"axes": tuple(range(d)), "rotations": len(_rotation_planes(d))}
+    )
+
+
+def _pieces(space: Space, model: Model) -> list[ConnectedBody]:
+    """Pieces of the mesh."""
     points, count = space.mesh.points, len(space.mesh.points)
-    links = [(np.repeat(b.cells[:, 0], b.cells.shape[1]), b.cells.ravel()) for b in space.blocks]
-    rows, columns = np.concatenate([r for r, _ in links]), np.concatenate([c for _, c in links])
+    rows = np.concatenate([np.repeat(b.cells[:, 0], b.cells.shape[1]) for b in space.blocks])
+    columns = np.concatenate([b.cells.ravel() for b in space.blocks])
     graph = sp.csr_array((np.ones(len(rows), np.int8), (rows, columns)), shape=(count, count))
     _, piece = connected_components(graph, directed=False)
-    body_of_cell = model.body_of_cells()
+    number, owner = int(piece.max()) + 1, model.body_of_cells()
     pieces_of = [
-        among(
-            [piece[b.cells[body_of_cell[b.first : b.first + len(b.cells)] == i, 0]] for b in space.blocks],
-            int(piece.max()) + 1,
-        )
+        among([piece[b.cells[owner[b.first : b.first + len(b.cells)] == i, 0]] for b in space.blocks], number)
         for i in range(len(model.bodies))
     ]
     parts = []
-    for i in np.flatnonzero(among([piece[space.used_nodes]], int(piece.max()) + 1)):
+    for i in np.flatnonzero(among([piece[space.used_nodes]], number)):
         nodes = np.nonzero(piece == i)[0]
-        parts.append(
-            Part(
-                bodies=tuple(body.name for body, own in zip(model.bodies, pieces_of, strict=True) if own[i]),
-                nodes=nodes,
-                centre=points[nodes].mean(axis=0),
-                size=float(np.linalg.norm(extent(points[nodes])) / 2.0),
-                axes=axes,
-                turns=turns,
-            )
-        )
+        names = tuple(body.name for body, own in zip(model.bodies, pieces_of, strict=True) if own[i])
+        centre, size = points[nodes].mean(axis=0), float(np.linalg.norm(extent(points[nodes])) / 2.0)
+        parts.append(ConnectedBody(bodies=names, nodes=nodes, centre=centre, size=size, **_freedom(model)))
+    return parts
+
+
+def _rigid(model: Model) -> list[ConnectedBody]:
+    """Rigid obstacles, then rigid bodies."""
     rigid = [(obstacle.name, obstacle.about, "obstacle") for obstacle in model.obstacles]
     rigid += [(body.name, body.point, "rigid body") for body in model.rigid_bodies]
-    none = np.empty(0, int)
-    for j, (name, about, kind) in enumerate(rigid):
-        centre = np.array(about)
-        parts.append(
-            Part(
-                bodies=(name,),
-                nodes=none,
-                centre=centre,
-                size=arm(model),
-                obstacle=j,
-                axes=axes,
-                turns=turns,
-                kind=kind,
-            )
-        )
-    for node in space.loose_nodes:
-        number = str(space.mesh.labels[node])
-        alone = np.array([node])
-        every = tuple(range(d))
-        parts.append(
-            Part(bodies=(number,), nodes=alone, centre=points[node], size=1.0, axes=every, turns=0, kind="node")
-        )
-    return tuple(parts)
+    given = {"nodes": np.empty(0, int), "size": arm(model), **_freedom(model)}
+    return [
+        ConnectedBody(bodies=(name,), centre=np.array(about), obstacle=j, kind=kind, **given)
+        for j, (name, about, kind) in enumerate(rigid)
+    ]
 
 
-def rigid_motions(space: Space, parts: tuple[Part, ...]) -> sp.csr_array:
+def _loose_nodes(space: Space) -> list[ConnectedBody]:
+    """Nodes of no cell, which do not rotate."""
+    points, labels = space.mesh.points, space.mesh.labels
+    given: dict[str, Any] = {"axes": tuple(range(space.dimension)), "rotations": 0, "kind": "node"}
+    return [
+        ConnectedBody(bodies=(str(labels[i]),), nodes=np.array([i]), centre=points[i], size=1.0, **given)
+        for i in space.loose_nodes
+    ]
+
+
+def rigid_motions(space: Space, parts: tuple[ConnectedBody, ...]) -> sp.csr_array:
     """Translations along x and y and the rotation ``(-(y - y_c), x - x_c) / size`` of each part, (dofs, motions).
 
     In space three translations and the rotations ``e_k x (x - c) / size``. Axisymmetric parts move along the axis
     alone: widening a ring or tilting a plate strains it.
     """
     d = space.dimension
-    full = d + len(_turns(d))
+    full = d + len(_rotation_planes(d))
     rows, columns, values = [], [], []
     start = np.cumsum([0, *(part.motions for part in parts)])
     for i, part in enumerate(parts):
         lever = (space.mesh.points[part.nodes] - part.centre) / part.size
         one, along = np.ones(len(part.nodes)), space.dofs(part.nodes).T
         motions = [(k, dofs, one) for k, dofs in enumerate(along)]
-        for k, (first, second) in enumerate(_turns(d), start=d):
+        for k, (first, second) in enumerate(_rotation_planes(d), start=d):
             motions += [(k, along[first], -lever[:, second]), (k, along[second], lever[:, first])]
         if part.obstacle >= 0:
             motions = [(k, dof, np.ones(1)) for k, dof in enumerate(space.obstacle_dofs(part.obstacle)[:full, None])]
-        kept = [*part.axes, *range(d, d + part.turns)]
+        kept = [*part.axes, *range(d, d + part.rotations)]
         for k, dofs, value in motions:
             if k in kept:
                 rows.append(dofs)
@@ -151,7 +150,7 @@ def rigid_motions(space: Space, parts: tuple[Part, ...]) -> sp.csr_array:
     return sp.csr_array(entries, shape=(space.number_of_dofs, int(start[-1])))
 
 
-def _turns(dimension: int) -> tuple[tuple[int, int], ...]:
+def _rotation_planes(dimension: int) -> tuple[tuple[int, int], ...]:
     """Of every rotation the axis that it turns into the other."""
     return ((0, 1),) if dimension == 2 else ((1, 2), (2, 0), (0, 1))
 
@@ -174,10 +173,10 @@ def free_motions(motions: sp.csr_array, constraints: Constraints, held: sp.csr_a
     springs = [(S / abs(S).max()) @ motions for S in constraints.springs.values()]
     seen = sp.vstack([lost, held @ motions, *springs])
     values, vectors = scipy.linalg.eigh((seen.T @ seen).toarray())
-    return _readable(vectors[:, values <= _UNSEEN * max(1.0, values[-1])])
+    return _readable(vectors[:, values <= _HELD_LEAST * max(1.0, values[-1])])
 
 
-def describe_motion(parts: tuple[Part, ...], motion: Array) -> str:
+def describe_motion(parts: tuple[ConnectedBody, ...], motion: Array) -> str:
     """A rigid motion in words: of every part that moves, along what or about where.
 
     Parameters
@@ -187,14 +186,14 @@ def describe_motion(parts: tuple[Part, ...], motion: Array) -> str:
     Examples
     --------
 
-    >>> block = Part(bodies=("block",), nodes=np.arange(4), centre=np.array([1.0, 0.5]), size=1.0)
+    >>> block = ConnectedBody(bodies=("block",), nodes=np.arange(4), centre=np.array([1.0, 0.5]), size=1.0)
     >>> describe_motion((block,), np.array([1.0, 0.0, 0.0]))
     "body 'block' can move along x"
     """
     return " while ".join(f"{part.label} can {' '.join(_way(part, own))}" for part, own in _moving(parts, motion))
 
 
-def describe_motions(parts: tuple[Part, ...], motions: Array) -> list[str]:
+def describe_motions(parts: tuple[ConnectedBody, ...], motions: Array) -> list[str]:
     """Several rigid motions in words, one sentence for all that the same parts can do.
 
     Parameters
@@ -204,7 +203,7 @@ def describe_motions(parts: tuple[Part, ...], motions: Array) -> list[str]:
     Examples
     --------
 
-    >>> block = Part(bodies=("block",), nodes=np.arange(4), centre=np.array([1.0, 0.5]), size=1.0)
+    >>> block = ConnectedBody(bodies=("block",), nodes=np.arange(4), centre=np.array([1.0, 0.5]), size=1.0)
     >>> describe_motions((block,), np.eye(3))
     ["body 'block' can move along x and y, and rotate about (1, 0.5)"]
     """
@@ -214,7 +213,7 @@ def describe_motions(parts: tuple[Part, ...], motions: Array) -> list[str]:
     return [_sentence(parts, group) for group in alike.values()]
 
 
-def describe_approach(parts: tuple[Part, ...], motion: Array, loose: Array) -> list[str]:
+def describe_approach(parts: tuple[ConnectedBody, ...], motion: Array, loose: Array) -> list[str]:
     """How far parts have moved before they touched, a sentence for each that did.
 
     Parameters
@@ -225,7 +224,7 @@ def describe_approach(parts: tuple[Part, ...], motion: Array, loose: Array) -> l
     Examples
     --------
 
-    >>> block = Part(bodies=("block",), nodes=np.arange(4), centre=np.array([1.0, 0.5]), size=2.0)
+    >>> block = ConnectedBody(bodies=("block",), nodes=np.arange(4), centre=np.array([1.0, 0.5]), size=2.0)
     >>> describe_approach((block,), np.array([0.0, -0.25, 0.002]), np.zeros(3))
     ["body 'block' approaches by 0.25 along -y and turns by 0.001 before contact can hold it"]
     """
@@ -253,12 +252,12 @@ def _direction(vector: Array) -> str:
     return f"{'-' if unit[k] < 0 else ''}{'xyz'[k]}" if np.count_nonzero(unit) == 1 else _spell(unit)
 
 
-def _sentence(parts: tuple[Part, ...], motions: list[Array]) -> str:
+def _sentence(parts: tuple[ConnectedBody, ...], motions: list[Array]) -> str:
     """Motions of the same parts in words."""
     moving = [_moving(parts, motion) for motion in motions]
     if len(moving[0]) > 1:
         return ", and ".join(describe_motion(parts, motion) for motion in motions)
-    ways: dict[str, list[str]] = {_ALONG: []}
+    ways: dict[str, list[str]] = {_TRANSLATION: []}
     for ((part, own),) in moving:
         how, what = _way(part, own)
         ways.setdefault(how, []).append(what)
@@ -270,23 +269,23 @@ def _sentence(parts: tuple[Part, ...], motions: list[Array]) -> str:
     return f"{moving[0][0][0].label} can {', and '.join(words)}"
 
 
-def _moving(parts: tuple[Part, ...], motion: Array) -> list[tuple[Part, Array]]:
+def _moving(parts: tuple[ConnectedBody, ...], motion: Array) -> list[tuple[ConnectedBody, Array]]:
     """The parts that move, and their coefficients without rounding."""
     clean = np.where(np.abs(motion) < 1e-6 * np.abs(motion).max(), 0.0, motion)
     ends = np.cumsum([part.motions for part in parts])
     return [(part, own) for part, own in zip(parts, np.split(clean, ends[:-1]), strict=True) if own.any()]
 
 
-def _way(part: Part, own: Array) -> tuple[str, str]:
+def _way(part: ConnectedBody, own: Array) -> tuple[str, str]:
     """How a part moves, and along which direction or about which point (in space an axis)."""
     along, turn = np.zeros(len(part.centre)), own[len(part.axes) :]
     along[list(part.axes)] = own[: len(part.axes)]
     if part.axes == (1,):
-        return _ALONG, "the axis"
+        return _TRANSLATION, "the axis"
     if not turn.any():
         direction = along / np.linalg.norm(along)
         named = "xyz"[int(np.argmax(np.abs(direction)))]
-        return _ALONG, named if np.count_nonzero(along) == 1 else _spell(direction)
+        return _TRANSLATION, named if np.count_nonzero(along) == 1 else _spell(direction)
     if len(turn) == 1:
         centre = part.centre + part.size * np.array([-along[1], along[0]]) / turn
         return "rotate about", _spell(centre, part.size)
@@ -323,4 +322,4 @@ def _readable(motions: Array) -> Array:
         basis[others] -= np.outer(basis[others, column], basis[row])
         row += 1
     # what does not move is exactly at rest, or rounding would be taken for a motion of it
-    return np.where(np.abs(basis) > _ROUNDED * np.abs(basis).max(axis=1, initial=0.0)[:, None], basis, 0.0).T
+    return np.where(np.abs(basis) > _REST_TOL * np.abs(basis).max(axis=1, initial=0.0)[:, None], basis, 0.0).T

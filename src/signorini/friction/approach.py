@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.condense.operator import Image
+from signorini.condense.operator import InterfaceOperator
 from signorini.friction.law import OPEN, STICK
 from signorini.friction.problem import CoulombProblem
 from signorini.friction.pull_away import unresisted
@@ -134,7 +134,7 @@ def _forces(rows: Array, friction: Array, load: Array) -> tuple[Array, IntArray]
     compliance = rows @ rows.T
     compliance[np.diag_indices_from(compliance)] += _SOFT * compliance.trace() / len(compliance)
     none = np.zeros((len(rows), 0))
-    image = Image.of_compliance(compliance, none, none)
+    image = InterfaceOperator.of_compliance(compliance, none, none)
     b = image.load(rows @ load, np.zeros(0))
     scale = float(np.abs(b).max())
     found: CoulombResult | SpatialResult

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, BoolArray, read_only
-from signorini.condense.operator import Image
+from signorini.condense.operator import InterfaceOperator
 from signorini.errors import InputError
 from signorini.law.bound import FrictionBound
 
@@ -29,7 +29,7 @@ class PosedContact:
         None stands for none
     """
 
-    image: Image
+    image: InterfaceOperator
     b: Array
     friction: Array
     scale: float
@@ -47,7 +47,7 @@ class PosedContact:
         motions : k = 0 where supports hold every body
         law : what else the problem takes
         """
-        return cls(image=Image.of_form(np.asarray(W), np.asarray(motions)), **law)
+        return cls(image=InterfaceOperator.of_form(np.asarray(W), np.asarray(motions)), **law)
 
     def __post_init__(self) -> None:
         for name in ("b", "friction"):
@@ -59,7 +59,7 @@ class PosedContact:
 
     @property
     def W(self) -> Array:
-        """(d n, d n) Image form, formed when first asked for."""
+        """(d n, d n) InterfaceOperator form, formed when first asked for."""
         return self.image.W
 
     @property

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from signorini import lcp
-from signorini.condense.operator import Image
+from signorini.condense.operator import InterfaceOperator
 from signorini.errors import InputError
 from signorini.friction import solve_coulomb
 from signorini.friction.spatial import (
@@ -160,7 +160,7 @@ def test_a_pair_that_supports_drag_along_one_tangent_turns_its_friction(push, fa
     W, b = problem.W.copy(), problem.b.copy()
     W[4], W[:, 4] = 0.0, 0.0
     b[[0, 4, 8]] = -2.0, push, 0.4
-    result = solve_spatial(replace(problem, image=Image.of_form(W, problem.motions), b=b))
+    result = solve_spatial(replace(problem, image=InterfaceOperator.of_form(W, problem.motions), b=b))
     assert result.solved
     np.testing.assert_allclose(result.slip[0, 0], push, atol=1e-10)
     found = violations(

@@ -8,7 +8,7 @@ import pytest
 
 from benchmarks.spatial_problems import hard_random
 from signorini import lcp
-from signorini.condense.operator import Image
+from signorini.condense.operator import InterfaceOperator
 from signorini.friction.space.sweeps import gauss_seidel
 from signorini.friction.spatial import (
     SLIP,
@@ -59,7 +59,7 @@ def test_turning_the_tangents_turns_the_answer(seed):
     c, s, zero = np.diag(np.cos(angle)), np.diag(np.sin(angle)), np.zeros((10, 10))
     Q = np.block([[np.eye(10), zero, zero], [zero, c, s], [zero, -s, c]])
     W = Q @ problem.W @ Q.T
-    turned = replace(problem, image=Image.of_form((W + W.T) / 2, problem.motions), b=Q @ problem.b)
+    turned = replace(problem, image=InterfaceOperator.of_form((W + W.T) / 2, problem.motions), b=Q @ problem.b)
     np.testing.assert_allclose(solve_spatial(turned).y, Q @ solve_spatial(problem).y, atol=1e-8)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from signorini.arrays import BoolArray
 from signorini.condense.basis import make_basis
-from signorini.condense.operator import Image
+from signorini.condense.operator import InterfaceOperator
 from signorini.friction.problem import CoulombProblem
 
 
@@ -44,7 +44,7 @@ def released(problem: CoulombProblem, kept: BoolArray) -> CoulombProblem | None:
         return None
     A, resultant = image.A[np.ix_(c, c)], basis.coefficients(image.R.T @ problem.b)
     free = problem.free_motion(problem.b)[c] - basis.project(A) @ resultant
-    few = Image.of_compliance(A, problem.motions[c], basis.R)
+    few = InterfaceOperator.of_compliance(A, problem.motions[c], basis.R)
     return replace(
         problem,
         image=few,
