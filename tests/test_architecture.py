@@ -298,13 +298,9 @@ RULES = {
 }
 
 PENDING = {
-    "checks": "parameters constants",
-    #
     "condense": "signatures nouns parameters constants",
     #
     "engine": "nouns parameters constants",
-    #
-    "errors": "nouns parameters",
     #
     "fem": "signatures nouns parameters constants",
     #
@@ -312,25 +308,13 @@ PENDING = {
     #
     "interface": "files parameters constants",
     #
-    "iterative": "nouns parameters classes constants",
-    #
     "law": "constants",
-    #
-    "memory": "parameters",
     #
     "meshing": "files parameters",
     #
-    "meshio_fixes": "nouns",
-    #
     "model": "files nouns classes constants",
     #
-    "reference": "parameters classes constants",
-    #
-    "short": "constants",
-    #
     "solution": "nouns parameters constants",
-    #
-    "sources": "nouns",
     #
 }
 """Rules that a room does not keep yet: what it keeps is taken out, and modules that move take their rules along."""

@@ -13,8 +13,8 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.errors import InputError, Where, one_of
 
-LARGEST = 1e100
-"""Of a number that is given: what is larger leaves no room to compute, its square least of all."""
+MAX_NUMBER = 1e100
+"""Size of a number that is given: what is larger leaves no room to compute, its square least of all."""
 
 _CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069]")
 """Line ends, what terminals obey, and what turns the direction of writing."""
@@ -23,7 +23,7 @@ _CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u206
 def number(
     value: Any, where: Where, *, above: float = -math.inf, below: float = math.inf, least: float = -math.inf
 ) -> float:
-    """A finite number with ``above < value < below`` and ``value >= least``.
+    """A finite number with ``above < value < below`` and ``value >= least``, named by where it stands.
 
     >>> number(-1, ("E",), above=0)
     Traceback (most recent call last):
@@ -39,15 +39,15 @@ def number(
         found = float(value)
     except OverflowError as error:
         raise InputError(f"is {_shown(value)}; expected {expected}", where=where) from error
-    if math.isfinite(found) and abs(found) > LARGEST:
-        raise InputError(f"is {found!r}; expected {expected} of at most {LARGEST:g}", where=where)
+    if math.isfinite(found) and abs(found) > MAX_NUMBER:
+        raise InputError(f"is {found!r}; expected {expected} of at most {MAX_NUMBER:g}", where=where)
     if not (math.isfinite(found) and above < found < below and found >= least):
         raise InputError(f"is {value!r}; expected {expected}", where=where)
     return found
 
 
 def whole(value: Any, where: Where, *, least: int = 1, most: int | None = None) -> int:
-    """A whole number of at least ``least`` and at most ``most``."""
+    """The value as a whole number of at least ``least`` and at most ``most``, named by where it stands."""
     expected = f"a whole number >= {least}" + (f" and <= {most}" if most is not None else "")
     if isinstance(value, bool) or not hasattr(value, "__index__") or int(value) < least:
         shown = _shown(value) if hasattr(value, "__index__") else repr(value)
@@ -67,21 +67,23 @@ def text(value: Any, where: Where) -> str:
 
 
 def choice(value: Any, known: Collection[str], where: Where, what: str) -> str:
-    """One of the known words."""
+    """The value as one of the known words for what it names, itself named by where it stands."""
     if not isinstance(value, str) or value not in known:
         raise InputError(one_of(str(value), known, what), where=where)
     return value
 
 
 def vector(value: Any, where: Where, *, dimension: int | None = None) -> tuple[float, ...]:
-    """A list of finite numbers, of the given length."""
+    """The value as a list of finite numbers, of the given dimension, named by where it stands."""
     return tuple(part for part in components(value, where, dimension=dimension, free=False) if part is not None)
 
 
 def components(
     value: Any, where: Where, *, dimension: int | None = None, free: bool = True
 ) -> tuple[float | None, ...]:
-    """A list of components, each a finite number or, where ``free`` allows it, None (in a deck: ``"free"``).
+    """The value as a list of components, each a finite number or, where ``free`` allows it, None.
+
+    In a deck that is ``"free"``; ``dimension`` is how many there must be, and ``where`` names them.
 
     >>> components([0.0, None], ("u",), dimension=2)
     (0.0, None)
@@ -109,7 +111,7 @@ def _shown(value: Any) -> str:
 
 
 def rows(value: Any, where: Where, *, size: int) -> Array:
-    """A list of rows of finite numbers, each of the given length: (n, size).
+    """The value as rows of finite numbers, (n, size), named by where it stands.
 
     >>> rows([[0, 1], [2.5, 3]], ("points",), size=2).tolist()
     [[0.0, 1.0], [2.5, 3.0]]

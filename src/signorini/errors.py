@@ -10,7 +10,7 @@ from signorini.outcome import Outcome
 
 Where = tuple[str | int, ...]
 
-_BRIEF = 200  # characters
+_MAX_WORDS = 200  # characters
 
 
 class SignoriniError(Exception):
@@ -39,7 +39,7 @@ class InputError(SignoriniError, ValueError):
         super().__init__(f"{spell(where)}: {message}" if where else message)
 
     def inside(self, *outer: str | int) -> InputError:
-        """The same error, said from one level further out (a part of a model does not know its own index)."""
+        """This error from one level further out (a part of a model does not know its own index)."""
         return InputError(self.message, where=outer + self.where, cell=self.cell)
 
 
@@ -119,7 +119,7 @@ def spell(where: Where) -> str:
 
 
 def one_of(found: str, known: Iterable[str], what: str) -> str:
-    """Words for a name that is not known: the nearest known one, and all of them.
+    """Words for a name ``found`` where none is known for what it names: the nearest known one, and all of them.
 
     >>> one_of("botom", ["bottom", "top"], "boundary")
     "unknown boundary 'botom'; did you mean 'bottom'? Known: bottom, top"
@@ -137,4 +137,4 @@ def brief(error: BaseException) -> str:
     'xxx...'
     """
     words = " ".join(str(error).split()) or type(error).__name__
-    return words if len(words) <= _BRIEF else words[:_BRIEF] + "..."
+    return words if len(words) <= _MAX_WORDS else words[:_MAX_WORDS] + "..."

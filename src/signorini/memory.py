@@ -91,7 +91,7 @@ def _in_groups() -> Iterator[int]:
 
 
 def check_memory(size: float, what: str, where: Where = ()) -> None:
-    """Refuse what takes more bytes than there are.
+    """Refuse what takes a size of more bytes than there are, with where it stands.
 
     Raises
     ------

@@ -26,30 +26,25 @@ def complete_meshio() -> None:
     meshio._mesh.topological_dimension.setdefault("wedge15", 3)
 
 
-class _Text(io.TextIOWrapper):
-    """Text that ends also for readers that do not look whether it does."""
+class _Ending:
+    """Lines of a file that ends also for readers that do not look whether it does."""
 
     ends = 0
 
-    def readline(self, size: int = -1, /) -> str:  # type: ignore[override]
-        line = super().readline(size)
+    def readline(self, size: int = -1, /) -> Any:
+        line = super().readline(size)  # type: ignore[misc]
         self.ends = 0 if line else self.ends + 1
         if self.ends > _PATIENCE:
             raise EOFError("it ends too early")
         return line
 
 
-class _Bytes(io.BufferedReader):
-    """The same of bytes."""
+class _Text(_Ending, io.TextIOWrapper):  # type: ignore[misc]
+    """Lines of text."""
 
-    ends = 0
 
-    def readline(self, size: int | None = -1, /) -> bytes:
-        line = super().readline(size)
-        self.ends = 0 if line else self.ends + 1
-        if self.ends > _PATIENCE:
-            raise EOFError("it ends too early")
-        return line
+class _Bytes(_Ending, io.BufferedReader):  # type: ignore[misc]
+    """Lines of bytes."""
 
 
 def _opened(path: Path) -> contextlib.AbstractContextManager[tuple[IO[Any] | Path, str | None]]:

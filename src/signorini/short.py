@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 _NAMED = 4  # of many things
-_LONGEST = 120  # characters of one value
+_MAX_VALUE = 120  # characters of one value
 
 
 class Short:
@@ -41,7 +41,7 @@ def _said(value: Any) -> str:
     if isinstance(value, Short):
         return _named(value)
     words = repr(value)
-    return words if len(words) <= _LONGEST else f"{words[:_LONGEST]}..."
+    return words if len(words) <= _MAX_VALUE else f"{words[:_MAX_VALUE]}..."
 
 
 def _listed(words: Sequence[str]) -> str:

@@ -39,7 +39,7 @@ class Reach:
 
     @classmethod
     def of(cls, deck: Path, also: Iterable[str | Path] = ()) -> Reach:
-        """That of a deck.
+        """The reach of a deck, and of folders allowed besides.
 
         Raises
         ------

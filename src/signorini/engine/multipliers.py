@@ -19,7 +19,7 @@ from signorini.engine.solver import Increment, IncrementAnswer
 from signorini.errors import InputError
 from signorini.interface.interface import Interface
 from signorini.iterative.bodies import Bodies, make_bodies
-from signorini.iterative.solve import Load, solve_iteratively
+from signorini.iterative.solve import IncrementLoad, solve_iteratively
 from signorini.solution.scale import Scale
 
 MAX_ENTRIES = 3_000_000
@@ -110,7 +110,7 @@ class MultiplierSolver:
         length : to whose digits motions are wanted
         """
         bodies, rows, system = self.bodies, self.bodies.rows, increment.system
-        load = Load(
+        load = IncrementLoad(
             f=bodies.blocks.spread(increment.f),
             offset=increment.offset[rows].reshape(bodies.directions, -1),
             bound=system.interface.bound(bodies.pairs),

@@ -62,7 +62,7 @@ class Blocks:
 
 
 def _with_places(K: sp.csr_array) -> sp.csr_array:
-    """The same with zeros stored on the diagonal of empty rows: of obstacles and rigid bodies, which are not stiff."""
+    """K with zeros stored on the diagonal of empty rows: of obstacles and rigid bodies, which are not stiff."""
     bare = np.flatnonzero(np.diff(K.indptr) == 0)
     if not len(bare):
         return K

@@ -19,9 +19,9 @@ from signorini.iterative.multigrid import Multigrid
 ITERATIVE = "iterative"
 """The name of this way among the back ends."""
 
-_HELD = 1e-12  # of the size of a row of B: below it supports hold what the row sees
-_NEVER = 10**6  # rounds
-_STIFF = 4.0  # springs of closed pairs, of what their nodes feel: multipliers then converge by as much a round
+_HELD_ROW = 1e-12  # of the size of a row of B: below it supports hold what the row sees
+_ENDLESS_PATIENCE = 10**6  # rounds
+_SPRING_RATIO = 4.0  # springs of closed pairs, of what their nodes feel: multipliers then converge by as much a round
 
 
 class Preconditioner(Protocol):
@@ -62,7 +62,7 @@ class Bodies:
     rigid: sp.csr_array
     blocks: Blocks
     preconditioner: Preconditioner
-    patience: int = _NEVER
+    patience: int = _ENDLESS_PATIENCE
     name: str = ITERATIVE
 
     @property
@@ -83,7 +83,7 @@ class Bodies:
         return settled
 
     def factored(self, nodes: IntArray, points: Array, *, patience: int) -> Bodies:
-        """The same with factors in place of multigrid: thin bodies and flat cells cost those nothing.
+        """Bodies with factors in place of multigrid: thin bodies and flat cells cost those nothing.
 
         Parameters
         ----------
@@ -96,7 +96,7 @@ class Bodies:
         return replace(self, preconditioner=direct, patience=patience)
 
     def among(self, kept: BoolArray) -> Bodies:
-        """The same bodies with fewer pairs.
+        """Bodies with fewer pairs.
 
         Parameters
         ----------
@@ -140,12 +140,12 @@ def make_bodies(
     """
     n, d = len(interface), interface.directions
     size = np.sqrt(np.asarray(B.multiply(B).sum(axis=1)).ravel())
-    held = (size[:n] <= _HELD) & (interface.compliance[:n] == 0.0)
-    moving = (size.reshape(d, n) > _HELD).any(axis=0)
+    held = (size[:n] <= _HELD_ROW) & (interface.compliance[:n] == 0.0)
+    moving = (size.reshape(d, n) > _HELD_ROW).any(axis=0)
     active = candidates & ~held & ~interface.tied
     pairs = np.flatnonzero(active | (interface.tied & moving))
     rows = np.concatenate([pairs + k * n for k in range(d)])
-    own = sp.csr_array(sp.diags_array(np.where(size > _HELD, 1.0, 0.0)) @ B)[rows]
+    own = sp.csr_array(sp.diags_array(np.where(size > _HELD_ROW, 1.0, 0.0)) @ B)[rows]
     own.eliminate_zeros()
     blocks = make_blocks(nodes, axis, d)
     matrix = blocks.matrix(K)
@@ -160,7 +160,7 @@ def make_bodies(
         tied=interface.tied[pairs],
         active=active,
         held=held,
-        stiffness=np.tile(_STIFF * felt, d),
+        stiffness=np.tile(_SPRING_RATIO * felt, d),
         compliance=(interface.compliance / interface.areas)[rows],
         rigid=sp.csr_array(blocks.columns(sp.csr_array(rigid.T)).T),
         blocks=blocks,

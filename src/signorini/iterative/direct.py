@@ -13,9 +13,9 @@ from signorini.errors import SolveFailed
 from signorini.linalg import NotPositiveDefinite, factorise
 from signorini.outcome import Outcome
 
-_MOST = 1e8  # entries in all factorisations together: a minute or two
-_FEWEST = 3000  # entries: what a factorisation of less costs
-_WEAK = 1e-10  # of the mean stiffness: springs to everything where the springs of contacts leave something free
+_MAX_ENTRIES = 1e8  # entries in all factorisations together: a minute or two
+_LEAST_COST = 3000  # entries: what a factorisation of fewer costs
+_WEAK_SPRING = 1e-10  # of the mean stiffness: springs to everything where the springs of contacts leave something free
 
 
 class Direct:
@@ -33,7 +33,7 @@ class Direct:
     def __init__(self, K: sp.bsr_array, nodes: IntArray, points: Array) -> None:
         self._K, self._nodes, self._points = sp.csr_array(K), nodes, points
         self._none = np.zeros(0, dtype=np.int64)
-        self._left = _MOST
+        self._left = _MAX_ENTRIES
 
     def under(self, springs: sp.csr_array) -> Callable[[Array], Array]:
         """A solution x of ``(K + springs) x = b``, as a function of b.
@@ -48,13 +48,13 @@ class Direct:
             After a fixed amount of work: what does not converge until then is not worth more.
         """
         A = sp.csr_array(self._K + springs)
-        self._left -= max(A.nnz, _FEWEST)
+        self._left -= max(A.nnz, _LEAST_COST)
         if self._left < 0:
             raise SolveFailed("multipliers did not settle within the work that they may take", status=Outcome.NOT_FOUND)
         try:
             factor = factorise(A, self._none, nodes=self._nodes, points=self._points)
         except NotPositiveDefinite:
-            weak = _WEAK * float(A.diagonal().mean())
+            weak = _WEAK_SPRING * float(A.diagonal().mean())
             held = sp.csr_array(A + sp.diags_array(np.full(A.shape[0], weak)))
             factor = factorise(held, self._none, nodes=self._nodes, points=self._points)
         nothing = np.zeros(0)

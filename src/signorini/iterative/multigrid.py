@@ -16,8 +16,8 @@ from pyamg.util.utils import get_block_diag
 from signorini.arrays import Array
 from signorini.linalg.vcycle import MultigridLevel, VCycle
 
-_SMALLEST = 100  # blocks that are solved for directly
-_NOTHING = 1e-13  # of the largest stiffness: motions that nothing resists
+_COARSEST_BLOCKS = 100  # blocks that are solved for directly
+_FREE_MOTION = 1e-13  # of the largest stiffness: motions that nothing resists
 
 
 class Multigrid:
@@ -54,7 +54,7 @@ class Multigrid:
             levels.append(MultigridLevel(A=A, P=P, R=R, inverses=get_block_diag(A, A.blocksize[0], inv_flag=True)))
             added = R @ (added @ P)
         whole = (self._levels[-1].A + added).toarray()
-        inverse = np.linalg.pinv(whole, rcond=_NOTHING, hermitian=True)
+        inverse = np.linalg.pinv(whole, rcond=_FREE_MOTION, hermitian=True)
         return VCycle(levels=tuple(levels), coarsest=lambda b: np.asarray(inverse @ b))
 
     @cached_property
@@ -66,7 +66,7 @@ class Multigrid:
                 B=self._near_null,
                 strength=("symmetric", {"theta": 0.0}),
                 improve_candidates=None,
-                max_coarse=_SMALLEST,
+                max_coarse=_COARSEST_BLOCKS,
             )
         return list(made.levels)
 

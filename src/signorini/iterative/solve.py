@@ -38,13 +38,13 @@ from signorini.outcome import Outcome
 TOLERANCE = 1e-10
 """Of the sizes of the data: equilibrium, gaps that should be closed, forces that should have settled."""
 
-_ROUNDS = 200
-_NEWTON = 20  # steps a round
-_ENOUGH = 0.1  # of what the multipliers change by: equilibrium a round is solved to
-_INEXACT = 0.1  # residual of a Newton step, of the one before it
-_FLOOR = 1e-4  # of their stiffness: what pairs that resist nothing keep while bodies are held by contact alone
-_CHANGED = 0.1  # of the stiffest spring: change of springs up to which a cycle serves
-_FAR = 1e12
+_MAX_ROUNDS = 200
+_MAX_NEWTON = 20  # steps a round
+_EQUILIBRIUM_SHARE = 0.1  # of what the multipliers change by: what equilibrium may lack in a round
+_NEWTON_RESIDUAL = 0.1  # of the residual before: what conjugate gradients leave of it
+_STIFFNESS_FLOOR = 1e-4  # of their stiffness: what pairs that resist nothing keep where contact alone holds bodies
+_SPRING_CHANGE = 0.1  # of the stiffest spring: change of springs up to which a cycle serves
+_DRAGGED_STIFFNESS = 1e12  # force per slip: far beyond every bound, so that what is dragged slips
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -88,7 +88,7 @@ class Answer:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Load:
+class IncrementLoad:
     """What an increment asks.
 
     Attributes
@@ -108,17 +108,18 @@ class Load:
     floating: bool
 
 
-def solve_iteratively(bodies: Bodies, load: Load, z: Array, forces: Array) -> Answer:
+def solve_iteratively(bodies: Bodies, load: IncrementLoad, z: Array, forces: Array) -> Answer:
     """Solve one increment.
 
     Parameters
     ----------
+    bodies, load : what is pressed, and by what
     z : (b,) displacements to start from
     forces : (d, a) of the pairs, to start from
     """
     rounds = _Rounds(bodies, load, z, forces)
     worst, best = np.inf, [np.inf]
-    for _ in range(_ROUNDS):
+    for _ in range(_MAX_ROUNDS):
         rounds.newton()
         worst = rounds.update()
         best.append(min(worst, best[-1]))
@@ -130,9 +131,12 @@ def solve_iteratively(bodies: Bodies, load: Load, z: Array, forces: Array) -> An
 
 
 class _Rounds:
-    """The iterates."""
+    """The iterates of an increment: displacements z, forces of the pairs (``multiplier``), trial forces y and bounds.
 
-    def __init__(self, bodies: Bodies, load: Load, z: Array, forces: Array) -> None:
+    D, C and E are those of the module; ``internal`` is K z, ``relative`` B z + h_0.
+    """
+
+    def __init__(self, bodies: Bodies, load: IncrementLoad, z: Array, forces: Array) -> None:
         d, a = load.offset.shape
         self.bodies, self.load = bodies, load
         self.z, self.multiplier = z.copy(), forces.copy()
@@ -156,14 +160,14 @@ class _Rounds:
     def newton(self) -> None:
         """Approach equilibrium under the multipliers and bounds of this round."""
         load = self.load
-        for _ in range(_NEWTON):
+        for _ in range(_MAX_NEWTON):
             forces = self._project(self.y)
             g = load.f + self.transposed @ forces.ravel() - self.internal
             lag = self.transposed @ (forces - self.multiplier).ravel()
             left = float(np.linalg.norm(g))
-            if left <= _ENOUGH * float(np.linalg.norm(lag)) or left <= 0.1 * TOLERANCE * load.force:
+            if left <= _EQUILIBRIUM_SHARE * float(np.linalg.norm(lag)) or left <= 0.1 * TOLERANCE * load.force:
                 return
-            law = self.law.slope(self.y, self.bound, self.softened, _FLOOR if load.floating else 0.0)
+            law = self.law.slope(self.y, self.bound, self.softened, _STIFFNESS_FLOOR if load.floating else 0.0)
             step, count = self._step(law, g)
             self._go(step, forces)
             self.iterations.append(count)
@@ -220,7 +224,7 @@ class _Rounds:
         y = self.E * (self.multiplier - self.D * self.relative)
         # what supports drag along slips as they say, whatever acts on it
         dragged = ~self.moves[1:].any(axis=0) & ~self.bodies.tied
-        y[1:, dragged] = -_FAR * self.load.offset[1:, dragged]
+        y[1:, dragged] = -_DRAGGED_STIFFNESS * self.load.offset[1:, dragged]
         return y
 
     def _project(self, y: Array) -> Array:
@@ -228,9 +232,9 @@ class _Rounds:
 
     def _step(self, law: Slope, g: Array) -> tuple[Array, int]:
         bodies, springs = self.bodies, self.transposed @ law.matrix() @ self.bodies.B
-        if self.cycle is None or law.change(self.cycle[0]) > _CHANGED * float(self.softened.max(initial=0.0)):
+        if self.cycle is None or law.change(self.cycle[0]) > _SPRING_CHANGE * float(self.softened.max(initial=0.0)):
             self.cycle = law, bodies.preconditioner.under(springs)
-        return conjugate_gradients(lambda v: bodies.K @ v + springs @ v, self.cycle[1], g, _INEXACT)
+        return conjugate_gradients(lambda v: bodies.K @ v + springs @ v, self.cycle[1], g, _NEWTON_RESIDUAL)
 
     def _go(self, step: Array, forces: Array) -> None:
         """Along a step to where the energy is least: a convex function whose slope is found from the pairs alone."""

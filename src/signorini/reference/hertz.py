@@ -64,61 +64,6 @@ class HertzLine:
         return -self.peak_pressure * ((1.0 + 2.0 * s**2) / root - 2.0 * s), -self.peak_pressure / root
 
 
-@dataclass(frozen=True, kw_only=True)
-class HertzPoint:
-    """Point contact: ``a = (3 P R / (4 E*))^(1/3)``, ``p_0 = 3 P / (2 pi a^2)``, ``p = p_0 sqrt(1 - r^2 / a^2)``.
-
-    Valid for half-spaces, a << R.
-
-    Parameters
-    ----------
-    force : P
-    radius : R, ``1/R = 1/R_1 + 1/R_2``
-    modulus : E*, see :func:`contact_modulus`
-
-    References
-    ----------
-    Johnson (1985), Contact Mechanics, section 4.2(a).
-
-    Examples
-    --------
-    >>> ball = HertzPoint(force=20.0, radius=8.0, modulus=200.0 / (1 - 0.3**2))
-    >>> round(ball.contact_radius, 5), round(ball.peak_pressure, 5)
-    (0.81733, 14.29474)
-    """
-
-    force: float
-    radius: float
-    modulus: float
-
-    @property
-    def contact_radius(self) -> float:
-        """``a``, length."""
-        return float(np.cbrt(0.75 * self.force * self.radius / self.modulus))
-
-    @property
-    def peak_pressure(self) -> float:
-        """``p_0``, force per area."""
-        return float(1.5 * self.force / (np.pi * self.contact_radius**2))
-
-    def pressure(self, r: ArrayLike) -> Array:
-        """p at the distance r from the centre, force per area."""
-        inside = 1.0 - (np.asarray(r, float) / self.contact_radius) ** 2
-        pressure: Array = self.peak_pressure * np.sqrt(np.maximum(inside, 0.0))
-        return pressure
-
-    def axis_stress(self, z: ArrayLike, nu: float) -> tuple[Array, Array]:
-        """Radial (and hoop) and axial stress at the depth z >= 0 below the centre in a body with nu; tension positive.
-
-        ``sigma_r = -p_0 [(1 + nu) (1 - s atan(1/s)) - 1 / (2 (1 + s^2))]``, ``sigma_z = -p_0 / (1 + s^2)``,
-        ``s = z / a``.
-        """
-        s = np.asarray(z, float) / self.contact_radius
-        fading = 1.0 / (1.0 + s**2)
-        radial: Array = (1.0 + nu) * (1.0 - s * np.arctan2(1.0, s)) - 0.5 * fading
-        return -self.peak_pressure * radial, -self.peak_pressure * fading
-
-
 def contact_modulus(*bodies: tuple[float, float]) -> float:
     """``1/E* = sum (1 - nu^2)/E`` over the elastic bodies (E, nu).
 

@@ -59,6 +59,17 @@ class HertzPoint:
         pressure: Array = self.peak_pressure * np.sqrt(np.maximum(inside, 0.0))
         return pressure
 
+    def axis_stress(self, z: ArrayLike, nu: float) -> tuple[Array, Array]:
+        """Radial (and hoop) and axial stress at the depth z >= 0 below the centre in a body with nu; tension positive.
+
+        ``sigma_r = -p_0 [(1 + nu) (1 - s atan(1/s)) - 1 / (2 (1 + s^2))]``, ``sigma_z = -p_0 / (1 + s^2)``,
+        ``s = z / a``.
+        """
+        s = np.asarray(z, float) / self.contact_radius
+        fading = 1.0 / (1.0 + s**2)
+        radial: Array = (1.0 + nu) * (1.0 - s * np.arctan2(1.0, s)) - 0.5 * fading
+        return -self.peak_pressure * radial, -self.peak_pressure * fading
+
 
 @dataclass(frozen=True, kw_only=True)
 class MindlinPoint:

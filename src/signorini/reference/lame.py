@@ -26,6 +26,7 @@ def press_fit_pressure(
     inner, interface, outer : a, b, c, length
     interference : d, length, radial
     inner_body, outer_body : (E, nu) of each
+    plane_strain : rather than plane stress
 
     References
     ----------

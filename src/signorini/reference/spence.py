@@ -7,7 +7,7 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import ellipk, ellipkm1
 
-_NARROWEST = 1e-12
+_NARROWEST_RING = 1e-12  # 1 - (c/a)^2 of the slip ring: narrower ones are lost in rounding
 
 
 def stick_ratio(friction: float, nu: float) -> float:
@@ -36,4 +36,4 @@ def stick_ratio(friction: float, nu: float) -> float:
         gap = float(np.exp(log_gap))
         return float(ellipkm1(gap) / ellipk(gap)) - ratio
 
-    return float(np.sqrt(1.0 - np.exp(brentq(lacking, -700.0, np.log(1.0 - _NARROWEST)))))
+    return float(np.sqrt(1.0 - np.exp(brentq(lacking, -700.0, np.log(1.0 - _NARROWEST_RING)))))

@@ -17,7 +17,8 @@ from signorini.model.material import Elastic
 from signorini.model.model import Model
 from signorini.model.obstacle import Plane
 from signorini.reference.discs import rotating_disc
-from signorini.reference.hertz import HertzPoint, contact_modulus
+from signorini.reference.hertz import contact_modulus
+from signorini.reference.hertz_point import HertzPoint
 from signorini.reference.lame import hollow_sphere
 from signorini.verify.check import Check, table
 

@@ -19,7 +19,8 @@ from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh, join
 from signorini.model.model import Kind, Model
 from signorini.model.obstacle import Plane
-from signorini.reference.hertz import HertzLine, HertzPoint, contact_modulus
+from signorini.reference.hertz import HertzLine, contact_modulus
+from signorini.reference.hertz_point import HertzPoint
 from signorini.verify.check import Check, table
 
 _LINE = HertzLine(force=LINE_FORCE, radius=RADIUS, modulus=MODULUS)

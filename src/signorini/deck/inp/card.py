@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.checks import LARGEST
+from signorini.checks import MAX_NUMBER
 from signorini.deck.error import DeckError
 from signorini.errors import one_of
 
@@ -196,7 +196,7 @@ def to_number(word: str) -> float | None:
     if not _NUMBER.fullmatch(word):
         return None
     value = float(word.upper().replace("D", "E"))
-    return value if abs(value) <= LARGEST else None
+    return value if abs(value) <= MAX_NUMBER else None
 
 
 def decode(data: bytes) -> str:

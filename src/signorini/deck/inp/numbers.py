@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.checks import LARGEST
+from signorini.checks import MAX_NUMBER
 from signorini.deck.inp.card import NUMBER_LIMIT, Card
 
 _EXPONENT = bytes.maketrans(b"Dd", b"ee")
@@ -46,7 +46,7 @@ def bulk(data: bytes) -> tuple[Array, IntArray] | None:
             values = np.fromstring(plain.replace(b",", b" "), sep=" ")
     except (ValueError, DeprecationWarning):
         return None
-    if len(values) != counts.sum() or not (np.abs(values) <= LARGEST).all():
+    if len(values) != counts.sum() or not (np.abs(values) <= MAX_NUMBER).all():
         return None
     return values, counts
 
