@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The models whose price is told: the paper's cylinder, and a cube pressed and pushed on another in space."""
+"""Models whose contact is timed: the paper's cylinder, and a cube pressed and pushed on another in space."""
 
 from __future__ import annotations
 

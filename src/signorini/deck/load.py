@@ -11,7 +11,7 @@ from typing import Any
 
 from signorini.checks import text
 from signorini.deck.error import DeckError
-from signorini.deck.inp.build import Built, element_card, located, read_deck
+from signorini.deck.inp.build import Built, element_card, located_error, read_deck
 from signorini.deck.inp.card import Card
 from signorini.deck.meshes import deck_mesh
 from signorini.deck.scan import line_of
@@ -66,7 +66,7 @@ class KeywordDeck(Deck):
 
     def locate(self, error: InputError) -> DeckError:
         """An error that is found after reading with file and line of the keyword that caused it."""
-        return located(error, self.places, self.path, lambda cell: element_card(self.path, self.reach, cell))
+        return located_error(error, self.places, self.path, lambda cell: element_card(self.path, self.reach, cell))
 
 
 def read(

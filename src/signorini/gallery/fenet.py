@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.gallery.large_bodies import graded, with_seat
+from signorini.gallery.large_bodies import graded_lines, with_seat
 from signorini.meshing.plane import quarter_disk, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
@@ -44,7 +44,7 @@ def cylinder_on_block(*, friction: float, across: tuple[int, int], steps: tuple[
     lower = quarter_disk(radius=RADIUS, contact_length=SEAT, contact_spacing=SEAT / across[0])
     upper = replace(lower, points=np.array(lower.points) * [1.0, -1.0] + [0.0, 2.0 * RADIUS])
     spacing = SEAT / across[1]
-    x, depth = graded(SEAT, spacing, 0.5 * BLOCK), graded(4.0 * spacing, spacing, BLOCK)
+    x, depth = graded_lines(SEAT, spacing, 0.5 * BLOCK), graded_lines(4.0 * spacing, spacing, BLOCK)
     block = with_seat(rectangle(x=x, y=-depth[::-1]), "top", SEAT)
     return Model(
         join({"lower": lower, "upper": upper, "block": block}),

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from signorini.gallery.large_bodies import bent, graded, with_seat
+from signorini.gallery.large_bodies import bend, graded_lines, with_seat
 from signorini.meshing.plane import Cells, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
@@ -43,11 +43,11 @@ def equal_half_planes(steps: Sequence[Step], *, spacing: float = 0.05, size: flo
     size : of the blocks, in the same units
     """
     a = HALF_WIDTH
-    right = a * graded(1.2, spacing, size / 2.0)
+    right = a * graded_lines(1.2, spacing, size / 2.0)
     x = np.concatenate([-right[:0:-1], right])
-    y = a * graded(1.0, spacing, size / 2.0, 1.25)
+    y = a * graded_lines(1.0, spacing, size / 2.0, 1.25)
     lower = rectangle(x=x, y=-y[::-1])
-    upper = bent(rectangle(x=x, y=y), RADIUS / 2.0)
+    upper = bend(rectangle(x=x, y=y), RADIUS / 2.0)
     soft = Elastic(E=E, nu=NU)
     P = EQUAL.normal.force
     return Model(
@@ -84,12 +84,12 @@ def punch(
     kind : "axisymmetric": the block and the flat punch are round
     cells : "quad", "quad8", "triangle", ...
     """
-    x = graded(1.0, spacing, 20.0, 1.2)
-    mesh = rectangle(x=x, y=graded(0.2, spacing, 20.0, 1.25), cells=cells)
+    x = graded_lines(1.0, spacing, 20.0, 1.2)
+    mesh = rectangle(x=x, y=graded_lines(0.2, spacing, 20.0, 1.25), cells=cells)
     radius = 20.0
     force = 1.0
     if curved:
-        mesh = bent(mesh, radius)
+        mesh = bend(mesh, radius)
         force = float(np.pi * closed**2 * contact_modulus((E, NU)) / (4.0 * radius)) / 2.0
     return Model(
         with_seat(mesh, "bottom", 1.0),
@@ -111,10 +111,10 @@ def square_on_half_plane(*, friction: float | Literal["stick"], finest: float) -
     friction : a number, or "stick"
     finest : length of the cells at the corner; they grow by 1.3 away from it
     """
-    towards = graded(4.0 * finest, finest, 1.0, 1.3)
+    towards = graded_lines(4.0 * finest, finest, 1.0, 1.3)
     x = 1.0 - towards[::-1]
-    beyond = 1.0 + graded(4.0 * finest, finest, 9.0, 1.3)
-    up, down = graded(4.0 * finest, finest, 2.0, 1.3), graded(4.0 * finest, finest, 10.0, 1.3)
+    beyond = 1.0 + graded_lines(4.0 * finest, finest, 9.0, 1.3)
+    up, down = graded_lines(4.0 * finest, finest, 2.0, 1.3), graded_lines(4.0 * finest, finest, 10.0, 1.3)
     large = rectangle(x=np.concatenate([x, beyond[1:]]), y=-down[::-1])
     soft = Elastic(E=E, nu=NU)
     return Model(

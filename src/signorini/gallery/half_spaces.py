@@ -9,7 +9,7 @@ from typing import Literal
 
 import numpy as np
 
-from signorini.gallery.large_bodies import bent, graded, quarter, upside_down, with_seat
+from signorini.gallery.large_bodies import bend, flip, graded_lines, quarter_supports, with_seat
 from signorini.meshing.plane import Cells, target
 from signorini.meshing.solid import box, extruded
 from signorini.meshing.tetrahedra import tetrahedra
@@ -59,13 +59,13 @@ def ball(
     angle : 90, 180 or 360 degrees
     size : radius and height of the bodies, in units of the contact radius
     """
-    upper = bent(_cylinder(n, cells, angle, size), RADIUS)
+    upper = bend(_cylinder(n, cells, angle, size), RADIUS)
     sides = {"ball": with_seat(upper, "bottom", 1.3)}
     force = hertz(1 if block is None else 2).force * angle / 360.0
     contact = Contact("ball.seat", FLOOR, name="contact")
     supports = _symmetric("ball", angle)
     if block is not None:
-        below = upside_down(_cylinder(block, cells, angle, size))
+        below = flip(_cylinder(block, cells, angle, size))
         sides["block"] = with_seat(below, "bottom", 1.3 if block == n else 1.6)
         contact = replace(contact, mortar="block.seat")
         supports += [*_symmetric("block", angle), Support("block.top", u=(None, None, 0.0))]
@@ -89,13 +89,13 @@ def round_punch(*, n: int) -> Model:
     ----------
     n : cells along half the side of the core, about 2 n to the radius of the punch; they shrink towards its edge
     """
-    radii = [0.7, *(1.0 - 0.3 * 0.65 ** np.arange(1, n)), 1.0, *(1.0 + graded(0.01, 0.01, 19.0, 1.35)[1:])]
-    mesh = extruded(target(radii=radii, n=n), z=graded(0.06, 0.02, 20.0, 1.35))
+    radii = [0.7, *(1.0 - 0.3 * 0.65 ** np.arange(1, n)), 1.0, *(1.0 + graded_lines(0.01, 0.01, 19.0, 1.35)[1:])]
+    mesh = extruded(target(radii=radii, n=n), z=graded_lines(0.06, 0.02, 20.0, 1.35))
     return Model(
         join({"body": with_seat(mesh, "bottom", 1.0)}),
         title="Elastic body on a flat round punch",
         bodies=[Body("body", SOFT)],
-        supports=quarter("body"),
+        supports=quarter_supports("body"),
         loads=[Load("body.top", force=(None, None, -0.25), spread="displacement", name="press")],
         contacts=[Contact("body.seat", FLOOR, name="punch")],
     )
@@ -115,9 +115,9 @@ def equal_half_spaces(steps: Sequence[Step], *, spacing: float) -> Model:
     steps : factors of "press" and "pull"; pull 1 is the onset of full sliding
     spacing : of the nodes where they touch, in units of the contact radius
     """
-    right = graded(1.2, spacing, 5.0, 1.4)
-    x, z = np.concatenate([-right[:0:-1], right]), graded(2 * spacing, spacing, 5.0, 1.4)
-    upper = bent(box(x=x, y=right, z=z), RADIUS)
+    right = graded_lines(1.2, spacing, 5.0, 1.4)
+    x, z = np.concatenate([-right[:0:-1], right]), graded_lines(2 * spacing, spacing, 5.0, 1.4)
+    upper = bend(box(x=x, y=right, z=z), RADIUS)
     lower = box(x=x, y=right, z=-z[::-1])
     P = EQUAL.normal.force / 2.0
     return Model(
@@ -142,8 +142,10 @@ def _cylinder(n: int, cells: Cells | Literal["tetra10"], angle: float, size: flo
     """Rings about the contact, of cells that grow with depth and distance; named nodes to hold more than a quarter."""
     plane: Cells = "quad9" if cells == "tetra10" else cells
     spacing = 0.5 / n
-    radii = 1.0 + np.concatenate([[0.0], graded(0.4, 0.1 if n < 6 else 0.6 * spacing, size - 1.0, 1.35)[1:]])
-    mesh = extruded(target(radii=radii, n=n, angle=angle, cells=plane), z=graded(2 * spacing, spacing, size, 1.35))
+    radii = 1.0 + np.concatenate([[0.0], graded_lines(0.4, 0.1 if n < 6 else 0.6 * spacing, size - 1.0, 1.35)[1:]])
+    mesh = extruded(
+        target(radii=radii, n=n, angle=angle, cells=plane), z=graded_lines(2 * spacing, spacing, size, 1.35)
+    )
     if cells == "tetra10":
         mesh = tetrahedra(mesh)
     top = mesh.points[:, 2] == size
@@ -155,7 +157,7 @@ def _cylinder(n: int, cells: Cells | Literal["tetra10"], angle: float, size: flo
 def _symmetric(body: str, angle: float) -> list[Support]:
     """The planes of symmetry of a quarter or half."""
     if angle == 90.0:
-        return quarter(body)
+        return quarter_supports(body)
     if angle == 180.0:
         return [Support(f"{body}.{side}", u=(None, 0.0, None)) for side in ("start", "end")]
     return []

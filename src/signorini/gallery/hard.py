@@ -85,7 +85,7 @@ class _Draw:
 def _problem(rng: np.random.Generator, kind: str) -> HardProblem:
     while True:
         draw = _draw(rng, kind)
-        made = _made(draw)
+        made = _assemble(draw)
         if made is not None and (kind != "small" or made.first.pairs <= 6):
             return made
 
@@ -132,7 +132,7 @@ def _block(nx: int, ny: int, corners: Array, E: float, nu: float) -> _Block:
     return _Block(K=K, x=x, sides=sides, dofs=basis.nodal_dofs)
 
 
-def _made(draw: _Draw) -> HardProblem | None:
+def _assemble(draw: _Draw) -> HardProblem | None:
     """Mesh, supports, pairs, condensation, loads; None where every pair would sit on a support."""
     body, slope = _body(draw)
     top, N = body.sides["top"], body.x.shape[1]
@@ -150,7 +150,7 @@ def _made(draw: _Draw) -> HardProblem | None:
     rigid = B @ _rigid_motions(body, held)
     K, fixed = body.K, held
     if draw.family == "two blocks":
-        E, corners = 10.0 ** draw.rng.uniform(-3, 3), _under(body.x[:, nodes], draw.rng)
+        E, corners = 10.0 ** draw.rng.uniform(-3, 3), _corners_below(body.x[:, nodes], draw.rng)
         other = _block(max(1, n - 1), int(draw.rng.integers(1, 6)), corners, E, 0.3)
         lower = _jumps(other.dofs[:, other.sides["top"][:n]], normals, other.K.shape[0])
         K = sparse.csr_matrix(sparse.block_diag([K, other.K]))
@@ -227,7 +227,7 @@ def _jumps(dofs: IntArray, normals: Array, size: int) -> sparse.csr_matrix:
     return sparse.csr_matrix((values, (rows, columns)), shape=(2 * n, size))
 
 
-def _under(x: Array, rng: np.random.Generator) -> Array:
+def _corners_below(x: Array, rng: np.random.Generator) -> Array:
     """Corners of a block under nodes x (2, n) on a horizontal line."""
     left, right, deep = x[0].min(), max(x[0].max(), x[0].min() + 0.1), rng.uniform(0.3, 1.5)
     return np.array([(left, -deep), (right, -deep), (right, 0.0), (left, 0.0)])

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from signorini.gallery.large_bodies import bent, graded, upside_down, with_seat
+from signorini.gallery.large_bodies import bend, flip, graded_lines, with_seat
 from signorini.meshing.plane import Cells, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
@@ -49,7 +49,7 @@ def hertz_contact(*, kind: Kind = "plane strain", across: tuple[int, int], cells
     if kind != "axisymmetric":
         supports += [Support(f"{name}.left", u=(0.0, None)) for name in ("upper", "lower")]
     return Model(
-        join({"upper": bent(upper, RADIUS), "lower": upside_down(lower)}),
+        join({"upper": bend(upper, RADIUS), "lower": flip(lower)}),
         kind=kind,
         title="Hertz contact of two elastic bodies",
         bodies=[Body("upper", UPPER), Body("lower", LOWER)],
@@ -61,5 +61,5 @@ def hertz_contact(*, kind: Kind = "plane strain", across: tuple[int, int], cells
 
 def _block(spacing: float, cells: Cells) -> Mesh:
     """A block over y = 0, x = 0 its left side, "seat" the part of its lower side that may touch."""
-    mesh = rectangle(x=graded(SEAT, spacing, _SIZE), y=graded(6.0 * spacing, spacing, _SIZE), cells=cells)
+    mesh = rectangle(x=graded_lines(SEAT, spacing, _SIZE), y=graded_lines(6.0 * spacing, spacing, _SIZE), cells=cells)
     return with_seat(mesh, "bottom", SEAT)

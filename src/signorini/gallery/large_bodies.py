@@ -12,7 +12,7 @@ from signorini.model.conditions import Support
 from signorini.model.mesh import Mesh
 
 
-def graded(fine: float, spacing: float, far: float, growth: float = 1.15) -> Array:
+def graded_lines(fine: float, spacing: float, far: float, growth: float = 1.15) -> Array:
     """Grid lines from 0 to ``far``.
 
     Parameters
@@ -23,7 +23,7 @@ def graded(fine: float, spacing: float, far: float, growth: float = 1.15) -> Arr
 
     Examples
     --------
-    >>> graded(1.0, 0.5, 3.0, 2.0).tolist()
+    >>> graded_lines(1.0, 0.5, 3.0, 2.0).tolist()
     [0.0, 0.5, 1.0, 2.0, 3.0]
     """
     lines = list(np.linspace(0.0, fine, round(fine / spacing) + 1))
@@ -34,16 +34,16 @@ def graded(fine: float, spacing: float, far: float, growth: float = 1.15) -> Arr
     return np.array([*lines, far])
 
 
-def bent(mesh: Mesh, radius: float) -> Mesh:
-    """A body that stands on 0 and whose lower side rises by ``r^2 / 2 radius``; its upper side stays."""
+def bend(mesh: Mesh, radius: float) -> Mesh:
+    """The body on 0 with a lower side that rises by ``r^2 / 2 radius``; its upper side stays."""
     points = np.array(mesh.points)
     rise: Array = (points[:, :-1] ** 2).sum(axis=1) / (2.0 * radius)
     points[:, -1] += rise * (1.0 - points[:, -1] / points[:, -1].max())
     return replace(mesh, points=points)
 
 
-def upside_down(mesh: Mesh) -> Mesh:
-    """A body under 0 from one above it."""
+def flip(mesh: Mesh) -> Mesh:
+    """The body above 0 turned upside down, under 0."""
     points = np.array(mesh.points)
     points[:, -1] *= -1.0
     return replace(mesh, points=points)
@@ -56,6 +56,6 @@ def with_seat(mesh: Mesh, side: str, radius: float) -> Mesh:
     return replace(mesh, boundaries={**mesh.boundaries, "seat": facets[far <= radius * (1.0 + 1e-9)]})
 
 
-def quarter(body: str) -> list[Support]:
+def quarter_supports(body: str) -> list[Support]:
     """The planes of symmetry of a quarter of a body in space."""
     return [Support(f"{body}.start", u=(None, 0.0, None)), Support(f"{body}.end", u=(0.0, None, None))]

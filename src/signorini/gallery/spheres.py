@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.gallery.large_bodies import graded, quarter, upside_down, with_seat
+from signorini.gallery.large_bodies import flip, graded_lines, quarter_supports, with_seat
 from signorini.meshing.plane import Cells, target
 from signorini.meshing.solid import extruded
 from signorini.meshing.tetrahedra import tetrahedra
@@ -48,8 +48,8 @@ def hemisphere(*, radius: float, seat: float, n: int, cells: Cells = "quad") -> 
     """
     core = 0.5 * seat
     spacing = 0.5 * core / n
-    rings = core + graded(seat - core, spacing, _CAP * radius - core, 1.3)[1:]
-    mesh = extruded(target(radii=[core, *rings], n=n, cells=cells), z=graded(2.0 * spacing, spacing, radius, 1.3))
+    rings = core + graded_lines(seat - core, spacing, _CAP * radius - core, 1.3)[1:]
+    mesh = extruded(target(radii=[core, *rings], n=n, cells=cells), z=graded_lines(2.0 * spacing, spacing, radius, 1.3))
     mesh = with_seat(mesh, "bottom", seat)
     boundaries = {name: mesh.boundaries[name] for name in ("start", "end", "top", "seat")}
     return replace(mesh, points=_rounded(mesh.points, radius), boundaries=boundaries)
@@ -69,11 +69,11 @@ def equal_spheres(*, approach: float, n: int = 4, other: int | None = None, cell
     parts = {"upper": hemisphere(radius=RADIUS, seat=seat, n=n, cells=cells)}
     contact = Contact("upper.seat", Plane(point=(0.0, 0.0, 0.0), normal=(0.0, 0.0, 1.0)), name="contact")
     if other is not None:
-        parts["lower"] = upside_down(hemisphere(radius=RADIUS, seat=seat, n=other, cells=cells))
+        parts["lower"] = flip(hemisphere(radius=RADIUS, seat=seat, n=other, cells=cells))
         contact = replace(contact, mortar="lower.seat")
     supports = []
     for name, moved in zip(parts, (-0.5 * approach, 0.5 * approach), strict=False):
-        supports += quarter(name)
+        supports += quarter_supports(name)
         supports.append(Support(f"{name}.top", u=(None, None, moved)))
     return Model(
         join(parts),
@@ -99,7 +99,7 @@ def hollow_spheres(*, n: tuple[int, int], cells: Cells | Literal["tetra10"] = "q
     }
     supports = []
     for name in parts:
-        supports += quarter(name)
+        supports += quarter_supports(name)
         supports.append(Support(f"{name}.outer", u=(None, None, 0.0)))
     return Model(
         join(parts),

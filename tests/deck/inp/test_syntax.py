@@ -120,7 +120,7 @@ def test_records_go_on_over_lines(tmp_path: Path) -> None:
 def test_bulk_reading_is_reading_line_by_line(rows: list[list[str]]) -> None:
     """The fast way answers exactly what the slow way does, or leaves it to it."""
     text = "\n".join(",".join(row) for row in rows).encode()
-    fast = Card(keyword="NODE", parameters={}, path=Path("d"), line=1, chunks=((Path("d"), 2, text),))
+    fast = Card(keyword="NODE", parameters={}, path=Path("d"), line=1, chunks=[(Path("d"), 2, text)])
     slow = list(fast.rows())
     try:
         expected = [[row.number(i, "", 0.0 if i else None) for i in range(4)] for row in slow]

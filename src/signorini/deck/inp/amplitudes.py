@@ -10,7 +10,7 @@ import numpy as np
 
 from signorini.arrays import Array, frozen
 from signorini.deck.inp.card import Card
-from signorini.deck.inp.keywords import of_keyword, referred
+from signorini.deck.inp.keywords import look_up, of_keyword
 
 _BEND_TOL = 1e-9  # of the largest factor: times and factors are written with ten digits
 
@@ -75,4 +75,4 @@ def make_amplitudes(cards: Sequence[Card]) -> Mapping[str, Amplitude]:
 
 def find_amplitude(card: Card, amplitudes: Mapping[str, Amplitude]) -> Amplitude | None:
     """The amplitude that a keyword names, if any."""
-    return referred(card, "AMPLITUDE", amplitudes, "amplitude") if "AMPLITUDE" in card.parameters else None
+    return look_up(card, "AMPLITUDE", amplitudes, "amplitude") if "AMPLITUDE" in card.parameters else None

@@ -106,7 +106,7 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
     try:
         model = Model(_mesh(known), kind=kind, thickness=thickness, title=_title(outside), **parts)
     except InputError as error:
-        raise located(error, places, path, known.grid.card_of_cell) from error
+        raise located_error(error, places, path, known.grid.card_of_cell) from error
     notes = _notes(known.grid, steps, contacts, small_strain, deck_increments)
     return Built(
         model=model,
@@ -128,7 +128,7 @@ def element_card(path: Path, reach: Reach, cell: int) -> Card:
     return make_grid(split_steps(flatten(read_cards(path, reach)))[0]).card_of_cell(cell)
 
 
-def located(
+def located_error(
     error: InputError, places: Mapping[Where, Card], path: Path, card_of_cell: Callable[[int], Card]
 ) -> DeckError:
     """The error with the line of the keyword that its place in the model comes from.
@@ -204,7 +204,7 @@ def _thickness(section: Section, kind: Kind) -> float:
 
 
 def _body(section: Section, usual: float, kind: Kind) -> Body:
-    """Of a section; where its thickness is not the usual one, with its own."""
+    """The body of a section, with a thickness of its own where that is not the usual one."""
     substance, thickness = section.substance, _thickness(section, kind)
     elastic, alpha = substance.elastic, substance.expansion or 0.0
     assert elastic is not None

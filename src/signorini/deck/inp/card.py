@@ -111,7 +111,8 @@ class Card:
     keyword : in capitals with single blanks, without the asterisk: ``"CONTACT PAIR"``
     parameters : in capitals to their values as written, empty where there is none
     path, line : where the keyword stands, the line from 1
-    chunks : the data lines as they stand, comments cut out: file, first line and bytes of each piece
+    chunks : the data lines as they stand, comments cut out: file, first line and bytes of each piece; files are read
+        into it
     scope : of its names and numbers
     """
 
@@ -119,7 +120,7 @@ class Card:
     parameters: Mapping[str, str]
     path: Path
     line: int
-    chunks: tuple[tuple[Path, int, bytes], ...]
+    chunks: list[tuple[Path, int, bytes]]
     scope: Scope = DECK
 
     def error(self, message: str) -> DeckError:

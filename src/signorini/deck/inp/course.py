@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How values on nodes, faces or bodies change from step to step, a course for every kind of them."""
+"""Values on nodes, faces or bodies as they change from step to step: a course for every kind of them."""
 
 from __future__ import annotations
 
@@ -132,7 +132,7 @@ class Course:
             self._first.setdefault(slot, source)
 
     def begin_step(self) -> None:
-        """What there is was set before; the step replaces it where it sets anything."""
+        """Begin a step, which replaces earlier values where it sets any."""
         self._before = set(self._now)
 
     def clear(self) -> None:
@@ -145,23 +145,23 @@ class Course:
 
     @property
     def keywords(self) -> set[str]:
-        """Keywords that have set what there is."""
+        """Keywords that have set the present values."""
         return {self._sources[source][1].keyword for source in {now[2] for now in self._now.values()}}
 
     @property
-    def kept(self) -> set[int]:
+    def kept_slots(self) -> set[int]:
         """Slots whose values are those of an earlier step."""
         return self._before & self._now.keys()
 
     @property
-    def fresh(self) -> set[int]:
+    def new_slots(self) -> set[int]:
         """Slots with values of this step."""
         return self._now.keys() - self._before
 
     @property
-    def plain(self) -> bool:
+    def sets_constants(self) -> bool:
         """Whether this step gives any value but 0 that follows no amplitude."""
-        return any(self._now[slot][0] and not self._now[slot][1] for slot in self.fresh)
+        return any(self._now[slot][0] and not self._now[slot][1] for slot in self.new_slots)
 
     def end_step(self, step: DeckStep) -> None:
         """Note what there is at the end of a step; what follows an amplitude of the step's time stays as it ends."""
@@ -224,7 +224,7 @@ class Course:
 
 @dataclass(frozen=True, kw_only=True)
 class VolumeLoad:
-    """What acts on the whole of a section when its value is 1.
+    """A load on the whole of a section, whose value is 1.
 
     Attributes
     ----------
@@ -256,7 +256,7 @@ class VolumeLoad:
         return _largest(mine - its) <= _SAME_VECTOR_TOL * _largest(mine) and _largest(apart) <= _SAME_VECTOR_TOL * far
 
     def given(self, value: float) -> dict[str, Any]:
-        """The load of a value, as a model has it."""
+        """Fields of the model's load of a value."""
         if self.kind != "CENTRIF":
             return {"body_force": tuple(value * part for part in self.direction)}
         line = {"centre": self.centre, "axis": self.direction}
@@ -269,7 +269,7 @@ def _largest(parts: Array) -> float:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Courses:
-    """How everything that acts on the bodies changes with the steps.
+    """Everything that acts on the bodies as it changes with the steps.
 
     Attributes
     ----------

@@ -75,7 +75,7 @@ def read_dsload(card: Card, known: Known, courses: Courses) -> None:
 def _refuse_two_axes(load: VolumeLoad, slot: int, courses: Courses, row: Row, known: Known) -> None:
     """A body rotates about one axis; in a later step it may do so with another velocity."""
     for other, earlier in enumerate(courses.volume_loads):
-        if (earlier.kind, earlier.section) != ("CENTRIF", load.section) or other in courses.volume.kept & {slot}:
+        if (earlier.kind, earlier.section) != ("CENTRIF", load.section) or other in courses.volume.kept_slots & {slot}:
             continue
         by = courses.volume.set_by(other)
         if by is not None:

@@ -53,7 +53,7 @@ _EDGES = {
 
 @dataclass(frozen=True, kw_only=True)
 class ElementType:
-    """What an element type is here.
+    """An element type of a deck as cells of a model.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class ElementType:
 
     @property
     def nodes(self) -> int:
-        """Of an element."""
+        """Number of nodes of an element."""
         return _LINES.get(self.family) or NODES_PER_CELL[self.family]
 
     @property
@@ -121,7 +121,7 @@ def element_type(card: Card) -> ElementType:
 
 
 def unknown_type(card: Card) -> DeckError:
-    """What is said of an ``*ELEMENT`` keyword whose elements no model has."""
+    """The error of an ``*ELEMENT`` keyword whose elements no model has."""
     return card.error(
         f"TYPE={card.get('TYPE')} is not supported; expected CPE, CPS or CAX with 3, 4, 6 or 8 nodes, or C3D with 4, "
         "6, 8, 10, 15 or 20 (variants R, I, H, M)"

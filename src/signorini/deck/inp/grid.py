@@ -24,7 +24,7 @@ _PLANE_TOL = 1e-9  # of the size of the mesh: coordinates are written with ten d
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class DeckGrid:
-    """Everything that has a number.
+    """Nodes and elements of a deck by their numbers.
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ class DeckGrid:
 
     @property
     def kind(self) -> Kind:
-        """Of the model: that of all cells."""
+        """Kind of the model, that of all cells."""
         return cast(Kind, self.groups[0].type.kind)
 
     @property

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from signorini.deck.inp.card import Card, Row, to_number
-from signorini.deck.inp.keywords import gathered
+from signorini.deck.inp.keywords import collect
 
-INTERACTION_WORDS = ("SURFACE BEHAVIOR", "FRICTION")
+_INTERACTION_WORDS = ("SURFACE BEHAVIOR", "FRICTION")
 """Keywords that belong to the ``*SURFACE INTERACTION`` before them and that are read here."""
 
 
@@ -36,7 +36,7 @@ class Interaction:
 
     @property
     def name(self) -> str:
-        """As the deck spells it."""
+        """Name as the deck spells it."""
         return self.card.value("NAME")
 
 
@@ -48,7 +48,7 @@ def make_interactions(cards: Sequence[Card]) -> dict[str, Interaction]:
     DeckError
         For laws that are not Signorini's and Coulomb's, possibly with a linear compliance.
     """
-    return gathered(cards, "SURFACE INTERACTION", INTERACTION_WORDS, _begun, _with)
+    return collect(cards, "SURFACE INTERACTION", _INTERACTION_WORDS, _begun, _with)
 
 
 def _begun(card: Card) -> Interaction:

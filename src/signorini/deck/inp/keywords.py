@@ -78,7 +78,7 @@ def of_keyword(cards: Sequence[Card], keyword: str) -> Iterator[Card]:
     return (card for card in cards if card.keyword == keyword)
 
 
-def referred(card: Card, key: str, found: Mapping[str, Named], what: str) -> Named:
+def look_up(card: Card, key: str, found: Mapping[str, Named], what: str) -> Named:
     """What a parameter of a card names.
 
     Parameters
@@ -129,7 +129,7 @@ def refuse_unsupported(cards: Sequence[Card], known: Sequence[str], where: str) 
     return ignored
 
 
-def gathered(
+def collect(
     cards: Sequence[Card],
     opening: str,
     words: Sequence[str],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What keywords refer to, and the names that a model has for it."""
+"""Everything that keywords refer to, and the names that a model has for it."""
 
 from __future__ import annotations
 

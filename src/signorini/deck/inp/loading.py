@@ -59,7 +59,7 @@ def follow_steps(
         for card in cards:
             _READERS[card.keyword](card, known, courses)
         courses.notes.extend(_kept_beside(courses, step))
-        if step.held and courses.displacement.plain:
+        if step.held and courses.displacement.sets_constants:
             courses.notes.append(
                 f"supports move at the beginning of {step.name}, by its AMPLITUDE=STEP, as in CalculiX; Abaqus takes "
                 "them linearly to the end of the step"
@@ -93,8 +93,8 @@ def _renew(cards: Sequence[Card], cleared: Sequence[Course], notes: list[str]) -
 def _kept_beside(courses: Courses, step: DeckStep) -> Iterator[str]:
     """Gravity of earlier steps that goes on beside that of this step."""
     loads = courses.volume_loads
-    kept = {loads[slot].section for slot in courses.volume.kept if loads[slot].kind == "GRAV"}
-    if any(loads[slot].kind == "GRAV" and loads[slot].section in kept for slot in courses.volume.fresh):
+    kept = {loads[slot].section for slot in courses.volume.kept_slots if loads[slot].kind == "GRAV"}
+    if any(loads[slot].kind == "GRAV" and loads[slot].section in kept for slot in courses.volume.new_slots):
         yield (
             f"GRAV of {step.name} acts beside that of an earlier step on the same elements, as in CalculiX, since its "
             "direction or set is another; OP=NEW takes the earlier one away"

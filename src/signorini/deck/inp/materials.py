@@ -11,12 +11,12 @@ import numpy as np
 from signorini.arrays import IntArray, distinct
 from signorini.deck.inp.card import Card
 from signorini.deck.inp.grid import DeckGrid, nodes_of
-from signorini.deck.inp.keywords import gathered, of_keyword, referred
+from signorini.deck.inp.keywords import collect, look_up, of_keyword
 from signorini.deck.inp.sets import Sets, unique_label
 from signorini.errors import InputError, one_of
 from signorini.model.material import Elastic, Material, Orthotropic
 
-MATERIAL_WORDS = ("ELASTIC", "DENSITY", "EXPANSION")
+_MATERIAL_WORDS = ("ELASTIC", "DENSITY", "EXPANSION")
 """Keywords that belong to the ``*MATERIAL`` before them and that are read here."""
 
 
@@ -39,7 +39,7 @@ class Substance:
 
     @property
     def name(self) -> str:
-        """As the deck spells it."""
+        """Name as the deck spells it."""
         return self.card.value("NAME")
 
 
@@ -76,7 +76,7 @@ def make_materials(cards: Sequence[Card]) -> dict[str, Substance]:
     DeckError
         For laws that are not linear elasticity with constant moduli.
     """
-    return gathered(cards, "MATERIAL", MATERIAL_WORDS, lambda card: Substance(card=card), _with)
+    return collect(cards, "MATERIAL", _MATERIAL_WORDS, lambda card: Substance(card=card), _with)
 
 
 def _with(substance: Substance, card: Card) -> Substance:
@@ -142,11 +142,11 @@ def make_sections(
         For an unknown set or material, an element with two sections or none, a section of faces.
     """
     sections: list[Section] = []
-    angles = make_orientations(cards)
+    angles = _orientations(cards)
     owner = np.full(len(grid.elements.labels), -1)
     for card in of_keyword(cards, "SOLID SECTION"):
         card.refuse_unknown(("ELSET", "MATERIAL", "ORIENTATION"), ("CONTROLS", "OFFSET"))
-        substance = referred(card, "MATERIAL", materials, "material")
+        substance = look_up(card, "MATERIAL", materials, "material")
         if substance.elastic is None:
             raise substance.card.error(f"'{card.value('MATERIAL')}' has no *ELASTIC")
         name, members = elements.find(card.value("ELSET"), card)
@@ -199,14 +199,8 @@ def _by_formulation(members: IntArray, grid: DeckGrid) -> Iterator[tuple[str, In
         yield groups[0].card.value("TYPE").upper(), members[modes]
 
 
-def make_orientations(cards: Sequence[Card]) -> dict[str, float]:
-    """Angle of every ``*ORIENTATION`` from the x axis, degrees, by name in capitals.
-
-    Raises
-    ------
-    DeckError
-        For systems that are not rectangular, or turn out of the plane.
-    """
+def _orientations(cards: Sequence[Card]) -> dict[str, float]:
+    """Angle of every ``*ORIENTATION`` from the x axis, degrees, by name in capitals."""
     angles: dict[str, float] = {}
     for card in of_keyword(cards, "ORIENTATION"):
         card.refuse_unknown(("NAME", "SYSTEM", "DEFINITION"))

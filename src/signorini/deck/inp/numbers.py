@@ -118,7 +118,7 @@ def whole_numbers(card: Card) -> IntArray | None:
 
 def _parts(card: Card) -> Iterator[Card]:
     """The card with one piece of its data at a time."""
-    return (replace(card, chunks=(chunk,)) for chunk in card.chunks)
+    return (replace(card, chunks=[chunk]) for chunk in card.chunks)
 
 
 def _by_line(card: Card, what: str, least: int, most: int) -> Array:

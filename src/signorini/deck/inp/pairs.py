@@ -12,7 +12,7 @@ import numpy as np
 from signorini.deck.error import DeckError
 from signorini.deck.inp.card import Card, Row, to_number
 from signorini.deck.inp.interactions import Interaction, read_friction
-from signorini.deck.inp.keywords import of_keyword, referred
+from signorini.deck.inp.keywords import look_up, of_keyword
 from signorini.deck.inp.known import Known
 from signorini.deck.inp.surfaces import DeckSurface
 from signorini.model.contact import Contact
@@ -50,7 +50,7 @@ def make_contacts(cards: Sequence[Card], known: Known) -> list[Pair]:
     for card in of_keyword(cards, "CONTACT PAIR"):
         card.refuse_unknown(("INTERACTION", "TYPE", "ADJUST"), IGNORED)
         card.choice("TYPE", _TYPES, "")
-        law = referred(card, "INTERACTION", known.interactions, "surface interaction")
+        law = look_up(card, "INTERACTION", known.interactions, "surface interaction")
         for row, slave, master in _sides(card, known):
             given = _adjusted(card, slave, known)
             if (slave.name, master.name) in clearances:
@@ -203,7 +203,7 @@ def make_changes(cards: Sequence[Card], known: Known, pairs: Sequence[Pair]) -> 
     for card in cards:
         if card.keyword == "CHANGE FRICTION":
             card.refuse_unknown(("INTERACTION",))
-            changed = referred(card, "INTERACTION", known.interactions, "surface interaction")
+            changed = look_up(card, "INTERACTION", known.interactions, "surface interaction")
         elif card.keyword == "FRICTION":
             if changed is None:
                 raise card.error("stands in a step without *CHANGE FRICTION before it")

@@ -36,53 +36,36 @@ def read_cards(path: Path, reach: Reach | None = None) -> list[Card]:
     DeckError
         If a file is missing or unreadable, or a keyword line is malformed.
     """
-    cards: list[_Open] = []
+    cards: list[Card] = []
     _read(path, reach or Reach.of(path), cards, [], 0, None)
-    return [card.closed() for card in cards]
+    return cards
 
 
-class _Open:
-    """A keyword that still takes data lines."""
-
-    def __init__(self, keyword: str, parameters: dict[str, str], path: Path, line: int) -> None:
-        self.keyword, self.parameters, self.path, self.line = keyword, parameters, path, line
-        self.chunks: list[tuple[Path, int, bytes]] = []
-
-    def closed(self) -> Card:
-        return Card(
-            keyword=self.keyword,
-            parameters=self.parameters,
-            path=self.path,
-            line=self.line,
-            chunks=tuple(self.chunks),
-        )
-
-
-def _read(path: Path, reach: Reach, cards: list[_Open], included: list[Path], depth: int, by: _Open | None) -> None:
+def _read(path: Path, reach: Reach, cards: list[Card], included: list[Path], depth: int, by: Card | None) -> None:
     """Append the keywords of one file; data before its first keyword belong to the keyword before it, if any."""
     for line, starred, data in _pieces(_bytes(path, by)):
         if not starred:
             if cards and data and not data.isspace():
                 cards[-1].chunks.append((path, line, data))
             continue
-        opened = _keyword(data, path, line)
-        if opened.keyword == "INCLUDE":
+        card = _keyword(data, path, line)
+        if card.keyword == "INCLUDE":
             if depth == _MAX_DEPTH:
-                raise _error(opened, f"is the {_MAX_DEPTH + 1}th file inside another; does a file include itself?")
-            included.append(_named(opened, reach))
+                raise card.error(f"is the {_MAX_DEPTH + 1}th file inside another; does a file include itself?")
+            included.append(_input_file(card, reach))
             if len(included) > _MAX_INCLUDES:
-                raise _error(
-                    opened, f"is the {_MAX_INCLUDES + 1}th file that is included; expected at most {_MAX_INCLUDES}"
+                raise card.error(
+                    f"is the {_MAX_INCLUDES + 1}th file that is included; expected at most {_MAX_INCLUDES}"
                 )
-            _read(included[-1], reach, cards, included, depth + 1, opened)
+            _read(included[-1], reach, cards, included, depth + 1, card)
             continue
-        cards.append(opened)
-        if opened.keyword in ("NODE", "ELEMENT", "NSET", "ELSET", "AMPLITUDE") and "INPUT" in opened.parameters:
-            file = _named(opened, reach)
-            opened.chunks.append((file, 1, _bytes(file, opened)))
+        cards.append(card)
+        if card.keyword in ("NODE", "ELEMENT", "NSET", "ELSET", "AMPLITUDE") and "INPUT" in card.parameters:
+            file = _input_file(card, reach)
+            card.chunks.append((file, 1, _bytes(file, card)))
 
 
-def _bytes(path: Path, by: _Open | None) -> bytes:
+def _bytes(path: Path, by: Card | None) -> bytes:
     try:
         data = path.read_bytes()
     except OSError as error:
@@ -91,12 +74,12 @@ def _bytes(path: Path, by: _Open | None) -> bytes:
             words = "is a folder; expected a deck"
         if by is None:
             raise DeckError(words, path=path) from error
-        raise _error(by, f"'{path}': {words}") from error
+        raise by.error(f"'{path}': {words}") from error
     except ValueError as error:  # a name that no file can have
         raise DeckError(f"cannot be read: {error}", path=path) from error
     if b"\0" in data:
         message = "is not a text file; expected a deck of keywords, like *NODE"
-        raise DeckError(message, path=path) if by is None else _error(by, f"'{path}' {message}")
+        raise DeckError(message, path=path) if by is None else by.error(f"'{path}' {message}")
     if b"\r" in data:
         data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
     return data.removeprefix(b"\xef\xbb\xbf")
@@ -148,19 +131,20 @@ def _end(data: bytes, start: int) -> int:
     return len(data) if end < 0 else end + 1
 
 
-def _keyword(data: bytes, path: Path, line: int) -> _Open:
+def _keyword(data: bytes, path: Path, line: int) -> Card:
     name, *words = _fields(decode(data).strip()[1:].replace("\n", " "))
-    opened = _Open(canonical(name), {}, path, line)
+    parameters: dict[str, str] = {}
+    card = Card(keyword=canonical(name), parameters=parameters, path=path, line=line, chunks=[])
     for word in words:
         key, _, value = word.partition("=")
         key = canonical(key)
         if key:
-            if key in opened.parameters:
-                raise _error(opened, f"has {key} twice")
-            opened.parameters[key] = _unquoted(value.strip())
+            if key in parameters:
+                raise card.error(f"has {key} twice")
+            parameters[key] = _unquoted(value.strip())
         elif value:
-            raise _error(opened, f"has '{word.strip()[:_SHOWN_CHARACTERS]}'; expected NAME=value")
-    return opened
+            raise card.error(f"has '{word.strip()[:_SHOWN_CHARACTERS]}'; expected NAME=value")
+    return card
 
 
 def _fields(text: str) -> list[str]:
@@ -174,16 +158,12 @@ def _unquoted(word: str) -> str:
     return word[1:-1] if len(word) > 1 and word[0] == word[-1] == '"' else word
 
 
-def _named(opened: _Open, reach: Reach) -> Path:
+def _input_file(card: Card, reach: Reach) -> Path:
     """The file that INPUT names."""
-    name = opened.parameters.get("INPUT", "")
+    name = card.parameters.get("INPUT", "")
     if not name:
-        raise _error(opened, "has no INPUT; expected INPUT= and a file")
+        raise card.error("has no INPUT; expected INPUT= and a file")
     try:
         return reach.file(name)
     except InputError as error:
-        raise _error(opened, error.message) from error
-
-
-def _error(opened: _Open, message: str) -> DeckError:
-    return DeckError(f"*{opened.keyword}: {message}", path=opened.path, line=opened.line)
+        raise card.error(error.message) from error
