@@ -44,6 +44,7 @@ _LEAST = 2.0**-10  # part of the segment that does
 _GROWTH, _FINER = 0.5, 2.0**-4  # of what is behind, and of the shortest: what increments at the beginning may be
 _SHRINK = 0.9  # of the estimated part up to an event: short of it
 _SAME, _LATE = 1e-12, 1e-3  # part of an increment by which it may miss an event; the latter after some tries
+_LOOSER = 2.0  # times at every further try: by how much longer an increment must become to be worth it
 _REFUSED = 0.25  # part of an increment, beyond which none was found: not looked into, the next one begins nearer to it
 _COARSER = 4.0  # times what friction may turn elsewhere: where one longer increment is gone again event by event
 _ACROSS = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)  # times the last increment: where to look for the other side of a fold
@@ -197,6 +198,7 @@ class Walk(Way):
         self.refused: SpatialResult | None = None
         self.limited = False  # whether the load has a limit where motions run away
         self._searched = False  # long, once in vain: shorter increments are near where they begin, or there are none
+        self._rate: Array | None = None  # of r - h in the last increment that was found, per part of the segment
         self._overloaded = False  # whether the pairs that are near hold the bodies no more
         self.bearing = Bearing(problem, self.b_end)
         # the load as rates see it; what smooth sections know of an event is less sharp
@@ -235,7 +237,7 @@ class Walk(Way):
         if k is None:
             return False
         self.careful = self.balanced = self.pieces[k].factor
-        self.trusting, self.refused, self._overloaded = False, None, False
+        self.trusting, self.refused, self._overloaded, self._rate = False, None, False, None
         self.pieces = self.pieces[:k]
         self.now, self.factor = self.pieces[-1].state or self.start, self.pieces[-1].factor
         self.last = self.careful - self.factor
@@ -337,6 +339,7 @@ class Walk(Way):
         words, longest = "", left
         for number in range(_TRIES):
             late = _LATE if self.smooth and number >= _PATIENCE else _SAME
+            longer = late * (_LOOSER ** (number - _PATIENCE) if late == _LATE else 1.0)
             trial = self._trial(step, shortest)
             if isinstance(trial, SpatialResult):
                 words, longest = trial.message, step
@@ -349,7 +352,7 @@ class Walk(Way):
                 best, inner = trial, inner or trial
                 step = trial.step * self._room(trial, inner.after.state)
                 step = step if step < longest or longest >= left else 0.5 * (trial.step + longest)
-                if min(step, left) <= trial.step * (1.0 + late):
+                if min(step, left) <= trial.step * (1.0 + longer):
                     break
                 step = min(step, left)
             elif trial.step <= shortest and not self._grips(trial):
@@ -362,7 +365,7 @@ class Walk(Way):
                 if best is None and number >= patience:
                     break
                 step = self._nearer(trial, shortest, best)
-                if best is not None and step <= best.step * (1.0 + late):
+                if best is not None and step <= best.step * (1.0 + longer):
                     break
             if step < SHORTEST:
                 break
@@ -433,7 +436,11 @@ class Walk(Way):
         origin = np.concatenate([np.zeros(n), now.h[n:]])
         increment = replace(problem, b=frozen(problem.misfit(origin, np.zeros(3 * n), b)))
         self.tried += 1
-        y = None if not now.r.any() else now.r - np.concatenate([now.h[:n], np.zeros(2 * n)])
+        y = None
+        if ahead is None and now.r.any():
+            y = now.r - np.concatenate([now.h[:n], np.zeros(2 * n)])
+            if self._rate is not None:
+                y = y + step * self._rate
         long = step <= shortest and not self._searched
         result = solve_spatial(increment, y if ahead is None else ahead, settings=None if long else _QUICK)
         if not result.solved:
@@ -441,6 +448,7 @@ class Walk(Way):
             return result
         h, r = _split(result)
         slip = result.slip
+        self._rate = (r - now.r - (h + origin - now.h)) / step
         until = held_until(increment, now, h, r, slip, self.width)
         least = float(until.min(initial=1.0))
         return _Trial(
