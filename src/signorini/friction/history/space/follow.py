@@ -340,7 +340,8 @@ class Walk(Way):
         for number in range(_TRIES):
             late = _LATE if self.smooth and number >= _PATIENCE else _SAME
             longer = late * (_LOOSER ** (number - _PATIENCE) if late == _LATE else 1.0)
-            trial = self._trial(step, shortest)
+            ahead = None if self._rate is None or not self.now.r.any() else self._here + step * self._rate
+            trial = self._trial(step, shortest, ahead)
             if isinstance(trial, SpatialResult):
                 words, longest = trial.message, step
                 if not self._leaves:
@@ -426,8 +427,14 @@ class Walk(Way):
         whole = 0.0 if self.factor < self.careful else self.settings.shortest
         return min(whole, max(_GROWTH * self.factor, _FINER * whole), self.reach - self.factor)
 
+    @property
+    def _here(self) -> Array:
+        """(3n,) r - h of no increment."""
+        n = self.problem.pairs
+        return self.now.r - np.concatenate([self.now.h[:n], np.zeros(2 * n)])
+
     def _trial(self, step: float, shortest: float, ahead: Array | None = None) -> _Trial | SpatialResult:
-        """The increment of a part of the segment, sought from where it is or ahead, or the answer that it has none."""
+        """The increment of a part of the segment, sought from its beginning or ahead; or why it has none."""
         now, n, problem = self.now, self.problem.pairs, self.problem
         factor = self.factor + step
         if factor >= 1.0 - SHORTEST:
@@ -436,11 +443,7 @@ class Walk(Way):
         origin = np.concatenate([np.zeros(n), now.h[n:]])
         increment = replace(problem, b=frozen(problem.misfit(origin, np.zeros(3 * n), b)))
         self.tried += 1
-        y = None
-        if ahead is None and now.r.any():
-            y = now.r - np.concatenate([now.h[:n], np.zeros(2 * n)])
-            if self._rate is not None:
-                y = y + step * self._rate
+        y = None if not now.r.any() else self._here
         long = step <= shortest and not self._searched
         result = solve_spatial(increment, y if ahead is None else ahead, settings=None if long else _QUICK)
         if not result.solved:
