@@ -74,7 +74,7 @@ def test_linear_programmes_end_where_bodies_nearly_roll():
 
 @pytest.mark.slow
 def test_an_overloaded_joint_slides_at_the_load_that_friction_holds_and_what_was_solved_is_kept():
-    """10 kN press, friction 0.02 holds 200 N of the 1600 N; farther on the bend would bear, up to 99.6 %."""
+    """10 kN press, friction 0.02 holds 200 N of the 1600 N; farther on the bend would bear, up to 74.8 %."""
     model = deck.read(EXAMPLES / "bolted_bracket.toml")
     loads = tuple(replace(load, force=(1600.0, 0.0, 0.0)) if load.name == "cable" else load for load in model.loads)
     contacts = tuple(replace(contact, friction=0.02) for contact in model.contacts)
@@ -83,7 +83,7 @@ def test_an_overloaded_joint_slides_at_the_load_that_friction_holds_and_what_was
     solution = solve(replace(model, loads=loads, contacts=contacts), raise_on_failure=False, clock=clock)
     assert solution.status == "no_equilibrium"
     assert "at 12.500000%: gross sliding: body 'bracket' can move along x: " in solution.message
-    assert "beyond 99.64" in solution.message
+    assert "beyond 74.78" in solution.message
     assert re.search(r"nothing takes 0\.\d+ of the load at the end", solution.message)
     finished, cut = solution.steps
     assert finished.finished
