@@ -298,21 +298,19 @@ RULES = {
 }
 
 PENDING = {
-    "condense": "signatures nouns parameters constants",
+    "condense": "signatures parameters",
     #
     "engine": "nouns parameters constants",
     #
-    "fem": "signatures nouns parameters constants",
+    "fem": "signatures parameters",
     #
     "friction": "files nouns parameters classes constants",
     #
-    "interface": "files parameters constants",
+    "interface": "parameters",
     #
     "law": "constants",
     #
-    "meshing": "files parameters",
-    #
-    "model": "files nouns classes constants",
+    "meshing": "parameters",
     #
     "solution": "nouns parameters constants",
     #

@@ -125,3 +125,21 @@ def rows(value: Any, where: Where, *, size: int) -> Array:
     if not np.isfinite(found).all():
         raise InputError("holds what is no finite number", where=where)
     return found
+
+
+def members(values: Any, kind: type, part: str) -> tuple[Any, ...]:
+    """Values of one class, or a single one.
+
+    Parameters
+    ----------
+    values : one or several
+    kind : their class
+    part : plural under which a model has them, for messages
+    """
+    singular = {"bodies": "body", "rigid_bodies": "rigid_body"}.get(part, part.removesuffix("s"))
+    if isinstance(values, kind):
+        values = (values,)
+    for i, value in enumerate(values):
+        if not isinstance(value, kind):
+            raise InputError(f"is {value!r}; expected a {kind.__name__}", where=(singular, i))
+    return tuple(values)

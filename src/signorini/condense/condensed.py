@@ -24,7 +24,7 @@ from signorini.linalg.registry import factorise, takes_borders
 
 # of the size of a row of B: below it supports hold what the row sees
 _HELD = 1e-12
-_HARDLY = 1e14  # of 1 / D: a compliance from which bodies held by contact alone are as good as free
+_LOOSE_COMPLIANCE = 1e14  # of 1 / D: a compliance from which bodies held by contact alone are as good as free
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -130,7 +130,7 @@ class Condensed:
         return self.displacement(reduced, b / self.root, -self.root * b, offset)
 
     def among(self, kept: BoolArray) -> Condensed:
-        """The same bodies with fewer pairs; no sparse matrix is factorised again.
+        """Bodies with fewer pairs; no sparse matrix is factorised again.
 
         Parameters
         ----------
@@ -155,7 +155,7 @@ class Condensed:
         )
 
     def moving(self, ways: Array) -> Condensed:
-        """The same bodies of whose k rigid motions only some combinations (k, m) occur: springs hold the others."""
+        """Bodies of whose k rigid motions only some combinations (k, m) occur: springs hold the others."""
         response = self.response.moving(ways)
         return replace(self, response=response, **_image(response, self.root, self.compliance))
 
@@ -248,7 +248,7 @@ def _image(response: Response, root: Array, compliance: Array) -> dict[str, Any]
     A *= root
     A *= root[:, None]
     A[np.diag_indices_from(A)] += root**2 * compliance
-    if basis.R.size and A.diagonal().max(initial=0.0) > _HARDLY:
+    if basis.R.size and A.diagonal().max(initial=0.0) > _LOOSE_COMPLIANCE:
         raise np.linalg.LinAlgError("contact hardly resists a rigid motion")
     leaning = basis.project(A)
     A.flags.writeable = motions.flags.writeable = False

@@ -112,7 +112,7 @@ class InterfaceOperator:
         return result
 
     def _knowing(self, **known: Array) -> InterfaceOperator:
-        """The same with what is given where cached properties keep their values."""
+        """This operator with what is given where cached properties keep their values."""
         self.__dict__.update(known)
         return self
 

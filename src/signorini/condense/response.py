@@ -57,10 +57,10 @@ class Response(Protocol):
         """Free displacements (z,) under a load, forces r (d a,) of the pairs and the rigid motion of `travel`."""
 
     def among(self, rows: BoolArray) -> Self:
-        """The same with some of the (d a,) rows alone."""
+        """This response with some of the (d a,) rows alone."""
 
     def moving(self, ways: Array) -> Self:
-        """The same where of the k rigid motions only some combinations (k, m) occur, springs hold the others."""
+        """This response where of the k rigid motions only some combinations (k, m) occur, springs hold the others."""
 
 
 Travel = Callable[[Array], Array]
@@ -114,11 +114,11 @@ class ByNodes:
         return reduced.expand(moved)
 
     def among(self, rows: BoolArray) -> ByNodes:
-        """The same with some rows alone."""
+        """This response with some rows (d a,) alone."""
         return replace(self, B=self.B[rows])
 
     def moving(self, ways: Array) -> ByNodes:
-        """The same with some rigid motions alone."""
+        """This response with some rigid motions alone."""
         return replace(self, rigid=self.rigid @ ways)
 
 
@@ -174,11 +174,11 @@ class ByPairs:
         return z + self.rigid @ travel(self.B @ z) if self.rigid.shape[1] else z
 
     def among(self, rows: BoolArray) -> ByPairs:
-        """The same with some rows alone."""
+        """This response with some rows (d a,) alone."""
         return replace(self, rows=self.rows[rows], B=self.B[rows])
 
     def moving(self, ways: Array) -> ByPairs:
-        """The same with some rigid motions alone."""
+        """This response with some rigid motions alone."""
         return replace(self, rigid=self.rigid @ ways)
 
 

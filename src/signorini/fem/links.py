@@ -17,7 +17,7 @@ from signorini.model.conditions import Place
 from signorini.model.links import AXES, Equation, directions
 from signorini.model.model import Model
 
-_NOTHING = 1e-11  # of the largest coefficient of an equation: smaller ones are what is left where others cancel
+_CANCELLED_TOL = 1e-11  # of the largest coefficient of an equation: smaller ones are what is left where others cancel
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -74,7 +74,7 @@ def make_links(space: Space, model: Model) -> Links:
     C.sum_duplicates()
     size = abs(C).max(axis=1).toarray().ravel() if len(ends) > 1 else np.ones(0)
     C.data /= np.repeat(np.where(size > 0.0, size, 1.0), np.diff(C.indptr))
-    C.data[abs(C.data) < _NOTHING] = 0.0
+    C.data[abs(C.data) < _CANCELLED_TOL] = 0.0
     C.eliminate_zeros()
     return Links(
         C=C,
@@ -231,7 +231,7 @@ def _one_by_one(
         for dof, value in given.items():
             for other, share in solved.get(dof, {dof: 1.0}).items():
                 now[other] = now.get(other, 0.0) + value * share
-        now = {dof: value for dof, value in now.items() if abs(value) > _NOTHING * size}
+        now = {dof: value for dof, value in now.items() if abs(value) > _CANCELLED_TOL * size}
         free = {dof: value for dof, value in now.items() if not held[dof]}
         if not free:
             if now:

@@ -13,10 +13,10 @@ from signorini.model.material import Elastic
 from signorini.model.model import Model
 
 # bulk over shear modulus, Poisson's ratio 0.49: compatible displacements cannot keep the volume of their cells
-_STIFF = 50.0
-_STIFFISH = 10.0  # 0.45: from here on it shows, but in cells with so many functions as these
+_LOCKING_RATIO = 50.0
+_NOTICED_RATIO = 10.0  # 0.45: from here on it shows, but in cells with so many functions as these
 _SUPPLE = {"quad8", "quad9", "hexahedron20", "hexahedron27"}
-_FEW = 4  # cells: a body of fewer is a toy
+_TOY_CELLS = 4  # cells: a body of fewer is a toy
 
 
 def refuse_locking(model: Model) -> None:
@@ -39,7 +39,7 @@ def refuse_locking(model: Model) -> None:
             _refuse_mean_dilatation(model, body, families, where)
             continue
         ratio = body.material.bulk_modulus / body.material.shear_modulus
-        if model.kind == "plane stress" or ratio <= _STIFF:
+        if model.kind == "plane stress" or ratio <= _LOCKING_RATIO:
             continue
         # with a hoop strain, and in space, internal modes do not keep the volume of distorted cells
         if body.formulation == "incompatible" and families == {"quad"} and model.kind == "plane strain":
@@ -87,7 +87,7 @@ def stiffened_bodies(model: Model) -> tuple[str, ...]:
         for body, families in zip(model.bodies, _families(model), strict=True)
         if body.formulation == "standard"
         and not families <= _SUPPLE
-        and body.material.bulk_modulus > _STIFFISH * body.material.shear_modulus
+        and body.material.bulk_modulus > _NOTICED_RATIO * body.material.shear_modulus
     )
 
 
@@ -106,6 +106,6 @@ def thin_bodies(space: Space, model: Model) -> tuple[str, ...]:
     names = []
     for i, body in enumerate(model.bodies):
         own = owner == i
-        if body.formulation == "standard" and own.sum() > _FEW and (at_edge & quads)[own].all():
+        if body.formulation == "standard" and own.sum() > _TOY_CELLS and (at_edge & quads)[own].all():
             names.append(body.name)
     return tuple(names)

@@ -27,7 +27,7 @@ def measure(model: Model, points: Array, cells: IntArray) -> Array:
 
 
 def contact_measure(model: Model, points: Array, one: IntArray, other: IntArray) -> Array:
-    """The same for points where two bodies touch, (m, q): bodies lie on one middle plane, so the thinner one's.
+    """Thickness or circumference where two bodies touch, (m, q): they lie on one middle plane, so the thinner one's.
 
     Parameters
     ----------

@@ -13,7 +13,7 @@ from signorini.model.conditions import Place
 from signorini.model.mesh import CORNERS, NODES_PER_CELL
 
 # of the size of the mesh: how far a node may be from the point that a user gives
-_NEAR = 1e-6
+_PLACE_TOL = 1e-6
 
 
 def nodes_at(space: Space, on: Place, where: Where, *, completed: bool = True) -> IntArray:
@@ -39,7 +39,7 @@ def nodes_at(space: Space, on: Place, where: Where, *, completed: bool = True) -
     points = space.mesh.points[space.used_nodes]
     distance = np.linalg.norm(points - np.asarray(on), axis=1)
     nearest = int(np.argmin(distance))
-    if distance[nearest] > _NEAR * np.ptp(points, axis=0).max():
+    if distance[nearest] > _PLACE_TOL * np.ptp(points, axis=0).max():
         at = tuple(float(x) for x in points[nearest])
         node = space.mesh.labels[space.used_nodes[nearest]]
         raise InputError(f"no node at {on}; the nearest is node {node} at {at}", where=where)

@@ -14,7 +14,7 @@ from signorini.fem.measure import measure
 from signorini.fem.space import Space
 from signorini.model.model import Model
 
-_ROUNDED = 64.0 * float(np.finfo(np.float64).eps)  # of the products that an entry is summed from: what is rounding
+_PRODUCT_TOL = 64.0 * float(np.finfo(np.float64).eps)  # of the products that an entry is summed from: what is rounding
 
 
 def stiffness(space: Space, model: Model) -> sp.csr_array:
@@ -68,7 +68,7 @@ def reduced_stiffness(K: sp.csr_array, T: sp.csr_array) -> sp.csr_array:
         return reduced
     size = abs(T[:, together]).T @ abs(K) @ abs(T)
     rows = reduced[together]
-    noise = sp.csr_array(rows - rows.multiply(abs(rows) > _ROUNDED * size))
+    noise = sp.csr_array(rows - rows.multiply(abs(rows) > _PRODUCT_TOL * size))
     put = sp.csr_array((np.ones(len(together)), (together, np.arange(len(together)))), (T.shape[1], len(together)))
     spread = put @ noise
     result = sp.csr_array(reduced - spread - spread.T + put @ (noise[:, together] @ put.T))

@@ -19,7 +19,7 @@ from signorini.fem.space import ON_AXIS, Space
 from signorini.model.links import directions
 from signorini.model.model import Model
 
-_SAME = 1e-9  # of what supports prescribe: what equations may ask otherwise of it
+_AGREEMENT_TOL = 1e-9  # of what supports prescribe: what equations may ask otherwise of it
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -209,7 +209,7 @@ def _leaders(space: Space, model: Model, given: _Prescribed) -> IntArray:
 def _refuse_contradictions(space: Space, links: Links, found: Eliminated, given: _Prescribed) -> None:
     """What equations leave to held dofs alone must hold for what supports prescribe."""
     for name, u in given.values.items():
-        wrong = abs(found.left @ u) > _SAME * (abs(found.left) @ abs(u))
+        wrong = abs(found.left @ u) > _AGREEMENT_TOL * (abs(found.left) @ abs(u))
         if wrong.any():
             row = int(np.argmax(wrong))
             dof = int(found.left.indices[found.left.indptr[row]])

@@ -15,8 +15,9 @@ from signorini.fem.facet_block import FacetBlock
 from signorini.fem.facets import gauss_rule, line_shapes
 from signorini.interface.common_parts import CommonParts, Opposite
 from signorini.interface.coupling import FacetGaps
+from signorini.interface.fitting import smooth_surfaces
 from signorini.interface.overlap import Overlaps, find_overlaps, interpolate, parameter
-from signorini.interface.smooth import Smooth, bows, rises, smooth_surfaces
+from signorini.interface.smooth import Smooth, bows, rises
 from signorini.interface.tilt import turned
 
 _POINTS = {2: 3, 3: 8}  # of Gauss on every piece, by nodes of the facets: exact for parabolas over linear facets

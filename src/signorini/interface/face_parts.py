@@ -16,7 +16,7 @@ from signorini.interface.common_parts import CommonParts, Opposite
 from signorini.interface.coupling import FacetGaps
 from signorini.interface.face_integrals import FacePieces, PiecePairs, Rule, Sums, integrate, spread_gaps
 from signorini.interface.facing import near_pairs, nearest_layers, piece_normals
-from signorini.interface.smooth import smooth_surfaces
+from signorini.interface.fitting import smooth_surfaces
 from signorini.interface.tilt import normals_between, turns
 
 _DEGREE = {3: 1, 4: 2, 6: 2, 8: 3, 9: 4}  # of the shape functions, by nodes of a face

@@ -10,8 +10,8 @@ from signorini.errors import InputError, Where
 from signorini.interface.coupling import Coupling
 from signorini.model.contact import Contact
 
-_DIGITS = 16.0 * float(np.finfo(np.float64).eps)  # of a coordinate: what two of them that are the same may differ by
-_ROUGH = 0.01  # of a gap: what it may be more along the normal of a facet than along that of a curve
+_COORDINATE_TOL = 16.0 * float(np.finfo(np.float64).eps)  # of a coordinate: what two that are the same differ by
+_CURVE_TOL = 0.01  # of a gap: what it may be more along the normal of a facet than along that of a curve
 
 
 def initial_gaps(geometry: Array, contact: Contact, one: Array, *, farthest: float) -> Array:
@@ -25,7 +25,7 @@ def initial_gaps(geometry: Array, contact: Contact, one: Array, *, farthest: flo
     farthest : largest coordinate of the mesh
     one : (n,) what pairs see of a gap of length 1 along the normals of the nonmortar side, see :func:`normal_gap`
     """
-    geometry = np.where(np.abs(geometry) > _DIGITS * farthest, geometry, 0.0)
+    geometry = np.where(np.abs(geometry) > _COORDINATE_TOL * farthest, geometry, 0.0)
     if contact.gap == "zero" or contact.tied:
         gap = np.zeros(len(geometry))
     elif contact.gap == "geometry":
@@ -78,7 +78,7 @@ def resolved(gap: Array, coupling: Coupling, one: Array) -> Array:
     np.minimum.at(varies, facets.corners, (facets.high - facets.low)[:, None])
     own = np.where(np.isfinite(own), own, -np.inf)[nodes] * one  # corners that nothing is opposite are no measure
     least = least[nodes] * one
-    lost = own - gap > varies[nodes] * one + _ROUGH * np.abs(own)
+    lost = own - gap > varies[nodes] * one + _CURVE_TOL * np.abs(own)
     gap = np.where(lost, np.maximum(gap, least), gap)
     return gap + max(float(least.min() - gap.min()), 0.0)
 

@@ -24,8 +24,8 @@ from signorini.law.section import FrictionSection
 from signorini.model.contact import ratios
 from signorini.model.model import Model
 
-_SHARED = 1e-8  # of the size of the model over the softest modulus
-_OBLIQUE = 1e-6  # component of a unit vector
+_SHARED_COMPLIANCE = 1e-8  # of the size of the model over the softest modulus
+_AXIS_TOL = 1e-6  # component of a unit vector
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -236,7 +236,7 @@ def _refuse_no_fibre(
                 where=("contact", i, "friction_axis"),
             )
         on = mirrored[own].any(axis=0)
-        oblique = on & (np.abs(axis) > _OBLIQUE) & (np.abs(axis) < 1.0 - _OBLIQUE)
+        oblique = on & (np.abs(axis) > _AXIS_TOL) & (np.abs(axis) < 1.0 - _AXIS_TOL)
         if oblique.any():
             raise InputError(
                 f"is oblique to the plane of symmetry across {model.axes[int(np.argmax(oblique))]}, which would see "
@@ -257,7 +257,7 @@ def _of_shared_nodes(space: Space, model: Model, node: IntArray, friction: Array
     shared = np.bincount(node)[node] > 1
     size = float(extent(space.mesh.points).max())
     softest = min(body.material.smallest_modulus for body in model.bodies)
-    return np.where(shared & (friction > 0.0), _SHARED * size / softest, 0.0)
+    return np.where(shared & (friction > 0.0), _SHARED_COMPLIANCE * size / softest, 0.0)
 
 
 def anisotropy_of(model: Model, axes: Array, contact: IntArray) -> Array:

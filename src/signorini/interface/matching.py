@@ -12,7 +12,7 @@ from signorini.arrays import Array, IntArray
 from signorini.fem.boundary import Boundary
 
 # of the tributary length: how far a partner may lie beside the normal
-_BESIDE = 0.05
+_PARTNER_TOL = 0.05
 
 
 def match_nodes(
@@ -54,7 +54,7 @@ def match_nodes(
     own, other = nonmortar.nodal_normals, mortar.nodal_normals[place]
     beside = np.minimum(_tangential(across, own), _tangential(across, other)) / spacing
     twice = np.bincount(place, minlength=len(second))[place] > 1
-    wrong = (beside > _BESIDE) | twice
+    wrong = (beside > _PARTNER_TOL) | twice
     if wrong.any():
         worst = int(np.argmax(np.where(wrong, beside, -1.0)))
         return partner, (

@@ -28,7 +28,7 @@ from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle, Plane
 from signorini.model.triangulated import Surface
 
-_FINER = 0.8  # of the mortar side's mean facet length
+_FINER_RATIO = 0.8  # of the mortar side's mean facet length
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -188,7 +188,7 @@ def _on_side(
             nonmortar=names[0],
             mortar=names[1],
             coupling=how,
-            finer=how == "mortar" and float(side.lengths.mean()) < _FINER * float(mortar.lengths.mean()),
+            finer=how == "mortar" and float(side.lengths.mean()) < _FINER_RATIO * float(mortar.lengths.mean()),
         ),
     )
 

@@ -13,9 +13,10 @@ from signorini.fem.facet_block import FacetBlock
 from signorini.fem.facets import facet_shapes
 from signorini.interface.coupling import Coupling, picked, point_coupling
 from signorini.interface.facing import FACING, near, search_distance
+from signorini.interface.fitting import smooth_surfaces
 from signorini.interface.overlap import interpolate, parameter
 from signorini.interface.projection import meet
-from signorini.interface.smooth import Smooth, rises, smooth_surfaces
+from signorini.interface.smooth import Smooth, rises
 from signorini.interface.tilt import areas_between
 
 _ON_FACET_TOL = 1e-9  # of the reference facet: a node this far beyond its edge still lies on it

@@ -10,17 +10,23 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from signorini.arrays import Array, IntArray
-from signorini.checks import choice, number, vector, whole
-from signorini.errors import InputError, Where
-from signorini.memory import check_memory
-from signorini.model.mesh import CORNERS, NODES_PER_CELL, NODES_PER_PLANE_CELL, Mesh
+from signorini.arrays import Array
+from signorini.checks import number, vector, whole
+from signorini.errors import InputError
+from signorini.meshing.grids import (
+    cell_family,
+    check_grid,
+    coons_patch,
+    grid_sides,
+    grid_steps,
+    growing_fractions,
+    mesh_of_grids,
+    ruled_grid,
+    straight,
+)
+from signorini.model.mesh import Mesh
 
 Cells = Literal["quad", "triangle", "quad8", "quad9", "triangle6"]
-_PER_POINT = 350
-"""Bytes: what making a mesh takes for a point of its grid, at least (a rectangle; a box takes 1000)."""
-
-_QUADRATIC = {"quad": "quad8", "triangle": "triangle6"}
 
 
 def rectangle(
@@ -51,8 +57,8 @@ def rectangle(
     >>> rectangle(width=2, height=1, nx=4, ny=2)
     Mesh(15 nodes, 8 quads; bodies: block; boundaries: bottom, top, left, right)
     """
-    family = _family(cells, order)
-    step, lines = _step(family), []
+    family = cell_family(cells, order)
+    step, lines = grid_steps(family), []
     for key, given, size, count, start in (("x", x, width, nx, origin[0]), ("y", y, height, ny, origin[1])):
         if given is None:
             size = number(size, ("mesh", "width" if key == "x" else "height"), above=0.0)
@@ -65,7 +71,7 @@ def rectangle(
     check_grid(math.prod(step * len(line) for line in lines))
     lines = [np.interp(np.arange(step * (len(line) - 1) + 1) / step, np.arange(len(line)), line) for line in lines]
     grid = np.stack(np.meshgrid(*lines, indexing="xy"), axis=-1)
-    return _assemble([grid], _sides(grid), "block", family)
+    return mesh_of_grids([grid], grid_sides(grid), "block", family)
 
 
 def quarter_disk(
@@ -96,10 +102,10 @@ def quarter_disk(
     >>> quarter_disk(radius=8.0, contact_length=4.0, contact_spacing=0.5)
     Mesh(93 nodes, 76 quads; bodies: disk; boundaries: arc, axis, cut)
     """
-    family = _family(cells, order)
-    refine = whole(refine, ("mesh", "refine")) * _step(family)
+    family = cell_family(cells, order)
+    refine = whole(refine, ("mesh", "refine")) * grid_steps(family)
     grids, sides = _quarter(radius, contact_length, contact_spacing, refine)
-    return _assemble(grids, sides, "disk", family)
+    return mesh_of_grids(grids, sides, "disk", family)
 
 
 def half_disk(
@@ -120,15 +126,15 @@ def half_disk(
     >>> half_disk(radius=8.0, contact_length=4.0, contact_spacing=0.5)
     Mesh(177 nodes, 152 quads; bodies: disk; boundaries: arc, cut)
     """
-    family = _family(cells, order)
-    refine = whole(refine, ("mesh", "refine")) * _step(family)
+    family = cell_family(cells, order)
+    refine = whole(refine, ("mesh", "refine")) * grid_steps(family)
     grids, sides = _quarter(radius, contact_length, contact_spacing, refine)
     mirror = np.array([-1.0, 1.0])
     both = [*grids, *(grid[:, ::-1] * mirror for grid in grids)]
     lines = {
         name: [*parts, *(part[::-1] * mirror for part in parts)] for name, parts in sides.items() if name != "axis"
     }
-    return _assemble(both, lines, "disk", family)
+    return mesh_of_grids(both, lines, "disk", family)
 
 
 def annulus(
@@ -163,8 +169,8 @@ def annulus(
     if angle > 360.0:
         raise InputError(f"is {angle:g}; expected at most 360 degrees", where=("mesh", "angle"))
     full = angle == 360.0
-    family = _family(cells, order)
-    step = _step(family)
+    family = cell_family(cells, order)
+    step = grid_steps(family)
     around = whole(n_angular, ("mesh", "n_angular"), least=3 if full else 1)
     check_grid(step * around * step * whole(n_radial, ("mesh", "n_radial")))
     turns = np.radians(np.linspace(0.0, angle, step * around + 1))
@@ -174,11 +180,11 @@ def annulus(
     grid = np.array(centre) + ray[:, None, :] * radii[None, :, None]
     if full:
         grid[-1] = grid[0]
-    sides = _sides(grid)
+    sides = grid_sides(grid)
     named = {"inner": sides["left"], "outer": sides["right"]}
     if not full:
         named |= {"start": sides["bottom"], "end": sides["top"]}
-    return _assemble([grid], named, "ring", family)
+    return mesh_of_grids([grid], named, "ring", family)
 
 
 def target(*, radii: ArrayLike, n: int, angle: float = 90.0, cells: Cells = "quad", order: int = 1) -> Mesh:
@@ -209,19 +215,19 @@ def target(*, radii: ArrayLike, n: int, angle: float = 90.0, cells: Cells = "qua
     quarters = {90.0: 1, 180.0: 2, 360.0: 4}.get(number(angle, ("mesh", "angle")))
     if quarters is None:
         raise InputError(f"is {angle:g}; expected 90, 180 or 360 degrees", where=("mesh", "angle"))
-    family = _family(cells, order)
-    step = _step(family)
+    family = cell_family(cells, order)
+    step = grid_steps(family)
     check_grid(quarters * (step * whole(n, ("mesh", "n"))) * step * (n + 2 * len(given)), ("mesh", "n"))
     across = np.linspace(0.0, 1.0, step * n + 1)
     circles = np.interp(np.arange(step * (len(given) - 1) + 1) / step, np.arange(len(given)), given)
     # a core whose corner is between that of a square and that of a circle keeps all angles away from 0 and 180 degrees
     side, corner = 0.5 * given[0] * np.eye(2), np.full(2, 0.4 * given[0])
-    core = _transfinite(across[:, None] * side[0], _line(side[1], corner, across), across[:, None] * side[1],
-                        _line(side[0], corner, across))  # fmt: skip
+    core = coons_patch(across[:, None] * side[0], straight(side[1], corner, across), across[:, None] * side[1],
+                        straight(side[0], corner, across))  # fmt: skip
     rim = np.vstack([core[:, -1], core[-1, -2::-1]])
     turns = np.radians(np.linspace(0.0, 90.0, len(rim)))
     ray = np.column_stack([np.cos(turns), np.sin(turns)])
-    inner = _between(rim, given[0] * ray, across)
+    inner = ruled_grid(rim, given[0] * ray, across)
     rings = np.concatenate([inner, circles[1:, None, None] * ray])
     grids = [np.stack([c * g[..., 0] - s * g[..., 1], s * g[..., 0] + c * g[..., 1]], axis=-1)
              for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1))[:quarters] for g in (core, rings)]  # fmt: skip
@@ -231,7 +237,7 @@ def target(*, radii: ArrayLike, n: int, angle: float = 90.0, cells: Cells = "qua
     if quarters < 4:
         sides["start"] = [grids[0][0], grids[1][:, 0]]
         sides["end"] = [grids[-2][:, 0], grids[-1][:, -1]]
-    return _assemble(grids, sides, "disk", family)
+    return mesh_of_grids(grids, sides, "disk", family)
 
 
 def _quarter(
@@ -256,9 +262,9 @@ def _quarter(
     fine = np.arcsin(np.linspace(0.0, length, steps * refine + 1) / radius)
     fine[-1] = edge
     last = edge - np.arcsin((length - spacing) / radius)
-    rest = edge + (np.pi / 2 - edge) * _growing(last, np.pi / 2 - edge, refine, growth=4.0, largest=np.pi / 4)
+    rest = edge + (np.pi / 2 - edge) * growing_fractions(last, np.pi / 2 - edge, refine, growth=4.0, largest=np.pi / 4)
     depth = 0.35 * radius  # of the core, from the centre
-    layers = _growing(0.5 * spacing, radius - depth, refine, growth=1.4, largest=radius / 4)
+    layers = growing_fractions(0.5 * spacing, radius - depth, refine, growth=1.4, largest=radius / 4)
     check_grid((len(fine) + len(rest)) * len(layers) + len(fine) * len(rest))
     centre = np.array([0.0, radius])
 
@@ -268,15 +274,15 @@ def _quarter(
     # the core: a quadrilateral, its corner on the ray through the end of the contact but never too flat
     turn = np.clip(edge, np.radians(30.0), np.radians(45.0))
     corner = centre + depth * np.array([np.sin(turn), -np.cos(turn)])
-    below = _line(centre - [0.0, depth], corner, (fine - fine[0]) / (fine[-1] - fine[0]))
+    below = straight(centre - [0.0, depth], corner, (fine - fine[0]) / (fine[-1] - fine[0]))
     even = np.linspace(0.0, 1.0, len(rest))
-    beside = _line(corner, centre + [depth, 0.0], even)
-    contact = _between(on_arc(fine), below, layers)
-    back = _between(on_arc(rest), beside, layers)
+    beside = straight(corner, centre + [depth, 0.0], even)
+    contact = ruled_grid(on_arc(fine), below, layers)
+    back = ruled_grid(on_arc(rest), beside, layers)
     across = np.linspace(0.0, 1.0, len(fine))
-    upper = _line(centre, centre + [depth, 0.0], across)
-    axis = _line(centre - [0.0, depth], centre, even)
-    core = _transfinite(below, upper, axis, beside)
+    upper = straight(centre, centre + [depth, 0.0], across)
+    axis = straight(centre - [0.0, depth], centre, even)
+    core = coons_patch(below, upper, axis, beside)
     for grid in (contact, back, core):
         grid[np.abs(grid[..., 0]) < 1e-12 * radius, 0] = 0.0
         grid[np.abs(grid[..., 1] - radius) < 1e-12 * radius, 1] = radius
@@ -287,122 +293,3 @@ def _quarter(
         "cut": [back[:, -1], core[-1]],
     }
     return [contact, back, core], sides
-
-
-def _growing(before: float, length: float, refine: int, *, growth: float, largest: float) -> Array:
-    """Fractions 0 .. 1 of a length in steps that grow from the step before them up to a largest; each refined."""
-    steps = [min(before * growth, largest)]
-    while sum(steps) < length:
-        steps.append(min(steps[-1] * growth, largest))
-    if len(steps) > 1 and sum(steps) - length > 0.5 * steps[-1]:
-        steps.pop()
-    coarse = np.concatenate([[0.0], np.cumsum(steps)]) / sum(steps)
-    fractions: Array = np.interp(np.arange(len(steps) * refine + 1) / refine, np.arange(len(coarse)), coarse)
-    return fractions
-
-
-def _line(start: Array, end: Array, fractions: Array) -> Array:
-    return np.asarray(start) + (np.asarray(end) - np.asarray(start)) * fractions[:, None]
-
-
-def _between(outer: Array, inner: Array, fractions: Array) -> Array:
-    """Straight lines from one curve to another, (layers, along, 2)."""
-    grid: Array = outer + (inner - outer) * fractions[:, None, None]
-    return grid
-
-
-def _transfinite(bottom: Array, top: Array, left: Array, right: Array) -> Array:
-    """Coons patch between four curves, (up, along, 2), straight left and right allowed."""
-    s = np.linspace(0.0, 1.0, len(bottom))[None, :, None]
-    t = (np.linalg.norm(left - left[0], axis=1) / np.linalg.norm(left[-1] - left[0]))[:, None, None]
-    corners = (1 - s) * (1 - t) * bottom[0] + s * (1 - t) * bottom[-1] + (1 - s) * t * top[0] + s * t * top[-1]
-    patch: Array = (1 - t) * bottom + t * top + (1 - s) * left[:, None] + s * right[:, None] - corners
-    return patch
-
-
-def _sides(grid: Array) -> dict[str, list[Array]]:
-    return {"bottom": [grid[0]], "top": [grid[-1]], "left": [grid[:, 0]], "right": [grid[:, -1]]}
-
-
-def check_grid(points: float, where: Where = ("mesh",)) -> None:
-    """Refuse a grid that takes more memory than there is, before it is made.
-
-    Raises
-    ------
-    InputError
-        With its points and both sizes.
-    """
-    check_memory(_PER_POINT * points, f"a grid of {points:.3g} points", where)
-
-
-def _family(cells: str, order: int) -> str:
-    """The family of cells of an order."""
-    choice(cells, NODES_PER_PLANE_CELL, ("mesh", "cells"), "cells")
-    if whole(order, ("mesh", "order")) > 2:
-        raise InputError(f"is {order}; expected 1 or 2", where=("mesh", "order"))
-    return _QUADRATIC.get(cells, cells) if order == 2 else cells
-
-
-def _step(family: str) -> int:
-    """Steps of the grid along an edge of a cell."""
-    return 1 if NODES_PER_CELL[family] == CORNERS[family] else 2
-
-
-def _assemble(grids: list[Array], sides: Mapping[str, list[Array]], body: str, family: str) -> Mesh:
-    """One mesh from grids whose common points coincide; quadratic cells take two steps of a grid."""
-    lines = [line for parts in sides.values() for line in parts]
-    every = np.vstack([grid.reshape(-1, 2) for grid in grids] + lines)
-    unit = 1e-9 * np.ptp(every, axis=0).max()
-    _, first, number_of = np.unique(np.round(every / unit), axis=0, return_index=True, return_inverse=True)
-    order = np.argsort(first)  # nodes are numbered as they first appear
-    rank = np.empty_like(order)
-    rank[order] = np.arange(len(order))
-    number_of = rank[number_of.ravel()]
-    points = every[first[order]]
-    found, start = [], 0
-    for grid in grids:
-        index = number_of[start : start + grid[..., 0].size].reshape(grid.shape[:2])
-        start += index.size
-        found.append(_cells_of(index, family))
-    cells = _counterclockwise(points, np.vstack(found), family)
-    boundaries = {}
-    for name, parts in sides.items():
-        facets = []
-        for line in parts:
-            index = number_of[start : start + len(line)]
-            start += len(line)
-            ends = [index[:-1], index[1:]] if _step(family) == 1 else [index[:-2:2], index[2::2], index[1::2]]
-            facets.append(np.column_stack(ends))
-        boundaries[name] = np.vstack(facets)
-    used, compact = np.unique(cells, return_inverse=True)  # "quad8" has no nodes inside
-    return Mesh(
-        points=points[used],
-        cells={family: compact.reshape(cells.shape)},
-        bodies={body: np.arange(len(cells))},
-        boundaries={name: np.searchsorted(used, facets) for name, facets in boundaries.items()},
-    )
-
-
-def _cells_of(index: IntArray, family: str) -> IntArray:
-    """Cells on a grid of node numbers."""
-    if _step(family) == 1:
-        corners = (index[:-1, :-1], index[:-1, 1:], index[1:, 1:], index[1:, :-1])
-        nodes = np.stack([c.ravel() for c in corners], axis=1)
-        return np.vstack([nodes[:, [0, 1, 2]], nodes[:, [0, 2, 3]]]) if family == "triangle" else nodes
-    ways = ((0, 0), (0, 2), (2, 2), (2, 0), (0, 1), (1, 2), (2, 1), (1, 0), (1, 1))
-    rows, columns = (size - 2 for size in index.shape)
-    nodes = np.stack([index[i : i + rows : 2, j : j + columns : 2].ravel() for i, j in ways], axis=1)
-    if family == "triangle6":
-        return np.vstack([nodes[:, [0, 1, 2, 4, 5, 8]], nodes[:, [0, 2, 3, 8, 6, 7]]])
-    return nodes[:, : NODES_PER_CELL[family]]
-
-
-def _counterclockwise(points: Array, cells: IntArray, family: str) -> IntArray:
-    n = CORNERS[family]
-    corners = points[cells[:, :n]]
-    x, y = corners[..., 0], corners[..., 1]
-    area = (x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y).sum(axis=1)
-    back = list(range(n))[::-1]
-    if _step(family) == 2:  # the edge k of the reversed cell is the edge n - 2 - k
-        back += [n + k % n for k in range(n - 2, -2, -1)] + list(range(2 * n, NODES_PER_CELL[family]))
-    return np.where(area[:, None] < 0, cells[:, back], cells)

@@ -14,7 +14,7 @@ from signorini.arrays import Array, IntArray
 from signorini.checks import choice, text, vector
 from signorini.errors import InputError, Where
 from signorini.meshing.faces import HEXAHEDRON, make_faces
-from signorini.meshing.plane import check_grid
+from signorini.meshing.grids import check_grid
 from signorini.model.mesh import CORNERS, NODES_PER_CELL, NODES_PER_SOLID_CELL, Mesh
 
 SolidCells = Literal["hexahedron", "hexahedron20", "hexahedron27", "tetra", "tetra10"]

@@ -11,7 +11,7 @@ from typing import Any, Literal
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.checks import choice, number
+from signorini.checks import choice, members, number
 from signorini.errors import InputError, one_of
 from signorini.model.body import Body
 from signorini.model.conditions import BODY_LOADS, Foundation, Load, Place, Support
@@ -100,7 +100,7 @@ class Model(Short):
             ("rigid_bodies", RigidBody),
             ("steps", Step),
         ):
-            object.__setattr__(self, part, _typed(getattr(self, part), kind, part))
+            object.__setattr__(self, part, members(getattr(self, part), kind, part))
         self._check_bodies()
         self._check_links()
         for i, support in enumerate(self.supports):
@@ -150,7 +150,7 @@ class Model(Short):
 
     @property
     def cell_thickness(self) -> Array:
-        """The same of every cell, (m,)."""
+        """(m,) Thickness of every cell, length."""
         return np.array(self.thicknesses)[self.body_of_cells()]
 
     def _refuse_thickness(self, found: float, where: tuple[str | int, ...]) -> None:
@@ -323,8 +323,8 @@ class Model(Short):
             ("contact", self.contacts),
             ("obstacle", self.obstacles),
         )
-        for part, members in groups:
-            twice = [label for label, n in Counter(member.label for member in members).items() if n > 1]
+        for part, own in groups:
+            twice = [label for label, n in Counter(member.label for member in own).items() if n > 1]
             if twice:
                 raise InputError(f"two are called '{twice[0]}'; give each a name of its own", where=(part,))
         both = {load.label for load in self.loads} & {support.label for support in self.supports if support.moves}
@@ -398,13 +398,3 @@ class Model(Short):
         for step in self.steps:
             history.append(step.ends(history[-1])[-1])
         return history
-
-
-def _typed(values: Any, kind: type, part: str) -> tuple[Any, ...]:
-    singular = {"bodies": "body", "rigid_bodies": "rigid_body"}.get(part, part.removesuffix("s"))
-    if isinstance(values, kind):
-        values = (values,)
-    for i, value in enumerate(values):
-        if not isinstance(value, kind):
-            raise InputError(f"is {value!r}; expected a {kind.__name__}", where=(singular, i))
-    return tuple(values)

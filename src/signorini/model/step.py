@@ -13,7 +13,7 @@ from signorini.checks import choice, number, text, whole
 from signorini.errors import InputError
 from signorini.model.contact import coefficient
 
-_MOST = 1_000_000
+_MAX_COUNT = 1_000_000
 """Cycles, increments and times of a step: more of them have no meaning."""
 
 Factors = float | tuple[float, ...]
@@ -77,12 +77,12 @@ class Step:
     def __post_init__(self) -> None:
         if self.name:
             text(self.name, ("name",))
-        whole(self.repeat, ("repeat",), most=_MOST)
+        whole(self.repeat, ("repeat",), most=_MAX_COUNT)
         number(self.tolerance, ("tolerance",), above=0.0)
         if isinstance(self.increments, str):
             choice(self.increments, ("auto",), ("increments",), "number of increments")
         elif self.increments is not None:
-            whole(self.increments, ("increments",), most=_MOST)
+            whole(self.increments, ("increments",), most=_MAX_COUNT)
         if self.path is not None:
             choice(self.path, ("increments", "exact"), ("path",), "path")
         if self.jump is not None:
@@ -181,7 +181,7 @@ def _times(at: Any) -> tuple[float, ...] | str:
     if at == "events":
         return "events"
     if isinstance(at, int) and not isinstance(at, bool) and at > 0:
-        whole(at, ("at",), most=_MOST)
+        whole(at, ("at",), most=_MAX_COUNT)
         return tuple(k / at for k in range(1, at + 1))
     if isinstance(at, str) or not isinstance(at, Sequence):
         expected = 'a list of parts of the step between 0 and 1, a number of equal parts, or "events"'

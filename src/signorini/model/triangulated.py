@@ -14,8 +14,8 @@ from signorini.errors import InputError
 from signorini.model.boxes import BoxTree
 
 _ON = 1e-12  # of the size of the surface: a point so near lies on it
-_FLAT = 1e-12  # height of a triangle without area, of its longest edge
-_BESIDE = 0.5**0.5  # cosine: a point at the border is behind it if it lies within 45 degrees of its normal
+_HEIGHT_TOL = 1e-12  # height of a triangle without area, of its longest edge
+_BEHIND_COSINE = 0.5**0.5  # cosine: a point at the border is behind it if it lies within 45 degrees of its normal
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +79,7 @@ class Surface:
         return bool(self._border.any())
 
     def turned(self) -> Surface:
-        """The same surface with the obstacle on its other side."""
+        """This surface with the obstacle on its other side."""
         return Surface(self.points, self.triangles[:, ::-1])
 
     def nearest(self, points: Array) -> tuple[Array, Array]:
@@ -94,7 +94,7 @@ class Surface:
         mean, border = self._feature(triangle, weights)
         size = np.linalg.norm(across, axis=1)
         ahead = np.sum(across * mean, axis=1)
-        sign = np.where(ahead < np.where(border, -_BESIDE * size, 0.0), -1.0, 1.0)
+        sign = np.where(ahead < np.where(border, -_BEHIND_COSINE * size, 0.0), -1.0, 1.0)
         on = size <= _ON * float(np.ptp(self.points, axis=0).max())
         normals = np.where(on[:, None], mean, across * (sign / np.where(on, 1.0, size))[:, None])
         return sign * size, normals + 0.0
@@ -102,7 +102,7 @@ class Surface:
     def _check(self) -> None:
         """Triangles with an area, at most two at an edge, all turned the same way."""
         longest = np.linalg.norm(self._corners - np.roll(self._corners, 1, axis=1), axis=2).max(axis=1)
-        flat = np.linalg.norm(self._spans, axis=1) <= _FLAT * longest**2
+        flat = np.linalg.norm(self._spans, axis=1) <= _HEIGHT_TOL * longest**2
         if flat.any():
             worst = int(np.argmax(flat))
             raise InputError(f"triangle {worst} at {self._place(worst)} has no area", where=("triangles",))

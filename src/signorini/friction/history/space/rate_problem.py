@@ -38,7 +38,7 @@ _ROUNDING = 1e-14  # of the data
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Standing:
+class PairSituation:
     """Where pairs stand at a state.
 
     Attributes
@@ -65,7 +65,7 @@ class Standing:
     widths: Array
 
     @classmethod
-    def at(cls, problem: SpatialProblem, now: PathState, width: float, opened: BoolArray) -> Standing:
+    def at(cls, problem: SpatialProblem, now: PathState, width: float, opened: BoolArray) -> PairSituation:
         """Pairs at a state; those ``opened`` (n,) are taken to open."""
         n, bound = problem.pairs, problem.bound
         widths = np.minimum(width, np.maximum(_APART * bound.kinks[1], _ROUNDING * (problem.scale or 1.0)))
@@ -115,7 +115,7 @@ class Choice:
     """
 
     held: Held
-    standing: Standing
+    standing: PairSituation
     kind: IntArray
     pair: IntArray
     normal: Array
@@ -140,7 +140,7 @@ class Choice:
         opened : (n,) pairs at a corner that open, whatever they would do; none where not given
         """
         n = problem.pairs
-        standing = Standing.at(problem, now, width, np.zeros(n, dtype=np.bool_) if opened is None else opened)
+        standing = PairSituation.at(problem, now, width, np.zeros(n, dtype=np.bool_) if opened is None else opened)
         if standing.lawless.any():
             return f"the rates of pairs {np.flatnonzero(standing.lawless).tolist()} obey no law that is known here"
         held = Held.of(problem, standing.closed, standing.rubs)
@@ -196,7 +196,7 @@ class Choice:
         return h, r
 
 
-def _facets(problem: SpatialProblem, standing: Standing, now: PathState) -> tuple[IntArray, Array, Array]:
+def _facets(problem: SpatialProblem, standing: PairSituation, now: PathState) -> tuple[IntArray, Array, Array]:
     """Pairs, normals (m, 2) and reaches (m,) of the facets that they may slip on."""
     n = problem.pairs
     force = columns(now.r[n:])
