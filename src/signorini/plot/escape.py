@@ -12,7 +12,7 @@ from signorini.errors import InputError
 from signorini.plot.camera import best_view
 from signorini.plot.paint import body_paint, paint_skin
 from signorini.plot.skin import make_skin
-from signorini.plot.style import INK, PRESSURE, TRACTION
+from signorini.plot.style import INK, PRESSURE, TRACTION, frame
 from signorini.solution.history import History
 
 if TYPE_CHECKING:
@@ -80,8 +80,7 @@ def _solid(axes: Axes, history: History, points: Array, motion: Array) -> tuple[
     moved = skin.points + skin.values(motion)
     seen = camera.across(np.concatenate([skin.points, moved]))
     room = 0.05 * np.ptp(seen, axis=0).max()
-    axes.set_xlim(seen[:, 0].min() - room, seen[:, 0].max() + room)
-    axes.set_ylim(seen[:, 1].min() - room, seen[:, 1].max() + room)
+    frame(axes, seen.min(axis=0) - room, seen.max(axis=0) + room)
     runs = np.bincount(skin.body[skin.face], np.abs(skin.values(motion)[skin.pieces]).sum(axis=(1, 2))) > 0.0
     paint_skin(axes, skin, moved, camera, body_paint([_RUNS if run else _STAYS for run in runs]))
     left = skin.sharp & runs[skin.body[skin.edge_face]]

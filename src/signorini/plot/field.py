@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.plot.picture_data import PictureData
-from signorini.plot.style import INK, colour_bar, entitle, label, legend_below
+from signorini.plot.style import INK, colour_bar, entitle, frame, label, legend_below, round_number
 from signorini.plot.walls import Wall, draw_walls
 from signorini.solution.results import OPEN
 
@@ -118,9 +117,7 @@ def drawn_factor(size: float, displacement: Array) -> float:
     largest = float(np.linalg.norm(displacement, axis=1).max())
     if largest == 0.0 or largest >= _MIN_SEEN * size:
         return 1.0
-    wanted = 2.0 * _MIN_SEEN * size / largest
-    power = 10.0 ** math.floor(math.log10(wanted))
-    return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= wanted * (1.0 + 1e-12))
+    return round_number(2.0 * _MIN_SEEN * size / largest)
 
 
 def _window(data: PictureData, points: Array) -> Window | None:
@@ -160,14 +157,10 @@ def _canvas(points: Array, window: Window | None, walls: list[Wall]) -> tuple[Fi
         up = max(up, beside[1])
         figure = Figure(figsize=(max(across, 2.0) + beside[0] + 2.4, up + 1.4), layout="constrained")
         panels = list(figure.subplots(1, 2, width_ratios=[max(across, 2.0), beside[0]]))
-        panels[1].set_xlim(low[0], high[0])
-        panels[1].set_ylim(low[1], high[1])
+        frame(panels[1], low, high)
         panels[0].indicate_inset((*low, *(high - low)), edgecolor=INK, lw=1.0, alpha=0.9)
     margin = (_WALL_MARGIN if walls else _MARGIN) * max(width, height)
-    panels[0].set_xlim(points[:, 0].min() - margin, points[:, 0].max() + margin)
-    panels[0].set_ylim(points[:, 1].min() - margin, points[:, 1].max() + margin)
-    for axes in panels:
-        axes.set_aspect("equal")
+    frame(panels[0], points.min(axis=0) - margin, points.max(axis=0) + margin)
     return figure, panels
 
 

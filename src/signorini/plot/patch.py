@@ -12,7 +12,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.plot.chart import Chart, chart_of
-from signorini.plot.style import INK, PLAIN, STATUS_INK, colour_bar, entitle, label
+from signorini.plot.style import INK, PLAIN, STATUS_INK, colour_bar, entitle, frame, label
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -167,9 +167,7 @@ def _window(patch: Patch) -> tuple[Array, Array]:
 def _frame(axes: Axes, patch: Patch) -> None:
     low, high = _window(patch)
     edge = 0.06 * (high - low).max()
-    axes.set_xlim(low[0] - edge, high[0] + edge)
-    axes.set_ylim(low[1] - edge, high[1] + edge)
-    axes.set_aspect("equal")
+    frame(axes, low - edge, high + edge)
     for side in axes.spines.values():
         side.set_visible(False)
     axes.tick_params(colors=INK, labelsize=9)

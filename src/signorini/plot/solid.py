@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,7 +13,7 @@ from signorini.plot.field import BODIES, body_handles, factor_words
 from signorini.plot.paint import Paint, body_paint, paint_skin
 from signorini.plot.picture_data import PictureData
 from signorini.plot.shots import Shot, deformed, make_shots
-from signorini.plot.style import INK, colour_bar, entitle, label, legend_below
+from signorini.plot.style import INK, colour_bar, entitle, frame, label, legend_below, round_number
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -84,9 +83,7 @@ def _canvas(shots: list[Shot], points: Array) -> tuple[Figure, list[Axes]]:
     figure = Figure(figsize=(sum(widths) + 1.6, height + 1.1), layout="compressed")
     panels = list(figure.subplots(1, len(shots), width_ratios=widths, squeeze=False)[0])
     for axes, shot, (low, high) in zip(panels, shots, frames, strict=True):
-        axes.set_xlim(low[0], high[0])
-        axes.set_ylim(low[1], high[1])
-        axes.set_aspect("equal")
+        frame(axes, low, high)
         axes.set_axis_off()
         label(axes, title=shot.title)
         _directions(axes, shot.camera)
@@ -97,9 +94,7 @@ def _canvas(shots: list[Shot], points: Array) -> tuple[Figure, list[Axes]]:
 def _directions(axes: Axes, camera: Camera) -> None:
     """Arrows along x, y and z below the left corner."""
     corner = axes.inset_axes((0.0, -0.13, 0.13, 0.13))
-    corner.set_xlim(-1.5, 1.5)
-    corner.set_ylim(-1.5, 1.5)
-    corner.set_aspect("equal")
+    frame(corner, np.full(2, -1.5), np.full(2, 1.5))
     corner.set_axis_off()
     arrow = {"arrowstyle": "-|>", "color": INK, "lw": 1.0, "shrinkA": 0, "shrinkB": 0}
     for name, (across, up) in zip("xyz", camera.axes[:2].T, strict=True):
@@ -109,8 +104,7 @@ def _directions(axes: Axes, camera: Camera) -> None:
 
 def _scale(axes: Axes, width: float) -> None:
     """A bar of a round length below the right corner."""
-    power = 10.0 ** math.floor(math.log10(width / 5.0))
-    length = max(step * power for step in (1.0, 2.0, 5.0) if step * power <= width / 5.0)
+    length = round_number(width / 5.0)
     part = length / width
     axes.plot([1.0 - part, 1.0], [-0.05, -0.05], transform=axes.transAxes, color=INK, lw=2.0, clip_on=False)
     axes.text(1.0 - 0.5 * part, -0.04, f"{length:g}", transform=axes.transAxes, ha="center", fontsize=9, color=INK)

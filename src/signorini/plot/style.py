@@ -3,8 +3,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
+
+from signorini.arrays import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,6 +30,23 @@ def dress(axes: Axes) -> None:
     axes.tick_params(colors=INK, labelsize=9)
     axes.grid(True, color="#dddddd", linewidth=0.6)
     axes.set_axisbelow(True)
+
+
+def frame(axes: Axes, low: Array, high: Array) -> None:
+    """Show of axes with equal lengths both ways what is between two corners, lower left and upper right, (2,)."""
+    axes.set_xlim(low[0], high[0])
+    axes.set_ylim(low[1], high[1])
+    axes.set_aspect("equal")
+
+
+def round_number(most: float) -> float:
+    """The largest of 1, 2 and 5 times a power of ten that is at most a positive number.
+
+    >>> round_number(0.3), round_number(5.0)
+    (0.2, 5.0)
+    """
+    power = 10.0 ** math.floor(math.log10(most))
+    return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= most * (1.0 + 1e-12))
 
 
 def label(axes: Axes, *, x: str = "", y: str = "", title: str = "") -> None:
