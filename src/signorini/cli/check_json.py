@@ -19,7 +19,7 @@ def total_force(examined: Examined, load: Load) -> list[float]:
 
 
 def deck_data(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str, Any]:
-    """What ``signorini check --json`` prints.
+    """The data that ``signorini check --json`` prints.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What looks wrong in a model though it can be solved: meshes, units, contacts that supports hold or that are far."""
+"""Notes on models that look wrong though they can be solved: meshes, units, contacts that supports hold or are far."""
 
 from __future__ import annotations
 

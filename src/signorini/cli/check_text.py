@@ -54,7 +54,7 @@ def deck_text(deck: Deck, examined: Examined) -> list[str]:
 
 
 def all_notes(deck: Deck, examined: Examined) -> list[str]:
-    """What looks wrong, or differs from the deck, in words."""
+    """Notes on what looks wrong, or differs from the deck."""
     return [
         *_notes(deck),
         *mesh_notes(deck.model),
@@ -154,7 +154,7 @@ def _contacts(examined: Examined) -> Rows:
 
 
 def _friction(contact: Contact, mu: Array) -> str:
-    """Of the pairs of one contact."""
+    """Law of friction of one contact in words; ``mu`` (n,) of its pairs."""
     limit = "" if contact.shear_limit is None else f"shear limit {contact.shear_limit:g}"
     if np.isinf(mu).all():
         return f"sticks up to {limit}" if limit else "sticks"

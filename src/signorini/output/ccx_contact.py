@@ -46,7 +46,7 @@ def tangents(normals: Array) -> Array:
 
 
 def slave_energies(contact: Contact, result: ContactResult) -> Array:
-    """What the compliance of the interface stores at every pair, (n,)."""
+    """Energy that the compliance of the interface stores at every pair, (n,)."""
     normal = contact.normal_compliance * result.pressure**2
     tangential = contact.tangential_compliance * np.sum(result.shear**2, axis=1)
     energies: Array = 0.5 * result.area * (normal + tangential)

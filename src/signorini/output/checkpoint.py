@@ -20,7 +20,7 @@ _UNREADABLE = (
     *(OSError, EOFError, ValueError, LookupError, TypeError, RuntimeError, MemoryError),
     *(NotImplementedError, zipfile.BadZipFile, zlib.error),
 )
-"""What NumPy and the archive's reader say of damaged files, and of such that claim more than there is."""
+"""Errors of NumPy and the archive's reader on damaged files, and on files that claim more than there is."""
 
 
 def write_checkpoint(checkpoint: Checkpoint, path: Path) -> None:

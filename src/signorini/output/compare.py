@@ -20,7 +20,7 @@ _STRESSES, _LENGTHS = ("pressure", "traction"), ("gap", "slip")
 
 @dataclass(frozen=True, kw_only=True)
 class Difference:
-    """How far one quantity is apart.
+    """The difference of one quantity between two histories.
 
     Attributes
     ----------
@@ -107,7 +107,7 @@ def _contact(step: str, mine: ContactResult, theirs: ContactResult, labels: _Lab
 
 
 def _field(step: str, quantity: str, kind: str, nodes: _Labels, values: tuple[Array, Array]) -> Difference:
-    """Over the nodes that both have."""
+    """The difference over the nodes that both have."""
     common, i, j = np.intersect1d(nodes[0], nodes[1], return_indices=True)
     if not len(common) or values[0].shape[1:] != values[1].shape[1:]:
         return Difference(step=step, quantity=quantity, kind=kind, largest=np.inf, size=0.0)

@@ -57,7 +57,7 @@ def _kinds() -> Mapping[str, type]:
 
 
 def to_plain(value: Any, path: str, keep: Callable[[str, AnyArray], str]) -> Any:
-    """What JSON can hold; larger arrays are given to ``keep`` with a path, and it says under which path they are.
+    """Plain data that JSON can hold; larger arrays are given to ``keep`` with a path, and it says under which they are.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def tuple_of(parts: list[Any]) -> Any:
 
 
 def from_plain(plain: Any, get: Callable[[str], AnyArray]) -> Any:
-    """What :func:`to_plain` was given; nothing is computed anew, so that every number is the same.
+    """The value that :func:`to_plain` was given; nothing is computed anew, so that every number is the same.
 
     Raises
     ------
@@ -164,7 +164,7 @@ def sealed(plain: Any) -> str:
 
 
 def unsealed(text: str) -> Any:
-    """What :func:`sealed` was given.
+    """The plain data that :func:`sealed` was given.
 
     Raises
     ------

@@ -60,11 +60,11 @@ class Fields:
 
     @cached_property
     def space(self) -> Space:
-        """Of the mesh of the model."""
+        """The displacement space of the model's mesh."""
         return make_space(self.model.mesh, axisymmetric=self.model.axisymmetric)
 
     def stresses(self, state: State) -> list[BodyStress]:
-        """Of every body at its nodes; those of ends of steps, which several files hold, are kept."""
+        """Stresses of every body at its nodes; those of ends of steps, which several files hold, are kept."""
         if isinstance(state, Instant):
             return self._stresses(state)
         if state not in self._ends:
@@ -76,7 +76,7 @@ class Fields:
         return body_stresses(self.space, self.model, state.displacement, state.factors)
 
     def cell_stresses(self, step: StepResult) -> list[tuple[IntArray, Array]]:
-        """At the best points of the cells, see :func:`signorini.fem.stress.point_stresses`; of one step at a time."""
+        """Stresses in the cells, see :func:`signorini.fem.stress.point_stresses`; those of one step are kept."""
         if self._points is None or self._points[0] is not step:
             found = point_stresses(self.space, self.model, step.displacement, step.factors)
             self._points = step, list(found)

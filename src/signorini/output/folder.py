@@ -45,13 +45,13 @@ _OWN_NAMES = re.compile(
 _OWN_FIELD_NAMES = re.compile(r"(solution|contact)_\d{4,}_\d{4,}\.vtu")
 
 SUMMARY = "summary.json"
-"""What tells of a run, in a result folder."""
+"""The file of a result folder that tells of the run."""
 
 ARCHIVE = "solution.h5"
-"""The whole history, in a result folder."""
+"""The file of a result folder that holds the whole history."""
 
 SURFACES = "contact.vtu"
-"""The contact surfaces of a model in space."""
+"""The file of a result folder that holds the contact surfaces of a model in space."""
 
 
 def open_folder(path: Path) -> Path:

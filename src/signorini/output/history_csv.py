@@ -15,7 +15,7 @@ from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, Instant
 
 
 class _Row(NamedTuple):
-    """What one row is about."""
+    """Data of one row."""
 
     step: int
     instant: Instant
@@ -23,12 +23,12 @@ class _Row(NamedTuple):
 
 
 def _component(force: str, axis: int) -> Callable[[_Row], float]:
-    """Of a resultant; the third is 0 in the plane."""
+    """A component of a resultant; the third is 0 in the plane."""
     return lambda row: _number((*getattr(row.contact, force), 0.0)[axis])
 
 
 def _largest(values: str) -> Callable[[_Row], float]:
-    """Over the nodes, 0 without any."""
+    """The largest value of the nodes, 0 without any."""
     return lambda row: _number(getattr(row.contact, values).max(initial=0.0))
 
 

@@ -57,7 +57,7 @@ def summary(history: History, seconds: Mapping[str, float], deck: str = "") -> d
 
 
 def _shapes(model: Model) -> list[dict[str, Any]]:
-    """Of plane models the rigid obstacles as they are given, those without a name at rest."""
+    """Rigid obstacles of a plane model as they are given, those without a name at rest; none in space."""
     if model.dimension == 3:
         return []
     known = [(obstacle.name, obstacle.shape, obstacle.about) for obstacle in model.obstacles]
@@ -69,7 +69,7 @@ def _shapes(model: Model) -> list[dict[str, Any]]:
 
 
 def _well_posedness(history: History) -> dict[str, Any] | None:
-    """What is known of other solutions, None where nobody asked."""
+    """Findings on other solutions, None where nobody asked."""
     found = history.wellposedness
     if found is None:
         return None

@@ -204,7 +204,7 @@ def _widest(film: ContactFilm) -> float:
 
 
 def _shown(film: ContactFilm) -> tuple[float, float]:
-    """Where the contact is closed at some time, with a margin."""
+    """The part of the coordinate where the contact is closed at some time, with a margin."""
     closed = np.flatnonzero((film.status != OPEN).any(axis=0))
     if not len(closed):
         return float(film.s[0]), float(film.s[-1])

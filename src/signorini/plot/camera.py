@@ -30,7 +30,7 @@ class Camera:
         return np.asarray(points @ self.axes[:2].T)
 
     def depth(self, points: Array) -> Array:
-        """How near the eye points are, (...)."""
+        """Distances of points (..., 3) towards the eye, (...), length."""
         return np.asarray(points @ self.axes[2])
 
     @property
@@ -48,7 +48,7 @@ def look_from(direction: Array) -> Camera:
 
 
 def best_view(spans: Array, weight: Array) -> Camera:
-    """Of eight corners the one from which most is seen of what matters.
+    """The view from that of eight corners which shows most of what matters.
 
     Parameters
     ----------

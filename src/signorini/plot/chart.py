@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the surface of a contact in space is spread out on paper: seen along its normal, unrolled where it is round."""
+"""Charts of contact surfaces in space: seen along their normal, unrolled where they are round."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def chart_of(points: Array, faces: IntArray, middle: BoolArray) -> Chart:
 
 
 def _seen(points: Array, faces: IntArray, normal: Array) -> Chart:
-    """Along a normal: coordinates, where it is about along one of their axes."""
+    """A view along a normal; of coordinates where the normal is about along one of their axes."""
     if np.abs(normal).max() > _AXIS_COSINE * _AXIS_COSINE:
         normal = np.eye(3)[np.argmax(np.abs(normal))]
     first, second = np.delete(np.eye(3), np.argmax(np.abs(normal)), axis=0)
@@ -117,7 +117,7 @@ def _unrolled(points: Array, faces: IntArray, middle: BoolArray, axis: Array, ce
 
 
 def _centre(across: Array, axis: Array) -> Array:
-    """Of the circle that fits points (n, 3) in a plane across an axis best."""
+    """The centre (3,) of the circle that fits points (n, 3) in a plane across an axis best."""
     system = np.column_stack([2.0 * across, np.ones(len(across))])
     found = np.linalg.lstsq(system, (across**2).sum(axis=1), rcond=1e-10)[0][:3]
     return np.asarray(found - (found @ axis) * axis)

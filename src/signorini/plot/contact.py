@@ -32,7 +32,7 @@ def draw_contacts(data: PictureData) -> Figure:
 
     if data.solid:
         return draw_patches(data.patches, data.title)
-    curves = data.curves(data.count)
+    curves = data.curves(data.last_number)
     figure = Figure(figsize=(7.6, 0.7 + 3.9 * max(len(curves), 1)), layout="constrained")
     panels = figure.subplots(max(len(curves), 1), squeeze=False)[:, 0]
     for axes, curve in zip(panels, curves, strict=False):

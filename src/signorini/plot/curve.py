@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is drawn of a contact at the end of a step: values over one coordinate along its surface."""
+"""Curves of a contact at the end of a step: values over one coordinate along its surface."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Curve:
 
     @property
     def place(self) -> str:
-        """What the coordinate is, in words for an axis."""
+        """The coordinate in words, for an axis."""
         return f"{self.axis} along '{self.contact}', undeformed"
 
     @property

@@ -97,12 +97,12 @@ def body_handles(data: PictureData) -> list[Artist]:
 
 
 def factor_words(factor: float) -> str:
-    """What displacements are multiplied with, in words."""
+    """The factor of displacements in words."""
     return "true displacements" if factor == 1.0 else f"displacements x {factor:g}"
 
 
 def drawn_factor(size: float, displacement: Array) -> float:
-    """What displacements are multiplied with: 1 where they can be seen, otherwise 1, 2 or 5 times a power of ten.
+    """The factor of displacements: 1 where they can be seen, otherwise 1, 2 or 5 times a power of ten.
 
     Parameters
     ----------

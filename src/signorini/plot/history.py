@@ -111,7 +111,7 @@ def _largest_pressure(axes: Axes, forces: _ContactForces, name: str) -> None:
 
 
 def _nodes(axes: Axes, forces: _ContactForces, name: str) -> None:
-    """How many nodes stick and slip, from every instant back to the one before."""
+    """Numbers of nodes that stick and slip, from every instant back to the one before."""
     _, stick, slip = forces.counts
     for low, high, status in ((0.0 * stick, stick, STICK), (stick, stick + slip, SLIP)):
         axes.fill_between(forces.load, low, high, step="pre", color=STATUS_INK[status], alpha=0.6, lw=0.0, label=status)
@@ -188,7 +188,7 @@ def _steps_below(axes: Axes, steps: list[dict[str, Any]]) -> None:
 
 
 def _since_the_beginning(values: Array, ends: IntArray) -> Array:
-    """What counts from the beginning of each step, counted from the beginning of the first."""
+    """Values (m,) that count from the beginning of each step, counted from the beginning of the first."""
     before = np.concatenate([[0.0], np.cumsum(values[ends])[:-1]])
     total: Array = values + np.repeat(before, np.diff(np.append(-1, ends)))
     return total

@@ -26,7 +26,7 @@ _CREASE_COLOUR = (0.1, 0.1, 0.1, 0.9)  # of the edges of bodies
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Paint:
-    """How a skin is coloured.
+    """Colours of a skin.
 
     Attributes
     ----------
@@ -109,7 +109,7 @@ class _Strokes:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _View:
-    """What is seen of a skin, and how; ``crease`` (e,) says which edges are those of bodies."""
+    """The part of a skin that is seen, from where and in which colours; ``crease`` (e,): edges of bodies."""
 
     skin: Skin
     crease: BoolArray

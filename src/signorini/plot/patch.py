@@ -47,7 +47,7 @@ class Patch:
 
     @cached_property
     def chart(self) -> Chart:
-        """Where the nodes are on paper, what touches in the middle."""
+        """Places of the nodes on paper, those that touch in the middle."""
         return chart_of(self.points, self.faces, self.status > 0)
 
     @property
@@ -154,7 +154,7 @@ def _marker(patch: Patch) -> float:
 
 
 def _window(patch: Patch) -> tuple[Array, Array]:
-    """What is worth showing: the closed nodes and something around them, at most everything."""
+    """Corners of the part to show: the closed nodes and something around them, at most everything."""
     points = patch.chart.at
     closed = points[patch.status[patch.chart.node] > 0]
     low, high = points.min(axis=0), points.max(axis=0)

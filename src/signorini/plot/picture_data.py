@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What pictures show of a run, whether its history is in memory or its files were read."""
+"""The data of pictures, from a history in memory or from files (``result_folder``)."""
 
 from __future__ import annotations
 
@@ -55,12 +55,12 @@ class Dots:
 
 
 class PictureData(ABC):
-    """The parts of a run that pictures show, each made when it is first asked for."""
+    """The data that pictures show of a run, each part made when it is first asked for."""
 
     @property
     @abstractmethod
     def summary(self) -> Mapping[str, Any]:
-        """What ``summary.json`` holds, with a step at least."""
+        """Contents of ``summary.json``, with a step at least."""
 
     @property
     @abstractmethod
@@ -92,31 +92,31 @@ class PictureData(ABC):
 
     @property
     def title(self) -> str:
-        """Of the model."""
+        """Title of the model."""
         return str(self.summary.get("title", ""))
 
     @property
     def size(self) -> str:
-        """Of the model, in words."""
+        """Size of the model in words."""
         size = self.summary["size"]
         return f"{size['nodes']} nodes, {size['elements']} elements, {size['contact_pairs']} contact pairs"
 
     @property
-    def count(self) -> int:
-        """How many steps there are, one at least."""
+    def last_number(self) -> int:
+        """Number of the last step, from 1."""
         return len(self.summary["steps"])
 
     @property
     def last_step(self) -> Mapping[str, Any]:
         """The last step in the summary."""
-        return dict(self.summary["steps"][self.count - 1])
+        return dict(self.summary["steps"][self.last_number - 1])
 
     @cached_property
     def last_nodes(self) -> list[Row]:
         """Nodes of all contacts after the last step."""
         contacts = self.last_step["contacts"]
         with self.checking("summary.json"):
-            return [row for contact in contacts for row in self.nodes_of(self.count, contact["name"])]
+            return [row for contact in contacts for row in self.nodes_of(self.last_number, contact["name"])]
 
     @cached_property
     def dots(self) -> list[Dots]:
@@ -181,7 +181,7 @@ class PictureData(ABC):
 
 
 class HistoryData(PictureData):
-    """What pictures show of a history in memory.
+    """The data of pictures of a history in memory.
 
     Parameters
     ----------
@@ -195,7 +195,7 @@ class HistoryData(PictureData):
 
     @cached_property
     def summary(self) -> Mapping[str, Any]:
-        """What ``summary.json`` would hold."""
+        """Contents that ``summary.json`` would have."""
         return summary(self._history, self._history.timings)
 
     @cached_property

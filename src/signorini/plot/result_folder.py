@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Read a result folder back for drawing."""
+"""The data of pictures, read from a result folder."""
 
 from __future__ import annotations
 
@@ -115,11 +115,11 @@ class ResultFolder(PictureData):
             ]
 
     @property
-    def count(self) -> int:
-        """How many steps there are; an InputError if there is none."""
+    def last_number(self) -> int:
+        """Number of the last step; an InputError if there is none."""
         if not self.summary["steps"]:
             raise InputError(f"the results in '{self.path}' hold no step")
-        return super().count
+        return super().last_number
 
     def nodes_of(self, step: int, contact: str) -> list[Row]:
         """Rows of ``contact.csv`` of one contact after a step, which counts from 1."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What pictures of bodies in space show: all of them from their most stressed side, and a contact from its own."""
+"""Panels of pictures of bodies in space: all of them from their most stressed side, and a contact from its own."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Shot:
         return np.maximum(low, middle - half), np.minimum(high, middle + half)
 
     def size(self, points: Array) -> float:
-        """Of what is shown of points (n, 3), the longer side."""
+        """Longer side of what is shown of points (n, 3), length."""
         return float(np.ptp(self.frame(points), axis=0).max())
 
     def inside(self, points: Array) -> IntArray:
@@ -101,7 +101,7 @@ def contact_shot(data: PictureData) -> Shot | None:
 
 
 def deformed(data: PictureData, shot: Shot) -> tuple[float, Array]:
-    """What displacements are multiplied with in a shot, and the points of the skin there, (n, 3)."""
+    """The factor of displacements in a shot, and the points of the skin there, (n, 3)."""
     skin = data.skin
     moved = skin.values(data.bodies.displacement)
     factor = drawn_factor(shot.size(skin.points), moved)
@@ -117,7 +117,7 @@ def _stressed(data: PictureData) -> Array:
 
 
 def _contact(data: PictureData, skin: Skin) -> tuple[str, IntArray, BoolArray]:
-    """Of the contact that presses most its name, its closed points, and which faces are its own, (f,)."""
+    """Name of the contact that presses most, its closed points, and which faces are its own, (f,)."""
     rows = [row for row in data.last_nodes if row["status"] != OPEN]
     faces = np.zeros(len(skin.body), bool)
     if not rows:

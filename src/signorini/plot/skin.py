@@ -51,7 +51,7 @@ class Skin:
         return np.concatenate([given, np.einsum("qa...,a->q...", given[self.middles], _MIDDLE_WEIGHTS)])
 
     def part(self, faces: BoolArray) -> Skin:
-        """Some of the faces, (f,)."""
+        """A skin of some of the faces, (f,)."""
         number = np.cumsum(faces) - 1
         own, edges = faces[self.face], faces[self.edge_face]
         return Skin(

@@ -18,7 +18,7 @@ STATUS_COLOURS = {"open": "#f1f1ef", "stick": "#cfe3f5", "slip": "#fbe3c6"}
 STATUS_INK = {"open": "#9a9a96", "stick": "#2f78b7", "slip": "#dd8a1f"}
 INK = "#333333"
 PLAIN = "closed, without friction"
-"""What "slip" means where there is no friction."""
+"""Words for "slip" where there is no friction."""
 
 
 def dress(axes: Axes) -> None:
@@ -33,7 +33,7 @@ def dress(axes: Axes) -> None:
 
 
 def frame(axes: Axes, low: Array, high: Array) -> None:
-    """Show of axes with equal lengths both ways what is between two corners, lower left and upper right, (2,)."""
+    """Show in axes what is between the corners ``low`` (left) and ``high`` (right), (2,), at one scale both ways."""
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])
     axes.set_aspect("equal")

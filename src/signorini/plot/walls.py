@@ -39,7 +39,7 @@ class Wall:
     rotation: float
 
     def depth(self, points: Array, *, moved: bool) -> Array:
-        """How deep points (n, 2) are inside, (n,); `moved`: of the obstacle after the last step."""
+        """Depths of points (n, 2) inside, (n,) length; ``moved``: of the obstacle after the last step."""
         if moved:
             arm = points - self.about - self.displacement
             points = points - self.displacement - self.rotation * np.column_stack([-arm[:, 1], arm[:, 0]])
@@ -47,7 +47,7 @@ class Wall:
 
 
 def read_walls(summary: Mapping[str, Any]) -> list[Wall]:
-    """Of the obstacles that ``summary.json`` describes, those of the plane."""
+    """Obstacles of the plane that a summary describes."""
     moved = summary["steps"][-1]["obstacles"]
     walls = []
     for obstacle in summary.get("obstacles", []):
