@@ -18,6 +18,7 @@ import numpy as np
 from signorini.engine.energy import stored_energy
 from signorini.engine.events import follow_to_events
 from signorini.engine.increments import follow_increments, is_straight
+from signorini.engine.jump_watch import sudden_change
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, StepPart
 from signorini.errors import SolveFailed, told
@@ -51,7 +52,8 @@ def follow_automatically(
     ------
     SolveFailed
         If an increment has no certified solution however short, 4096 are not enough, or 16 times as many change the
-        answer no less; in space 4 times ``enough`` are tried where fewer are lost.
+        answer no less and no jump shows why (`sudden_change`); in space 4 times ``enough`` are tried where fewer are
+        lost.
     """
     coarse: FollowedPart | None = None
     prepared = part.prepared
@@ -85,6 +87,13 @@ def follow_automatically(
                 break
         coarse, number = fine, more * number
         why = f"once more, in up to {number} increments: whether the answer stays"
+    sudden = sudden_change(part, fine)
+    if sudden is not None and jump == "stop":
+        raise sudden
+    if sudden is not None:
+        words = f"followed in {_counted(len(fine.trace))} to what is a candidate"
+        note = f"{sudden.sentence}; {words}: {fewer} change {changes}"
+        return replace(fine, path="increments", notes=(*fine.notes, note))
     raise SolveFailed(
         told(
             f"{part.where}: {min(number, MOST)} increments still change {changes}",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Equal increments in space that say where they step over gross sliding or another jump.
+"""Increments in space that say where they step over gross sliding or another jump.
 
 An equilibrium behind one is right by itself, but no history leads there gradually. An increment in which contact alone
 holds bodies, and which moves a pair farther than all loads compress them, is looked at in increments to events.
@@ -8,6 +8,7 @@ holds bodies, and which moves a pair farther than all loads compress them, is lo
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -15,10 +16,12 @@ from signorini.engine.events import follow_to_events
 from signorini.engine.increments import follow_increments
 from signorini.engine.limit_load import known
 from signorini.engine.step_parts import FollowedPart, StepPart, keep, reached
-from signorini.errors import SolveFailed
+from signorini.errors import SolveFailed, told
 from signorini.outcome import Outcome
 from signorini.solution.state import State
 
+_ZOOMS, _FINER = 3, 16  # times that the largest change is looked at in as many increments
+_SUDDEN = 0.5  # of that change, in one of them each time: no increments resolve it
 _SAME_LOAD = 1e-9  # part of a step: how far behind the end of an increment a jump at its very end may be seen
 
 
@@ -59,6 +62,46 @@ def follow_watchfully(part: StepPart, number: int, *, stops: bool = False) -> Fo
     return replace(followed, notes=(*followed.notes, *notes))
 
 
+def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
+    """The largest change of contact forces from one state of a part to the next as a jump; None where it is gradual.
+
+    Strong evidence, no proof: it stays as large in one of 16 increments, and in one of 16 of that, and once more.
+
+    Parameters
+    ----------
+    followed : the part in space, as it was followed in increments
+    """
+    if part.prepared.interface.directions == 2 or part.prepared.solver.paths is None:
+        return None
+    at = part.interval.factor
+    states = [followed.before, *(shot.state for shot in followed.snapshots)]
+    ends = [0.0, *((shot.load_factor - at(0.0)) / (at(1.0) - at(0.0)) for shot in followed.snapshots)]
+    size, first = max(float(np.abs(state.forces).max(initial=0.0)) for state in states), 0.0
+    for _ in range(_ZOOMS + 1):
+        changes = [float(np.abs(two.forces - one.forces).max(initial=0.0)) for one, two in pairwise(states)]
+        k = int(np.argmax(changes))
+        first = first or changes[k]
+        if changes[k] < _SUDDEN * first or changes[k] == 0.0:
+            return None
+        low, high, before = ends[k], ends[k + 1], states[k]
+        try:
+            finer = follow_to_events(_between(part, before, low, high), _FINER)
+        except SolveFailed as failure:
+            return failure if failure.status == Outcome.JUMP else None
+        states = [before, *(shot.state for shot in finer.snapshots)]
+        ends = [low, *((shot.load_factor - at(0.0)) / (at(1.0) - at(0.0)) for shot in finer.snapshots)]
+    here, length = part.interval.fraction(low), part.interval.fraction(high) - part.interval.fraction(low)
+    return SolveFailed(
+        told(
+            f"{part.where} at {here:.6%}: a jump: contact forces change by {first / size:.2g} of the largest within "
+            f"{length:.0e} of the step",
+            remedy="less friction, or a prescribed motion in place of the load",
+            evidence="no increments resolve the change, however short: strong evidence, no proof",
+        ),
+        status=Outcome.JUMP,
+    )
+
+
 def _far(part: StepPart, before: State, after: State) -> bool:
     """Whether an increment moves a pair farther than all loads compress bodies that contact alone holds."""
     paths = part.prepared.solver.paths
@@ -81,14 +124,17 @@ def _jump(part: StepPart, state: State, low: float, high: float) -> SolveFailed 
     """The first jump between the fractions low and high of a part, from the state at low; None where none is seen."""
     if part.prepared.interface.directions == 2 or part.prepared.solver.paths is None:
         return None
-    begin = part.before.point
-    interval = replace(part.interval, low=part.interval.fraction(low), high=part.interval.fraction(high), ends="jump")
-    between = replace(part, before=state, end=begin.towards(part.end, high), interval=interval)
     try:
-        follow_to_events(between, 1)
+        follow_to_events(_between(part, state, low, high), 1)
     except SolveFailed as failure:
         return failure if failure.status == Outcome.JUMP else None
     return None
+
+
+def _between(part: StepPart, state: State, low: float, high: float) -> StepPart:
+    """What lies between the fractions low and high of a part, from the state at low."""
+    interval = replace(part.interval, low=part.interval.fraction(low), high=part.interval.fraction(high), ends="jump")
+    return replace(part, before=state, end=part.before.point.towards(part.end, high), interval=interval)
 
 
 def _up_to(followed: FollowedPart, count: int) -> FollowedPart:
