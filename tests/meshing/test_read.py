@@ -127,6 +127,13 @@ def test_mistakes_in_a_file(tmp_path, change, message):
         read_mesh(write(tmp_path, change(VERSION_2)))
 
 
+def test_a_mesh_without_nodes_is_refused(tmp_path):
+    path = tmp_path / "mesh.msh"
+    path.write_bytes(b"$MeshFormat\n2.2 1 8\n" + np.int32(1).tobytes() + b"\n$EndMeshFormat\n$Nodes\n-2147483649\n")
+    with pytest.raises(InputError, match="holds no nodes"):
+        read_mesh(path)
+
+
 def test_lines_alone_are_no_mesh(tmp_path):
     text = VERSION_2.replace("\n6\n1 15", "\n4\n1 15")
     text = "\n".join(line for line in text.splitlines() if not line.startswith(("5 3 2 4", "6 2 2 5")))

@@ -56,6 +56,8 @@ def read_mesh(path: str | Path) -> Mesh:
         raise InputError(error.message, where=("mesh", "file")) from error
     named, cells = _named_parts(found, path)
     points = np.asarray(found.points, float)
+    if not len(points):
+        raise InputError(f"'{path}' holds no nodes", where=("mesh", "file"))
     solid = any(family in NODES_PER_SOLID_CELL for family in cells)
     if points.shape[1] == 3 and not solid:
         if np.ptp(points[:, 2]) > _PLANE * max(np.ptp(points, axis=0).max(), 1e-300):
