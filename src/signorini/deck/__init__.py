@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Decks: a model as a TOML file, and every mistake in it with its line."""
 
+from signorini.deck.deck import Deck
 from signorini.deck.error import DeckError
-from signorini.deck.load import Deck, load, read
+from signorini.deck.load import load, read
 
 __all__ = ["Deck", "DeckError", "load", "read"]

@@ -140,6 +140,7 @@ def deck_bodies(data: Mapping[str, Any], materials: Mapping[str, Material]) -> l
 
 
 FIELDS = {
+    "body": "bodies",
     "support": "supports",
     "foundation": "foundations",
     "load": "loads",
@@ -149,11 +150,11 @@ FIELDS = {
     "equation": "equations",
     "step": "steps",
 }
-"""Arrays of tables beside ``[[body]]``, and the fields of the model that they give."""
+"""Arrays of tables, and the fields of the model that they give."""
 
 
 def deck_parts(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> dict[str, list[Any]]:
-    """Supports, loads, contacts, steps and so on: fields of the model, those that the deck has.
+    """Supports, loads, contacts, steps: fields of the model, without bodies, those that the deck has.
 
     Parameters
     ----------
@@ -171,6 +172,8 @@ def deck_parts(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> dict[str, l
     }
     parts: dict[str, list[Any]] = {}
     for key, field in FIELDS.items():
+        if key == "body":
+            continue  # their materials are checked before a mesh is read
         for i, entry in enumerate(tables(data, key)):
             where: Where = (key, i)
             if key in kinds:

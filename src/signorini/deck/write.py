@@ -80,11 +80,10 @@ def _lines(model: Model, mesh: str) -> Iterator[str]:
         if body.material not in materials:
             materials[body.material] = f"material {len(materials) + 1}"
             yield from ("", f"[material.{_key(materials[body.material])}]", *_entries(_given(body.material)))
-    for body in model.bodies:
-        yield from ("", "[[body]]", *_entries(_given(body) | {"material": materials[body.material]}))
     for key, field in FIELDS.items():
         for member in getattr(model, field):
-            yield from ("", f"[[{key}]]", *_entries(_given(member)))
+            named = {"material": materials[member.material]} if key == "body" else {}
+            yield from ("", f"[[{key}]]", *_entries(_given(member) | named))
 
 
 def _given(part: Any) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from signorini.deck.deck import Deck
 from signorini.deck.error import DeckError
 from signorini.deck.inp.card import Card
 from signorini.deck.inp.conditions import Conditions, make_conditions
@@ -25,12 +26,12 @@ from signorini.deck.inp.pairs import Pair, make_changes, make_contacts
 from signorini.deck.inp.prints import make_prints
 from signorini.deck.inp.steps import DeckStep, split_steps
 from signorini.deck.inp.syntax import read_cards
+from signorini.deck.tables import FIELDS
 from signorini.errors import InputError, Where
 from signorini.model.body import Body
 from signorini.model.material import Orthotropic
 from signorini.model.mesh import NODES_PER_CELL, Mesh
 from signorini.model.model import Kind, Model
-from signorini.model.prints import Prints
 from signorini.model.step import Step
 from signorini.sources import Reach
 
@@ -42,26 +43,28 @@ _OWN_INCREMENTS = (
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Built:
-    """A model and what a reader should know of how it was made.
+class KeywordDeck(Deck):
+    """A deck of keywords.
 
     Attributes
     ----------
-    model : the model
-    places : keyword of every support, load, contact, body and step, by its path in the model
-    notes : what differs from the deck, and what is left out
-    unused_materials : names of materials that no section has
-    prints : what the steps ask for
+    places : keyword of every part of the model, by its path
+    reach : files that it may include
     """
 
-    model: Model
-    places: dict[Where, Card]
-    notes: tuple[str, ...]
-    unused_materials: tuple[str, ...]
-    prints: Prints
+    places: Mapping[Where, Card]
+    reach: Reach
+
+    def locate(self, error: InputError) -> DeckError:
+        """An error that is found after reading with file and line of the keyword that caused it."""
+        return _located_error(error, self.places, self.path, self._card_of_cell)
+
+    def _card_of_cell(self, cell: int) -> Card:
+        """The ``*ELEMENT`` keyword, at its line, of the element that a cell is; reads the deck once more."""
+        return make_grid(split_steps(flatten(read_cards(self.path, self.reach)))[0]).card_of_cell(cell)
 
 
-def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: bool) -> Built:
+def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: bool) -> KeywordDeck:
     """Read a deck of keywords: cards, then what has a number or a name, then parts, then what acts on them.
 
     Parameters
@@ -88,58 +91,38 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
     conditions = make_conditions(follow_steps(outside, steps, known, rigid), known)
     changes = [make_changes(step.cards, known, contacts) for step in steps]
     kind, thickness = known.grid.kind, _thickness(known.sections[0], known.grid.kind)
-    made: list[tuple[str, str, list[tuple[Any, Card]]]] = [  # words for paths, fields of the model, parts and keywords
-        ("body", "bodies", [(_body(section, thickness, kind), section.card) for section in known.sections]),
-        ("support", "supports", [(support, conditions.cards[support.label]) for support in conditions.supports]),
-        ("load", "loads", [(load, conditions.cards[load.label]) for load in conditions.loads]),
-        ("contact", "contacts", [(pair.contact, pair.card) for pair in contacts]),
-        ("rigid_body", "rigid_bodies", [(item.body, item.card) for item in rigid]),
-        ("equation", "equations", [(item.equation, item.card) for item in equations]),
-        (
-            "step",
-            "steps",
-            [(_step(k, steps, conditions, changes[k], deck_increments), step.card) for k, step in enumerate(steps)],
-        ),
-    ]
-    places: dict[Where, Card] = {(word, i): card for word, _, found in made for i, (_, card) in enumerate(found)}
-    parts: dict[str, Any] = {field: [part for part, _ in found] for _, field, found in made}
+    made: dict[str, list[tuple[Any, Card]]] = {
+        "body": [(_body(section, thickness, kind), section.card) for section in known.sections],
+        "support": [(support, conditions.cards[support.label]) for support in conditions.supports],
+        "load": [(load, conditions.cards[load.label]) for load in conditions.loads],
+        "contact": [(pair.contact, pair.card) for pair in contacts],
+        "rigid_body": [(item.body, item.card) for item in rigid],
+        "equation": [(item.equation, item.card) for item in equations],
+        "step": [(_step(k, steps, conditions, changes[k], deck_increments), steps[k].card) for k in range(len(steps))],
+    }
+    places: dict[Where, Card] = {(key, i): card for key, found in made.items() for i, (_, card) in enumerate(found)}
+    parts: dict[str, Any] = {FIELDS[key]: [part for part, _ in found] for key, found in made.items()}
     try:
         model = Model(_mesh(known), kind=kind, thickness=thickness, title=_title(outside), **parts)
     except InputError as error:
-        raise located_error(error, places, path, known.grid.card_of_cell) from error
+        raise _located_error(error, places, path, known.grid.card_of_cell) from error
     notes = _notes(known.grid, steps, contacts, small_strain, deck_increments)
-    return Built(
+    return KeywordDeck(
         model=model,
+        path=path,
+        lines={},
         places=places,
+        reach=reach,
         notes=(*conditions.notes, *notes, *_ignored(ignored)),
         prints=make_prints(steps, known, contacts, rigid, model.mesh),
         unused_materials=known.unused_materials,
     )
 
 
-def element_card(path: Path, reach: Reach, cell: int) -> Card:
-    """The ``*ELEMENT`` keyword, at its line, of the element that a cell of the model is; reads the deck once more.
-
-    Parameters
-    ----------
-    path, reach : as :func:`read_deck` has them
-    cell : its number in the model's mesh
-    """
-    return make_grid(split_steps(flatten(read_cards(path, reach)))[0]).card_of_cell(cell)
-
-
-def located_error(
+def _located_error(
     error: InputError, places: Mapping[Where, Card], path: Path, card_of_cell: Callable[[int], Card]
 ) -> DeckError:
-    """The error with the line of the keyword that its place in the model comes from.
-
-    Parameters
-    ----------
-    error : found in the model
-    places : keyword of every part of the model, by its path
-    path : of the deck, for what has no place
-    card_of_cell : keyword and line of the element that a cell of the model is
-    """
+    """The error with the line of the keyword that its place in the model comes from, or of the element of its cell."""
     if isinstance(error, DeckError):
         return error
     if error.cell is not None:
