@@ -18,6 +18,7 @@ from signorini.lcp.solution import Attempt
 from signorini.lcp.status import Status
 
 MAX_SIZE = 20  # unknowns: 2^20 supports take seconds
+ZERO_TOL = 1e-11  # of the largest value, balanced: less counts as 0
 BATCH = 4096  # supports that are solved for at once
 
 MARGIN = 1e-9
@@ -62,14 +63,12 @@ class Enumeration:
     name: ClassVar[str] = "enumeration"
     matrices: ClassVar[str] = "any, n <= 20"
 
-    tolerance: float = 1e-11
-
     def attempt(self, problem: LCP, z0: Array | None, tolerance: float) -> Attempt:  # noqa: ARG002
         """Solve a problem from z0 to a tolerance, see ``Method.attempt``."""
         if problem.n > MAX_SIZE or problem.dense() is None:
             note = f"It needs the entries of M and n <= {MAX_SIZE}; n is {problem.n}."
             return Attempt.refused(note)
-        faces, lack = _faces(problem, self.tolerance, only_first=True)
+        faces, lack = _faces(problem, only_first=True)
         if faces:
             return Attempt(z=faces[0].z, ending=Status.SOLVED, iterations=2**problem.n)
         margin = _margin(problem, lack)
@@ -81,14 +80,13 @@ class Enumeration:
         return Attempt(z=None, ending=Status.BREAKDOWN, iterations=2**problem.n, note=f"{words}: no proof.")
 
 
-def all_solutions(M: Any, q: ArrayLike, *, tolerance: float = 1e-11) -> tuple[Face, ...]:
+def all_solutions(M: Any, q: ArrayLike) -> tuple[Face, ...]:
     """Every solution of ``0 <= z  _|_  M z + q >= 0``, sorted by support; empty where there is none.
 
     Parameters
     ----------
     M : (n, n) array or sparse matrix, n <= 20
     q : (n,) array
-    tolerance : balanced values below it, relative to the largest, count as 0
 
     Raises
     ------
@@ -112,7 +110,7 @@ def all_solutions(M: Any, q: ArrayLike, *, tolerance: float = 1e-11) -> tuple[Fa
     problem = read_problem(M, q)
     if problem.n > MAX_SIZE or problem.dense() is None:
         raise InputError(f"has n = {problem.n}; enumeration is offered to n = {MAX_SIZE} with entries", where=("M",))
-    return tuple(sorted(_faces(problem, tolerance, only_first=False)[0], key=lambda face: face.support))
+    return tuple(sorted(_faces(problem, only_first=False)[0], key=lambda face: face.support))
 
 
 def _balanced(problem: LCP) -> tuple[Array, Array, Array]:
@@ -154,13 +152,13 @@ def _least_lack(A: Array, q: Array, support: BoolArray) -> float:
     return float(found.x[-1]) if found.status == 0 else 0.0
 
 
-def _faces(problem: LCP, tolerance: float, *, only_first: bool) -> tuple[list[Face], Array]:
+def _faces(problem: LCP, *, only_first: bool) -> tuple[list[Face], Array]:
     """Faces, and what supports lack that hold none at first sight, (2^n,)."""
     from signorini.lcp.screening import screen  # Numba takes longer to import than most problems to solve
 
     A, q, own = _balanced(problem)
     lack = np.empty(2**problem.n)
-    screen(A, q, tolerance, lack)
+    screen(A, q, ZERO_TOL, lack)
     members = _members(np.flatnonzero(lack == 0.0), problem.n)
     sizes = members.sum(axis=1)
     faces = []
@@ -169,7 +167,7 @@ def _faces(problem: LCP, tolerance: float, *, only_first: bool) -> tuple[list[Fa
         for k in range(0, len(remaining), BATCH):
             batch = remaining[k : k + BATCH]
             supports = np.nonzero(batch)[1].reshape(len(batch), size)
-            for face in _on_supports(A, q, supports, tolerance):
+            for face in _on_supports(A, q, supports):
                 directions = la.orth(own[:, None] * face.directions) if face.dimension else face.directions
                 faces.append(Face(support=face.support, z=frozen(own * face.z), directions=frozen(directions)))
                 if only_first:
@@ -177,12 +175,12 @@ def _faces(problem: LCP, tolerance: float, *, only_first: bool) -> tuple[list[Fa
     return faces, lack
 
 
-def _on_supports(A: Array, q: Array, supports: IntArray, tolerance: float) -> list[Face]:
+def _on_supports(A: Array, q: Array, supports: IntArray) -> list[Face]:
     """Faces on supports of one size."""
     size = supports.shape[1]
     none = np.zeros((len(q), 0))
     if size == 0:
-        return [Face(support=(), z=np.zeros(len(q)), directions=none)] if (q >= -tolerance).all() else []
+        return [Face(support=(), z=np.zeros(len(q)), directions=none)] if (q >= -ZERO_TOL).all() else []
     blocks, right = A[supports[:, :, None], supports[:, None, :]], -q[supports]
     regular = _regular(blocks)
     faces = []
@@ -191,11 +189,11 @@ def _on_supports(A: Array, q: Array, supports: IntArray, tolerance: float) -> li
     z = np.zeros((len(chosen), len(q)))
     np.put_along_axis(z, supports[chosen], x, axis=1)
     scale = np.maximum(1.0, np.abs(z).max(axis=1))
-    fits = (x > tolerance * scale[:, None]).all(axis=1) & (z @ A.T + q >= -tolerance * scale[:, None]).all(axis=1)
+    fits = (x > ZERO_TOL * scale[:, None]).all(axis=1) & (z @ A.T + q >= -ZERO_TOL * scale[:, None]).all(axis=1)
     faces += [Face(support=tuple(supports[chosen[k]].tolist()), z=z[k], directions=none) for k in np.flatnonzero(fits)]
     singular = np.flatnonzero(~regular)
     for k in singular[_consistent(blocks[singular], right[singular])]:
-        face = _singular_face(A, q, supports[k], tolerance)
+        face = _singular_face(A, q, supports[k])
         faces += [] if face is None else [face]
     return faces
 
@@ -220,7 +218,7 @@ def _consistent(blocks: Array, right: Array) -> BoolArray:
     return np.asarray(error <= 1e-9 * np.maximum(1.0, np.abs(x).max(axis=(1, 2))))
 
 
-def _singular_face(A: Array, q: Array, support: IntArray, tolerance: float) -> Face | None:
+def _singular_face(A: Array, q: Array, support: IntArray) -> Face | None:
     """A point of the relative inside and the directions that stay on the face; None where no z > 0 is on it.
 
     The point is the mean of one with the largest least component on the support (at most 1) and, for every other row
@@ -236,7 +234,7 @@ def _singular_face(A: Array, q: Array, support: IntArray, tolerance: float) -> F
     found = linprog(
         cost, A_ub=upper, b_ub=bound, A_eq=equal, b_eq=-q[support], bounds=[(None, None)] * size + [(None, 1)]
     )
-    if found.status != 0 or not found.x[-1] > 1e3 * tolerance:
+    if found.status != 0 or not found.x[-1] > 1e3 * ZERO_TOL:
         return None
     x = found.x[:-1]
     tight, points = [], [x]
