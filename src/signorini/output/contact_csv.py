@@ -3,13 +3,12 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from signorini.arrays import IntArray, padded
-from signorini.output.atomic_write import atomic_write
+from signorini.output.atomic_write import write_csv
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult
 
@@ -44,9 +43,7 @@ def contact_rows(step: int, contact: ContactResult, labels: IntArray) -> Iterato
 
 def write_contacts(history: History, path: Path) -> None:
     """Write the contacts at the end of every step as ``contact.csv``; numbers read back exactly."""
-    with atomic_write(path) as aside, aside.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, ("step", "contact", "node", *_COLUMNS), lineterminator="\n")
-        writer.writeheader()
-        for number, step in enumerate(history.steps, start=1):
-            for contact in step.contacts:
-                writer.writerows(contact_rows(number, contact, history.model.mesh.labels))
+    labels = history.model.mesh.labels
+    ends = ((number, contact) for number, step in enumerate(history.steps, start=1) for contact in step.contacts)
+    rows = (row for number, contact in ends for row in contact_rows(number, contact, labels))
+    write_csv(("step", "contact", "node", *_COLUMNS), rows, path)

@@ -83,10 +83,10 @@ def _nodes(model: Model, step: StepResult, table: Table, quantity: str, end: str
     for row in turned.tolist():
         rows[row] = _turn(step.rigid_bodies, table.rotations[int(table.members[row])], quantity)
     if table.totals != "only" or quantity == "U":
-        yield from ("", f" {'displacements (vx,vy,vz)' if quantity == 'U' else 'forces (fx,fy,fz)'} {end}", "")
-        yield from _numbered(model.mesh.labels[table.members], rows)
+        head = "displacements (vx,vy,vz)" if quantity == "U" else "forces (fx,fy,fz)"
+        yield from _numbered(f" {head} {end}", model.mesh.labels[table.members], rows)
     if table.totals != "no" and quantity == "RF":
-        yield from ("", f" total force (fx,fy,fz) {end}", "", f"       {_spelled(total)}")
+        yield from _single(f" total force (fx,fy,fz) {end}", total)
 
 
 def _turn(bodies: Mapping[str, ObstacleResult], name: str, quantity: str) -> Array:
@@ -111,19 +111,16 @@ def _contacts(model: Model, step: StepResult, table: Table, quantity: str, time:
     if quantity == "CELS":
         energies = np.concatenate([slave_energies(*pair) for pair in pairs])
         if table.totals != "only":
-            yield from ("", f" contact spring energy (slave node,energy) {end}", "")
-            yield from _numbered(labels, energies[:, None])
+            yield from _numbered(f" contact spring energy (slave node,energy) {end}", labels, energies[:, None])
         if table.totals != "no":
-            total = _spelled(np.array([energies.sum()]))
-            yield from ("", f" total contact spring energy for time {time}", "", f"       {total}")
+            yield from _single(f" total contact spring energy for time {time}", energies.sum(keepdims=True))
         return
     values = np.concatenate([slave_values(*pair) for pair in pairs])
     if quantity == "CDIS":
-        yield from ("", f" relative contact displacement (slave node,normal,tang1,tang2) {end}", "")
-        yield from _numbered(labels, values[:, :3])
+        head = f" relative contact displacement (slave node,normal,tang1,tang2) {end}"
+        yield from _numbered(head, labels, values[:, :3])
     else:
-        yield from ("", f" contact stress (slave node,press,tang1,tang2) {end}", "")
-        yield from _numbered(labels, values[:, 3:])
+        yield from _numbered(f" contact stress (slave node,press,tang1,tang2) {end}", labels, values[:, 3:])
 
 
 def _forces(contact: ContactResult, quantity: str, end: str) -> Iterator[str]:
@@ -160,9 +157,15 @@ def _in_space(vector: Array) -> Array:
     return padded(vector[None], 3)[0]
 
 
-def _numbered(labels: IntArray, rows: Array) -> Iterator[str]:
-    for label, row in zip(labels.tolist(), rows, strict=True):
-        yield f"{label:10d} {_spelled(row)}"
+def _numbered(head: str, labels: IntArray, rows: Array) -> Iterator[str]:
+    """A table of rows that begin with a number."""
+    yield from ("", head, "")
+    yield from (f"{label:10d} {_spelled(row)}" for label, row in zip(labels.tolist(), rows, strict=True))
+
+
+def _single(head: str, row: Array) -> Iterator[str]:
+    """A table of one row without a number."""
+    yield from ("", head, "", f"       {_spelled(row)}")
 
 
 def _spelled(values: Array) -> str:

@@ -3,13 +3,12 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from signorini.output.atomic_write import atomic_write
+from signorini.output.atomic_write import write_csv
 from signorini.solution.history import History
 from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, Instant
 
@@ -66,7 +65,4 @@ def history_rows(history: History) -> Iterator[dict[str, Any]]:
 
 def write_history(history: History, path: Path) -> None:
     """Write the rows of a history as ``history.csv``; numbers read back exactly."""
-    with atomic_write(path) as aside, aside.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, _COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(history_rows(history))
+    write_csv(_COLUMNS, history_rows(history), path)
