@@ -31,7 +31,8 @@ import scipy.sparse as sp
 import scipy.sparse.linalg
 
 from benchmarks.page import table, write
-from signorini.friction.spatial import from_compliance, natural_residual, solve_spatial, split
+from benchmarks.spatial_problems import from_compliance, natural_residual
+from signorini.friction.solve import solve_contact
 
 PAGE = Path(__file__).parent.parent / "docs" / "three_dimensions.md"
 SYSTEM_PYTHON = Path("/usr/bin/python3")
@@ -108,10 +109,10 @@ def main(folder: str, *options: str) -> None:
         blocked = np.arange(3 * n).reshape(n, 3).T.ravel()
         A, c = W[np.ix_(blocked, blocked)], q[blocked]
         problem, root = from_compliance(A, c, mu)
-        result = solve_spatial(problem)
+        result = solve_contact(problem)
         systems = sum(a.iterations for a in result.trace if "newton" in a.method)
         sweeps = sum(a.iterations for a in result.trace if a.method == "gauss-seidel")
-        own = residual(A, c, mu, split(problem, result.y)[1] * root)
+        own = residual(A, c, mu, result.r.ravel() * root)
         siconos = by_siconos(W, q, mu)
         theirs = ("-", "-") if siconos is None else (f"{residual(A, c, mu, siconos[0][blocked]):.0e}", siconos[1])
         rank = np.linalg.matrix_rank(W, tol=1e-10 * np.abs(W).max(), hermitian=True)

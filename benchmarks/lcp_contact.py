@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Frictional contact LCPs of assembled finite elements: the paper's cylinder and a rough block, condensed.
 
-With ``G h - W r = b``, h = (gap, slip) and r = (p, p_t) (``signorini.friction.CoulombProblem``), the forms are
+With ``G h - W r = b``, h = (gap, slip) and r = (p, p_t) (``signorini.friction.ContactProblem``), the forms are
 
     force     z = (p, mu p + p_t, s_minus), w = (gap, s_plus, mu p - p_t); regular, bodies held by supports
     gap-slip  z = (gap, s_plus, s_minus), w = (p, mu p + p_t, mu p - p_t); bodies that contact alone holds too
@@ -17,7 +17,7 @@ import scipy.linalg
 from benchmarks.lcp_problems import PosedLCP
 from signorini.arrays import Array
 from signorini.engine.prepare import Prepared, prepare
-from signorini.friction.problem import CoulombProblem
+from signorini.friction.problem import ContactProblem
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.meshing.plane import rectangle
 from signorini.model.body import Body
@@ -58,7 +58,7 @@ def rough_block(n: int, rng: np.random.Generator) -> PosedLCP:
     return force_form(f"FE rough block, {law.pairs} pairs, mu = {friction:.2f}", law)
 
 
-def loaded(prepared: Prepared, factor: float) -> CoulombProblem:
+def loaded(prepared: Prepared, factor: float) -> ContactProblem:
     """The law of the first step from rest, loads times the factor."""
     interface, condensed, T = prepared.interface, prepared.paths.condensed, prepared.constraints.transform
     rows, zero = condensed.active_rows, np.zeros(prepared.space.number_of_dofs)
@@ -69,7 +69,7 @@ def loaded(prepared: Prepared, factor: float) -> CoulombProblem:
     return replace(prepared.paths.law, b=b)
 
 
-def gap_slip_form(name: str, law: CoulombProblem) -> PosedLCP:
+def gap_slip_form(name: str, law: ContactProblem) -> PosedLCP:
     """``r = S h - F`` with ``S = W^-1 - I``, ``F = W^-1 b``; a pair locked by supports has no slip variables."""
     n, mu = law.pairs, law.mu
     moves = np.flatnonzero(~law.locked)
@@ -86,7 +86,7 @@ def gap_slip_form(name: str, law: CoulombProblem) -> PosedLCP:
     return _posed(name + ", gap-slip form", M, q, covering)
 
 
-def force_form(name: str, law: CoulombProblem) -> PosedLCP:
+def force_form(name: str, law: ContactProblem) -> PosedLCP:
     """``h = A r + g`` with ``A = G^-1 W``, ``g = G^-1 b``."""
     n, mu = law.pairs, law.mu
     if law.locked.any() or law.floating:

@@ -34,12 +34,11 @@ from benchmarks import command, page
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.errors import InputError, SolveFailed
-from signorini.friction import krylov as iterated
+from signorini.friction import krylov, newton
 from signorini.friction.history.space import find_rates as rates
 from signorini.friction.history.space import no_rates_proof as sectors
 from signorini.friction.history.space import sticking_response as held
 from signorini.friction.space import overload, proximal
-from signorini.friction.spatial import newton
 from signorini.linalg import multifrontal
 from signorini.meshing.solid import box
 from signorini.model.mesh import join
@@ -175,7 +174,7 @@ def counted() -> Iterator[Work]:
 
     with (
         wrapped(newton, "linear_system", lambda _a, _k, found: 2.0 / 3.0 * len(found.matrix) ** 3),
-        wrapped(iterated, "gmres", lambda a, _k, _f: 2.0 * 30 * 4.0 * len(a[2]) ** 2),
+        wrapped(krylov, "gmres", lambda a, _k, _f: 2.0 * 30 * 4.0 * len(a[2]) ** 2),
         wrapped(proximal, "gauss_seidel", lambda a, k, _f: 2.0 * k["count"] * (3 * a[0].pairs) ** 2),
         wrapped(sectors, "linprog", programme),
         wrapped(overload, "linprog", programme),

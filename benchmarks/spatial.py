@@ -15,21 +15,14 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.page import seconds, table, write
-from benchmarks.spatial_problems import hard_random, punch
+from benchmarks.spatial_problems import from_compliance, hard_random, natural_residual, punch
 from signorini.arrays import Array
 from signorini.fem.boundary import Boundary
 from signorini.fem.facets import facet_nodes
 from signorini.friction.history.plane import PathState
-from signorini.friction.spatial import (
-    SpatialProblem,
-    StopSettings,
-    at_rest,
-    follow_stopping,
-    from_compliance,
-    natural_residual,
-    solve_spatial,
-    split,
-)
+from signorini.friction.history.space import StopSettings, at_rest, follow_stopping
+from signorini.friction.problem import ContactProblem
+from signorini.friction.solve import solve_contact
 from signorini.interface.facing import near_pairs
 from signorini.interface.mortar import mortar_coupling
 
@@ -44,11 +37,11 @@ def punches() -> str:
         steps, worst, spent = [], 0.0, []
         for mu in FRICTIONS:
             problem, root = from_compliance(A, c, np.full(side**2, mu))
-            _ = problem.interface.A
+            _ = problem.image.A
             start = time.process_time()
-            result = solve_spatial(problem)
+            result = solve_contact(problem)
             spent.append(time.process_time() - start)
-            r = split(problem, result.y)[1] * root
+            r = result.r.ravel() * root
             steps.append("/".join(str(a.iterations) for a in result.trace))
             worst = max(worst, natural_residual(A @ r + c, r, mu, root[: side**2] ** 2))
         closed = int((result.state > 0).sum())
@@ -59,12 +52,12 @@ def punches() -> str:
 
 def facets() -> str:
     A, c = punch(10)
-    exact = {mu: solve_spatial(from_compliance(A, c, np.full(100, mu))[0]) for mu in FRICTIONS}
+    exact = {mu: solve_contact(from_compliance(A, c, np.full(100, mu))[0]) for mu in FRICTIONS}
     rows = []
     for count in (4, 8, 16, 32):
         nodal, resultant, bound = 0.0, 0.0, 2 * np.sin(np.pi / (2 * count))
         for mu, circle in exact.items():
-            polygon = solve_spatial(from_compliance(A, c, np.full(100, mu), facets=count)[0])
+            polygon = solve_contact(from_compliance(A, c, np.full(100, mu), facets=count)[0])
             error = polygon.tangential_force - circle.tangential_force
             nodal = max(nodal, np.linalg.norm(error, axis=1).max() / (mu * circle.normal_force.max()))
             total = np.linalg.norm(circle.tangential_force.sum(axis=0))
@@ -81,13 +74,13 @@ def hard() -> str:
         for _, mu, A, c in hard_random(gap):
             n = len(c) // 3
             problem, root = from_compliance(A, c, np.full(n, mu))
-            result = solve_spatial(problem)
+            result = solve_contact(problem)
             if not result.solved:
                 outcomes["not found"] += 1
                 continue
             outcomes["newton" if len(result.trace) == 1 else "rounds"] += 1
             most = max(most, sum(a.method == "proximal newton" for a in result.trace))
-            r = split(problem, result.y)[1] * root
+            r = result.r.ravel() * root
             worst = max(worst, natural_residual(A @ r + c, r, mu, root[:n] ** 2))
         rows.append((f"gaps {gap:g}", *outcomes.values(), most, f"{worst:.0e}"))
     return table(
@@ -101,21 +94,21 @@ def histories() -> str:
     n, mu = len(c) // 3, 0.3
     touching = np.concatenate([c[:n] - c[:n].min(), np.zeros(2 * n)])
 
-    def ends(count: int) -> tuple[SpatialProblem, PathState]:
+    def ends(count: int) -> tuple[ContactProblem, PathState]:
         problem, root = from_compliance(A, c, np.full(n, mu), facets=count)
         begin = from_compliance(A, touching, np.full(n, mu))[0].b
         return problem, at_rest(problem, begin, motion=root * touching)
 
-    def equal(problem: SpatialProblem, state: PathState, number: int) -> tuple[Array, int, int]:
+    def equal(problem: ContactProblem, state: PathState, number: int) -> tuple[Array, int, int]:
         h, y = state.h, None
         for k in range(1, number + 1):
             origin = np.concatenate([np.zeros(n), h[n:]])
             b = state.b + k / number * (problem.b - state.b) + problem.W @ origin - origin
-            result = solve_spatial(replace(problem, b=b), y)
+            result = solve_contact(replace(problem, b=b), y)
             h, y = np.concatenate([result.gap, result.slip.T.ravel()]) + origin, result.y
         return np.concatenate([result.normal_force, result.tangential_force.T.ravel()]), number, number
 
-    def stopping(problem: SpatialProblem, state: PathState, **settings: float) -> tuple[Array, int, int]:
+    def stopping(problem: ContactProblem, state: PathState, **settings: float) -> tuple[Array, int, int]:
         segment = follow_stopping(problem, state, problem.b, settings=StopSettings(**settings))
         return segment.end.r, len(segment.pieces) - 1, segment.pivots
 

@@ -4,19 +4,20 @@
 import numpy as np
 
 from signorini.bench.hard import RIVALS, hard, lemke_alone
-from signorini.friction import CoulombProblem, solve_coulomb
+from signorini.friction.problem import ContactProblem
+from signorini.friction.solve import solve_contact
 
 
-def slides(mu: float) -> CoulombProblem:
+def slides(mu: float) -> ContactProblem:
     """One pair pressed by 2 and dragged so that it slips for mu = 0.3."""
-    return CoulombProblem.of(
+    return ContactProblem.of(
         W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.5]), friction=[mu], motions=np.zeros((2, 0)), scale=1.0
     )
 
 
 def test_lemke_solves_one_pair_in_every_state() -> None:
     for mu in (0.0, 0.3, 2.0):
-        assert solve_coulomb(slides(mu)).solved
+        assert solve_contact(slides(mu)).solved
         assert lemke_alone(slides(mu), None)
 
 

@@ -8,7 +8,7 @@ from scipy.optimize import linprog
 
 from signorini.friction.approach import approach
 from signorini.friction.pull_away import unresisted
-from signorini.friction.spatial.rigid import unresisted as unresisted_in_space
+from signorini.law.section import FrictionSection
 
 
 def random_bodies(seed, d, k, n):
@@ -21,7 +21,7 @@ def random_bodies(seed, d, k, n):
 def test_without_friction_loads_work_as_much_as_gaps_allow(seed, d, k, n):
     """The work of the loads over all motions that leave no overlap is a linear program; its ray is no approach."""
     P, gap, load = random_bodies(seed, d, k, n)
-    found = approach(P, gap, np.zeros((n, d - 1)), load, width=1e-12)
+    found = approach(P, gap, np.zeros((d - 1, n)), load, width=1e-12)
     program = linprog(-load, A_ub=-P[:n], b_ub=gap, bounds=[(None, None)] * k)
     if found.escape is not None:
         assert program.status in (2, 3)  # unbounded, which some presolve calls infeasible: no motion at all is not
@@ -37,19 +37,15 @@ def test_without_friction_loads_work_as_much_as_gaps_allow(seed, d, k, n):
 @settings(max_examples=60, deadline=None)
 def test_with_friction_it_ends_where_contact_can_bear_the_load(seed, d, k, n, mu):
     P, gap, load = random_bodies(seed, d, k, n)
-    found = approach(P, gap, np.full((n, d - 1), mu), load, width=1e-12)
+    found = approach(P, gap, np.full((d - 1, n), mu), load, width=1e-12)
     if found is None or found.escape is not None:
         return
     assert load @ found.motion >= 0.0
     np.testing.assert_allclose(np.maximum(gap + P[:n] @ found.motion, 0.0), found.gap, atol=1e-9)
     touching = np.tile(found.gap == 0.0, d)
-    rows, friction, size = P[touching], np.full(int(touching.sum()) // d, mu), np.linalg.norm(load)
-    if d == 2:
-        assert unresisted(rows, friction, load / size) is None
-    else:
-        assert (
-            unresisted_in_space(rows, np.tile(friction[:, None], 2), np.zeros(len(friction), int), load / size) is None
-        )
+    count = int(touching.sum()) // d
+    cones = FrictionSection(axes=np.full((d - 1, count), mu), sides=np.zeros(count, dtype=np.int64))
+    assert unresisted(P[touching], cones, load / np.linalg.norm(load)) is None
 
 
 def test_friction_holds_what_lands_on_a_slope():
@@ -58,5 +54,5 @@ def test_friction_holds_what_lands_on_a_slope():
     along = np.array([slope[1], -slope[0]])
     P = np.stack([slope, [-1.0, 0.0], along, [0.0, 1.0]])
     for mu, ends in ((0.6, [0.0, -1.0]), (0.4, [2.0, -2.0])):
-        found = approach(P, np.array([slope[1], 2.0]), np.full((2, 1), mu), np.array([0.0, -1.0]), width=1e-12)
+        found = approach(P, np.array([slope[1], 2.0]), np.full((1, 2), mu), np.array([0.0, -1.0]), width=1e-12)
         np.testing.assert_allclose(found.motion, ends, atol=1e-12)

@@ -9,20 +9,19 @@ from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 
 from signorini.errors import InputError
-from signorini.friction import OPEN, solve_coulomb
-from signorini.friction.cone import cone_system
 from signorini.friction.history.plane import follow as follow_load
 from signorini.friction.history.plane import initial_state, land
-from signorini.friction.law import split, states
-from signorini.friction.newton import newton
+from signorini.friction.newton import by_states, in_states
 from signorini.friction.plane.covering import follow
 from signorini.friction.plane.state_tree import search
 from signorini.friction.plane.walls import beyond, constant, jacobian, placed
+from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import pulled_away
-from signorini.friction.several import all_solutions, always_unique
-from signorini.friction.spatial import SpatialProblem, solve_spatial
+from signorini.friction.solve import solve_contact
+from signorini.friction.uniqueness import all_solutions, always_unique
 from signorini.gallery.hard import hard_set
 from signorini.law.bound import STEEP, FrictionBound
+from signorini.law.states import OPEN
 from tests.helpers.coulomb_samples import HELD, answer, block_on_floor, for_all, random_problem
 from tests.helpers.path_samples import EqualBodies, Springs, increments, loads_at_breakpoints, one_node, stiff
 
@@ -56,20 +55,21 @@ def test_the_equation_is_piecewise_linear_and_its_walls_are_where_the_state_chan
     problem = mixed(random_problem(3, 6, HELD, 1.0), 3)
     G, rng = np.eye(12) - problem.W, np.random.default_rng(0)
     for _ in range(40):
-        y = rng.normal(size=12) * 10.0 ** rng.uniform(-4, 1)
-        h, r = split(y, problem.bound)
-        state = states(y, problem.bound, problem.closed)
+        y = rng.normal(size=(2, 6)) * 10.0 ** rng.uniform(-4, 1)
+        h, r = problem.law.split(y)
+        state = problem.law.states(y)
         J = jacobian(G, problem.W, np.abs(problem.bound.slope(state)), state)
         known = constant(G, problem.W, problem.bound, state)
-        np.testing.assert_allclose(J @ y + known, G @ h - problem.W @ r, atol=1e-12 * np.abs(J).max())
-        wall, offset = placed(state, problem.bound, problem.closed)
-        room = wall[:, :, 0] * y[:6] + wall[:, :, 1] * y[6:] - offset
+        moved = G @ h.ravel() - problem.W @ r.ravel()
+        np.testing.assert_allclose(J @ y.ravel() + known, moved, atol=1e-12 * np.abs(J).max())
+        wall, offset = placed(state, problem.bound, problem.law.closed)
+        room = wall[:, :, 0] * y[0] + wall[:, :, 1] * y[1] - offset
         assert room.min() >= -1e-14 * np.abs(y).max()
         for slot, pair in np.argwhere(wall.any(axis=2)):
-            across, back = beyond(int(state[pair]), int(slot), float(y[6 + pair]), int(problem.closed[pair]))
+            across, back = beyond(int(state[pair]), int(slot), float(y[1, pair]), int(problem.law.closed[pair]))
             other = state.copy()
             other[pair] = across
-            mirror, at = placed(other, problem.bound, problem.closed)
+            mirror, at = placed(other, problem.bound, problem.law.closed)
             np.testing.assert_allclose(mirror[back, pair], -wall[slot, pair], atol=1e-12)
             np.testing.assert_allclose(at[back, pair], -offset[slot, pair], atol=1e-12)
 
@@ -78,24 +78,24 @@ def test_the_equation_is_piecewise_linear_and_its_walls_are_where_the_state_chan
 def test_every_method_finds_a_solution_and_indices_sum_to_one(seed, pairs):
     problem = mixed(random_problem(seed, pairs, HELD, 1.0), seed)
     known = all_solutions(problem)
-    index = [cone_system(problem, states(y, problem.bound, problem.closed)).index for y in known]
+    index = [in_states(problem, problem.law.states(y)).index for y in known]
     assert sum(index) == 1
     assert len(known) == 1 or not always_unique(problem)
-    result = solve_coulomb(problem)
+    result = solve_contact(problem)
     assert result.solved
     found = [answer(result)]
     for way in ("open", "press"):
         end = follow(problem, way, budget=200)
         assert end.end == "solution"
-        found.append(newton(problem, end.state, near=end.y).y)
-    found.append(newton(problem, search(problem).state).y)
+        found.append(by_states(problem, end.state, near=end.y).y)
+    found.append(by_states(problem, search(problem).state).y)
     assert all(min(np.abs(y - other).max() for other in known) < 1e-8 for y in found)
 
 
 @for_all(examples=25, seed=SEEDS, motions=st.sampled_from([1, 2]))
 def test_floating_bodies_are_solved_or_proved_to_leave(seed, motions):
     problem = mixed(random_problem(seed, 2, motions, 1.0), seed)
-    known, result = all_solutions(problem), solve_coulomb(problem)
+    known, result = all_solutions(problem), solve_contact(problem)
     assert result.outcome == ("solved" if known else "no_equilibrium")
     assert not known or pulled_away(problem) is None
 
@@ -104,8 +104,8 @@ def test_a_limit_is_what_the_loads_pull_away_at():
     """Four pairs that carry 0.1 each, however hard they are pressed."""
     for push, held in ((0.39, True), (0.41, False)):
         problem = replace(block_on_floor(4, (-10.0, push, 0.0)), limit=np.full(4, 0.1))
-        assert solve_coulomb(replace(problem, limit=None)).solved
-        assert solve_coulomb(problem).solved == held
+        assert solve_contact(replace(problem, limit=None)).solved
+        assert solve_contact(problem).solved == held
         pull = pulled_away(problem)
         assert (pull is None) == held
         if pull is not None:
@@ -114,10 +114,10 @@ def test_a_limit_is_what_the_loads_pull_away_at():
 
 def test_the_hard_set_with_limits_and_adhesion_is_answered():
     for case in hard_set(20):
-        plain, rng = solve_coulomb(case.first), np.random.default_rng(case.first.pairs)
+        plain, rng = solve_contact(case.first), np.random.default_rng(case.first.pairs)
         size = plain.normal_force.mean() if plain.solved and plain.normal_force.any() else case.first.scale
         n = case.first.pairs
-        result = solve_coulomb(
+        result = solve_contact(
             replace(
                 case.first,
                 friction=np.minimum(case.first.friction, 8.0),
@@ -142,7 +142,7 @@ def pressed_bodies(seed, n=8):
 def test_tresca_minimises_a_convex_energy(seed):
     """Bodies that stay pressed: r minimises ``r'A r / 2 + c'r`` over p >= 0, |r_t| <= limit."""
     problem, limit = pressed_bodies(seed)
-    result = solve_coulomb(replace(problem, limit=limit))
+    result = solve_contact(replace(problem, limit=limit))
     A, c = problem.image.A, problem.free_motion(problem.b)
     L = np.linalg.cholesky(A)
     box = (np.append(np.zeros(8), -limit), np.append(np.full(8, np.inf), limit))
@@ -157,11 +157,11 @@ def test_tresca_in_the_plane_and_in_space_is_one_law(seed):
     problem, limit = pressed_bodies(seed)
     wide = np.zeros((24, 24))
     wide[:16, :16] = problem.W
-    solid = SpatialProblem.of(
+    solid = ContactProblem.of(
         W=wide, b=np.append(problem.b, np.zeros(8)), friction=limit, motions=np.zeros((24, 0)), scale=1.0,
         tresca=np.ones(8, dtype=bool),
     )  # fmt: skip
-    flat, deep = solve_coulomb(replace(problem, limit=limit)), solve_spatial(solid)
+    flat, deep = solve_contact(replace(problem, limit=limit)), solve_contact(solid)
     np.testing.assert_allclose(deep.normal_force, flat.normal_force, atol=1e-9)
     np.testing.assert_allclose(deep.tangential_force[:, 0], flat.tangential_force, atol=1e-9)
     assert (flat.state > 1).any()
@@ -170,7 +170,7 @@ def test_tresca_in_the_plane_and_in_space_is_one_law(seed):
 @for_all(examples=10, seed=SEEDS, motions=st.sampled_from([0, 2]))
 def test_a_limit_out_of_reach_is_none(seed, motions):
     problem = random_problem(seed, 6, motions, 0.7)
-    one, two = (solve_coulomb(replace(problem, limit=limit)) for limit in (None, np.full(6, 1e12)))
+    one, two = (solve_contact(replace(problem, limit=limit)) for limit in (None, np.full(6, 1e12)))
     assert one.outcome == two.outcome
     if one.solved:
         np.testing.assert_allclose(answer(two), answer(one), atol=1e-12)

@@ -7,13 +7,15 @@ import numpy as np
 import pytest
 
 from signorini.condense.operator import InterfaceOperator
-from signorini.friction import OPEN, STICK, CoulombProblem, solve_coulomb
 from signorini.friction.plane.covering import follow
+from signorini.friction.problem import ContactProblem
+from signorini.friction.solve import solve_contact
+from signorini.law.states import OPEN, STICK
 from tests.helpers.coulomb_samples import block_on_floor
 
 
 def test_pressed_block_carries_its_load():
-    result = solve_coulomb(block_on_floor(8, (-1.0, 0.2, 0.0)))
+    result = solve_contact(block_on_floor(8, (-1.0, 0.2, 0.0)))
     assert result.solved
     np.testing.assert_allclose(result.normal_force.sum(), 1.0, atol=1e-12)
     np.testing.assert_allclose(result.tangential_force.sum(), -0.2, atol=1e-12)
@@ -23,7 +25,7 @@ def test_pressed_block_carries_its_load():
     ("load", "normal", "tangential"), [((1.0, 0.0, 0.0), 1, 0), ((-1.0, 0.4, 0.0), 0, 1), ((-1.0, -0.4, 0.0), 0, -1)]
 )
 def test_loads_that_pull_the_block_away_are_proved_to(load, normal, tangential):
-    result = solve_coulomb(block_on_floor(8, load))
+    result = solve_contact(block_on_floor(8, load))
     assert result.outcome == "no_equilibrium"
     assert "pull a body away" in result.message
     assert np.isnan(result.gap).all()
@@ -34,7 +36,7 @@ def test_loads_that_pull_the_block_away_are_proved_to(load, normal, tangential):
 
 
 def test_frictionless_block_free_along_the_floor_does_not_move():
-    result = solve_coulomb(block_on_floor(8, (-1.0, 0.0, 0.0), friction=0.0))
+    result = solve_contact(block_on_floor(8, (-1.0, 0.0, 0.0), friction=0.0))
     assert result.solved
     assert result.index == 0
     assert "least change" in result.message
@@ -43,7 +45,7 @@ def test_frictionless_block_free_along_the_floor_does_not_move():
 
 
 def test_a_push_along_a_frictionless_floor_is_proved_to_have_no_equilibrium():
-    assert solve_coulomb(block_on_floor(8, (-1.0, 1e-3, 0.0), friction=0.0)).outcome == "no_equilibrium"
+    assert solve_contact(block_on_floor(8, (-1.0, 1e-3, 0.0), friction=0.0)).outcome == "no_equilibrium"
 
 
 def test_springs_hold_a_block_that_no_open_path_could_start_from():
@@ -53,7 +55,7 @@ def test_springs_hold_a_block_that_no_open_path_could_start_from():
 
 def test_an_unloaded_block_stays():
     problem = block_on_floor(4, (0.0, 0.0, 0.0))
-    result = solve_coulomb(dataclasses.replace(problem, scale=0.0))
+    result = solve_contact(dataclasses.replace(problem, scale=0.0))
     assert result.solved
     np.testing.assert_array_equal(result.slip, np.zeros(4))
 
@@ -68,8 +70,8 @@ def test_a_pair_given_twice_shares_its_force():
     once = np.array([[0.5, 0.1], [0.1, 0.4]])
     half = np.repeat(np.repeat(once / 2, 2, axis=0), 2, axis=1)
     b = np.repeat([-1.0, 0.1], 2) / np.sqrt(2)
-    problem = CoulombProblem.of(W=half, b=b, friction=[0.4, 0.4], motions=np.zeros((4, 0)), scale=1.0)
-    result = solve_coulomb(problem)
+    problem = ContactProblem.of(W=half, b=b, friction=[0.4, 0.4], motions=np.zeros((4, 0)), scale=1.0)
+    result = solve_contact(problem)
     assert result.solved
     assert result.state.tolist() == [STICK, STICK]
     assert result.index == 0
@@ -77,14 +79,14 @@ def test_a_pair_given_twice_shares_its_force():
 
 
 def test_pairs_of_unlimited_friction_stick_or_open():
-    result = solve_coulomb(block_on_floor(8, (-1.0, 0.5, 0.9), friction=np.inf))
+    result = solve_contact(block_on_floor(8, (-1.0, 0.5, 0.9), friction=np.inf))
     assert result.solved
     assert set(result.state.tolist()) == {OPEN, STICK}
     np.testing.assert_allclose(result.tangential_force.sum(), -0.5, rtol=1e-10)
 
 
 def test_unlimited_friction_on_the_verge_of_opening_is_said():
-    result = solve_coulomb(block_on_floor(8, (-1.0, 50.0, 0.9), friction=np.inf))
+    result = solve_contact(block_on_floor(8, (-1.0, 50.0, 0.9), friction=np.inf))
     assert result.solved
     assert "verge of opening" in result.message
     verge = result.state > STICK

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 from signorini.errors import InputError
-from signorini.friction import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, CoulombProblem, solve_coulomb
+from signorini.friction.problem import ContactProblem
+from signorini.friction.solve import solve_contact
+from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK
 
 ONE_PAIR = {"W": np.diag([0.5, 0.5]), "b": [-1.0, 0.2], "friction": [0.3], "motions": np.zeros((2, 0)), "scale": 1.0}
 
@@ -15,7 +17,7 @@ ONE_PAIR = {"W": np.diag([0.5, 0.5]), "b": [-1.0, 0.2], "friction": [0.3], "moti
 def one_pair(normal, tangential, mu):
     """A pair with compliance 1 in both directions (W = 1/2): the motion of the free body is twice b."""
     b = np.array([normal, tangential])
-    return CoulombProblem.of(**ONE_PAIR | {"b": b, "friction": [mu]})
+    return ContactProblem.of(**ONE_PAIR | {"b": b, "friction": [mu]})
 
 
 @pytest.mark.parametrize(
@@ -31,7 +33,7 @@ def one_pair(normal, tangential, mu):
     ],
 )
 def test_one_pair(normal, tangential, mu, state, force, motion):
-    result = solve_coulomb(one_pair(normal, tangential, mu))
+    result = solve_contact(one_pair(normal, tangential, mu))
     assert result.solved
     assert result.state.tolist() == [state]
     np.testing.assert_allclose([result.normal_force[0], result.tangential_force[0]], force, atol=1e-14)
@@ -40,18 +42,18 @@ def test_one_pair(normal, tangential, mu, state, force, motion):
 
 @pytest.mark.parametrize("drag", [-0.2, 0.0, 0.2])
 def test_locked_pair_slips_as_its_support_moves(drag):
-    problem = CoulombProblem.of(
+    problem = ContactProblem.of(
         W=np.diag([0.5, 0.0]), b=np.array([-1.0, drag]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     )
-    result = solve_coulomb(problem)
+    result = solve_contact(problem)
     assert result.solved
     np.testing.assert_allclose([result.slip[0], result.tangential_force[0]], [drag, -0.6 * np.sign(drag)], atol=1e-14)
 
 
 def test_no_pairs():
     nothing = np.zeros(0)
-    problem = CoulombProblem.of(W=np.zeros((0, 0)), b=nothing, friction=nothing, motions=np.zeros((0, 0)), scale=0.0)
-    assert solve_coulomb(problem).solved
+    problem = ContactProblem.of(W=np.zeros((0, 0)), b=nothing, friction=nothing, motions=np.zeros((0, 0)), scale=0.0)
+    assert solve_contact(problem).solved
 
 
 def test_another_load_shares_the_factorisation():
@@ -74,15 +76,15 @@ def test_another_load_shares_the_factorisation():
 )
 def test_wrong_input_is_named(change, message):
     with pytest.raises(InputError, match=message):
-        CoulombProblem.of(**ONE_PAIR | change)
+        ContactProblem.of(**ONE_PAIR | change)
 
 
 def test_a_motion_not_given_is_named():
-    problem = CoulombProblem.of(W=np.eye(2), b=np.ones(2), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0)
+    problem = ContactProblem.of(W=np.eye(2), b=np.ones(2), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0)
     with pytest.raises(InputError, match="add that motion"):
-        solve_coulomb(problem)
+        solve_contact(problem)
 
 
 def test_start_is_checked():
     with pytest.raises(InputError, match="start: expected 1 states"):
-        solve_coulomb(one_pair(-1, 0.2, 0.3), np.array([0, 0]))
+        solve_contact(one_pair(-1, 0.2, 0.3), np.array([0, 0]))

@@ -12,10 +12,11 @@ import pytest
 from hypothesis import strategies as st
 
 from signorini.errors import InputError
-from signorini.friction import CoulombProblem, mu_low, solve_coulomb
-from signorini.friction import certify as certify_in_plane
-from signorini.friction.spatial import SLIP, SpatialProblem, solve_spatial
-from signorini.friction.spatial import certify as certify_in_space
+from signorini.friction.certificate import certify
+from signorini.friction.problem import ContactProblem
+from signorini.friction.solve import solve_contact
+from signorini.friction.uniqueness import mu_low
+from signorini.law.states import SLIP
 from tests.helpers.coulomb_samples import HELD, block_on_floor, for_all, random_problem
 
 SEEDS = st.integers(0, 10**6)
@@ -33,7 +34,7 @@ def in_space(problem, second, seed=0):
     if second == "idle":
         Q, _ = np.linalg.qr(rng.normal(size=(n, n)))
         W[2 * n :, 2 * n :] = (Q * rng.uniform(0.05, 0.95, n)) @ Q.T
-    return SpatialProblem.of(
+    return ContactProblem.of(
         W=(W + W.T) / 2,
         b=np.append(problem.b, np.zeros(n)),
         friction=problem.friction,
@@ -61,13 +62,15 @@ def with_law(seed, pairs, motions, friction, law):
         W[np.ix_(free, free)], R[free] = (Q * values) @ Q.T, Q[:, :motions]
         b[dragged] = rng.choice([-1.0, 0.0, 1.0], len(dragged))
         mu = np.minimum(problem.friction, 3.0)
-        problem = CoulombProblem.of(W=(W + W.T) / 2, b=b, friction=mu, motions=R, scale=1.0)
+        problem = ContactProblem.of(W=(W + W.T) / 2, b=b, friction=mu, motions=R, scale=1.0)
     return problem
 
 
-def forces_less_motions(result, axis=slice(None)):
-    """(2n,) y of an answer, along the normal and a tangent."""
-    return np.append(result.normal_force - result.gap, result.tangential_force[..., axis] - result.slip[..., axis])
+def forces_less_motions(
+    result,
+):
+    """(2, n) y of an answer, along the normal and a tangent."""
+    return result.y[:2]
 
 
 def check_alike(flat, deep, rubs):
@@ -86,9 +89,9 @@ def test_every_motion_and_force_lack_as_much(seed, pairs, law, second):
     """Any y, small and large: one law makes motions and forces of it."""
     problem = with_law(seed, pairs, HELD, None, law)
     rng = np.random.default_rng((seed, 3))
-    y = rng.normal(size=2 * pairs) * 10.0 ** rng.uniform(-4, 2, 2 * pairs)
-    lack = certify_in_plane(problem, y)
-    assert certify_in_space(in_space(problem, second, seed), np.append(y, np.zeros(pairs))) == pytest.approx(lack)
+    y = rng.normal(size=(2, pairs)) * 10.0 ** rng.uniform(-4, 2, (2, pairs))
+    lack = certify(problem, y)
+    assert certify(in_space(problem, second, seed), np.append(y, np.zeros((1, pairs)), axis=0)) == pytest.approx(lack)
 
 
 @for_all(examples=60, seed=SEEDS, pairs=PAIRS, law=LAWS, second=SECOND)
@@ -96,7 +99,7 @@ def test_one_solution_is_found_by_both(seed, pairs, law, second):
     law = "limit" if law == "adhesion" else law  # whose steep beginning no bound on uniqueness covers
     problem = with_law(seed, pairs, HELD, 1.0, law)
     problem = replace(problem, friction=np.full(pairs, 0.9 * min(mu_low(problem), 1.0)))
-    check_alike(solve_coulomb(problem), solve_spatial(in_space(problem, second, seed)), problem.mu > 0)
+    check_alike(solve_contact(problem), solve_contact(in_space(problem, second, seed)), problem.mu > 0)
 
 
 @for_all(examples=80, seed=SEEDS, pairs=PAIRS, law=LAWS, second=SECOND, motions=st.sampled_from([HELD, 1, 2]))
@@ -104,19 +107,19 @@ def test_an_answer_of_one_is_an_answer_of_the_other(seed, pairs, law, second, mo
     """Whatever the friction: of several solutions they may find two, and where space finds none the plane may."""
     problem = with_law(seed, pairs, min(motions, pairs), None, law)
     solid = in_space(problem, second, seed)
-    flat, deep = solve_coulomb(problem), solve_spatial(solid)
+    flat, deep = solve_contact(problem), solve_contact(solid)
     assert flat.outcome == deep.outcome or deep.outcome == "not_found"
     if flat.solved:
-        assert certify_in_space(solid, np.append(forces_less_motions(flat), np.zeros(pairs))) < ROUNDING
+        assert certify(solid, np.append(flat.y, np.zeros((1, pairs)), axis=0)) < ROUNDING
     if deep.solved:
-        assert certify_in_plane(problem, forces_less_motions(deep, 0)) < ROUNDING
+        assert certify(problem, forces_less_motions(deep)) < ROUNDING
 
 
 @for_all(examples=60, seed=SEEDS, law=st.sampled_from(["coulomb", "dragged"]), second=SECOND)
 def test_loads_pull_away_the_same_bodies_along_the_same_motion(seed, law, second):
     """What of the load friction cannot take is one projection."""
     problem = with_law(seed, 3, 2, None, law)
-    flat, deep = solve_coulomb(problem), solve_spatial(in_space(problem, second, seed))
+    flat, deep = solve_contact(problem), solve_contact(in_space(problem, second, seed))
     assert (flat.method == "rigid motions") == (deep.method == "rigid motions")
     if flat.method == "rigid motions":
         np.testing.assert_allclose(deep.escape, np.append(flat.escape, np.zeros(3)), atol=1e-6)
@@ -127,7 +130,7 @@ def test_loads_pull_away_the_same_bodies_along_the_same_motion(seed, law, second
 @pytest.mark.parametrize("load", [(-1.0, 0.29, 0.0), (-1.0, 0.31, 0.0), (-1.0, 0.2, 1.1), (0.1, 0.0, 0.0)])
 def test_a_block_on_a_floor_holds_slides_tilts_or_lifts_off_in_both(load, second):
     problem = block_on_floor(5, load)
-    flat, deep = solve_coulomb(problem), solve_spatial(in_space(problem, second))
+    flat, deep = solve_contact(problem), solve_contact(in_space(problem, second))
     assert flat.solved == (load[1] == 0.29)
     assert deep.outcome == flat.outcome
     assert deep.method == flat.method
@@ -141,7 +144,7 @@ def test_a_pair_that_supports_drag_and_that_may_never_slip_is_refused_in_the_sam
     W, b = np.diag([0.5, 0.0]), np.array([-1.0, 0.5])
     data = {"friction": [np.inf], "scale": 1.0}
     with pytest.raises(InputError) as flat:
-        CoulombProblem.of(W=W, b=b, motions=np.zeros((2, 0)), **data)
+        ContactProblem.of(W=W, b=b, motions=np.zeros((2, 0)), **data)
     with pytest.raises(InputError) as deep:
-        SpatialProblem.of(W=np.diag([0.5, 0.0, 0.0]), b=np.append(b, 0.0), motions=np.zeros((3, 0)), **data)
+        ContactProblem.of(W=np.diag([0.5, 0.0, 0.0]), b=np.append(b, 0.0), motions=np.zeros((3, 0)), **data)
     assert str(deep.value) == str(flat.value)

@@ -5,10 +5,12 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
-from signorini.friction import CoulombProblem, index, mu_low, solve_coulomb
 from signorini.friction.plane.covering import follow
 from signorini.friction.plane.state_tree import search
+from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import pulled_away
+from signorini.friction.solve import solve_contact
+from signorini.friction.uniqueness import index, mu_low
 from tests.helpers.coulomb_samples import HELD, all_solutions, answer, for_all, random_problem, with_stiffness
 
 seeds = st.integers(0, 10**6)
@@ -21,7 +23,7 @@ def is_one_of(result, solutions):
 @for_all(seed=seeds, pairs=st.integers(1, 4))
 def test_held_answer_is_a_solution_and_the_indices_sum_to_one(seed, pairs):
     problem = random_problem(seed, pairs)
-    result, solutions = solve_coulomb(problem), all_solutions(problem)
+    result, solutions = solve_contact(problem), all_solutions(problem)
     assert result.solved
     assert result.residual <= 1e-10
     assert is_one_of(result, solutions)
@@ -32,7 +34,7 @@ def test_held_answer_is_a_solution_and_the_indices_sum_to_one(seed, pairs):
 @for_all(seed=seeds, pairs=st.integers(1, 4), motions=st.integers(1, 2))
 def test_floating_answer_or_proof(seed, pairs, motions):
     problem = random_problem(seed, pairs, motions)
-    result, solutions = solve_coulomb(problem), all_solutions(problem)
+    result, solutions = solve_contact(problem), all_solutions(problem)
     if result.solved:
         assert is_one_of(result, solutions) or result.index == 0
     else:
@@ -47,7 +49,7 @@ def test_tree_agrees(seed, pairs, motions):
     if tree.end == "impossible":
         assert not solutions
     elif tree.end == "solution":
-        assert solve_coulomb(problem, tree.state).solved
+        assert solve_contact(problem, tree.state).solved
 
 
 @for_all(seed=seeds, pairs=st.integers(2, 4), motions=st.integers(1, 2), digits=st.sampled_from([8, 14, 20, 26]))
@@ -55,7 +57,7 @@ def test_rounding_proves_nothing(seed, pairs, motions, digits):
     """An interface stiffness far too small leaves few digits of the problem: its answer is lost, and not refuted."""
     problem = random_problem(seed, pairs, motions)
     poor = with_stiffness(problem, 10.0**-digits)
-    if solve_coulomb(problem).solved:
+    if solve_contact(problem).solved:
         assert search(poor, budget=200).end != "impossible"
         assert pulled_away(poor) is None
 
@@ -82,18 +84,18 @@ def test_one_solution_below_mu_low(seed, pairs):
 def test_one_node(friction, load, solutions):
     """K = [[2, 1], [1, 2]]: unique below the critical friction 2, else three solutions for 2 < f_t < 3."""
     W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    problem = CoulombProblem.of(W=W, b=W @ [-1.0, load], friction=[friction], motions=np.zeros((2, 0)), scale=1.0)
+    problem = ContactProblem.of(W=W, b=W @ [-1.0, load], friction=[friction], motions=np.zeros((2, 0)), scale=1.0)
     found = all_solutions(problem)
     assert len(found) == solutions
-    result = solve_coulomb(problem)
+    result = solve_contact(problem)
     assert is_one_of(result, found)
     assert (mu_low(problem) > friction) == (friction == 1.0)
     if solutions == 3:
         assert sorted(sign for _, sign in found) == [-1, 1, 1]
-        np.testing.assert_allclose(answer(result), [1.0, -2.5], atol=1e-12)
-        opened = solve_coulomb(problem, np.array([0]))
+        np.testing.assert_allclose(answer(result), [[1.0], [-2.5]], atol=1e-12)
+        opened = solve_contact(problem, np.array([0]))
         np.testing.assert_allclose([opened.gap[0], opened.slip[0]], [1 / 6, 4 / 3], atol=1e-12)
-        sliding = solve_coulomb(problem, np.array([3]))
+        sliding = solve_contact(problem, np.array([3]))
         np.testing.assert_allclose([sliding.normal_force[0], sliding.slip[0]], [0.5, 0.5], atol=1e-12)
         assert sliding.index == -1
         assert "more solutions" in sliding.message

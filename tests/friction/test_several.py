@@ -7,20 +7,20 @@ import numpy as np
 import pytest
 
 from signorini.errors import InputError
-from signorini.friction import CoulombProblem, mu_low
-from signorini.friction.several import all_solutions, always_unique, search_solutions
+from signorini.friction.problem import ContactProblem
+from signorini.friction.uniqueness import all_solutions, always_unique, mu_low, search_solutions
 from tests.helpers.path_samples import stiff
 
 
 def node(mu, f_t):
     W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    return CoulombProblem.of(W=W, b=W @ [-1.0, f_t], friction=[mu], motions=np.zeros((2, 0)), scale=1.0)
+    return ContactProblem.of(W=W, b=W @ [-1.0, f_t], friction=[mu], motions=np.zeros((2, 0)), scale=1.0)
 
 
 def random_problem(seed, pairs, mu):
     rng = np.random.default_rng(seed)
     W = np.linalg.inv(stiff(seed, pairs) + np.eye(2 * pairs))
-    return CoulombProblem.of(
+    return ContactProblem.of(
         W=(W + W.T) / 2,
         b=rng.normal(size=2 * pairs),
         friction=np.full(pairs, mu),
@@ -35,7 +35,7 @@ def test_three_solutions_between_2_and_3():
         for found in (all_solutions(node(3.0, f_t)), search_solutions(node(3.0, f_t))):
             assert len(found) == count
     expected = np.array([[1.0, -2.5], [0.5, -1.5 - 0.5], [-1 / 6, -4 / 3]])
-    found = np.array(all_solutions(node(3.0, 2.5)))
+    found = np.array(all_solutions(node(3.0, 2.5))).reshape(-1, 2)
     assert all(np.abs(found - y).max(axis=1).min() < 1e-12 for y in expected)
 
 

@@ -6,10 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from signorini.friction import CoulombProblem, mu_low
-from signorini.friction.spatial import SpatialProblem
-from signorini.friction.spatial.several import search_solutions
-from signorini.friction.spatial.solve import solve_spatial
+from signorini.friction.problem import ContactProblem
+from signorini.friction.solve import solve_contact
+from signorini.friction.uniqueness import mu_low, search_solutions
 from tests.helpers.coulomb_samples import all_solutions
 from tests.helpers.path_samples import stiff
 
@@ -21,7 +20,7 @@ def lifted(seed, pairs, tilt=0.0):
     P = np.eye(2 * pairs) - R @ R.T / (R * R).sum()
     W = np.linalg.inv(np.eye(2 * pairs) + P @ S @ P)
     W = (W + W.T) / 2
-    return CoulombProblem.of(W=W, b=np.zeros(2 * pairs), friction=np.ones(pairs), motions=R, scale=1.0)
+    return ContactProblem.of(W=W, b=np.zeros(2 * pairs), friction=np.ones(pairs), motions=R, scale=1.0)
 
 
 def loads(seed, count, rows):
@@ -66,7 +65,7 @@ def in_space(problem, angles, across=0.3):
     turn, c, s = np.eye(3 * n), np.diag(np.cos(angles)), np.diag(np.sin(angles))
     turn[n:, n:] = np.block([[c, -s], [s, c]])
     W = turn @ W @ turn.T
-    return SpatialProblem.of(
+    return ContactProblem.of(
         W=(W + W.T) / 2,
         b=turn @ np.concatenate([problem.b, np.zeros(n)]),
         friction=problem.friction,
@@ -78,10 +77,10 @@ def in_space(problem, angles, across=0.3):
 @pytest.mark.parametrize("angle", [0.0, 0.7])
 def test_the_bound_of_one_pair_is_that_of_the_plane(angle):
     W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    node = CoulombProblem.of(W=W, b=W @ [-1.0, 2.5], friction=[3.0], motions=np.zeros((2, 0)), scale=1.0)
+    node = ContactProblem.of(W=W, b=W @ [-1.0, 2.5], friction=[3.0], motions=np.zeros((2, 0)), scale=1.0)
     turned = in_space(node, np.array([angle]))
     np.testing.assert_allclose(mu_low(turned), mu_low(node), rtol=1e-12)
-    found = sorted(y[0] for y in search_solutions(turned))
+    found = sorted(y[0, 0] for y in search_solutions(turned))
     np.testing.assert_allclose(found, [-1 / 6, 0.5, 1.0], atol=1e-9)
     below = replace(turned, friction=np.full(1, 0.99 * mu_low(turned)))
     assert len(search_solutions(below)) == 1
@@ -91,11 +90,11 @@ def test_tangents_may_be_turned_and_below_the_bound_searches_find_one_solution()
     rng = np.random.default_rng(5)
     for seed in range(4):
         W = np.linalg.inv(np.eye(6) + stiff(seed, 3))
-        plane = CoulombProblem.of(
+        plane = ContactProblem.of(
             W=(W + W.T) / 2, b=rng.normal(size=6), friction=np.ones(3), motions=np.zeros((6, 0)), scale=1
         )
         bounds = [mu_low(in_space(plane, angles)) for angles in (np.zeros(3), rng.uniform(0, 6, 3))]
         np.testing.assert_allclose(bounds[1], bounds[0], rtol=1e-10)
         problem = replace(in_space(plane, rng.uniform(0, 6, 3)), friction=np.full(3, 0.99 * bounds[0]))
         (found,) = search_solutions(problem)
-        np.testing.assert_allclose(found, solve_spatial(problem).y, atol=1e-9)
+        np.testing.assert_allclose(found, solve_contact(problem).y, atol=1e-9)

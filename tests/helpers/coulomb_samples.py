@@ -9,9 +9,9 @@ from hypothesis import given, settings
 
 from signorini.condense.basis import make_basis
 from signorini.condense.operator import InterfaceOperator
-from signorini.friction import CoulombProblem, certify
-from signorini.friction.cone import cone_system
-from signorini.friction.law import states
+from signorini.friction.certificate import certify
+from signorini.friction.newton import in_states, y_in_states
+from signorini.friction.problem import ContactProblem
 
 HELD = 0
 
@@ -28,7 +28,7 @@ def random_problem(seed, pairs, motions=HELD, friction=None):
     values = rng.uniform(0.05, 0.95, 2 * pairs)
     values[:motions] = 1.0
     W = (Q * values) @ Q.T
-    return CoulombProblem.of(
+    return ContactProblem.of(
         W=(W + W.T) / 2,
         b=rng.normal(size=2 * pairs),
         friction=rng.choice([0.0, 0.2, 0.7, 1.5, 3.0, np.inf], pairs) if friction is None else np.full(pairs, friction),
@@ -46,7 +46,7 @@ def block_on_floor(pairs, load, friction=0.3):
     Q, _ = np.linalg.qr(np.concatenate([R, rng.normal(size=(2 * pairs, 2 * pairs - 3))], axis=1))
     W = (Q * np.append(np.ones(3), np.linspace(0.1, 0.9, 2 * pairs - 3))) @ Q.T
     b = R @ np.linalg.solve(R.T @ R, np.array(load, dtype=float))
-    return CoulombProblem.of(W=(W + W.T) / 2, b=b, friction=np.full(pairs, friction), motions=R, scale=1.0)
+    return ContactProblem.of(W=(W + W.T) / 2, b=b, friction=np.full(pairs, friction), motions=R, scale=1.0)
 
 
 def with_stiffness(problem, factor):
@@ -58,24 +58,24 @@ def with_stiffness(problem, factor):
     leaning = basis.project(A)
     few = InterfaceOperator.of_compliance(A, motions, basis.R)
     resultant = basis.coefficients(image.motions.T @ problem.b)
-    b = few.load(root * problem.free_motion(problem.b) - leaning @ resultant, resultant)
+    b = few.load(root * problem.free_motion() - leaning @ resultant, resultant)
     return dataclasses.replace(problem, image=few, b=b, scale=root * problem.scale)
 
 
 def all_solutions(problem):
     """Every regular solution, with its index: each of the 4^n states solved and tested."""
     found = []
-    choices = [(0, 1, 2, 3) if closed < 0 else (0, int(closed)) for closed in problem.closed]
+    choices = [(0, 1, 2, 3) if closed < 0 else (0, int(closed)) for closed in problem.law.closed]
     for state in itertools.product(*choices):
-        system = cone_system(problem, np.array(state))
+        system = in_states(problem, np.array(state))
         if not system.index:
             continue
-        y = system.solve(np.zeros(2 * problem.pairs))
-        if (states(y, problem.mu, problem.closed) == state).all() and certify(problem, y) < 1e-9:
+        y = y_in_states(system, np.zeros((2, problem.pairs)))
+        if (problem.law.states(y) == state).all() and certify(problem, y) < 1e-9:
             found.append((y, system.index))
     return found
 
 
 def answer(result):
-    """y = r - h of a result."""
-    return np.concatenate([result.normal_force - result.gap, result.tangential_force - result.slip])
+    """(d, n) y = r - h of a result."""
+    return result.y

@@ -5,14 +5,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.friction import CoulombProblem, solve_coulomb
 from signorini.friction.history.plane import follow, initial_state
+from signorini.friction.problem import ContactProblem
+from signorini.friction.solve import solve_contact
 
 
 def one_node(mu):
     """Stiffness 2 in both directions, coupling -1; returns the problem and the load of a force (f_n, f_t)."""
     W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    problem = CoulombProblem.of(W=W, b=np.zeros(2), friction=[mu], motions=np.zeros((2, 0)), scale=4.0)
+    problem = ContactProblem.of(W=W, b=np.zeros(2), friction=[mu], motions=np.zeros((2, 0)), scale=4.0)
     return problem, lambda f_n, f_t: W @ [f_n, f_t]
 
 
@@ -33,7 +34,7 @@ class EqualBodies:
         self.R = np.kron(np.eye(2), np.ones((n, 1)))
         W = np.eye(2 * n) - T + self.R @ self.R.T / n
         self.gap = np.append(x**2 / 2, np.zeros(n))
-        self.problem = CoulombProblem.of(
+        self.problem = ContactProblem.of(
             W=(W + W.T) / 2, b=np.zeros(2 * n), friction=np.full(n, mu), motions=self.R, scale=1.0
         )
 
@@ -82,7 +83,7 @@ class Springs:
         self.S = S
         self.gap = np.append(np.zeros(n) if gap is None else gap, np.zeros(n))
         W = np.linalg.inv(S + np.eye(2 * n))
-        self.problem = CoulombProblem.of(
+        self.problem = ContactProblem.of(
             W=(W + W.T) / 2, b=np.zeros(2 * n), friction=friction, motions=np.zeros((2 * n, 0)), scale=1.0
         )
 
@@ -122,7 +123,7 @@ def increments(problem, start, ends):
     n, travelled, states = problem.pairs, start.h[problem.pairs :], None
     for b in ends:
         origin = np.append(np.zeros(n), travelled)
-        result = solve_coulomb(replace(problem, b=b + problem.W @ origin - origin), states)
+        result = solve_contact(replace(problem, b=b + problem.W @ origin - origin), states)
         assert result.solved, result.message
         travelled, states = travelled + result.slip, result.state
     h = np.concatenate([result.gap, travelled])

@@ -3,8 +3,8 @@
 
 import numpy as np
 
-from benchmarks.spatial_problems import punch
-from signorini.friction.spatial import SpatialProblem, from_compliance
+from benchmarks.spatial_problems import from_compliance, punch
+from signorini.friction.problem import ContactProblem
 
 
 def random_problem(seed, pairs, friction, *, motions=0, facets=0, tresca=None):
@@ -14,10 +14,10 @@ def random_problem(seed, pairs, friction, *, motions=0, facets=0, tresca=None):
     values = rng.uniform(0.05, 0.95, 3 * pairs)
     values[:motions] = 1.0
     W = (Q * values) @ Q.T
-    return SpatialProblem.of(
+    return ContactProblem.of(
         W=(W + W.T) / 2,
         b=rng.normal(size=3 * pairs),
-        friction=np.broadcast_to(friction, (pairs, *np.shape(friction)[1:])).astype(float),
+        friction=np.broadcast_to(friction, (pairs, *np.shape(friction)[1:])).T.astype(float),
         motions=Q[:, :motions],
         scale=1.0,
         facets=facets,
@@ -44,7 +44,7 @@ def block_on_floor(load, friction, *, facets=0, side=3):
     Q, _ = np.linalg.qr(np.concatenate([R, rng.normal(size=(3 * n, 3 * n - 6))], axis=1))
     W = (Q * np.append(np.ones(6), np.linspace(0.1, 0.9, 3 * n - 6))) @ Q.T
     b = R @ np.linalg.solve(R.T @ R, np.asarray(load, dtype=float))
-    problem = SpatialProblem.of(
+    problem = ContactProblem.of(
         W=(W + W.T) / 2, b=b, friction=np.full(n, friction), motions=R, scale=1.0, facets=facets
     )
     return problem, R

@@ -4,7 +4,7 @@
 import numpy as np
 from hypothesis import strategies as st
 
-from signorini.friction.spatial.section import nearest
+from signorini.law.section import nearest_point
 from tests.helpers.coulomb_samples import for_all
 
 NUMBER = st.floats(-10, 10)
@@ -28,7 +28,7 @@ def support(a, facets, direction):
 )
 def test_the_projection_is_the_nearest_point_of_the_section(y, m, s, facets):
     y, a = np.array(y), np.array(m) * s
-    r = np.array(nearest(*y, *m, s, facets)[:2])
+    r = np.array(nearest_point(*y, *m, s, facets)[:2])
     size = max(1.0, *np.abs(y), *a)  # rounding of a point on a boundary so long
     for angle in np.linspace(0, 2 * np.pi, 17):
         direction = np.array([np.cos(angle), np.sin(angle)])
@@ -42,8 +42,8 @@ def test_the_projection_is_the_nearest_point_of_the_section(y, m, s, facets):
 def test_the_first_order_form_predicts_the_projection_of_a_point_near_by(y, m, seed):
     d = 1e-5 * np.random.default_rng(seed).normal(size=3)
     s = 1.0
-    r_1, r_2, left, *tau, kappa = nearest(*y, *m, s, 0)
-    *near, left_there, _, _, _ = nearest(y[0] + d[0], y[1] + d[1], *m, s + d[2], 0)
+    r_1, r_2, left, *tau, kappa = nearest_point(*y, *m, s, 0)
+    *near, left_there, _, _, _ = nearest_point(y[0] + d[0], y[1] + d[1], *m, s + d[2], 0)
     near = np.array(near)
     if left_there != left or left == 2:
         return

@@ -8,7 +8,7 @@ import pytest
 
 from benchmarks import lcp_contact
 from signorini import lcp
-from signorini.friction import solve_coulomb
+from signorini.friction.solve import solve_contact
 
 
 @pytest.fixture
@@ -51,7 +51,7 @@ def agreed(posed, method):
 
 def compared(law, p, p_t, gap, slip):
     """With the answer of the law's solver, in all four quantities; contact, gaps and slip all occur."""
-    result = solve_coulomb(law)
+    result = solve_contact(law)
     assert result.solved
     size = np.abs(law.b).max()
     closed = p > 1e-9 * size

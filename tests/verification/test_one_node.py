@@ -10,7 +10,9 @@ import itertools
 import numpy as np
 import pytest
 
-from signorini.friction import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, CoulombProblem, solve_coulomb
+from signorini.friction.problem import ContactProblem
+from signorini.friction.solve import solve_contact
+from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK
 
 K = np.array([[2.0, 1.0], [1.0, 2.0]])
 PRESSING = 1.0
@@ -21,7 +23,7 @@ def condensed(f_t, mu):
     B = np.array([[0.0, -1.0], [1.0, 0.0]])
     A = B @ np.linalg.inv(K + B.T @ B) @ B.T
     b = B @ np.linalg.inv(K + B.T @ B) @ np.array([f_t, PRESSING])
-    return CoulombProblem.of(W=A, b=b, friction=[mu], motions=np.zeros((2, 0)), scale=1.0)
+    return ContactProblem.of(W=A, b=b, friction=[mu], motions=np.zeros((2, 0)), scale=1.0)
 
 
 def solutions(f_t, mu):
@@ -56,7 +58,7 @@ def test_the_three_solutions_of_the_catalogue():
 def test_the_answer_is_a_solution(mu, f_t):
     known = solutions(f_t, mu)
     assert mu > 2 or len(known) == 1
-    result = solve_coulomb(condensed(f_t, mu))
+    result = solve_contact(condensed(f_t, mu))
     assert result.solved
     found = (result.gap[0], result.slip[0], result.normal_force[0], result.tangential_force[0])
     distances = [np.abs(np.subtract(found, solution[1:])).max() for solution in known]
@@ -66,12 +68,12 @@ def test_the_answer_is_a_solution(mu, f_t):
 
 @pytest.mark.parametrize("before", [OPEN, STICK, SLIP_MINUS])
 def test_the_previous_state_decides_among_several(before):
-    assert solve_coulomb(condensed(2.5, 3.0), np.array([before])).state.tolist() == [before]
+    assert solve_contact(condensed(2.5, 3.0), np.array([before])).state.tolist() == [before]
 
 
 def test_past_the_limit_load_only_open_is_left():
-    result = solve_coulomb(condensed(10.0 / 3.0, 3.0), np.array([STICK]))
+    result = solve_contact(condensed(10.0 / 3.0, 3.0), np.array([STICK]))
     np.testing.assert_allclose((result.slip[0], result.gap[0]), (17 / 9, 4 / 9), rtol=1e-12)
     # the catalogue's end of the jump, just past f_t = 3
-    result = solve_coulomb(condensed(3.0 + 1e-9, 3.0), np.array([STICK]))
+    result = solve_contact(condensed(3.0 + 1e-9, 3.0), np.array([STICK]))
     np.testing.assert_allclose((result.slip[0], result.gap[0]), (5 / 3, 1 / 3), rtol=1e-8)

@@ -12,7 +12,7 @@ import signorini as sg
 from signorini.engine.increments import free_load
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve
-from signorini.friction.spatial import solve_spatial
+from signorini.friction.solve import solve_contact
 from signorini.gallery.cubes import cube_on_block, cubes
 from signorini.model.conditions import Support
 from signorini.solution.state import LoadPoint
@@ -34,11 +34,11 @@ def condensed(model):
 def test_facets_approach_the_cone(upper):
     """Inside a polygon of 2m corners a force is at most ``2 sin(pi / 2m)`` of the bound away from the circle's."""
     law = condensed(cubes(4, upper))
-    exact = solve_spatial(law)
+    exact = solve_contact(law)
     bound = 0.3 * exact.normal_force.max()
     errors = []
     for facets in (4, 8, 16, 32, 64):
-        found = solve_spatial(replace(law, facets=facets))
+        found = solve_contact(replace(law, facets=facets))
         assert found.solved
         errors.append(np.linalg.norm(found.tangential_force - exact.tangential_force, axis=1).max() / bound)
     assert all(fine < coarse for coarse, fine in pairwise(errors)), errors

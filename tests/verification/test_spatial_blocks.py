@@ -10,9 +10,11 @@ import skfem
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from signorini.fem.boundary import Boundary
-from signorini.friction.spatial import STICK, SpatialProblem, solve_spatial, split
+from signorini.friction.problem import ContactProblem
+from signorini.friction.solve import solve_contact
 from signorini.interface.frames import frames
 from signorini.interface.mortar import mortar_coupling
+from signorini.law.states import STICK
 from tests.helpers.face_samples import rotation
 
 E, NU, PRESSURE, FRICTION = 2000.0, 0.3, 25.0, 0.5
@@ -100,7 +102,7 @@ def pressed(kinds, counts, traction, seed):
     A, moved = B @ T @ answer[:, :-1], B @ T @ answer[:, -1]
     W = root[:, None] * A * root
     h_0 = root * np.concatenate([gap, np.zeros(2 * pairs)])
-    problem = SpatialProblem.of(
+    problem = ContactProblem.of(
         W=(W + W.T) / 2,
         b=root * moved + h_0 - W @ h_0,
         friction=np.full(pairs, FRICTION),
@@ -109,7 +111,7 @@ def pressed(kinds, counts, traction, seed):
     )
 
     def displacement(result):
-        h, r = split(problem, result.y)
+        h, r = result.h.ravel(), result.r.ravel()
         springs = B.T @ (root * (r + h - h_0))
         return T @ np.linalg.solve(stiff, T.T @ (f + springs))
 
@@ -127,7 +129,7 @@ def pressed(kinds, counts, traction, seed):
 )
 def test_uniform_pressure_passes_between_meshes_that_do_not_match(kinds, counts):
     problem, coupling, root, (dofs, points, Q, displacement) = pressed(kinds, counts, np.array([0, 0, -PRESSURE]), 4)
-    result = solve_spatial(problem)
+    result = solve_contact(problem)
     assert result.solved
     n = problem.pairs
     np.testing.assert_allclose(result.normal_force * root[:n], PRESSURE * coupling.area, rtol=1e-9)
@@ -155,14 +157,14 @@ def test_friction_holds_the_upper_block_up_to_its_coefficient(drag, outcome):
     push = np.zeros(3 * n)
     share = drag * PRESSURE * coupling.area / root[:n]
     push[n : 2 * n], push[2 * n :] = np.cos(angle) * share, np.sin(angle) * share
-    loaded = SpatialProblem.of(
+    loaded = ContactProblem.of(
         W=problem.W,
         b=problem.b + problem.W @ push,
         friction=problem.friction,
         motions=problem.motions,
         scale=problem.scale,
     )
-    result = solve_spatial(loaded)
+    result = solve_contact(loaded)
     assert result.outcome == outcome
     if result.solved:
         assert (result.state == STICK).any()

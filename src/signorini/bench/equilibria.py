@@ -7,8 +7,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from signorini.arrays import Array
-from signorini.friction import CoulombProblem, mu_low
-from signorini.friction.several import FEW, all_solutions, countable, search_solutions
+from signorini.friction.problem import ContactProblem
+from signorini.friction.uniqueness import COUNTED_PAIRS, all_solutions, countable, mu_low, search_solutions
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,7 +31,8 @@ class Equilibria:
     def __str__(self) -> str:
         lines = [
             f"Certified steps with one solution: {self.unique} by the bound on friction, {self.single} as no other "
-            f"state of the pairs is in equilibrium (up to {FEW}), {self.alone} as far as a search tells; several: "
+            f"state of the pairs is in equilibrium (up to {COUNTED_PAIRS}), {self.alone} as far as a search tells; "
+            "several: "
             f"{len(self.several)}.",
             "",
             *(f"- {count} solutions: {name}" for count, name in self.several),
@@ -39,7 +40,7 @@ class Equilibria:
         return "\n".join(lines)
 
 
-def solutions(problem: CoulombProblem) -> list[Array] | None:
+def solutions(problem: ContactProblem) -> list[Array] | None:
     """All solutions y of few pairs, those that a search finds of more; None where only one can exist, by `mu_low`."""
     bound = mu_low(problem)
     if bound is not None and problem.mu.max(initial=0.0) < bound:
@@ -48,7 +49,7 @@ def solutions(problem: CoulombProblem) -> list[Array] | None:
 
 
 def equilibria(
-    steps: Sequence[tuple[str, CoulombProblem]], begin: Callable[[str, int, int], None] = lambda *_: None
+    steps: Sequence[tuple[str, ContactProblem]], begin: Callable[[str, int, int], None] = lambda *_: None
 ) -> Equilibria:
     """What is known of the solutions of steps that have one.
 

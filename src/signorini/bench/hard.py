@@ -14,10 +14,11 @@ import numpy as np
 
 from signorini import lcp
 from signorini.arrays import IntArray
-from signorini.friction import CoulombProblem, CoulombResult, solve_coulomb
 from signorini.friction.certificate import certify
-from signorini.friction.law import states
-from signorini.friction.newton import newton
+from signorini.friction.newton import by_states
+from signorini.friction.problem import ContactProblem
+from signorini.friction.result import ContactAnswer
+from signorini.friction.solve import solve_contact
 from signorini.gallery.hard import PROBLEMS, hard_problem
 
 METHODS = ("newton", "path open", "path press", "path among touching", "springs", "tree")
@@ -43,7 +44,7 @@ class HardReport:
     floating: dict[str, int]
     unanswered: tuple[str, ...]
     negative: int
-    certified: tuple[tuple[str, CoulombProblem], ...]
+    certified: tuple[tuple[str, ContactProblem], ...]
 
     def __str__(self) -> str:
         columns = ("steps", *METHODS, *PROOFS, *OTHER, *RIVALS)
@@ -56,12 +57,12 @@ class HardReport:
         return "\n".join(lines + [f"no answer: {name}" for name in self.unanswered])
 
 
-def newton_alone(problem: CoulombProblem, start: IntArray | None) -> bool:
+def newton_alone(problem: ContactProblem, start: IntArray | None) -> bool:
     """Whether plain Newton, from the states of the step before, certifies a step."""
-    return newton(problem, start).residual <= 1e-10
+    return by_states(problem, start).residual <= 1e-10
 
 
-def lemke_alone(problem: CoulombProblem, start: IntArray | None) -> bool:  # noqa: ARG001  # it has no use for a start
+def lemke_alone(problem: ContactProblem, start: IntArray | None) -> bool:  # noqa: ARG001  # it has no use for a start
     """Whether Lemke's method certifies a step, posed with three rows a pair in the gap-slip form.
 
     With S = W^-1 - I, F = W^-1 b and h = (gap, s_plus - s_minus)::
@@ -84,13 +85,13 @@ def lemke_alone(problem: CoulombProblem, start: IntArray | None) -> bool:  # noq
     if z is None:
         return False
     h = np.concatenate([z[:n], z[n : 2 * n] - z[2 * n :]])
-    y = S @ h - F - h
+    y = problem.by_pair(S @ h - F - h)
     if certify(problem, y) <= 1e-10:
         return True
-    return newton(problem, states(y, problem.mu, problem.closed), near=y, limit=1).residual <= 1e-10
+    return by_states(problem, problem.law.states(y), near=y, limit=1).residual <= 1e-10
 
 
-RIVALS: dict[str, Callable[[CoulombProblem, IntArray | None], bool]] = {
+RIVALS: dict[str, Callable[[ContactProblem, IntArray | None], bool]] = {
     "Newton alone": newton_alone,
     "Lemke alone": lemke_alone,
 }
@@ -125,7 +126,7 @@ def hard(
         slipped, start = np.zeros(problem.first.pairs), None
         for k in range(len(problem.loads)):
             step = problem.step(k, slipped)
-            result = solve_coulomb(step, start)
+            result = solve_contact(step, start)
             tally = counts[step.floating]
             tally["steps"] += 1
             tally[_answer(result)] += 1
@@ -147,7 +148,7 @@ def hard(
     )
 
 
-def _answer(result: CoulombResult) -> str:
+def _answer(result: ContactAnswer) -> str:
     if result.solved:
         return result.method
     if result.outcome == "no_equilibrium":

@@ -14,9 +14,9 @@ from signorini.engine.free_motion_check import left_out, refuse_free_motions
 from signorini.engine.increments import advance
 from signorini.engine.prepare import Prepared
 from signorini.errors import InputError
-from signorini.friction.law import OPEN
 from signorini.interface.frames import along_tangents
 from signorini.interface.interface import pairs_of
+from signorini.law.states import OPEN
 from signorini.model.contact import ratios
 from signorini.model.stage import Stage
 from signorini.solution.certificate import Certificate

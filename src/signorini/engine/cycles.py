@@ -9,7 +9,7 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.engine.step_parts import FollowedPart
-from signorini.friction.law import OPEN
+from signorini.law.states import OPEN
 from signorini.solution.results import Cycle
 from signorini.solution.scale import Scale
 from signorini.solution.state import State

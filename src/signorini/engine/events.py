@@ -25,7 +25,7 @@ from signorini.engine.path_states import (
 from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, joined, keep
 from signorini.errors import SolveFailed, told
 from signorini.friction.history.plane import Landing, PathState, Segment
-from signorini.friction.spatial import StopSettings
+from signorini.friction.history.space import StopSettings
 from signorini.outcome import Outcome
 from signorini.solution.results import PairEvent
 from signorini.solution.state import State

@@ -17,7 +17,7 @@ from signorini.fem.rigid import describe_approach
 from signorini.friction.answer import PULLED_AWAY
 from signorini.friction.approach import approach
 from signorini.friction.history.plane import Segment
-from signorini.friction.law import OPEN
+from signorini.law.states import OPEN
 from signorini.outcome import Outcome
 from signorini.solution.state import State, next_state
 
@@ -61,11 +61,11 @@ def approached(part: StepPart) -> FollowedPart | None:
     basis = basis @ _alike(prepared, floating @ basis)
     if np.abs(basis.T @ work).max(initial=0.0) <= enough:
         return None
-    grips = interface.adhesion[apart, None] > 0.0
+    grips = interface.adhesion[apart] > 0.0
     found = approach(
         moved[interface.rows(apart)] @ basis,
         np.maximum(state.gap[apart], 0.0),
-        np.where(grips, np.inf, interface.coefficients[apart]),
+        np.where(grips, np.inf, interface.coefficients[apart].T),
         basis.T @ work,
         width=width,
     )

@@ -15,7 +15,7 @@ from signorini.engine.solver import Increment, IncrementAnswer
 from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, keep
 from signorini.errors import SolveFailed, told
 from signorini.fem.rigid import describe_motion
-from signorini.friction.law import OPEN, STICK
+from signorini.law.states import OPEN, STICK
 from signorini.linalg import NotPositiveDefinite
 from signorini.outcome import Outcome
 from signorini.solution.certificate import Certificate, certify

@@ -11,7 +11,6 @@ from signorini.engine.path_states import right_hand_side
 from signorini.engine.step_parts import StepPart, reached
 from signorini.errors import SolveFailed, told
 from signorini.friction.space.overload import overload
-from signorini.friction.spatial import SpatialProblem
 from signorini.outcome import Outcome
 
 _WORDS = "forces in the friction cones of all pairs cannot balance more load, however they are shared"
@@ -28,7 +27,7 @@ def known(stop: SolveFailed, part: StepPart) -> SolveFailed:
     part : to which it came; what was followed of it is in ``stop.reached``
     """
     prepared, paths, interval = part.prepared, part.prepared.solver.paths, part.interval
-    if stop.status != Outcome.NOT_FOUND or paths is None or not isinstance(paths.law, SpatialProblem):
+    if stop.status != Outcome.NOT_FOUND or paths is None or paths.law.directions == 2:
         return stop
     followed = reached(stop)
     state = part.before if followed is None else followed.after

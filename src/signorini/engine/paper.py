@@ -15,8 +15,8 @@ from signorini.checks import number
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared, prepare
 from signorini.errors import InputError
-from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK
 from signorini.friction.paper import PaperProblem, paper_problem
+from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK
 from signorini.model.model import Model
 from signorini.solution.certificate import Certificate, certify
 from signorini.solution.state import LoadPoint, initial_state, next_state

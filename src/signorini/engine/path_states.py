@@ -12,8 +12,8 @@ from signorini.engine.energy import stored_energy
 from signorini.engine.increments import applied, free_load, moved_by_supports, settled
 from signorini.engine.prepare import Prepared
 from signorini.friction.history.plane import PathState
-from signorini.friction.law import OPEN, STICK
 from signorini.law.bound import plain
+from signorini.law.states import OPEN, STICK
 from signorini.solution.state import LoadPoint, State, next_state
 
 _SPENT = 1e-9  # of the friction bound: what a slipping pair may lack of it

@@ -18,7 +18,7 @@ from signorini.engine.step_parts import FollowedPart
 from signorini.engine.support_changes import support_forces
 from signorini.engine.validity_notes import step_notes
 from signorini.fem.obstacles import arm
-from signorini.friction.law import OPEN, STICK
+from signorini.law.states import OPEN, STICK
 from signorini.model.links import directions
 from signorini.model.stage import Stage
 from signorini.solution import results

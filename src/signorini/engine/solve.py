@@ -36,8 +36,8 @@ from signorini.engine.support_changes import at_the_end, handed_over, refuse_mov
 from signorini.engine.wellposed import assess
 from signorini.errors import InputError, Interrupted, SolveFailed
 from signorini.fem.supports import Constraints, make_constraints
-from signorini.friction.law import OPEN
 from signorini.interface.interface import pairs_of
+from signorini.law.states import OPEN
 from signorini.linalg import NotPositiveDefinite
 from signorini.linalg.threads import one_thread
 from signorini.model.model import Model

@@ -19,18 +19,9 @@ from signorini.clock import Clock
 from signorini.condense.condensed import Condensed
 from signorini.condense.ties import Ties
 from signorini.friction.history.plane import Landing, PathState, Segment, follow, initial_state, land
-from signorini.friction.problem import CoulombProblem
-from signorini.friction.result import CoulombResult
-from signorini.friction.solve import solve_coulomb
-from signorini.friction.spatial import (
-    SpatialProblem,
-    SpatialResult,
-    StopSettings,
-    at_rest,
-    follow_stopping,
-    land_spatial,
-    solve_spatial,
-)
+from signorini.friction.history.space import StopSettings, at_rest, follow_stopping, land_spatial
+from signorini.friction.problem import ContactProblem
+from signorini.friction.solve import solve_contact
 from signorini.interface.interface import Interface
 from signorini.outcome import Outcome
 from signorini.solution.discrete_model import DiscreteModel
@@ -40,8 +31,6 @@ from signorini.solution.state import State
 _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
 _REFINEMENTS = 2
 _LENGTH_PER_GAP = 1e-4  # of the largest gap or displacement: times the law's tolerance, 1e-10, a few roundings of it
-
-Law = CoulombProblem | SpatialProblem
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -55,7 +44,7 @@ class Increment:
     offset : (d n,) relative displacements of the pairs that f does not cause: gaps, supports, slips of the past, length
     state : before the increment
     last : the state an increment as long as this one before, where there is one
-    start : what a condensed law starts from: states (a,) in the plane, ``r - h`` (3 a,) in space; None: as the state is
+    start : what a condensed law starts from: states (a,) in the plane, ``r - h`` (3, a) in space; None: as the state is
     floating : whether contact alone holds a body
     clock : counts the seconds
     """
@@ -162,7 +151,7 @@ class CondensedSolver:
     """
 
     condensed: Condensed
-    law: Law
+    law: ContactProblem
 
     @staticmethod
     def of(condensed: Condensed, interface: Interface, scale: Scale) -> CondensedSolver:
@@ -174,9 +163,8 @@ class CondensedSolver:
         interface : the n pairs and their friction
         scale : sizes of the data
         """
-        kind = CoulombProblem if interface.directions == 2 else SpatialProblem
         data = _friction(condensed, interface)
-        law = kind(
+        law = ContactProblem(
             image=condensed.image, b=np.zeros(len(condensed.root)), scale=_size(condensed, interface, scale), **data
         )
         return CondensedSolver(condensed=condensed, law=law)
@@ -252,19 +240,19 @@ class CondensedSolver:
         rows, T, ties = condensed.active_rows, system.constraints.transform, condensed.ties
         forces, moved, free = np.zeros(len(offset)), np.zeros(len(offset)), np.zeros_like(f)
         residual, misfit, b, lost = f, offset[rows], np.zeros(len(rows)), 0.0
-        guided = np.concatenate([np.zeros(law.pairs, dtype=np.bool_), law.locked.T.ravel()])
+        guided = np.concatenate([np.zeros(law.pairs, dtype=np.bool_), law.locked.ravel()])
         start = self._start(increment.state) if increment.start is None else increment.start
         for _ in range(_REFINEMENTS + 1):
             with increment.clock.phase("complementarity"):
                 reduced = condensed.reduce(residual)
                 b = b + condensed.right_hand_side(reduced.load, misfit)
-                result = self._solve(b, start)
+                result = solve_contact(replace(law, b=b), start)
             if not result.solved:
                 break
             with increment.clock.phase("recovery"):
                 before = moved[rows], forces[rows]
-                forces[rows] = condensed.root * np.concatenate([result.normal_force, result.tangential_force.T.ravel()])
-                moved[rows] = np.concatenate([result.gap, result.slip.T.ravel()]) / condensed.root
+                forces[rows] = condensed.root * result.r.ravel()
+                moved[rows] = result.h.ravel() / condensed.root
                 free = free + condensed.displacement(reduced, moved[rows] - before[0], forces[rows] - before[1], misfit)
                 u = T @ free
                 forces[ties.rows] = 0.0
@@ -276,9 +264,9 @@ class CondensedSolver:
             lost = float(np.abs(misfit).max(initial=0.0))
             if max(np.abs(residual).max(initial=0.0) / scale.force, lost / scale.length) <= _BALANCED:
                 break
-            start = result.y if isinstance(result, SpatialResult) else result.state
+            start = result.state if law.piecewise_linear else result.y
         return IncrementAnswer(
-            outcome=Outcome(result.outcome),
+            outcome=result.outcome,
             message=result.message,
             forces=forces,
             moved=moved,
@@ -298,18 +286,11 @@ class CondensedSolver:
         condensed, rows = self.condensed, self.condensed.active_rows
         if not state.forces.any():
             return None
-        r = state.forces[rows] / condensed.root
-        if isinstance(self.law, CoulombProblem):
-            return self.law.bound.coded(state.status[condensed.active], r[: len(rows) // 2])
+        r, law = self.law.by_pair(state.forces[rows] / condensed.root), self.law
+        if law.piecewise_linear:
+            return law.pieces.coded(state.status[condensed.active], r[0])
         still = np.concatenate([state.gap, np.zeros_like(state.tangential)])[rows]
-        start: Array = r - condensed.root * still
-        return start
-
-    def _solve(self, b: Array, start: Array | IntArray | None) -> CoulombResult | SpatialResult:
-        law = replace(self.law, b=b)
-        if isinstance(law, SpatialProblem):
-            return solve_spatial(law, None if start is None else np.asarray(start, dtype=np.float64))
-        return solve_coulomb(law, None if start is None else np.asarray(start, dtype=np.int64))
+        return r - law.by_pair(condensed.root * still)
 
     def pressed(self, b: Array, h: Array) -> PathState:
         """The state in which overlaps of bodies press that nothing has moved yet.
@@ -318,7 +299,7 @@ class CondensedSolver:
         ----------
         b, h : (d a,) load of the law, and the motions of the pairs before
         """
-        if isinstance(self.law, SpatialProblem):
+        if self.law.directions == 3:
             return at_rest(self.law, b, motion=h)
         return initial_state(self.law, b)
 
@@ -332,7 +313,7 @@ class CondensedSolver:
         stops : how increments are chosen in space; None: event by event
         tell : is called in space with the part that is behind
         """
-        if isinstance(self.law, SpatialProblem):
+        if self.law.directions == 3:
             return follow_stopping(self.law, start, b, settings=stops, tell=tell)
         return follow(self.law, start, b)
 
@@ -345,7 +326,7 @@ class CondensedSolver:
         segment : as far as it was followed
         stops : as of `follow`
         """
-        if isinstance(self.law, SpatialProblem):
+        if self.law.directions == 3:
             return land_spatial(self.law, start, segment, settings=stops)
         return land(self.law, start, segment)
 
@@ -361,7 +342,7 @@ def _friction(condensed: Condensed, interface: Interface) -> dict[str, Any]:
     }
     if interface.directions == 2:
         return {"friction": interface.friction[active], **bounds}
-    return {"friction": interface.coefficients[active], "facets": interface.facets[active], **bounds}
+    return {"friction": interface.coefficients[active].T, "facets": interface.facets[active], **bounds}
 
 
 def _size(condensed: Condensed, interface: Interface, scale: Scale) -> float:

@@ -13,17 +13,12 @@ from signorini.engine.path_states import right_hand_side
 from signorini.engine.prepare import Prepared
 from signorini.engine.report import contacts_of
 from signorini.errors import SolveFailed
-from signorini.friction.law import states
-from signorini.friction.problem import CoulombProblem
-from signorini.friction.several import all_solutions, always_unique, countable, search_solutions
-from signorini.friction.spatial import SpatialProblem, several
-from signorini.friction.uniqueness import mu_low
+from signorini.friction.problem import ContactProblem
+from signorini.friction.uniqueness import all_solutions, always_unique, countable, mu_low, search_solutions
 from signorini.law.bound import STEEP
 from signorini.solution.results import ContactResult
 from signorini.solution.state import State
 from signorini.solution.wellposedness import WellPosedness
-
-Law = CoulombProblem | SpatialProblem
 
 
 def assess(prepared: Prepared, state: State | None = None) -> WellPosedness:
@@ -44,15 +39,14 @@ def assess(prepared: Prepared, state: State | None = None) -> WellPosedness:
     if prepared.limited:  # other loads, and other solutions, may close pairs that are far apart
         prepared = replace(prepared.widened(), absent=prepared.absent)
     law = prepared.paths.law
-    held = law.locked if isinstance(law, CoulombProblem) else law.locked.all(axis=1)
-    slope = float(law.bound.slopes[0][~held].max(initial=0.0))
+    slope = float(law.mu[~law.locked.all(axis=0)].max(initial=0.0))
     friction, bound = np.inf if slope >= STEEP else slope, mu_low(law)
     if bound is not None and friction < bound:
         words = _unique(friction, bound, law.floating)
         return WellPosedness(friction=friction, bound=bound, verdict="unique", words=words)
-    few = isinstance(law, CoulombProblem) and countable(law)
+    few = countable(law)
     proved = few and not law.floating
-    if isinstance(law, CoulombProblem) and proved and always_unique(law):
+    if proved and always_unique(law):
         words = f"the states of all {law.pairs} pairs, tried one by one, prove one solution for every load and history"
         return WellPosedness(friction=friction, bound=bound, verdict="unique", words=words)
     above = _above(friction, bound)
@@ -86,7 +80,7 @@ def _above(friction: float, bound: float | None) -> str:
     return f"{said} is above {bound:.4g}, up to which uniqueness is proved"
 
 
-def _others(prepared: Prepared, law: Law, state: State) -> tuple[tuple[ContactResult, ...], ...]:
+def _others(prepared: Prepared, law: ContactProblem, state: State) -> tuple[tuple[ContactResult, ...], ...]:
     """The contacts in other equilibria than the state itself, each solved for and certified like any increment."""
     size = prepared.scale.force
     results: list[tuple[ContactResult, ...]] = []
@@ -105,14 +99,12 @@ def _others(prepared: Prepared, law: Law, state: State) -> tuple[tuple[ContactRe
     return tuple(results)
 
 
-def _starts(problem: Law) -> list[Array | IntArray]:
+def _starts(problem: ContactProblem) -> list[Array | IntArray]:
     """What leads the law's solver to every solution that was found: states, in space y itself."""
-    if isinstance(problem, SpatialProblem):
-        return list(several.search_solutions(problem))
     found = all_solutions(problem) if countable(problem) else search_solutions(problem)
-    return [states(y, problem.bound, problem.closed) for y in found]
+    return [problem.law.states(y) for y in found] if problem.piecewise_linear else list(found)
 
 
-def _posed(prepared: Prepared, law: Law, state: State) -> Law:
+def _posed(prepared: Prepared, law: ContactProblem, state: State) -> ContactProblem:
     """The law at the loads of a state, slips counted from where it stands."""
     return replace(law, b=right_hand_side(prepared, state.point, state.tangential))

@@ -3,16 +3,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from signorini.arrays import Array, IntArray, frozen
+from signorini.arrays import frozen
 from signorini.attempt import MethodRun
 from signorini.errors import told
 from signorini.friction.candidate import Candidate
-from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, UNDECIDED, split, states
-from signorini.friction.problem import CoulombProblem
-from signorini.friction.result import CoulombResult, Outcome
+from signorini.friction.problem import ContactProblem
+from signorini.friction.result import ContactAnswer
 from signorini.law.bound import STEEP, plain
+from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
+from signorini.outcome import Outcome
+
+_NAMED_RUNS = 3  # that a message lists of many
 
 UNDETERMINED = (
     "; the state leaves a motion or a force undetermined (nothing resists a motion along the contact, or one pair"
@@ -49,68 +54,84 @@ def nothing_found(ends: str, *, escapes: bool) -> str:
     return told(f"{_LOST}: every method ended without a solution", remedy=remedy, evidence=ends)
 
 
-def solved(problem: CoulombProblem, found: Candidate, trace: tuple[MethodRun, ...]) -> CoulombResult:
-    """A certified candidate as a result."""
-    n, y = problem.pairs, found.y
-    h, r = split(y, problem.bound)
-    coded = states(y, problem.bound, problem.closed)
-    state = plain(coded)
-    frictionless = (state != OPEN) & (problem.mu == 0)
-    state = np.where(frictionless & (h[n:] > 0), SLIP_MINUS, np.where(frictionless, SLIP_PLUS, state))
-    return CoulombResult(
-        outcome="solved",
-        gap=frozen(h[:n]),
-        slip=frozen(h[n:]),
-        normal_force=frozen(r[:n]),
-        tangential_force=frozen(r[n:]),
-        state=frozen(state, dtype=np.int64),
-        trace=trace,
-        residual=found.residual,
-        index=found.index,
-        message=_how(problem, found, coded, trace),
-    )
-
-
-def _how(problem: CoulombProblem, found: Candidate, state: IntArray, trace: tuple[MethodRun, ...]) -> str:
-    if not trace:
-        return "no pairs, nothing to solve"
-    words = f"solved by {trace[-1].method}, {trace[-1].iterations} steps"
-    if not found.index:
+def solved(problem: ContactProblem, tried: Sequence[Candidate]) -> ContactAnswer:
+    """The last candidate tried, a certified one, as an answer."""
+    found = tried[-1]
+    h, r = problem.law.split(found.y)
+    state = plain(problem.law.states(found.y))
+    if problem.directions == 2:
+        frictionless = (state != OPEN) & (problem.mu == 0)
+        state = np.where(frictionless & (h[1] > 0), SLIP_MINUS, np.where(frictionless, SLIP_PLUS, state))
+    words = f"solved by {found.attempt.method}, {found.attempt.iterations} steps"
+    if found.index == 0:
         words += UNDETERMINED
-    if found.index < 0 and not problem.floating:
+    if found.index == -1 and not problem.floating:
         words += SEVERAL
-    steep = problem.bound.slopes[0] >= STEEP
-    verge = np.flatnonzero(steep & np.isin(state, (SLIP_PLUS, SLIP_MINUS)))
+    verge = np.flatnonzero((state > STICK) & (problem.bound.tangent(r[0])[0] >= STEEP))
     if len(verge):
         words += VERGE.format(pairs=", ".join(map(str, verge)))
-    return words
+    return ContactAnswer(
+        outcome=Outcome.SOLVED,
+        h=frozen(h),
+        r=frozen(r),
+        state=frozen(state, dtype=np.int64),
+        trace=_trace(tried),
+        residual=found.residual,
+        index=found.index,
+        message=words,
+    )
 
 
-def impossible(problem: CoulombProblem, found: Candidate, trace: tuple[MethodRun, ...]) -> CoulombResult:
-    """A proof that there is no equilibrium as a result."""
+def nothing_to_solve(problem: ContactProblem) -> ContactAnswer:
+    """The solution of a problem without pairs."""
+    none = frozen(np.zeros((problem.directions, 0)))
+    state = frozen(np.zeros(0), dtype=np.int64)
+    return ContactAnswer(
+        outcome=Outcome.SOLVED,
+        h=none,
+        r=none,
+        state=state,
+        trace=(),
+        residual=0.0,
+        index=1,
+        message="no pairs, nothing to solve",
+    )
+
+
+def impossible(problem: ContactProblem, tried: Sequence[Candidate]) -> ContactAnswer:
+    """A proof that there is no equilibrium, of the last candidate tried, as an answer."""
+    found = tried[-1]
     message = (PULLED_AWAY if found.proof == "rigid motion" else TREE).format(margin=found.margin)
-    return _unsolved(problem, "no_equilibrium", trace, found.escape, message)
+    return _unsolved(problem, Outcome.NO_EQUILIBRIUM, tried, message)
 
 
-def not_found(problem: CoulombProblem, escape: Array | None, trace: tuple[MethodRun, ...]) -> CoulombResult:
+def not_found(problem: ContactProblem, tried: Sequence[Candidate]) -> ContactAnswer:
     """Neither solution nor proof."""
-    ends = "; ".join(f"{a.method}: {a.end}" for a in trace)
-    return _unsolved(problem, "not_found", trace, escape, nothing_found(ends, escapes=escape is not None))
+    ends = [f"{run.method}: {run.end}" for run in _trace(tried)]
+    if not problem.piecewise_linear:  # rounds come in dozens
+        ends = [*ends[:_NAMED_RUNS], f"least residual {_least(tried):.1e}"]
+    escapes = any(found.escape is not None for found in tried)
+    return _unsolved(problem, Outcome.NOT_FOUND, tried, nothing_found("; ".join(ends), escapes=escapes))
 
 
-def _unsolved(
-    problem: CoulombProblem, outcome: Outcome, trace: tuple[MethodRun, ...], escape: Array | None, message: str
-) -> CoulombResult:
-    nothing = frozen(np.full(problem.pairs, np.nan))
-    return CoulombResult(
+def _unsolved(problem: ContactProblem, outcome: Outcome, tried: Sequence[Candidate], message: str) -> ContactAnswer:
+    nothing = frozen(np.full((problem.directions, problem.pairs), np.nan))
+    escapes = [found.escape for found in tried if found.escape is not None]
+    return ContactAnswer(
         outcome=outcome,
-        gap=nothing,
-        slip=nothing,
-        normal_force=nothing,
-        tangential_force=nothing,
+        h=nothing,
+        r=nothing,
         state=frozen(np.full(problem.pairs, UNDECIDED), dtype=np.int64),
-        trace=trace,
-        residual=np.inf,
-        escape=None if escape is None else frozen(escape),
+        trace=_trace(tried),
+        residual=_least(tried),
+        escape=frozen(escapes[-1]) if escapes else None,
         message=message,
     )
+
+
+def _trace(tried: Sequence[Candidate]) -> tuple[MethodRun, ...]:
+    return tuple(found.attempt for found in tried)
+
+
+def _least(tried: Sequence[Candidate]) -> float:
+    return min(found.residual for found in tried)

@@ -18,14 +18,12 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.condense.operator import InterfaceOperator
-from signorini.friction.law import OPEN, STICK
-from signorini.friction.problem import CoulombProblem
+from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import unresisted
-from signorini.friction.result import CoulombResult
-from signorini.friction.solve import solve_coulomb
-from signorini.friction.spatial import SpatialProblem, SpatialResult, solve_spatial
-from signorini.friction.spatial.rigid import unresisted as unresisted_in_space
+from signorini.friction.solve import solve_contact
 from signorini.law.bound import STICKY
+from signorini.law.section import FrictionSection
+from signorini.law.states import OPEN, STICK
 
 _PIECES = 200  # most of an approach
 _SOFT = 1e-6  # of the motion of a pair under a force on it: its own compliance, which shares forces among many pairs
@@ -60,7 +58,7 @@ def approach(P: Array, gap: Array, friction: Array, load: Array, *, width: float
     ----------
     P : (d n, k) motions of the pairs, normals first: of k motions that the fluid resists alike, each on its own
     gap : (n,) not negative
-    friction : (n, d - 1) along the tangents; infinite where touching pairs stick
+    friction : (d - 1, n) along the tangents; infinite where touching pairs stick
     load : (k,) work of the load along each motion
     width : largest gap of pairs that touch
 
@@ -98,26 +96,24 @@ def approach(P: Array, gap: Array, friction: Array, load: Array, *, width: float
 
 def _escape(P: Array, friction: Array, load: Array, v: Array) -> Array | None:
     """(k,) A motion along which the load works and which no pair resists: v, or another; None where none is known."""
-    n, mu = len(friction), np.minimum(friction, STICKY)
-    along = (mu.T.ravel() * (P[n:] @ v)).reshape(-1, n)
+    n, mu = friction.shape[1], np.minimum(friction, STICKY)
+    along = mu * (P[n:] @ v).reshape(-1, n)
     if (P[:n] @ v >= np.linalg.norm(along, axis=0) - _FALLS * np.linalg.norm(v)).all():
         return v
     return _unresisted(P, mu, load)
 
 
 def _unresisted(P: Array, mu: Array, load: Array) -> Array | None:
-    if mu.shape[1] == 1:
-        return unresisted(P, mu[:, 0], load)
-    return unresisted_in_space(P, mu, np.zeros(len(mu), dtype=np.int64), load)
+    return unresisted(P, FrictionSection(axes=mu, sides=np.zeros(mu.shape[1], dtype=np.int64)), load)
 
 
 def _velocity(P: Array, touching: BoolArray, friction: Array, load: Array) -> Array | None:
     """(k,) Velocity under a load of size 1, 0 where the touching pairs can bear it; None where none was found."""
-    d, still = friction.shape[1] + 1, np.zeros(len(load))
-    rows, mu = P[np.tile(touching, d)], friction[touching]
+    d, still = len(friction) + 1, np.zeros(len(load))
+    rows, mu = P[np.tile(touching, d)], friction[:, touching]
     if _unresisted(rows, np.minimum(mu, STICKY), load) is None:
         return still
-    if not len(mu):
+    if not touching.any():
         return load
     found = _forces(rows, mu, load)
     if found is None:
@@ -137,11 +133,5 @@ def _forces(rows: Array, friction: Array, load: Array) -> tuple[Array, IntArray]
     image = InterfaceOperator.of_compliance(compliance, none, none)
     b = image.load(rows @ load, np.zeros(0))
     scale = float(np.abs(b).max())
-    found: CoulombResult | SpatialResult
-    if friction.shape[1] == 1:
-        found = solve_coulomb(CoulombProblem(image=image, b=b, friction=friction[:, 0], scale=scale))
-    else:
-        found = solve_spatial(SpatialProblem(image=image, b=b, friction=friction, scale=scale))
-    if not found.solved:
-        return None
-    return np.concatenate([found.normal_force, found.tangential_force.T.ravel()]), found.state
+    found = solve_contact(ContactProblem(image=image, b=b, friction=friction, scale=scale))
+    return (found.r.ravel(), found.state) if found.solved else None

@@ -4,14 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, Self
 
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import MethodRun
-from signorini.friction.law import UNDECIDED
-from signorini.friction.problem import CoulombProblem
+from signorini.friction.problem import ContactProblem
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,36 +19,44 @@ class Candidate:
 
     Attributes
     ----------
-    y : (2n,) the last iterate
-    state : (n,) the states it leads to
+    y : (d, n) the last iterate, or the best
     residual : `certify` of y; infinite where the method has no candidate
-    index : sign of the determinant of the system that gave y, 0 where it is singular
     attempt : how it went
+    index : in the plane, sign of the determinant of the system that gave y, 0 where it is singular; None where unknown
     touched : (n,) pairs that were closed in some of the last states tried, or None
     proof : what proves that there is no equilibrium, or None
     margin : of the proof: of the load on rigid motions the share that nothing takes; of a tree what equilibrium lacks
         in the state that comes nearest to it, of the size of the data
-    escape : (2n,) motion along which the bodies run away, or None
+    escape : (d n,) motion along which the bodies run away, or None
     """
 
     y: Array
-    state: IntArray
     residual: float
-    index: int
     attempt: MethodRun
+    index: int | None = None
     touched: BoolArray | None = None
     proof: Literal["rigid motion", "tree"] | None = None
     margin: float = 0.0
     escape: Array | None = None
 
     @classmethod
-    def without(cls, problem: CoulombProblem, attempt: MethodRun) -> Candidate:
+    def without(cls, problem: ContactProblem, attempt: MethodRun) -> Self:
         """A method that ended without a candidate."""
-        n = problem.pairs
-        return cls(y=np.zeros(2 * n), state=np.full(n, UNDECIDED), residual=np.inf, index=0, attempt=attempt)
+        return cls(y=np.zeros((problem.directions, problem.pairs)), residual=np.inf, attempt=attempt)
 
-    @classmethod
-    def nothing(cls) -> Candidate:
-        """The solution of a problem without pairs."""
-        attempt = MethodRun(method="none", iterations=0, end="certified")
-        return cls(y=np.zeros(0), state=np.zeros(0, dtype=np.int64), residual=0.0, index=1, attempt=attempt)
+
+@dataclass(frozen=True, kw_only=True)
+class NewtonEnd(Candidate):
+    """Where Newton's method ended.
+
+    Attributes
+    ----------
+    force, rigid : (d, n) and (k,) forces and rigid motion of the iterate
+    state : in the plane by states, (n,) those that y leads to
+    converged : whether the law is obeyed to the tolerance, with the layer where there is one
+    """
+
+    force: Array
+    rigid: Array
+    state: IntArray | None = None
+    converged: bool

@@ -1,19 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether a candidate is a solution: the one test that every method's answer passes."""
+"""Whether a candidate is a solution: the one test that every method's answer passes, on the problem as posed."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.friction.law import split
-from signorini.friction.posed import PosedContact
-from signorini.friction.problem import CoulombProblem
+from signorini.friction.problem import ContactProblem
 
-_FARTHEST = 1e9  # times the data: motions beyond are a body that has left, not a solution
+_GONE = 1e9  # times the data: motions beyond are a body that has left, not a solution
 
 
-def certify(problem: CoulombProblem, y: Array, *, b: Array | None = None, origin: Array | None = None) -> float:
+def certify(problem: ContactProblem, y: Array, *, b: Array | None = None, origin: Array | None = None) -> float:
     """Largest violation of equilibrium by y, relative to the data; y obeys the law of friction as such (see `law`).
 
     The larger of ``max |b + W (h + r) - h| / scale`` and, for each rigid motion rho, ``|rho.(r + b)| / (scale sum
@@ -23,33 +21,26 @@ def certify(problem: CoulombProblem, y: Array, *, b: Array | None = None, origin
     Parameters
     ----------
     problem : the problem as posed
-    y : (2n,) candidate ``r - h``
-    b : (2n,) another load instead of the problem's
-    origin : (2n,) motion from which h is counted; b is the load of the whole motion then
+    y : (d, n) candidate ``r - h``
+    b : (d n,) another load instead of the problem's
+    origin : (d, n) motion from which h is counted; b is the load of the whole motion then
 
     Examples
     --------
-    >>> problem = CoulombProblem.of(
+    >>> problem = ContactProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.0]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
-    >>> certify(problem, np.array([2.0, 0.0])), certify(problem, np.array([0.0, 0.0]))
+    >>> certify(problem, np.array([[2.0], [0.0]])), certify(problem, np.zeros((2, 1)))
     (0.0, 1.0)
     """
     if not np.isfinite(y).all():
         return np.inf
-    h, r = split(y, problem.bound)
-    return imbalance(problem, h, r, b=b, origin=origin)
-
-
-def imbalance(
-    problem: PosedContact, h: Array, r: Array, *, b: Array | None = None, origin: Array | None = None
-) -> float:
-    """What motions h and forces r, (d n,) each, lack of equilibrium, relative to the data; see `certify`."""
+    h, r = problem.law.split(y)
     unit = problem.scale if problem.scale > 0 else 1.0
-    if np.abs(h).max(initial=0.0) > _FARTHEST * unit:
+    if np.abs(h).max(initial=0.0) > _GONE * unit:
         return np.inf
     load, whole = problem.b if b is None else b, h if origin is None else h + origin
     misfit = np.abs(problem.misfit(whole, r, load)).max(initial=0.0) / unit
     R = problem.image.R
-    resultants = np.abs(R.T @ (r + load)) / (unit * np.abs(R).sum(axis=0))
+    resultants = np.abs(R.T @ (r.ravel() + load)) / (unit * np.abs(R).sum(axis=0))
     return float(max(misfit, resultants.max(initial=0.0)))

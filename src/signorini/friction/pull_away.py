@@ -9,14 +9,17 @@ import numpy as np
 from scipy.optimize import linprog, nnls
 
 from signorini.arrays import Array
-from signorini.friction.problem import CoulombProblem
+from signorini.friction.problem import ContactProblem
 from signorini.law.bound import FrictionBound
+from signorini.law.section import FrictionSection
+
+_ROUNDS = 60  # of edges added to the least squares problem, which takes some ten
 
 GAIN = 1e-9
 """Size of the unresisted load, relative to scale, above which it counts."""
 
 
-STRONGEST = 1e6
+STRONGEST_FORCES = 1e6
 """Sum of the normal forces, of the size of the data, that a proof has to withstand: a motion that friction resists but
 for a rounding of 1e-16 would be resisted by forces without bound, and equilibria under larger ones are none that the
 solver would find."""
@@ -36,21 +39,27 @@ class Pull:
     share: float
 
 
-def pulled_away(problem: CoulombProblem, bound: FrictionBound | None = None) -> Pull | None:
+def pulled_away(problem: ContactProblem, bound: FrictionBound | None = None) -> Pull | None:
     """A rigid motion rho along which the load works more than forces can resist, or None where there is none.
 
-    Equilibrium needs forces of the pairs with ``R'(r + b) = 0``, and forces that friction allows, p >= 0 and ``|r_t| <=
-    F(p)``, do at least ``-sum max_p (F(p) |rho_t| - p rho_n)`` of work along rho. Where ``b.rho`` is larger, no state
-    of the pairs whatever is in equilibrium. In Coulomb's law that maximum is 0 for ``rho_n >= mu |rho_t|``, and
-    infinite for other rho. What rounding leaves of ``mu |rho_t| - rho_n`` counts with forces up to `STRONGEST`.
+    Equilibrium needs forces of the pairs with ``R'(r + b) = 0``. Those in the friction cones do no work against a rho
+    with ``rho_n >= |(mu_1 rho_1, mu_2 rho_2)|`` at every pair, mu the largest slope of the bound. Where ``b.rho > 0``
+    for such a rho no state of the pairs whatever is in equilibrium.
+
+    In the plane bounds of several branches tell more: p >= 0 and ``|r_t| <= F(p)`` do at least ``-sum max_p (F(p)
+    |rho_t| - p rho_n)`` of work along rho. In Coulomb's law that maximum is 0 for ``rho_n >= mu |rho_t|``, and infinite
+    for other rho. What rounding leaves of ``mu |rho_t| - rho_n`` counts with forces up to `STRONGEST_FORCES`.
+
+    None where nothing is proved, which includes pairs in Tresca's law: their friction knows no cone.
 
     Parameters
     ----------
-    bound : another bound of the friction than the problem's
+    problem : the problem
+    bound : another bound of the friction than the problem's, in the plane
 
     Examples
     --------
-    >>> problem = CoulombProblem.of(
+    >>> problem = ContactProblem.of(
     ...     W=np.eye(2), b=np.array([1.0, 0.0]), friction=[0.3], motions=np.eye(2), scale=1.0
     ... )
     >>> pull = pulled_away(problem)
@@ -58,55 +67,79 @@ def pulled_away(problem: CoulombProblem, bound: FrictionBound | None = None) -> 
     ([1.0, 0.0], 1.0)
     """
     R = problem.image.R
-    if not R.shape[1]:
+    if not R.shape[1] or problem.bounded.any():
         return None
     load = R.T @ problem.b / (problem.scale or 1.0)
-    if bound is None and problem.bound.branches == 1:
-        a = unresisted(R, problem.mu, load)
+    if bound is not None or (problem.piecewise_linear and problem.pieces.branches > 1):
+        a = _by_program(problem, load, bound or problem.pieces)
     else:
-        a = _by_program(problem, load, bound or problem.bound)
-    return None if a is None else pull_along(R, a, load)
-
-
-def pull_along(R: Array, a: Array, load: Array) -> Pull:
-    """The proof that coefficients a, (k,), of the motions R are, of a load (k,) on them."""
+        a = unresisted(R, FrictionSection(axes=problem.half_axes, sides=problem.section.sides), load)
+    if a is None:
+        return None
     rho, along = R @ a, float(load @ a)
     share = along / float(np.linalg.norm(load) * np.linalg.norm(a))
     return Pull(motion=np.asarray(rho / np.abs(rho).max(), dtype=np.float64), share=share)
 
 
-def unresisted(R: Array, mu: Array, load: Array) -> Array | None:
+def unresisted(R: Array, cones: FrictionSection, load: Array) -> Array | None:
     """The motion of the unresisted cone that a load favours, in Coulomb's law; None where friction can bear the load.
 
-    ``a`` is the projection of the load on the cone ``C a >= 0`` of unresisted motions; it vanishes exactly where there
-    is none (Moreau). By duality a nonnegative least squares problem, ``a = load + C'x, x >= 0``.
+    The motion sought is what of the load forces in the friction cones cannot take, ``a = load + R'r`` of least length:
+    the projection of the load on the cone of unresisted motions, which vanishes exactly where there is none (Moreau).
+    It is a nonnegative least squares problem in the edges of the cones, of which each round adds those that resist the
+    present motion most; those of an interval are known at once.
 
     Parameters
     ----------
-    R : (2n, k) motions of the pairs
-    mu : (n,) finite
+    R : (d n, k) motions of the pairs
+    cones : their sections at a normal force of 1, finite
     load : (k,) its work along each motion, relative to the data
 
     Examples
     --------
-    >>> unresisted(np.eye(2), np.array([0.5]), np.array([-1.0, 0.4])) is None
+    >>> floor = FrictionSection(axes=np.array([[0.5]]), sides=np.array([0]))
+    >>> unresisted(np.eye(2), floor, np.array([-1.0, 0.4])) is None
     True
     """
-    n = len(mu)
+    (m, n), most = cones.axes.shape, size_of(load)
     if not n:
         return load
-    normal, bound = R[:n], mu[:, None] * R[n:]
-    C = np.concatenate([normal - bound, normal + bound]) / np.sqrt(1.0 + np.tile(mu, 2) ** 2)[:, None]
-    try:
-        multipliers, _ = nnls(C.T, -load)
-    except RuntimeError:  # its iteration limit: nothing proved
-        return None
-    a: Array = load + C.T @ multipliers
-    size, most = float(np.linalg.norm(a)), size_of(load)
-    if size <= GAIN * np.sqrt(n) * most:
-        return None
-    resisted = -STRONGEST * most * float((C @ a).min(initial=0.0))
-    return a if load @ a > resisted + 0.5 * size**2 else None
+    rows = R.reshape(m + 1, n, -1)
+    starts = (cones.axes, -cones.axes) if m == 1 else (np.zeros((m, n)),)
+    edges = np.concatenate([work_of(unit_edges(share), rows) for share in starts])
+    for _ in range(_ROUNDS):
+        try:
+            multipliers, _ = nnls(edges.T, -load)
+        except RuntimeError:  # its iteration limit: nothing proved
+            return None
+        a: Array = load + edges.T @ multipliers
+        size = float(np.linalg.norm(a))
+        if size <= GAIN * np.sqrt(n) * most:
+            return None
+        strongest = work_of(strongest_edges(cones, R @ a), rows)
+        resisted = STRONGEST_FORCES * most * (strongest @ a) < -0.25 * size**2
+        if not resisted.any():
+            return a if load @ a > 0.75 * size**2 else None
+        if m == 1:
+            return None
+        edges = np.concatenate([edges[multipliers > 0], strongest[resisted]])
+    return None
+
+
+def strongest_edges(cones: FrictionSection, rho: Array) -> Array:
+    """(d, n) Edge of each pair's cone that works most against a motion (d n,), scaled to length 1."""
+    return unit_edges(cones.farthest(-rho.reshape(-1, len(cones.sides))[1:]))
+
+
+def unit_edges(share: Array) -> Array:
+    """(d, n) Forces of length 1 with tangential parts (d - 1, n) per normal force."""
+    edge = np.concatenate([np.ones((1, share.shape[1])), share])
+    return np.asarray(edge / np.linalg.norm(edge, axis=0))
+
+
+def work_of(forces: Array, rows: Array) -> Array:
+    """(n, k) Work of the forces of every pair, (d, n), along k motions, (d, n, k)."""
+    return np.asarray(np.einsum("in,ink->nk", forces, rows))
 
 
 def size_of(load: Array) -> float:
@@ -114,7 +147,7 @@ def size_of(load: Array) -> float:
     return max(1.0, float(np.linalg.norm(load)))
 
 
-def _by_program(problem: CoulombProblem, load: Array, bound: FrictionBound) -> Array | None:
+def _by_program(problem: ContactProblem, load: Array, bound: FrictionBound) -> Array | None:
     """The motion, entries up to 1, along which the load works most beyond what forces resist: a linear program.
 
     Its dual: of all admissible forces those that balance the load best. What they cannot balance is the work.
@@ -142,7 +175,7 @@ def _by_program(problem: CoulombProblem, load: Array, bound: FrictionBound) -> A
     if answer.status != 0 or answer.fun <= GAIN * np.sqrt(n) * size_of(load):
         return None
     a = -np.asarray(answer.eqlin.marginals)
-    resisted = _resisted(bound, R[:n] @ a, R[n:] @ a, unit, STRONGEST * size_of(load))
+    resisted = _resisted(bound, R[:n] @ a, R[n:] @ a, unit, STRONGEST_FORCES * size_of(load))
     return a if load @ a > resisted + 0.5 * answer.fun else None
 
 

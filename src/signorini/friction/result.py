@@ -1,70 +1,80 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the solver of the Coulomb problem answers, and how it got there."""
+"""What the solver of a contact problem answers, and how it got there."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 from signorini.arrays import Array, IntArray
 from signorini.attempt import MethodRun
-
-Outcome = Literal["solved", "no_equilibrium", "not_found"]
+from signorini.outcome import Outcome
 
 
 @dataclass(frozen=True, kw_only=True)
 class ContactAnswer:
-    """What the solvers of the plane and of the spatial problem answer alike, in the scaled units of the problem.
+    """The answer, in the scaled units of the problem.
 
     Attributes
     ----------
-    outcome : ``"solved"`` (certified), ``"no_equilibrium"`` (proved) or ``"not_found"``
-    gap, slip, normal_force, tangential_force : of the pairs; NaN unless solved
-    state : (n,) codes of :mod:`signorini.law.states`; UNDECIDED (-1) unless solved
+    outcome : SOLVED (certified), NO_EQUILIBRIUM (proved) or NOT_FOUND
+    h, r : (d, n) motions (gap >= 0, slip increments) and forces (normal >= 0 pressing, tangential on body 1) of the
+        pairs; NaN unless solved
+    state : (n,) OPEN, STICK, and SLIP_PLUS (in the plane: tangential force +mu p, slip <= 0) or SLIP_MINUS, in space
+        SLIP; UNDECIDED (-1) unless solved
     trace : the methods tried, in order
-    residual : largest violation of equilibrium and resultants relative to scale, see `certify`
-    escape : motion of the pairs, largest entry 1, along which the loads carry the bodies away, or None
-    message : the same in words
+    residual : largest violation of equilibrium and resultants relative to scale, see `certify`; the least that was
+        found where not solved
+    escape : (d n,) motion of the pairs, largest entry 1, along which the loads carry the bodies away, or None
+    index : in the plane, sign of the determinant in the state found (+1 or -1; -1 proves two more solutions); 0 where
+        the state leaves a motion or a force undetermined, None where it was not asked for
+    message : the answer in words
     """
 
     outcome: Outcome
-    gap: Array
-    slip: Array
-    normal_force: Array
-    tangential_force: Array
+    h: Array
+    r: Array
     state: IntArray
     trace: tuple[MethodRun, ...]
     residual: float
-    escape: Array | None = None
     message: str
+    escape: Array | None = None
+    index: int | None = None
 
     @property
     def solved(self) -> bool:
         """Whether a certified solution was found."""
-        return self.outcome == "solved"
+        return self.outcome is Outcome.SOLVED
 
     @property
     def method(self) -> str:
         """The method that gave the answer, ``"none"`` where nothing was tried."""
         return self.trace[-1].method if self.trace else "none"
 
+    @property
+    def y(self) -> Array:
+        """(d, n) ``r - h``, a start for the next load."""
+        return self.r - self.h
 
-@dataclass(frozen=True, kw_only=True)
-class CoulombResult(ContactAnswer):
-    """The answer, in the scaled units of the problem.
+    @property
+    def gap(self) -> Array:
+        """(n,) Gap."""
+        return self.h[0]
 
-    Attributes
-    ----------
-    outcome : ``"solved"`` (certified), ``"no_equilibrium"`` (proved) or ``"not_found"``
-    gap, slip : (n,) gap >= 0 and slip increment; NaN unless solved
-    normal_force, tangential_force : (n,) normal force >= 0 pressing, tangential force on body 1; NaN unless solved
-    state : (n,) OPEN, STICK, SLIP_PLUS (tangential force +mu p, slip <= 0), SLIP_MINUS; UNDECIDED (-1) unless solved
-    trace : the methods tried, in order
-    residual : largest violation of equilibrium and resultants relative to scale, see `certify`; infinite unless solved
-    escape : (2n,) motion of the pairs, largest entry 1, along which the loads carry the bodies away, or None
-    index : sign of the determinant in the state found (+1 or -1; -1 proves two more solutions); 0 where the state
-        leaves a motion or a force undetermined, None unless solved
-    message : the same in words
-    """
+    @property
+    def slip(self) -> Array:
+        """(n,) Slip increment; in space (n, 2)."""
+        return _columns(self.h)
 
-    index: int | None = None
+    @property
+    def normal_force(self) -> Array:
+        """(n,) Normal force."""
+        return self.r[0]
+
+    @property
+    def tangential_force(self) -> Array:
+        """(n,) Tangential force; in space (n, 2)."""
+        return _columns(self.r)
+
+
+def _columns(rows: Array) -> Array:
+    return rows[1] if len(rows) == 2 else rows[1:].T

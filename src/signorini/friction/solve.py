@@ -1,71 +1,86 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Solve the condensed Coulomb problem: the methods in their order.
+"""Solve a condensed contact problem with friction: the methods in their order.
 
-1. Newton from the previous states (see `newton`), then from every pair sticking. Nearly always enough.
-2. Floating bodies: proof that the loads pull them away (see `rigid`).
-3. Paths (see `path`); of many pairs first among those that Newton found touching (see `release`); then of all, with a
-   budget of 10 pivots a pair, then of 100. Held bodies: open, then press; one of them
-   ends in a solution. Floating bodies: press, then "open" with springs of falling stiffness at every pair.
-4. Up to 25 pairs: proof or solution by a tree of linear programs (see `tree`).
+1. Newton from the previous solution, then from every pair sticking (see `newton`). Nearly always enough.
+2. Floating bodies: proof that the loads pull them away (see `pull_away`).
+3. Piecewise linear problems, those of the plane: covering paths (see `plane.covering`); of many pairs first among those
+   that Newton found touching (see `plane.restricted`); then of all, with a budget of 10 pivots a pair, then of 100.
+   Held bodies: open, then press; one of them ends in a solution. Floating bodies: press, then "open" with springs of
+   falling stiffness at every pair. Up to 25 pairs: proof or solution by a tree of linear programs (`plane.state_tree`).
+4. Others: sweeps and proximal Newton in rounds, then proximal Newton alone (see `space.proximal`); floating bodies are
+   held by ever weaker springs, to see along which motion they run away.
 
-Whatever a method finds is polished by Newton and certified (see `certify`) before it is believed. The order is fixed,
-and the previous states come first: where several solutions exist the history decides, not accident.
+Whatever a method finds is certified (see `certify`) before it is believed, in the plane polished by Newton first. The
+order is fixed, and the previous solution comes first: where several solutions exist the history decides, not accident.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import MethodRun
 from signorini.errors import InputError
-from signorini.friction.answer import impossible, not_found, solved
+from signorini.friction.answer import impossible, not_found, nothing_to_solve, solved
 from signorini.friction.candidate import Candidate
-from signorini.friction.law import OPEN, SLIP_MINUS, UNDECIDED, split
-from signorini.friction.newton import newton
+from signorini.friction.linear import Equilibrium
+from signorini.friction.newton import by_states, searched
 from signorini.friction.plane.covering import Covering, PathEnd, follow
-from signorini.friction.plane.restricted import released
+from signorini.friction.plane.restricted import restrict_to
 from signorini.friction.plane.state_tree import search
-from signorini.friction.problem import CoulombProblem
+from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import pulled_away
-from signorini.friction.result import CoulombResult
+from signorini.friction.result import ContactAnswer
+from signorini.friction.space.proximal import proximal_rounds, swept_rounds
+from signorini.law.states import OPEN, SLIP_MINUS, UNDECIDED
+
+_RUNAWAY_GROWTH = 10.0  # of motions between two stiffnesses of springs, a thousandth of each other
 
 
 @dataclass(frozen=True, kw_only=True)
-class CoulombSettings:
+class ContactSettings:
     """How long each method may try.
 
     Attributes
     ----------
     tolerance : of `certify`, relative to the data
-    newton_steps : most linear systems of one Newton run
+    newton_steps, searched_steps : most linear systems of one Newton run by states, and with a line search
     pivots_per_pair : most pivots of a path, in rounds
     springs : stiffness of the springs, falling, in units of the interface stiffness
     many_pairs : pairs from which a path is first followed among the pairs alone that Newton found touching
     tree_pairs, tree_programs : most pairs and most linear programs of the tree
+    swept_rounds, sweeps : most rounds of sweeps and proximal Newton, and sweeps of each
+    proximal_rounds : most rounds of proximal Newton alone
     """
 
     tolerance: float = 1e-10
     newton_steps: int = 200
+    searched_steps: int = 25
     pivots_per_pair: tuple[int, ...] = (10, 100)
     springs: tuple[float, ...] = (1e-3, 1e-6, 1e-9)
     many_pairs: int = 200
     tree_pairs: int = 25
     tree_programs: int = 2000
+    swept_rounds: int = 15
+    sweeps: int = 20
+    proximal_rounds: int = 50
 
 
-def solve_coulomb(
-    problem: CoulombProblem, start: IntArray | None = None, *, settings: CoulombSettings | None = None
-) -> CoulombResult:
-    """Solve ``G h - W r = b`` in Coulomb's law: a certified solution, a proof that there is none, or the escape motion.
+def solve_contact(
+    problem: ContactProblem, start: ArrayLike | None = None, *, settings: ContactSettings | None = None
+) -> ContactAnswer:
+    """Solve ``G h - W r = b`` in a law of friction: a certified solution, a proof that there is none, or an escape.
 
     Parameters
     ----------
     problem : the problem
-    start : (n,) states of the previous solution, or None to start with every pair sticking
+    start : (d, n) ``y`` of the previous solution, in the plane also its states (n,); None to start with every pair
+        sticking
     settings : how long each method may try
 
     Raises
@@ -75,116 +90,209 @@ def solve_coulomb(
 
     Examples
     --------
-    >>> problem = CoulombProblem.of(
+    >>> problem = ContactProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.5]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
-    >>> result = solve_coulomb(problem)
-    >>> result.outcome, result.normal_force.round(12).tolist(), result.tangential_force.round(12).tolist()
+    >>> answer = solve_contact(problem)
+    >>> answer.outcome, answer.normal_force.round(12).tolist(), answer.tangential_force.round(12).tolist()
     ('solved', [2.0], [-0.6])
+    >>> problem = ContactProblem.of(
+    ...     W=0.5 * np.eye(3), b=np.array([-1.0, 0.3, 0.4]), friction=[0.1], motions=np.zeros((3, 0)), scale=1.0
+    ... )
+    >>> answer = solve_contact(problem)
+    >>> answer.outcome, answer.r.round(12).tolist()
+    ('solved', [[2.0], [-0.12], [-0.16]])
     """
-    settings = settings or CoulombSettings()
-    _check_start(problem, start)
+    settings, first = settings or ContactSettings(), _checked(problem, start)
     if problem.pairs == 0:
-        return solved(problem, Candidate.nothing(), ())
-    trace: list[MethodRun] = []
-    escape: Array | None = None
-    for found in _candidates(problem, start, settings):
-        trace.append(found.attempt)
-        if found.residual <= settings.tolerance:
-            return solved(problem, found, tuple(trace))
-        escape = found.escape if found.escape is not None else escape
-        if found.proof is not None:
-            return impossible(problem, replace(found, escape=escape), tuple(trace))
-    return not_found(problem, escape, tuple(trace))
+        return nothing_to_solve(problem)
+    tried: list[Candidate] = []
+    for method in METHODS:
+        if method.piecewise_linear not in (None, problem.piecewise_linear):
+            continue
+        for found in method.run(Task(problem=problem, start=first, settings=settings, tried=tried)):
+            tried.append(found)
+            if found.residual <= settings.tolerance:
+                return solved(problem, tried)
+            if found.proof is not None:
+                return impossible(problem, tried)
+    return not_found(problem, tried)
 
 
-def _check_start(problem: CoulombProblem, start: IntArray | None) -> None:
+def _checked(problem: ContactProblem, start: ArrayLike | None) -> Array | IntArray | None:
     if start is None:
-        return
-    found = np.asarray(start)
-    last = SLIP_MINUS + 2 * (problem.bound.branches - 1)
-    if found.shape != (problem.pairs,) or not np.isin(found, range(UNDECIDED, last + 1)).all():
+        return None
+    found, shape = np.asarray(start), (problem.directions, problem.pairs)
+    if not problem.piecewise_linear or found.ndim == 2:
+        if found.shape != shape:
+            raise InputError(f"has shape {found.shape}; expected {shape}", where=("start",))
+        return problem.law.states(found) if problem.piecewise_linear else found
+    last = SLIP_MINUS + 2 * (problem.pieces.branches - 1)
+    fits = found.shape == (problem.pairs,) and found.dtype.kind in "iu"
+    if not fits or found.min(initial=last) < UNDECIDED or found.max(initial=UNDECIDED) > last:
         raise InputError(f"expected {problem.pairs} states between {UNDECIDED} and {last}", where=("start",))
+    return found.astype(np.int64)
 
 
-def _candidates(problem: CoulombProblem, start: IntArray | None, settings: CoulombSettings) -> Iterator[Candidate]:
-    """What the methods find, one after the other, each tried only when it is asked for."""
-    if start is not None:
-        yield newton(problem, start, limit=settings.newton_steps, tolerance=settings.tolerance)
-    plain = newton(problem, limit=settings.newton_steps, tolerance=settings.tolerance)
-    yield plain
-    if problem.floating:
-        yield _proof_by_rigid_motion(problem)
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Task:
+    """What a method is given.
+
+    Attributes
+    ----------
+    problem, settings : as of `solve_contact`
+    start : (n,) states in the plane, otherwise (d, n) y, of the previous solution
+    tried : what methods before it found
+    """
+
+    problem: ContactProblem
+    start: Array | IntArray | None
+    settings: ContactSettings
+    tried: Sequence[Candidate]
+
+    def polish(self, state: IntArray, *, near: Array | None = None) -> Candidate:
+        """A candidate made exact by Newton's method, from its states, (n,), or a y, (2, n)."""
+        steps, tolerance = self.settings.newton_steps, self.settings.tolerance
+        return by_states(self.problem, state, near=near, limit=steps, tolerance=tolerance)
+
+
+def _newton(task: Task) -> Iterator[Candidate]:
+    """From the start given, then from sticking."""
+    problem, settings = task.problem, task.settings
+    if problem.piecewise_linear:
+        for state in (None,) if task.start is None else (np.asarray(task.start, dtype=np.int64), None):
+            yield by_states(problem, state, limit=settings.newton_steps, tolerance=settings.tolerance)
+        return
+    laws = [] if task.start is None else [problem.law.tangent(np.asarray(task.start, dtype=np.float64))]
+    for law in (*laws, problem.law.sticking):
+        form = Equilibrium(problem=problem)
+        yield searched(form, law, limit=settings.searched_steps, tolerance=settings.tolerance)
+
+
+def _proof_by_rigid_motion(task: Task) -> Iterator[Candidate]:
+    if not task.problem.floating:
+        return
+    pull = pulled_away(task.problem)
+    end = "nothing proved" if pull is None else "pulled away"
+    found = Candidate.without(task.problem, MethodRun(method="rigid motions", iterations=1, end=end))
+    yield found if pull is None else replace(found, proof="rigid motion", margin=pull.share, escape=pull.motion)
+
+
+def _paths(task: Task) -> Iterator[Candidate]:
+    problem, settings = task.problem, task.settings
+    plain = next(found for found in reversed(task.tried) if found.touched is not None)
     if plain.touched is not None and 2 * np.count_nonzero(plain.touched) < problem.pairs >= settings.many_pairs:
-        yield _among_touched(problem, plain.touched, settings)
+        yield _among_touched(task, plain.touched)
     for round_, per_pair in enumerate(settings.pivots_per_pair):
         budget = per_pair * max(problem.pairs, 5)
         if not problem.floating:
-            yield _along_path(problem, "open", budget, round_, settings)
-        yield _along_path(problem, "press", budget, round_, settings)
+            yield _along_path(task, "open", budget, round_)
+        yield _along_path(task, "press", budget, round_)
         if problem.floating:
-            yield from _with_springs(problem, budget, round_, settings)
-    if problem.pairs <= settings.tree_pairs:
-        yield _in_tree(problem, settings)
+            yield from _with_springs(task, budget, round_)
 
 
-def _proof_by_rigid_motion(problem: CoulombProblem) -> Candidate:
-    pull = pulled_away(problem)
-    if pull is None:
-        return Candidate.without(problem, MethodRun(method="rigid motions", iterations=1, end="nothing proved"))
-    attempt = MethodRun(method="rigid motions", iterations=1, end="pulled away")
-    return replace(Candidate.without(problem, attempt), proof="rigid motion", margin=pull.share, escape=pull.motion)
-
-
-def _among_touched(problem: CoulombProblem, touched: BoolArray, settings: CoulombSettings) -> Candidate:
+def _among_touched(task: Task, touched: BoolArray) -> Candidate:
     """The end of a path of the touching pairs alone, made exact with all pairs."""
-    few = released(problem, touched)
+    problem = task.problem
+    few = restrict_to(problem, touched)
     if few is None:
         attempt = MethodRun(method="path among touching", iterations=0, end="touching pairs do not hold the bodies")
         return Candidate.without(problem, attempt)
-    budget = settings.pivots_per_pair[0] * max(few.pairs, 5)
+    budget = task.settings.pivots_per_pair[0] * max(few.pairs, 5)
     path = follow(few, "press" if problem.floating else "open", budget=budget)
     state = np.full(problem.pairs, OPEN)
     state[touched] = path.state
-    exact = newton(problem, state, limit=settings.newton_steps, tolerance=settings.tolerance)
-    return replace(exact, attempt=MethodRun(method="path among touching", iterations=path.pivots, end=path.end))
+    attempt = MethodRun(method="path among touching", iterations=path.pivots, end=path.end)
+    return replace(task.polish(state), attempt=attempt)
 
 
-def _along_path(
-    problem: CoulombProblem, covering: Covering, budget: int, seed: int, settings: CoulombSettings
-) -> Candidate:
-    path = follow(problem, covering, budget=budget, seed=seed)
-    return _polished(problem, path, f"path {covering}", settings)
+def _along_path(task: Task, covering: Covering, budget: int, seed: int) -> Candidate:
+    path = follow(task.problem, covering, budget=budget, seed=seed)
+    return _at_the_end(task, path, f"path {covering}")
 
 
-def _polished(problem: CoulombProblem, path: PathEnd, method: str, settings: CoulombSettings) -> Candidate:
+def _at_the_end(task: Task, path: PathEnd, method: str) -> Candidate:
     """The end of a path made exact on the problem as posed: no perturbation, no springs."""
     attempt = MethodRun(method=method, iterations=path.pivots, end=path.end)
     if path.end == "singular":
-        return Candidate.without(problem, attempt)
-    near = None if path.end == "ray" else path.y
-    exact = newton(problem, path.state, near=near, limit=settings.newton_steps, tolerance=settings.tolerance)
-    return replace(exact, attempt=attempt)
+        return Candidate.without(task.problem, attempt)
+    return replace(task.polish(path.state, near=None if path.end == "ray" else path.y), attempt=attempt)
 
 
-def _with_springs(problem: CoulombProblem, budget: int, seed: int, settings: CoulombSettings) -> Iterator[Candidate]:
+def _with_springs(task: Task, budget: int, seed: int) -> Iterator[Candidate]:
     """Held by springs a path always ends; in an answer that stays as the springs weaken, or in one that runs away."""
-    before = np.inf
-    for springs in settings.springs:
+    problem, before = task.problem, np.inf
+    for springs in task.settings.springs:
         path = follow(problem, "open", budget=budget, seed=seed, springs=springs)
-        found = _polished(problem, path, "springs", settings)
-        motion = split(path.y, problem.bound)[0]
-        size = float(np.abs(motion).max(initial=0.0))
-        grows = path.end == "solution" and size > 10.0 * max(before, problem.scale)
-        yield replace(found, escape=motion / size if grows else None)
+        found = _at_the_end(task, path, "springs")
+        motion, size = _runaway(problem, path.y, before)
+        yield replace(found, escape=motion if path.end == "solution" else None)
         before = size
 
 
-def _in_tree(problem: CoulombProblem, settings: CoulombSettings) -> Candidate:
-    tree = search(problem, budget=settings.tree_programs)
+def _runaway(problem: ContactProblem, y: Array, before: float) -> tuple[Array | None, float]:
+    """The motion of a y, (d, n), largest entry 1, where it has grown much from a size before, and its size."""
+    motion = problem.law.split(y)[0].ravel()
+    size = float(np.abs(motion).max(initial=0.0))
+    return motion / size if size > _RUNAWAY_GROWTH * max(before, problem.scale) else None, size
+
+
+def _tree(task: Task) -> Iterator[Candidate]:
+    problem = task.problem
+    if problem.pairs > task.settings.tree_pairs:
+        return
+    tree = search(problem, budget=task.settings.tree_programs)
     attempt = MethodRun(method="tree", iterations=tree.programs, end=tree.end)
-    if tree.state is None:
-        proved = tree.end == "impossible" and problem.floating  # held bodies have a solution: refusals are rounding
-        return replace(Candidate.without(problem, attempt), proof="tree" if proved else None, margin=tree.margin)
-    exact = newton(problem, tree.state, limit=settings.newton_steps, tolerance=settings.tolerance)
-    return replace(exact, attempt=attempt)
+    if tree.state is not None:
+        yield replace(task.polish(tree.state), attempt=attempt)
+        return
+    proved = tree.end == "impossible" and problem.floating  # held bodies have a solution: refusals are rounding
+    yield replace(Candidate.without(problem, attempt), proof="tree" if proved else None, margin=tree.margin)
+
+
+def _rounds(task: Task) -> Iterator[Candidate]:
+    """Sweeps and proximal Newton, then that alone."""
+    problem, settings = task.problem, task.settings
+    steps, tolerance = settings.searched_steps, settings.tolerance
+    if problem.directions == 3 and problem.straight:
+        rounds, sweeps = settings.swept_rounds, settings.sweeps
+        yield from swept_rounds(problem, rounds=rounds, sweeps=sweeps, steps=steps, tolerance=tolerance)
+    yield from proximal_rounds(problem, rounds=settings.proximal_rounds, steps=steps, tolerance=tolerance)
+
+
+def _escape(task: Task) -> Iterator[Candidate]:
+    """The motion that grows as springs on the rigid motions weaken, where one does."""
+    problem = task.problem
+    if not problem.floating:
+        return
+    law, escape, before, count, end = problem.law.sticking, None, np.inf, 0, "found nothing that runs away"
+    for beta in task.settings.springs:
+        held = Equilibrium(problem=problem, beta=beta)
+        found = searched(held, law, limit=task.settings.searched_steps, method="springs")
+        count += found.attempt.iterations
+        if not found.converged:
+            escape, end = None, found.attempt.end
+            break
+        y = found.force - held.moved(found.force, found.rigid)
+        escape, before = _runaway(problem, y, before)
+        law = problem.law.tangent(y)
+    attempt = MethodRun(method="springs", iterations=count, end=end if escape is None else "runs away")
+    yield replace(Candidate.without(problem, attempt), escape=escape)
+
+
+class ContactMethod(NamedTuple):
+    """A method of the cascade, and whether it is for problems that are piecewise linear, for others, or for any."""
+
+    run: Callable[[Task], Iterator[Candidate]]
+    piecewise_linear: bool | None = None
+
+
+METHODS = (
+    ContactMethod(_newton),
+    ContactMethod(_proof_by_rigid_motion),
+    ContactMethod(_paths, piecewise_linear=True),
+    ContactMethod(_tree, piecewise_linear=True),
+    ContactMethod(_rounds, piecewise_linear=False),
+    ContactMethod(_escape, piecewise_linear=False),
+)

@@ -1,21 +1,50 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What can be said about other solutions: the index of a state, and a friction below which there is one solution."""
+"""One solution or several: a bound below which there is one, a proof by all states, a search from many starts.
+
+In the plane motions and forces of n pairs are one piecewise linear map of y = r - h with 4^n pieces (see `law.pair`;
+more where the bound of friction has further branches). Around every face between pieces of codimension two lie four of
+them, or three at a kink of the bound, so that the map is one to one exactly if the determinants of all pieces have the
+same sign (then every load and history has one solution).
+
+References
+----------
+Kuhn, Loewen (1987), Piecewise affine bijections of R^n, Linear Algebra Appl. 96; Scholtes (2012), Introduction to
+Piecewise Differentiable Equations, section 2.3.
+"""
 
 from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
 
 import numpy as np
 from scipy.linalg import lapack
 
 from signorini.arrays import Array, IntArray
-from signorini.friction.cone import cone_system
-from signorini.friction.newton import admissible
-from signorini.friction.posed import PosedContact
-from signorini.friction.problem import CoulombProblem
+from signorini.errors import InputError
+from signorini.friction.certificate import certify
+from signorini.friction.linear import Equilibrium
+from signorini.friction.newton import admissible, by_states, in_states, searched, y_in_states
+from signorini.friction.plane.covering import follow
+from signorini.friction.problem import ContactProblem
+from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
-_SLIDES = 1e-12  # of the largest motion of a pair: what is no rounding
+COUNTED_PAIRS = 6
+"""Pairs whose 4^n states are tried one by one; fewer where their friction has further branches."""
+
+SAME_ANSWER_TOL = 1e-7
+"""Of the data: two answers closer than this are one."""
+
+_SLIDE_TOL = 1e-12  # of the largest motion of a pair: what is no rounding
+_CERTIFIED = 1e-10  # of the data: `certify` of an answer
+_PATHS, _GUESSES = 4, 24  # in the plane: paths of each covering, and states at random
+_TURNS = 8  # directions of slip in which all pairs start in space
+_SMALL_PROBLEM, _SPATIAL_GUESSES = 10, (100, 24)  # pairs; states at random in space of so few of them, and of more
+_SLIPPING = 1e3  # of the size of data: y of a pair that slips
 
 
-def index(problem: CoulombProblem, state: IntArray) -> int:
+def index(problem: ContactProblem, state: IntArray) -> int:
     """Sign of the determinant of a state's system, relative to that of all pairs sticking: +1, -1, or 0 if singular.
 
     For held bodies the indices of all solutions sum to +1 (none of them on a wall between states). So a solution of
@@ -31,14 +60,14 @@ def index(problem: CoulombProblem, state: IntArray) -> int:
     One node with stiffness k_n = k_t = 2, coupling 1 and much friction: sliding with friction opposed is unstable.
 
     >>> W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    >>> problem = CoulombProblem.of(W=W, b=W @ [-1.0, 2.5], friction=[3.0], motions=np.zeros((2, 0)), scale=1.0)
+    >>> problem = ContactProblem.of(W=W, b=W @ [-1.0, 2.5], friction=[3.0], motions=np.zeros((2, 0)), scale=1.0)
     >>> [index(problem, np.array([state])) for state in (0, 1, 3)]
     [1, 1, -1]
     """
-    return cone_system(problem, admissible(problem, state)).index
+    return in_states(problem, admissible(problem, state)).index
 
 
-def mu_low(problem: PosedContact) -> float | None:
+def mu_low(problem: ContactProblem) -> float | None:
     """Friction below which contact forces are unique for every load and history; None where no bound is known.
 
     With the condensed stiffness ``S = W^-1 - I`` and compliance ``A`` (the inverse of S on what is no rigid motion),
@@ -65,21 +94,19 @@ def mu_low(problem: PosedContact) -> float | None:
     Examples
     --------
     >>> W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    >>> problem = CoulombProblem.of(W=W, b=W @ [-1.0, 2.5], friction=[3.0], motions=np.zeros((2, 0)), scale=1.0)
+    >>> problem = ContactProblem.of(W=W, b=W @ [-1.0, 2.5], friction=[3.0], motions=np.zeros((2, 0)), scale=1.0)
     >>> round(mu_low(problem), 6)
     1.732051
     """
-    n = problem.pairs
-    moves = ~problem.image.still[n:]
-    d = len(moves) // n if n else 1
-    rubs = np.flatnonzero((problem.bound.slopes[0] > 0) & moves.reshape(d, n).any(axis=0))
+    n, d = problem.pairs, problem.directions - 1
+    rubs = np.flatnonzero((problem.mu > 0) & ~problem.locked.all(axis=0))
     if not len(rubs):
         return np.inf
     tangents = (rubs + n * np.arange(1, d + 1)[:, None]).T.ravel()
     R = problem.image.R
-    if np.abs(R[tangents]).max(initial=0.0) > _SLIDES * np.abs(R).max(initial=0.0):
+    if np.abs(R[tangents]).max(initial=0.0) > _SLIDE_TOL * np.abs(R).max(initial=0.0):
         return None
-    kept = np.concatenate([np.full(n, True), moves])
+    kept = np.concatenate([np.full(n, True), ~problem.locked.ravel()])
     S = _inverse(problem.W[np.ix_(kept, kept)])
     if S is None:
         return 0.0
@@ -93,6 +120,124 @@ def mu_low(problem: PosedContact) -> float | None:
     softest = np.linalg.eigvalsh(compliance * root * root[:, None])[-1]
     radius = np.abs(np.linalg.eigvals(np.abs(stiffness) @ sizes)).max()
     return float(2.0 / np.sqrt(min(radius, stiffest * softest)))
+
+
+def always_unique(problem: ContactProblem) -> bool:
+    """Whether every load and every history has exactly one solution: all states have the same orientation.
+
+    Raises
+    ------
+    InputError
+        For more than 6 pairs, or too many states of fewer; see `countable`.
+
+    Examples
+    --------
+    One node with stiffness k_n = k_t = 2, coupling 1: unique up to friction 2.
+
+    >>> W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
+    >>> for mu in (1.9, 2.1):
+    ...     problem = ContactProblem.of(W=W, b=np.zeros(2), friction=[mu], motions=np.zeros((2, 0)), scale=1.0)
+    ...     print(mu, always_unique(problem))
+    1.9 True
+    2.1 False
+    """
+    return all(in_states(problem, state).index == 1 for state in _states(problem))
+
+
+def all_solutions(problem: ContactProblem) -> list[Array]:
+    """Every solution y of a problem of at most 6 pairs, by trying every state.
+
+    Raises
+    ------
+    InputError
+        See `countable`.
+    """
+    rest = np.zeros((2, problem.pairs))
+    return _certified(problem, (y_in_states(in_states(problem, state), rest) for state in _states(problem)))
+
+
+def search_solutions(problem: ContactProblem) -> list[Array]:
+    """Solutions y, (d, n), that Newton's method finds from different starts, and paths in the plane; there may be more.
+
+    It starts with all pairs sticking, open, or slipping in one direction, then with states and directions at random.
+
+    Examples
+    --------
+    One pair of much friction in space: it sticks, slips, or is open, and all three are in equilibrium.
+
+    >>> W = np.linalg.inv(np.array([[3.0, -1.0, 0.0], [-1.0, 3.0, 0.0], [0.0, 0.0, 2.0]]))
+    >>> b = W @ [-1.0, 2.5, 0.0]
+    >>> problem = ContactProblem.of(W=W, b=b, friction=[3.0], motions=np.zeros((3, 0)), scale=1.0)
+    >>> sorted(round(float(y[0, 0]), 6) for y in search_solutions(problem))
+    [-0.166667, 0.5, 1.0]
+    """
+    if problem.piecewise_linear:
+        return _certified(problem, _from_states(problem))
+    form = Equilibrium(problem=problem)
+    return _certified(problem, (searched(form, problem.law.tangent(start)).y for start in _starts(problem)))
+
+
+def _from_states(problem: ContactProblem) -> Iterator[Array]:
+    n, rng = problem.pairs, np.random.default_rng(0)
+    for code in (STICK, OPEN, SLIP_PLUS, SLIP_MINUS):
+        yield by_states(problem, np.full(n, code)).y
+    for _ in range(_GUESSES):
+        yield by_states(problem, rng.integers(OPEN, SLIP_MINUS + 1, n)).y
+    for seed in range(_PATHS):
+        for covering in ("press",) if problem.floating else ("open", "press"):
+            path = follow(problem, "open" if covering == "open" else "press", budget=20 * max(n, 5), seed=seed)
+            if path.end == "solution":
+                yield by_states(problem, path.state, near=path.y).y
+
+
+def _starts(problem: ContactProblem) -> Iterator[Array]:
+    """(d, n) y of states: normal part 1 where a pair presses, tangential part far along the friction where it slips."""
+    n, d, rng = problem.pairs, problem.directions, np.random.default_rng(0)
+    axis, none = np.ones((1, n)), np.zeros((d - 1, n))
+    yield np.concatenate([axis, none])
+    yield np.concatenate([-axis, none])
+    for angle in 2.0 * np.pi / _TURNS * np.arange(_TURNS):
+        yield np.concatenate([axis, _SLIPPING * np.array([[np.cos(angle)], [np.sin(angle)]])[: d - 1] * axis])
+    for _ in range(_SPATIAL_GUESSES[n > _SMALL_PROBLEM]):
+        state, angle = rng.integers(0, 3, n), rng.uniform(0.0, 2.0 * np.pi, n)
+        slip = np.where(state == 2, _SLIPPING, 0.0) * np.stack([np.cos(angle), np.sin(angle)])[: d - 1]
+        yield np.concatenate([np.where(state == 0, -1.0, 1.0)[None], slip])
+
+
+def countable(problem: ContactProblem) -> bool:
+    """Whether the states of the pairs are few enough to be tried one by one: 4^6; never in space."""
+    return problem.piecewise_linear and math.prod(map(len, _choices(problem))) <= 4**COUNTED_PAIRS
+
+
+def _choices(problem: ContactProblem) -> list[list[int]]:
+    """The states of every pair."""
+    found = []
+    for closed, branches in zip(problem.law.closed, np.isfinite(problem.pieces.kinks).sum(axis=0), strict=True):
+        slips = (SLIP_PLUS, SLIP_MINUS) if closed == UNDECIDED else (int(closed),)
+        held = [OPEN, STICK] if closed == UNDECIDED else [OPEN]
+        found.append(held + [code + 2 * j for j in range(branches) for code in slips])
+    return found
+
+
+def _states(problem: ContactProblem) -> Iterator[IntArray]:
+    if not countable(problem):
+        raise InputError(
+            f"has {problem.pairs} pairs; expected at most {COUNTED_PAIRS}, whose states can be tried one by one (fewer "
+            "where their friction has further branches)"
+        )
+    for combination in itertools.product(*_choices(problem)):
+        yield np.array(combination, dtype=np.int64)
+
+
+def _certified(problem: ContactProblem, candidates: Iterator[Array | None]) -> list[Array]:
+    """The certified answers that differ, in their order."""
+    found: list[Array] = []
+    for y in candidates:
+        if y is None or certify(problem, y) > _CERTIFIED:
+            continue
+        if all(np.abs(y - other).max(initial=0.0) > SAME_ANSWER_TOL * (problem.scale or 1.0) for other in found):
+            found.append(y)
+    return found
 
 
 def _inverse(W: Array) -> Array | None:

@@ -18,7 +18,7 @@ from skfem import Basis, ElementQuad1, ElementVector, MeshQuad
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from signorini.arrays import Array, IntArray, frozen
-from signorini.friction import CoulombProblem
+from signorini.friction.problem import ContactProblem
 
 PROBLEMS = 650
 """Of the set: 400 random ones, 150 of up to 6 pairs, 100 held with friction 1.5 to 8, interleaved."""
@@ -31,7 +31,7 @@ _KINDS = ("any",) * 8 + ("small",) * 3 + ("critical",) * 2
 
 @dataclass(frozen=True, kw_only=True)
 class HardProblem:
-    """A history of loads on one interface, in the scaled units of `CoulombProblem`.
+    """A history of loads on one interface, in the scaled units of `ContactProblem`.
 
     Attributes
     ----------
@@ -42,15 +42,15 @@ class HardProblem:
     """
 
     name: str
-    first: CoulombProblem
+    first: ContactProblem
     gap: Array
     loads: tuple[Array, ...]
 
-    def step(self, k: int, slipped: Array) -> CoulombProblem:
+    def step(self, k: int, slipped: Array) -> ContactProblem:
         """The problem of step k, given the tangential displacement (n,) reached before."""
         start = np.concatenate([self.gap, -slipped])
         load = self.loads[k]
-        return CoulombProblem(
+        return ContactProblem(
             image=self.first.image,
             b=load + start - self.first.W @ start,
             friction=self.first.friction,
@@ -167,7 +167,7 @@ def _assemble(draw: _Draw) -> HardProblem | None:
     loads = tuple(frozen(Bs[:, free] @ lu.solve(side)) for side in sides)
     return HardProblem(
         name=f"{draw.family}, {draw.support}, {draw.load}, {draw.gap}, {n} pairs, friction {draw.friction:.3g}",
-        first=CoulombProblem.of(
+        first=ContactProblem.of(
             W=(W + W.T) / 2,
             b=loads[0],
             friction=np.full(n, draw.friction),

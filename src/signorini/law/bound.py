@@ -127,6 +127,14 @@ class FrictionBound(Bound):
         """The bound that does not depend on the normal force, (n,)."""
         return cls(slopes=np.zeros((1, len(size))), starts=size[None], kinks=_between(np.zeros((1, len(size)))))
 
+    def fixed(self, which: BoolArray, size: Array) -> FrictionBound:
+        """The bound that for some pairs, (n,), is a size, (n,), whatever the normal force."""
+        kinks = self.kinks.copy()
+        kinks[1:, which] = np.inf
+        return FrictionBound(
+            slopes=np.where(which, 0.0, self.slopes), starts=np.where(which, size, self.starts), kinks=kinks
+        )
+
     @property
     def branches(self) -> int:
         """The most that a pair has."""

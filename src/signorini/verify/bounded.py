@@ -10,8 +10,8 @@ import numpy as np
 from scipy.optimize import lsq_linear
 
 from signorini.engine.solve import solve
-from signorini.friction.problem import CoulombProblem
-from signorini.friction.solve import solve_coulomb
+from signorini.friction.problem import ContactProblem
+from signorini.friction.solve import solve_contact
 from signorini.gallery.blocks import dragged_block
 from signorini.gallery.half_planes import EQUAL, HALF_WIDTH, equal_half_planes
 from signorini.model.conditions import Support
@@ -88,7 +88,7 @@ def _convex_minimum() -> Iterator[Check]:
     W = (Q * rng.uniform(0.05, 0.95, 2 * n)) @ Q.T
     limit = rng.uniform(0.05, 1.0, n)
     pressed = np.append(rng.uniform(20.0, 30.0, n), np.zeros(n))
-    problem = CoulombProblem.of(
+    problem = ContactProblem.of(
         W=(W + W.T) / 2,
         b=-W @ pressed + rng.normal(size=2 * n),
         friction=np.full(n, np.inf),
@@ -96,7 +96,7 @@ def _convex_minimum() -> Iterator[Check]:
         motions=np.zeros((2 * n, 0)),
         scale=1.0,
     )
-    result = solve_coulomb(problem)
+    result = solve_contact(problem)
     L = np.linalg.cholesky(problem.image.A)
     c = problem.free_motion(problem.b)
     box = (np.append(np.zeros(n), -limit), np.append(np.full(n, np.inf), limit))

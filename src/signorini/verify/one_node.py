@@ -9,9 +9,9 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.friction.history.plane import PathState, Segment, follow, initial_state, land
-from signorini.friction.problem import CoulombProblem
-from signorini.friction.solve import solve_coulomb
-from signorini.friction.spatial import SpatialProblem, at_rest, follow_stopping, land_spatial
+from signorini.friction.history.space import at_rest, follow_stopping, land_spatial
+from signorini.friction.problem import ContactProblem
+from signorini.friction.solve import solve_contact
 from signorini.verify.check import Check, table
 
 # unknowns (gap, slip): u_n of the catalogue is -gap there, so that the coupling changes sign
@@ -54,7 +54,7 @@ def one_node_path() -> Iterator[Check]:
         )
 
 
-def pressed_and_pulled(*, friction: float, limit: float | None = None) -> tuple[CoulombProblem, PathState, Segment]:
+def pressed_and_pulled(*, friction: float, limit: float | None = None) -> tuple[ContactProblem, PathState, Segment]:
     """The node pressed by 1, then pulled up to 4: the problem, the state it is pressed in, and the path from there.
 
     Parameters
@@ -63,7 +63,7 @@ def pressed_and_pulled(*, friction: float, limit: float | None = None) -> tuple[
     limit : of the friction force, or None
     """
     bound = {} if limit is None else {"limit": np.array([limit])}
-    problem = CoulombProblem.of(
+    problem = ContactProblem.of(
         W=_IMAGE, b=np.zeros(2), friction=np.array([friction]), motions=np.zeros((2, 0)), scale=4.0, **bound
     )
     pressed = follow(problem, initial_state(problem, np.zeros(2)), _IMAGE @ np.array([-1.0, 0.0])).end
@@ -78,7 +78,7 @@ def one_node_path_in_space() -> Iterator[Check]:
         turn = np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
         W = turn @ np.linalg.inv(np.array([[3.0, -1.0, 0.0], [-1.0, 3.0, 0.0], [0.0, 0.0, 3.0]])) @ turn.T
         friction = 3.0 / np.cos(np.pi / 8) if words.startswith("edge") else 3.0
-        problem = SpatialProblem.of(
+        problem = ContactProblem.of(
             W=W, b=np.zeros(3), friction=np.array([friction]), motions=np.zeros((3, 0)), scale=4.0, facets=facets
         )
         pressed = follow_stopping(problem, at_rest(problem, np.zeros(3)), W @ turn @ np.array([-1.0, 0.0, 0.0])).end
@@ -99,6 +99,6 @@ def one_node_path_in_space() -> Iterator[Check]:
 def _gap_and_slip(*, friction: float, push: float) -> Array:
     """(2,) Gap and tangential displacement where the node is pressed by 1 and pushed."""
     b = _IMAGE @ np.array([-1.0, push])
-    problem = CoulombProblem.of(W=_IMAGE, b=b, friction=np.array([friction]), motions=np.zeros((2, 0)), scale=1.0)
-    result = solve_coulomb(problem)
+    problem = ContactProblem.of(W=_IMAGE, b=b, friction=np.array([friction]), motions=np.zeros((2, 0)), scale=1.0)
+    result = solve_contact(problem)
     return np.concatenate([result.gap, result.slip])

@@ -16,10 +16,9 @@ from signorini.arrays import frozen
 from signorini.clock import Clock
 from signorini.friction.history.space.no_rates_proof import Exhausted, search
 from signorini.friction.history.space.smooth_cones import ConeProblem
-from signorini.friction.pull_away import GAIN
+from signorini.friction.problem import ContactProblem
+from signorini.friction.pull_away import GAIN, pulled_away
 from signorini.friction.space.overload import overload
-from signorini.friction.spatial.problem import SpatialProblem
-from signorini.friction.spatial.rigid import pulled_away
 
 HERE, EXAMPLES = Path(__file__).parent, Path(__file__).parents[3] / "examples"
 
@@ -32,7 +31,7 @@ def floating(rng, pairs, friction):
     rows = np.concatenate([frames, turns], axis=2).transpose(1, 0, 2).reshape(3 * pairs, 6)
     motions = np.linalg.qr(rows)[0]
     rigid = motions @ motions.T
-    return SpatialProblem.of(
+    return ContactProblem.of(
         W=rigid + 0.5 * (np.eye(3 * pairs) - rigid),
         b=np.concatenate([-rng.uniform(0.5, 1.5, pairs), np.zeros(2 * pairs)]),
         friction=np.full(pairs, friction),
@@ -68,7 +67,7 @@ def test_beyond_an_overload_a_rigid_motion_proves_that_nothing_holds_and_none_do
 
 def test_linear_programmes_end_where_bodies_nearly_roll():
     data = np.load(HERE / "nearly_rolling.npz")
-    found = search(ConeProblem(**{name: data[name] for name in ("M", "q", "friction", "closed")}))
+    found = search(ConeProblem(M=data["M"], q=data["q"], friction=data["friction"].T, closed=data["closed"]))
     assert isinstance(found, Exhausted)
 
 

@@ -6,19 +6,22 @@ import numpy as np
 import pytest
 
 from signorini.friction.history.plane.find_rates import NoRates
+from signorini.friction.history.space import at_rest
 from signorini.friction.history.space.find_rates import SpatialRates, find_rates
 from signorini.friction.history.space.no_rates_proof import search
 from signorini.friction.history.space.smooth_cones import ConeProblem
-from signorini.friction.spatial import OPEN, SLIP, STICK, SpatialProblem, at_rest, solve_spatial
+from signorini.friction.problem import ContactProblem
+from signorini.friction.solve import solve_contact
+from signorini.law.states import OPEN, SLIP, STICK
 
 
 def obeys(problem, x):
     """Coulomb's law and the complementarity, written out; the tangential force dissipates the most that it can."""
-    N, m = problem.numbers, len(problem.friction)
+    N, m = problem.numbers, len(problem.closed)
     w = problem.M @ x + problem.q
     (gap, *slip), (p, *force) = x[N:].reshape(3, m), w[N:].reshape(3, m)
-    scaled = np.linalg.norm(np.array(force).T / problem.friction, axis=1)
-    most = p * np.linalg.norm(np.array(slip).T * problem.friction, axis=1)
+    scaled = np.linalg.norm(np.array(force) / problem.friction, axis=0)
+    most = p * np.linalg.norm(np.array(slip) * problem.friction, axis=0)
     power = most + (np.array(slip) * force).sum(axis=0)
     least = min(*x[:N], *w[:N], *gap, *p, *(p - scaled), 0.0)
     return least > -1e-9 and max(np.abs(x[:N] * w[:N]).max(initial=0.0), np.abs(gap * p).max(), power.max()) < 1e-9
@@ -46,7 +49,7 @@ def test_one_pair_has_rates_where_its_closed_form_has():
         M = B @ B.T + 0.05 * np.eye(3)
         M[0, 1:] *= rng.uniform(-3.0, 3.0)  # as where other pairs slip under pressure
         q, mu = rng.normal(size=3), rng.uniform(0.5, 4.0, size=2)
-        problem = ConeProblem(M=M, q=q, friction=mu[None], closed=np.array([False]))
+        problem = ConeProblem(M=M, q=q, friction=mu[:, None], closed=np.array([False]))
         found, by_hand = search(problem), one_pair_by_hand(M, q, mu)
         none += not by_hand
         if by_hand:
@@ -60,7 +63,7 @@ def test_one_pair_has_rates_where_its_closed_form_has():
 @pytest.mark.parametrize("numbers", [0, 2])
 def test_several_pairs_on_a_held_interface_have_rates(numbers):
     """A symmetric definite M has a solution whatever the friction; the search finds it without Newton's starts."""
-    rng, friction = np.random.default_rng(numbers), np.array([[0.5, 0.5], [2.0, 1.0]])
+    rng, friction = np.random.default_rng(numbers), np.array([[0.5, 2.0], [0.5, 1.0]])
     for _ in range(10):
         size = numbers + 6
         B = rng.normal(size=(size, 2 * size))
@@ -77,7 +80,7 @@ def corner(n, seed):
     Q, _ = np.linalg.qr(rng.normal(size=(3 * n, 3 * n)))
     W, none = (Q * rng.uniform(0.05, 0.95, 3 * n)) @ Q.T, np.zeros(3 * n)
     W = (W + W.T) / 2
-    problem = SpatialProblem.of(W=W, b=none, friction=np.full(n, 0.6), motions=np.zeros((3 * n, 0)), scale=1.0)
+    problem = ContactProblem.of(W=W, b=none, friction=np.full(n, 0.6), motions=np.zeros((3 * n, 0)), scale=1.0)
     return problem, at_rest(problem, none, motion=none), rng
 
 
@@ -87,7 +90,7 @@ def test_rates_at_a_corner_are_the_first_increment():
     for seed in range(8):
         problem, now, rng = corner(3, seed)
         posed = replace(problem, b=rng.normal(size=9) - np.repeat([0.5, 0.0], [3, 6]))
-        rates, increment = find_rates(posed, now, 1e-10), solve_spatial(posed)
+        rates, increment = find_rates(posed, now, 1e-10), solve_contact(posed)
         np.testing.assert_allclose(rates.r, [*increment.normal_force, *increment.tangential_force.T.ravel()], atol=1e-9)
         assert rates.state.tolist() == increment.state.tolist()
         states |= set(rates.state.tolist())

@@ -4,11 +4,9 @@
 import numpy as np
 import pytest
 
-from signorini.friction.krylov import Unknowns, iterate
-from signorini.friction.spatial import solve_spatial
-from signorini.friction.spatial.equilibrium import Equilibrium, linear_system
-from signorini.friction.spatial.iterated import balanced
-from signorini.friction.spatial.law import sticking, tangent
+from signorini.friction.krylov import iterate
+from signorini.friction.linear import Equilibrium, Unknowns, linear_system
+from signorini.friction.solve import solve_contact
 from tests.helpers.spatial_samples import block_on_floor, pressed_punch, random_problem
 
 PROBLEMS = {
@@ -22,13 +20,14 @@ PROBLEMS = {
 def test_a_linearised_law_is_solved_as_by_a_factorisation(name):
     """The law at the solution, where some pairs slip and some are open, and that where all stick."""
     problem = PROBLEMS[name]
-    form = Equilibrium.of(problem)
-    y = solve_spatial(problem).y
-    for law in (sticking(problem), tangent(problem, y)):
-        expected = linear_system(form, law).solve(np.zeros(3 * problem.pairs), np.zeros(problem.motions.shape[1]))
-        r, a = np.zeros(3 * problem.pairs), np.zeros(problem.motions.shape[1])
+    form = Equilibrium(problem=problem)
+    y = solve_contact(problem).y
+    for law in (problem.law.sticking, problem.law.tangent(y)):
+        expected = linear_system(form, law).solve(np.zeros_like(y), np.zeros(problem.motions.shape[1]))
+        r, a = np.zeros_like(y), np.zeros(problem.motions.shape[1])
         for _ in range(8):  # each time a hundredth of what is lacking is left, or less
-            r, a, h = balanced(problem, law, r, a, settled=False)
+            r, a, h = iterate(problem, law, r, a, forward=1e-2)
+        h = Unknowns(law).prescribed(h)
         for found, known in zip((r, a, h), expected, strict=True):
             np.testing.assert_allclose(found, known, rtol=0, atol=1e-10 * np.abs(expected[0]).max())
 
@@ -36,9 +35,9 @@ def test_a_linearised_law_is_solved_as_by_a_factorisation(name):
 @pytest.mark.parametrize("name", PROBLEMS)
 def test_newton_ends_where_it_does_with_factorisations(name, monkeypatch):
     problem = PROBLEMS[name]
-    expected = solve_spatial(problem)
-    monkeypatch.setattr("signorini.friction.spatial.newton.LARGE", 1)
-    found = solve_spatial(problem)
+    expected = solve_contact(problem)
+    monkeypatch.setattr("signorini.friction.newton.LARGE", 1)
+    found = solve_contact(problem)
     assert found.trace[0].iterations <= expected.trace[0].iterations + 4
     np.testing.assert_array_equal(found.state, expected.state)
     np.testing.assert_allclose(found.y, expected.y, rtol=0, atol=1e-9 * np.abs(expected.y).max())
@@ -46,8 +45,8 @@ def test_newton_ends_where_it_does_with_factorisations(name, monkeypatch):
 
 def test_what_cannot_be_balanced_is_said():
     problem = PROBLEMS["floating"]
-    nothing, none = np.zeros((3, 3, problem.pairs)), np.zeros(3 * problem.pairs)
-    unknown = Unknowns(force=nothing, motion=nothing, fixed=none, resisting=none, apart=none)
+    n = problem.pairs
+    law = problem.law.tangent(-np.ones((3, n)))  # every pair is open
     a = np.zeros(problem.motions.shape[1])
     assert len(a)
-    assert iterate(problem, unknown, problem.free_motion, none, a, forward=1e-2) is None
+    assert iterate(problem, law, np.zeros((3, n)), a, forward=1e-2) is None

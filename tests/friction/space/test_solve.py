@@ -6,36 +6,28 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks.spatial_problems import hard_random
+from benchmarks.spatial_problems import from_compliance, hard_random, natural_residual
 from signorini import lcp
 from signorini.condense.operator import InterfaceOperator
+from signorini.friction.linear import Equilibrium
+from signorini.friction.solve import ContactSettings, solve_contact
 from signorini.friction.space.sweeps import gauss_seidel
-from signorini.friction.spatial import (
-    SLIP,
-    STICK,
-    SpatialSettings,
-    decoded,
-    faceted_lcp,
-    from_compliance,
-    limit_load,
-    natural_residual,
-    solve_spatial,
-    split,
-    violations,
-)
-from signorini.friction.spatial.equilibrium import Equilibrium
+from signorini.law.states import SLIP, STICK
+from tests.helpers.faceted import decoded, faceted_lcp
+from tests.helpers.limit_load import limit_load
 from tests.helpers.spatial_samples import block_on_floor, pressed_punch, random_problem
+from tests.helpers.violations import violations
 
 
 @pytest.mark.parametrize("friction", [0.1, 0.3, 0.6, 1.0])
 def test_newton_from_sticking_solves_a_punch_in_a_few_steps(friction):
     A, c, problem, root = pressed_punch(100, friction)
-    result = solve_spatial(problem)
-    r = split(problem, result.y)[1]
+    result = solve_contact(problem)
+    r = result.r.ravel()
     assert [attempt.method for attempt in result.trace] == ["newton"]
     assert result.trace[0].iterations <= 8
     assert natural_residual(A @ (r * root) + c, r * root, friction, root[:100] ** 2) < 1e-8
-    again = solve_spatial(problem, result.y)
+    again = solve_contact(problem, result.y)
     assert again.trace[0].iterations == 1
     found = violations(
         result.gap, result.slip, result.normal_force, result.tangential_force, problem.friction, length=1.0, force=1.0
@@ -48,7 +40,7 @@ def test_random_hard_problems_are_all_solved(gap):
     for _, friction, A, c in hard_random(gap):
         pairs = len(c) // 3
         problem, root = from_compliance(A, c, np.full(pairs, friction))
-        r = split(problem, solve_spatial(problem).y)[1] * root
+        r = solve_contact(problem).r.ravel() * root
         assert natural_residual(A @ r + c, r, friction, root[:pairs] ** 2) < 1e-8
 
 
@@ -60,19 +52,19 @@ def test_turning_the_tangents_turns_the_answer(seed):
     Q = np.block([[np.eye(10), zero, zero], [zero, c, s], [zero, -s, c]])
     W = Q @ problem.W @ Q.T
     turned = replace(problem, image=InterfaceOperator.of_form((W + W.T) / 2, problem.motions), b=Q @ problem.b)
-    np.testing.assert_allclose(solve_spatial(turned).y, Q @ solve_spatial(problem).y, atol=1e-8)
+    np.testing.assert_allclose(solve_contact(turned).y.ravel(), Q @ solve_contact(problem).y.ravel(), atol=1e-8)
 
 
 def test_sweeps_alone_go_to_the_same_forces():
     problem = pressed_punch(25, 0.5)[2]
-    r, _ = gauss_seidel(problem, np.zeros(75), np.zeros(0), count=300)
-    np.testing.assert_allclose(r, split(problem, solve_spatial(problem).y)[1], atol=1e-10)
+    r, _ = gauss_seidel(problem, np.zeros((3, 25)), np.zeros(0), count=300)
+    np.testing.assert_allclose(r, solve_contact(problem).r, atol=1e-10)
 
 
 def test_a_proximal_layer_leaves_its_centre_where_that_is_the_solution():
     problem = random_problem(2, 8, 0.5)
-    result = solve_spatial(problem)
-    h, r = split(problem, result.y)
+    result = solve_contact(problem)
+    h, r = result.h, result.r
     layer = Equilibrium(problem=problem, alpha=0.7, beta=0.7, force=r, motion=np.zeros(0))
     np.testing.assert_allclose(layer.moved(r, np.zeros(0)), h, atol=1e-9)
 
@@ -84,9 +76,9 @@ def test_lemke_finds_the_forces_of_the_faceted_newton(seed, facets):
     M, q = faceted_lcp(problem)
     solution = lcp.solve(M, q, method="lemke", tolerance=1e-11)
     assert solution.solved
-    result = solve_spatial(problem)
+    result = solve_contact(problem)
     assert result.solved
-    np.testing.assert_allclose(decoded(problem, solution.z), split(problem, result.y)[1], atol=1e-10)
+    np.testing.assert_allclose(decoded(problem, solution.z), result.r, atol=1e-10)
 
 
 def test_facets_turn_the_force_of_a_slipping_pair_by_no_more_than_half_a_facet():
@@ -97,17 +89,17 @@ def test_facets_turn_the_force_of_a_slipping_pair_by_no_more_than_half_a_facet()
             b = np.array([-1.0, 3 * np.cos(angle), 3 * np.sin(angle)])
             exact, _ = from_compliance(np.eye(3), b, [0.5])
             polygon, _ = from_compliance(np.eye(3), b, [0.5], facets=facets)
-            error = solve_spatial(exact).tangential_force - solve_spatial(polygon).tangential_force
-            worst = max(worst, np.linalg.norm(error) / (0.5 * solve_spatial(exact).normal_force[0]))
+            error = solve_contact(exact).tangential_force - solve_contact(polygon).tangential_force
+            worst = max(worst, np.linalg.norm(error) / (0.5 * solve_contact(exact).normal_force[0]))
         assert 0.5 * bound < worst <= bound
 
 
 def test_the_error_of_facets_falls_with_their_number():
-    exact = solve_spatial(pressed_punch(49, 0.3)[2])
+    exact = solve_contact(pressed_punch(49, 0.3)[2])
     largest = 0.3 * exact.normal_force.max()
     errors = []
     for facets in (4, 8, 16, 32):
-        polygon = solve_spatial(pressed_punch(49, 0.3, facets=facets)[2])
+        polygon = solve_contact(pressed_punch(49, 0.3, facets=facets)[2])
         error = np.linalg.norm(polygon.tangential_force - exact.tangential_force, axis=1).max() / largest
         assert error <= 2 * np.sin(np.pi / (2 * facets))
         errors.append(error)
@@ -117,10 +109,10 @@ def test_the_error_of_facets_falls_with_their_number():
 
 def test_a_floating_block_is_held_by_friction():
     problem, R = block_on_floor((-1.0, 0.2, 0.1, 0.1, 0.0, 0.1), 0.3)
-    result = solve_spatial(problem)
+    result = solve_contact(problem)
     assert result.solved
     assert {STICK, SLIP} == set(result.state.tolist())
-    np.testing.assert_allclose(R.T @ split(problem, result.y)[1], [1.0, -0.2, -0.1, -0.1, 0.0, -0.1], atol=1e-10)
+    np.testing.assert_allclose(R.T @ result.r.ravel(), [1.0, -0.2, -0.1, -0.1, 0.0, -0.1], atol=1e-10)
 
 
 @pytest.mark.parametrize("facets", [0, 8])
@@ -131,7 +123,7 @@ def test_a_floating_block_is_held_by_friction():
 )
 def test_loads_that_pull_the_block_away_are_proved_to(load, facets):
     problem, _ = block_on_floor(load, 0.3, facets=facets)
-    result = solve_spatial(problem)
+    result = solve_contact(problem)
     assert result.outcome == "no_equilibrium"
     rho = result.escape
     assert (rho[:9] - 0.3 * np.hypot(rho[9:18], rho[18:]) * (0.92 if facets else 1.0)).min() > -1e-8
@@ -151,11 +143,11 @@ def test_a_limit_load_below_what_statics_allow_names_the_motion():
     # tilted and dragged: forces in the cones could balance the load, but not those that the block takes
     problem, R = block_on_floor((-1.0, 0.177, -0.23, -0.169, 0.397, 0.126), 0.3, side=5)
     base, _ = block_on_floor((-1.0, 0, 0, 0, 0, 0), 0.3, side=5)
-    few = SpatialSettings(swept_rounds=2, proximal_rounds=2, bisections=7)
+    few = ContactSettings(swept_rounds=2, proximal_rounds=2)
     limit = limit_load(problem, base.b, settings=few)
     assert 0.9 < limit.factor < limit.beyond < 0.95
     assert limit.sticking <= 0.1 * limit.closed
-    result = solve_spatial(problem, settings=few)
+    result = solve_contact(problem, settings=few)
     assert result.outcome == "not_found"
     assert "run away" in result.message
     rho = result.escape
@@ -168,4 +160,4 @@ def test_a_load_that_has_a_solution_is_reached_as_a_whole():
     limit = limit_load(full, base.b)
     assert replace(full, b=base.b).image is full.image
     assert limit.factor == 1.0
-    np.testing.assert_allclose(limit.result.y, solve_spatial(full).y, atol=1e-8)
+    np.testing.assert_allclose(limit.result.y, solve_contact(full).y, atol=1e-8)

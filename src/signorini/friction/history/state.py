@@ -9,9 +9,9 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
 from signorini.errors import InputError, SolveFailed
-from signorini.friction.law import OPEN
-from signorini.friction.problem import CoulombProblem
-from signorini.friction.solve import solve_coulomb
+from signorini.friction.problem import ContactProblem
+from signorini.friction.solve import solve_contact
+from signorini.law.states import OPEN
 
 AT_REST = "nothing has moved"
 PRESSED = "the load presses: one increment from zero slip"
@@ -55,7 +55,7 @@ class PathState:
         return len(self.state)
 
 
-def initial_state(problem: CoulombProblem, b: Array, *, motion: Array | None = None) -> PathState:
+def initial_state(problem: ContactProblem, b: Array, *, motion: Array | None = None) -> PathState:
     """The start of a history: every pair open, forces zero, unless the load presses already.
 
     Parameters
@@ -74,7 +74,7 @@ def initial_state(problem: CoulombProblem, b: Array, *, motion: Array | None = N
 
     Examples
     --------
-    >>> problem = CoulombProblem.of(
+    >>> problem = ContactProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.zeros(2), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
     >>> state = initial_state(problem, np.array([0.1, 0.0]))
@@ -115,15 +115,15 @@ def _still(b: Array, h: Array) -> PathState:
     )
 
 
-def _pressed(problem: CoulombProblem) -> PathState:
-    result = solve_coulomb(problem)
+def _pressed(problem: ContactProblem) -> PathState:
+    result = solve_contact(problem)
     if not result.solved:
         raise SolveFailed(f"at the start of the history: {result.message}", status=result.outcome)
     slip = np.where(result.state == OPEN, 0.0, result.slip)
     return PathState(
         b=problem.b,
-        h=np.concatenate([result.gap, result.slip]),
-        r=np.concatenate([result.normal_force, result.tangential_force]),
+        h=result.h.ravel(),
+        r=result.r.ravel(),
         state=result.state,
         anchor=result.slip,
         slip=slip,

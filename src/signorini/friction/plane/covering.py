@@ -35,10 +35,10 @@ import numpy as np
 from scipy.linalg import blas
 
 from signorini.arrays import Array, IntArray
-from signorini.friction.law import OPEN
 from signorini.friction.newton import admissible
 from signorini.friction.plane.walls import beyond, columns, constant, jacobian, placed
-from signorini.friction.problem import CoulombProblem
+from signorini.friction.problem import ContactProblem
+from signorini.law.states import OPEN
 
 Covering = Literal["open", "press"]
 
@@ -55,7 +55,7 @@ class PathEnd:
     ----------
     end : ``"solution"`` (theta = 0), ``"ray"``, ``"budget spent"`` or ``"singular"``
     state : (n,) the last states
-    y : (2n,) the last point
+    y : (2, n) the last point
     theta : what is left of the covering load there, 0 at a solution; in the units of b
     pivots : walls crossed
     """
@@ -75,33 +75,33 @@ class _Course:
     W: Array
     b: Array
     d: Array
-    problem: CoulombProblem
+    problem: ContactProblem
     budget: int
     far: float
     loosened: float
 
     def walls(self, state: IntArray) -> tuple[Array, Array]:
         """(slots, n, 2) coefficients of the walls of every pair, and (slots, n) where they are: see `placed`."""
-        return placed(state, self.problem.bound, self.problem.closed)
+        return placed(state, self.problem.pieces, self.problem.law.closed)
 
     def room(self, walls: tuple[Array, Array], y: Array, here: float) -> Array:
         """(slots, n) Of a point (y, theta) to the walls (here = 1), or what a direction (here = 0) adds to it."""
         (wall, offset), n = walls, self.problem.pairs
         room: Array = wall[:, :, 0] * y[:n] + wall[:, :, 1] * y[n : 2 * n]
-        return room if self.problem.bound.branches == 1 else room - (here + self.loosened * y[2 * n]) * offset
+        return room if self.problem.pieces.branches == 1 else room - (here + self.loosened * y[2 * n]) * offset
 
     def load(self, state: IntArray) -> tuple[Array, Array]:
         """``(b, d)`` of a state: without the friction that its slipping pairs carry at no pressure."""
-        if self.problem.bound.branches == 1:
+        if self.problem.pieces.branches == 1:
             return self.b, self.d
-        given = constant(self.G, self.W, self.problem.bound, state)
+        given = constant(self.G, self.W, self.problem.pieces, state)
         return self.b - given, self.d - self.loosened * given
 
     def jacobian(self, state: IntArray) -> Array:
-        return jacobian(self.G, self.W, np.abs(self.problem.bound.slope(state)), state)
+        return jacobian(self.G, self.W, np.abs(self.problem.pieces.slope(state)), state)
 
 
-def follow(problem: CoulombProblem, covering: Covering, *, budget: int, seed: int = 0, springs: float = 0.0) -> PathEnd:
+def follow(problem: ContactProblem, covering: Covering, *, budget: int, seed: int = 0, springs: float = 0.0) -> PathEnd:
     """Follow one path to its end.
 
     Parameters
@@ -114,7 +114,7 @@ def follow(problem: CoulombProblem, covering: Covering, *, budget: int, seed: in
 
     Examples
     --------
-    >>> problem = CoulombProblem.of(
+    >>> problem = ContactProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.5]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
     >>> [(end.end, end.state.tolist()) for end in (follow(problem, way, budget=9) for way in ("open", "press"))]
@@ -125,7 +125,7 @@ def follow(problem: CoulombProblem, covering: Covering, *, budget: int, seed: in
     rng = np.random.default_rng(seed)
     e = np.concatenate([rng.uniform(1.0, 2.0, n), np.zeros(n)])
     shift = rng.normal(size=2 * n) * 1e-9 * problem.scale
-    shift[n:][problem.locked] = 0.0
+    shift[n:][problem.locked[0]] = 0.0
     open_start = covering == "open"
     course = _Course(
         G=G,
@@ -138,7 +138,7 @@ def follow(problem: CoulombProblem, covering: Covering, *, budget: int, seed: in
         loosened=0.0 if open_start else 1.0 / unit,
     )
     state = admissible(problem, np.full(n, OPEN) if open_start else None)
-    return _walk(course, problem.bound.coded(state, unit * e[:n]))
+    return _walk(course, problem.pieces.coded(state, unit * e[:n]))
 
 
 def _walk(course: _Course, state: IntArray) -> PathEnd:
@@ -147,36 +147,36 @@ def _walk(course: _Course, state: IntArray) -> PathEnd:
     try:
         ray = np.linalg.solve(course.jacobian(state), np.stack(course.load(state), axis=1))
     except np.linalg.LinAlgError:
-        return PathEnd(end="singular", state=state, y=np.zeros(2 * n), theta=np.inf, pivots=0)
+        return PathEnd(end="singular", state=state, y=np.zeros((2, n)), theta=np.inf, pivots=0)
     walls = course.walls(state)
     pair, slot, theta = _entry(course, walls, np.concatenate([ray, [[0.0, 1.0]]]))
     point, pivots = np.append(ray[:, 0] + max(theta, 0.0) * ray[:, 1], max(theta, 0.0)), 0
     if theta <= 0:
-        return PathEnd(end="solution", state=state, y=point[:-1], theta=0.0, pivots=0)
+        return PathEnd(end="solution", state=state, y=point[:-1].reshape(2, n), theta=0.0, pivots=0)
     X = np.zeros((0, 0))
     while pivots < course.budget:
         before, at = state, walls[1][slot, pair]
         here = np.append(walls[0][slot, pair], -course.loosened * at)
         state = state.copy()
-        state[pair], slot = beyond(int(before[pair]), slot, point[n + pair], int(problem.closed[pair]))
+        state[pair], slot = beyond(int(before[pair]), slot, point[n + pair], int(problem.law.closed[pair]))
         updated = None if pivots % REFACTOR == 0 else _cross(course, X, before, state, pair, -here)
         fresh = _inverse(course, state, pair, -here) if updated is None else updated
         pivots += 1
         if fresh is None:
-            return PathEnd(end="singular", state=state, y=point[:-1], theta=point[-1], pivots=pivots)
+            return PathEnd(end="singular", state=state, y=point[:-1].reshape(2, n), theta=point[-1], pivots=pivots)
         X = fresh
         entry, way = X[:, :-1] @ course.load(state)[0] - at * X[:, -1], X[:, -1].copy()
         walls = course.walls(state)
         length, pair, slot = _next_wall(course, walls, entry, way, pair, slot)
         to_end = entry[-1] / -way[-1] if way[-1] < 0 else np.inf
         if not np.isfinite(min(length, to_end)):
-            return PathEnd(end="ray", state=state, y=way[:-1], theta=entry[-1], pivots=pivots)
+            return PathEnd(end="ray", state=state, y=way[:-1].reshape(2, n), theta=entry[-1], pivots=pivots)
         point = entry + min(length, to_end) * way
         if np.abs(point[:-1]).max() > course.far:
-            return PathEnd(end="ray", state=state, y=point[:-1], theta=point[-1], pivots=pivots)
+            return PathEnd(end="ray", state=state, y=point[:-1].reshape(2, n), theta=point[-1], pivots=pivots)
         if to_end <= length:
-            return PathEnd(end="solution", state=state, y=point[:-1], theta=0.0, pivots=pivots)
-    return PathEnd(end="budget spent", state=state, y=point[:-1], theta=point[-1], pivots=pivots)
+            return PathEnd(end="solution", state=state, y=point[:-1].reshape(2, n), theta=0.0, pivots=pivots)
+    return PathEnd(end="budget spent", state=state, y=point[:-1].reshape(2, n), theta=point[-1], pivots=pivots)
 
 
 def _entry(course: _Course, walls: tuple[Array, Array], ray: Array) -> tuple[int, int, float]:
@@ -214,7 +214,7 @@ def _inverse(course: _Course, state: IntArray, pair: int, wall: Array) -> Array 
 
 def _cross(course: _Course, X: Array, before: IntArray, state: IntArray, pair: int, wall: Array) -> Array:
     """X after one pair crossed one wall, in place: the last row of its matrix becomes l, then J grows by a l'."""
-    n, bound = course.problem.pairs, course.problem.bound
+    n, bound = course.problem.pairs, course.problem.pieces
     row = wall[0] * X[pair] + wall[1] * X[n + pair] + wall[2] * X[2 * n]
     pivot = row[-1]
     row[-1] -= 1.0

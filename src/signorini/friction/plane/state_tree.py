@@ -19,8 +19,8 @@ import numpy as np
 from scipy.optimize import linprog
 
 from signorini.arrays import Array, IntArray
-from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
-from signorini.friction.problem import CoulombProblem
+from signorini.friction.problem import ContactProblem
+from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 CLOSED = -2
 """Closed, and not yet decided whether it sticks or slips."""
@@ -57,7 +57,7 @@ class TreeEnd:
     margin: float = 0.0
 
 
-def search(problem: CoulombProblem, *, budget: int = 2000) -> TreeEnd:
+def search(problem: ContactProblem, *, budget: int = 2000) -> TreeEnd:
     """Search all states for equilibrium.
 
     Parameters
@@ -67,7 +67,7 @@ def search(problem: CoulombProblem, *, budget: int = 2000) -> TreeEnd:
 
     Examples
     --------
-    >>> problem = CoulombProblem.of(
+    >>> problem = ContactProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.5]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
     >>> end = search(problem)
@@ -114,7 +114,7 @@ class _Program:
     lasts : (n,) number of the last branch of every pair
     """
 
-    problem: CoulombProblem
+    problem: ContactProblem
     matrix: Array
     summed: Array
     rhs: Array
@@ -127,8 +127,8 @@ class _Program:
         return max(1.0, float(np.abs(self.rhs).max(initial=0.0)))
 
 
-def _program(problem: CoulombProblem) -> _Program:
-    n, bound, unit = problem.pairs, problem.bound, problem.scale or 1.0
+def _program(problem: ContactProblem) -> _Program:
+    n, bound, unit = problem.pairs, problem.pieces, problem.scale or 1.0
     lasts = np.isfinite(bound.kinks).sum(axis=0) - 1
     edge = bound.slopes[lasts, np.arange(n)]
     length = np.hypot(1.0, edge)
@@ -200,7 +200,7 @@ def _proved(program: _Program, z: Array, low: Array, high: Array) -> float:
 def _bounds(program: _Program, node: IntArray) -> tuple[Array, Array]:
     """Bounds of the unknowns in a node."""
     problem = program.problem
-    n, branches = problem.pairs, problem.bound.branches
+    n, branches = problem.pairs, problem.pieces.branches
     low, high = np.zeros((2 + 2 * branches, n)), np.full((2 + 2 * branches, n), np.inf)
     rest = np.ones(n if branches > 1 else 0)
     slips, minus = node >= SLIP_PLUS, node % 2
@@ -221,9 +221,9 @@ def _bounds(program: _Program, node: IntArray) -> tuple[Array, Array]:
     return np.concatenate([low.ravel(), np.zeros_like(rest)]), np.concatenate([high.ravel(), rest])
 
 
-def _worst(problem: CoulombProblem, node: IntArray, h: Array, r: Array) -> tuple[int | None, IntArray]:
+def _worst(problem: ContactProblem, node: IntArray, h: Array, r: Array) -> tuple[int | None, IntArray]:
     """The pair that breaks the law worst (None where none does), and the state that each pair comes nearest to."""
-    n, unit, bound = problem.pairs, problem.scale or 1.0, problem.bound
+    n, unit, bound = problem.pairs, problem.scale or 1.0, problem.pieces
     gap, slip, p, friction = h[:n], h[n:], r[:n], r[n:]
     pressed = np.hypot(p, friction)
     spare = (bound.at(unit * p) / unit + np.sign(slip) * friction) / np.hypot(1.0, problem.mu)
@@ -231,7 +231,7 @@ def _worst(problem: CoulombProblem, node: IntArray, h: Array, r: Array) -> tuple
     slipping = np.where(node == OPEN, 0.0, np.minimum(np.abs(slip), against))
     wrong = np.maximum(np.minimum(gap, pressed), slipping)
     nearest = np.where(np.abs(slip) <= 1e-9, STICK, np.where(slip < 0, SLIP_PLUS, SLIP_MINUS))
-    nearest = np.where(problem.closed == UNDECIDED, nearest, problem.closed)
+    nearest = np.where(problem.law.closed == UNDECIDED, nearest, problem.law.closed)
     nearest = bound.coded(np.where(pressed <= 1e-9, OPEN, nearest), unit * p)
     decided = (node != UNDECIDED) & (node != CLOSED)
     nearest = np.where(decided, node, nearest).astype(np.int64)
@@ -239,11 +239,11 @@ def _worst(problem: CoulombProblem, node: IntArray, h: Array, r: Array) -> tuple
     return (None if decided[pair] or wrong[pair] <= 1e-9 else pair), nearest
 
 
-def _branches(problem: CoulombProblem, pair: int, node: int, nearest: int) -> list[int]:
+def _branches(problem: ContactProblem, pair: int, node: int, nearest: int) -> list[int]:
     """The branches of a pair, the likeliest last (it is taken first)."""
     if node == UNDECIDED:
         return [CLOSED, OPEN] if nearest == OPEN else [OPEN, CLOSED]
-    closed, last = int(problem.closed[pair]), int(np.isfinite(problem.bound.kinks[:, pair]).sum())
+    closed, last = int(problem.law.closed[pair]), int(np.isfinite(problem.pieces.kinks[:, pair]).sum())
     slips = (SLIP_PLUS, SLIP_MINUS) if closed == UNDECIDED else (closed,)
     choices = [STICK] if closed == UNDECIDED else []
     choices += [code + 2 * j for j in range(last) for code in slips]

@@ -17,8 +17,8 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 from signorini.law.bound import SIGN, FrictionBound
+from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 LOWER, EDGE, UPPER = 0, 1, 2
 """Slots of a slipping pair."""

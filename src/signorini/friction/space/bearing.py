@@ -15,11 +15,10 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.friction.history.segment import Breakpoint, Jump
-from signorini.friction.history.space.straight import spare
 from signorini.friction.history.state import PathState
+from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import GAIN
 from signorini.friction.space.overload import Overload, along_contact, overload
-from signorini.friction.spatial.problem import SpatialProblem
 
 OVERLOADED = (
     "forces in the friction cones of the pairs that touch, or nearly do, cannot balance more load, however they are "
@@ -40,7 +39,7 @@ class Bearing:
     b_end : (3n,) load at the end of the way
     """
 
-    def __init__(self, problem: SpatialProblem, b_end: Array) -> None:
+    def __init__(self, problem: ContactProblem, b_end: Array) -> None:
         self.problem, self.b_end = problem, b_end
         self._near: BoolArray = np.zeros(0, dtype=np.bool_)
         self._found: Overload | None = None  # with the pairs that are near
@@ -112,7 +111,7 @@ def _along(behind: float, part: float) -> float:
     return behind + part * (1.0 - behind)
 
 
-def sliding(problem: SpatialProblem, ends: Sequence[Breakpoint], pressed: BoolArray) -> Array | None:
+def sliding(problem: ContactProblem, ends: Sequence[Breakpoint], pressed: BoolArray) -> Array | None:
     """The rigid motion (3n,) of an increment in which a floating body slides on pressed pairs (n,) that hold no more.
 
     Parameters
@@ -126,7 +125,7 @@ def sliding(problem: SpatialProblem, ends: Sequence[Breakpoint], pressed: BoolAr
     return along_contact(problem, R @ (R.T @ (two.h - one.h)), pressed)
 
 
-def _spent(problem: SpatialProblem, r: Array, pressed: BoolArray) -> bool:
+def _spent(problem: ContactProblem, r: Array, pressed: BoolArray) -> bool:
     """Whether next to nothing is left of the friction of pressed pairs, all of them together."""
     most = problem.bound.at(np.maximum(r[: problem.pairs], 0.0))
-    return bool(spare(problem, r)[pressed].sum() <= _SPENT * most[pressed].sum())
+    return bool(problem.law.reserve(problem.by_pair(r))[pressed].sum() <= _SPENT * most[pressed].sum())

@@ -9,10 +9,9 @@ import numpy as np
 from scipy.optimize import linprog
 
 from signorini.arrays import Array, BoolArray
-from signorini.friction.pull_away import GAIN, STRONGEST
-from signorini.friction.spatial.problem import SpatialProblem
-from signorini.friction.spatial.rigid import strongest_edges, unit_edges
-from signorini.friction.spatial.section import outermost
+from signorini.friction.problem import ContactProblem
+from signorini.friction.pull_away import GAIN, STRONGEST_FORCES, strongest_edges, unit_edges, work_of
+from signorini.law.section import FrictionSection
 
 _ROUNDS = 60
 _DIRECTIONS = 8  # of friction on every pair that the first linear programme knows
@@ -42,7 +41,7 @@ class Overload:
     share: float
 
 
-def overload(problem: SpatialProblem, held: Array, b_end: Array, *, near: BoolArray | None = None) -> Overload | None:
+def overload(problem: ContactProblem, held: Array, b_end: Array, *, near: BoolArray | None = None) -> Overload | None:
     """Where on the straight way from the problem's b to ``b_end`` rigid equilibrium ends; None where it does not.
 
     The largest s with forces r in the friction cones and ``R'(r + b + s (b_end - b)) = 0`` is a linear programme in s
@@ -65,7 +64,7 @@ def overload(problem: SpatialProblem, held: Array, b_end: Array, *, near: BoolAr
     --------
     A body of one point, pressed by 1 and pulled by 1.2, slides at a pull of 0.3:
 
-    >>> problem = SpatialProblem.of(
+    >>> problem = ContactProblem.of(
     ...     W=np.eye(3), b=np.array([-1.0, 0.0, 0.0]), friction=[0.3], motions=np.eye(3), scale=1.0
     ... )
     >>> found = overload(problem, np.array([1.0, 0.0, 0.0]), np.array([-1.0, 1.2, 0.0]))
@@ -86,14 +85,15 @@ def overload(problem: SpatialProblem, held: Array, b_end: Array, *, near: BoolAr
     if np.abs(growth).max() <= GAIN * (problem.scale or 1.0):
         return None
     rows = R.reshape(3, n, -1)
-    forces = held.reshape(3, n).T
-    sizes = np.linalg.norm(forces, axis=1)
+    forces = problem.by_pair(held)
+    sizes = np.linalg.norm(forces, axis=0)
     presses = sizes > 0.0
-    edges = [np.einsum("ni,ink->nk", forces[presses] / sizes[presses, None], rows[:, presses])]
+    edges = [work_of(forces[:, presses] / sizes[presses], rows[:, presses])]
+    cones = FrictionSection(axes=problem.half_axes, sides=problem.section.sides)
     turns = 2.0 * np.pi / _DIRECTIONS * np.arange(_DIRECTIONS)
-    around = [outermost(np.tile([np.cos(turn), np.sin(turn)], (n, 1)), problem.mu, problem.sides) for turn in turns]
-    for share in (np.zeros((n, 2)), *around):
-        edges.append(np.einsum("ni,ink->nk", unit_edges(share)[may], rows[:, may]))
+    around = [cones.farthest(np.tile([[np.cos(turn)], [np.sin(turn)]], n)) for turn in turns]
+    for share in (np.zeros((2, n)), *around):
+        edges.append(work_of(unit_edges(share)[:, may], rows[:, may]))
     for _ in range(_ROUNDS):
         columns = np.concatenate(edges).T
         answer = linprog(
@@ -108,9 +108,9 @@ def overload(problem: SpatialProblem, held: Array, b_end: Array, *, near: BoolAr
             return None
         a = -np.asarray(answer.eqlin.marginals)
         rho = R @ a
-        strongest = np.einsum("ni,ink->nk", strongest_edges(problem.mu, problem.sides, rho), rows)
+        strongest = work_of(strongest_edges(cones, rho), rows)
         works = np.where(may, strongest @ a, 0.0)
-        resisted = STRONGEST * works < -0.5 * _LOOSE  # the work of the loads that grow is 1
+        resisted = STRONGEST_FORCES * works < -0.5 * _LOOSE  # the work of the loads that grow is 1
         if not resisted.any():
             return _proved(float(answer.x[0]), a, rho, load / unit, growth / unit, float(works.min(initial=0.0)))
         edges.append(strongest[resisted])
@@ -125,7 +125,7 @@ def _proved(factor: float, a: Array, rho: Array, load: Array, growth: Array, wor
     factor : where the first programme ends
     works : the least work of forces of size 1 along the motion, below 0 by rounding
     """
-    left, grows = float(a @ (load + factor * growth)) + STRONGEST * works, float(a @ growth)
+    left, grows = float(a @ (load + factor * growth)) + STRONGEST_FORCES * works, float(a @ growth)
     if grows <= 0.5 or left <= -_LOOSE:
         return None
     end = load + growth
@@ -133,7 +133,7 @@ def _proved(factor: float, a: Array, rho: Array, load: Array, growth: Array, wor
     return Overload(factor=factor, motion=rho / np.abs(rho).max(), proved=factor + max(0.0, -left / grows), share=share)
 
 
-def along_contact(problem: SpatialProblem, motion: Array, pressed: BoolArray) -> Array:
+def along_contact(problem: ContactProblem, motion: Array, pressed: BoolArray) -> Array:
     """What of a rigid motion (3n,) neither presses nor lifts pressed pairs (n,), largest entry 1; all where nothing is.
 
     A motion that proves an overload lifts as it slides; friction of Coulomb's law does not.

@@ -14,32 +14,33 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.attempt import MethodRun
+from signorini.friction.candidate import NewtonEnd
+from signorini.friction.certificate import certify
+from signorini.friction.linear import Equilibrium
+from signorini.friction.newton import searched
+from signorini.friction.problem import ContactProblem
 from signorini.friction.space.sweeps import gauss_seidel
-from signorini.friction.spatial.certificate import certify
-from signorini.friction.spatial.equilibrium import Equilibrium
-from signorini.friction.spatial.law import tangent
-from signorini.friction.spatial.newton import NewtonEnd, newton
-from signorini.friction.spatial.problem import SpatialProblem
 
-THIN, SOFT = 1e-2, 1.0
+SWEPT_LAYER, FIRST_LAYER = 1e-2, 1.0
 """First compliance of the layer, with and without sweeps, in units of 1 / D."""
 
-THINNEST, SOFTEST = 1e-7, 10.0
-FAST = 6  # steps up to which a run was easy: the next layer is thinner
+LEAST_LAYER, LARGEST_LAYER = 1e-7, 10.0  # in units of 1 / D
+EASY_STEPS = 6  # of a run: after as few the next layer is thinner
 
 
 def swept_rounds(
-    problem: SpatialProblem, *, rounds: int, sweeps: int, steps: int, tolerance: float
+    problem: ContactProblem, *, rounds: int, sweeps: int, steps: int, tolerance: float
 ) -> Iterator[NewtonEnd]:
     """Rounds of sweeps and one proximal Newton run, the next from the better of the two.
 
     Parameters
     ----------
+    problem : the problem, in space
     rounds, sweeps, steps : most rounds, sweeps of each, and systems of each Newton run
     tolerance : of `certify`; the runs go a hundred times closer
     """
-    alpha, (r, a) = THIN, _nothing(problem)
-    exact = Equilibrium.of(problem)
+    alpha, (r, a) = SWEPT_LAYER, _nothing(problem)
+    exact = Equilibrium(problem=problem)
     for _ in range(rounds):
         r, a = gauss_seidel(problem, r, a, count=sweeps)
         y = r - exact.moved(r, a)
@@ -53,9 +54,16 @@ def swept_rounds(
         alpha = _next(alpha, end, thinner=3.0)
 
 
-def proximal_rounds(problem: SpatialProblem, *, rounds: int, steps: int, tolerance: float) -> Iterator[NewtonEnd]:
-    """Proximal Newton runs alone, each from where the last converged; parameters as of `swept_rounds`."""
-    alpha, (r, a) = SOFT, _nothing(problem)
+def proximal_rounds(problem: ContactProblem, *, rounds: int, steps: int, tolerance: float) -> Iterator[NewtonEnd]:
+    """Proximal Newton runs alone, each from where the last converged.
+
+    Parameters
+    ----------
+    problem : the problem
+    rounds, steps : most rounds, and systems of each Newton run
+    tolerance : of `certify`; the runs go a hundred times closer
+    """
+    alpha, (r, a) = FIRST_LAYER, _nothing(problem)
     for _ in range(rounds):
         end = _run(problem, alpha, r, a, steps, tolerance)
         yield end
@@ -64,17 +72,17 @@ def proximal_rounds(problem: SpatialProblem, *, rounds: int, steps: int, toleran
         alpha = _next(alpha, end, thinner=2.0)
 
 
-def _nothing(problem: SpatialProblem) -> tuple[Array, Array]:
-    return np.zeros(3 * problem.pairs), np.zeros(problem.motions.shape[1])
+def _nothing(problem: ContactProblem) -> tuple[Array, Array]:
+    return np.zeros((problem.directions, problem.pairs)), np.zeros(problem.motions.shape[1])
 
 
-def _run(problem: SpatialProblem, alpha: float, r: Array, a: Array, steps: int, tolerance: float) -> NewtonEnd:
+def _run(problem: ContactProblem, alpha: float, r: Array, a: Array, steps: int, tolerance: float) -> NewtonEnd:
     """Newton's method with a layer around r and a, from there."""
-    y = r - Equilibrium.of(problem).moved(r, a)
+    y = r - Equilibrium(problem=problem).moved(r, a)
     layer = Equilibrium(problem=problem, alpha=alpha, beta=alpha, force=r, motion=a)
-    return newton(
+    return searched(
         layer,
-        tangent(problem, y),
+        problem.law.tangent(y),
         force=r,
         rigid=a,
         limit=steps,
@@ -86,5 +94,5 @@ def _run(problem: SpatialProblem, alpha: float, r: Array, a: Array, steps: int, 
 def _next(alpha: float, end: NewtonEnd, *, thinner: float) -> float:
     """A softer layer after a run that failed, a thinner one after an easy one."""
     if not end.converged:
-        return min(3.0 * alpha, SOFTEST)
-    return max(alpha / thinner, THINNEST) if end.attempt.iterations <= FAST else alpha
+        return min(3.0 * alpha, LARGEST_LAYER)
+    return max(alpha / thinner, LEAST_LAYER) if end.attempt.iterations <= EASY_STEPS else alpha

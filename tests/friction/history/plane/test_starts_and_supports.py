@@ -8,8 +8,9 @@ import pytest
 from hypothesis import strategies as st
 
 from signorini.errors import InputError
-from signorini.friction import OPEN, SLIP_MINUS, SLIP_PLUS, CoulombProblem
 from signorini.friction.history.plane import follow, initial_state
+from signorini.friction.problem import ContactProblem
+from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS
 from tests.helpers.coulomb_samples import block_on_floor, for_all
 from tests.helpers.path_samples import Springs, increments, loads_at_breakpoints, one_node, stiff
 
@@ -64,7 +65,7 @@ def dragged(friction):
     S = stiff(3, 2)[:3, :3]
     W = np.zeros((4, 4))
     W[:3, :3] = np.linalg.inv(S + np.eye(3))
-    return CoulombProblem.of(
+    return ContactProblem.of(
         W=(W + W.T) / 2, b=np.zeros(4), friction=np.full(2, friction), motions=np.zeros((4, 0)), scale=1.0
     )
 

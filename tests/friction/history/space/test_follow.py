@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from signorini.errors import InputError
-from signorini.friction import CoulombProblem
 from signorini.friction.history.plane import follow, initial_state
-from signorini.friction.spatial import SpatialProblem, StopSettings, at_rest, follow_stopping, solve_spatial
-from signorini.friction.spatial.section import outermost
+from signorini.friction.history.space import StopSettings, at_rest, follow_stopping
+from signorini.friction.problem import ContactProblem
+from signorini.friction.solve import solve_contact
 from tests.helpers.spatial_samples import block_on_floor
 
 
@@ -29,8 +29,8 @@ def random_history(seed, pairs, rows, segments=3):
 
 def in_space(W, friction, facets, **changes):
     n = len(W) // 3
-    given = {"W": W, "b": np.zeros(3 * n), "friction": np.broadcast_to(friction, (n, *np.shape(friction)))}
-    return SpatialProblem.of(**given | {"motions": np.zeros((3 * n, 0)), "scale": 1.0, "facets": facets} | changes)
+    given = {"W": W, "b": np.zeros(3 * n), "friction": np.broadcast_to(friction, (n, *np.shape(friction))).T}
+    return ContactProblem.of(**given | {"motions": np.zeros((3 * n, 0)), "scale": 1.0, "facets": facets} | changes)
 
 
 def run(problem, h0, b0, loads, **settings):
@@ -50,7 +50,7 @@ def test_forces_in_a_plane_follow_the_exact_path_of_the_plane(seed, facets):
     W2, h0, b0, loads = random_history(seed, n, 2)
     W = 0.5 * np.eye(3 * n)
     W[: 2 * n, : 2 * n] = W2
-    plane = CoulombProblem.of(
+    plane = ContactProblem.of(
         W=W2, b=np.zeros(2 * n), friction=np.full(n, 0.4), motions=np.zeros((2 * n, 0)), scale=1.0
     )
     state = initial_state(plane, b0, motion=h0)
@@ -99,12 +99,12 @@ def test_the_law_holds_all_along_every_piece_and_energy_is_kept(friction, facets
     lost = 0.0
     for segment in segments:
         for one, two in zip(segment.pieces[:-1], segment.pieces[1:], strict=True):
-            slip = (two.h - one.h)[n:].reshape(2, n).T
+            slip = (two.h - one.h)[n:].reshape(2, n)
             pressed = (one.r + two.r)[:n] > 0
-            best = outermost(slip, problem.mu, problem.sides)
+            best = problem.mu * problem.section.farthest(slip)
             for t in (0.0, 0.5, 1.0):
                 h, r = (1 - t) * one.h + t * two.h, (1 - t) * one.r + t * two.r
-                power = ((r[n:].reshape(2, n).T + r[:n, None] * best) * slip).sum(axis=1)
+                power = ((r[n:].reshape(2, n) + r[:n] * best) * slip).sum(axis=0)
                 assert np.abs(power[pressed]).max(initial=0.0) < 1e-9
                 assert np.abs(r[:n] * h[:n]).max() < 1e-9
             lost -= 0.5 * float((one.r + two.r) @ (two.h - one.h))
@@ -124,7 +124,7 @@ def test_increments_that_end_at_the_same_loads_give_the_same(facets):
         for piece in segment.pieces[1:]:
             b = (1.0 - piece.factor) * start + piece.factor * b_end
             origin = np.concatenate([np.zeros(n), h[n:]])
-            result = solve_spatial(replace(problem, b=b + W @ origin - origin), y)
+            result = solve_contact(replace(problem, b=b + W @ origin - origin), y)
             assert result.solved
             h, y = np.concatenate([result.gap, result.slip.T.ravel()]) + origin, result.y
         np.testing.assert_allclose(h, segment.end.h, atol=1e-10)

@@ -6,10 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from signorini.friction import OPEN, STICK
+from signorini.friction.certificate import certify
 from signorini.friction.history.plane import follow, initial_state, land
+from signorini.friction.history.space import StopSettings, at_rest, follow_stopping, land_spatial
 from signorini.friction.history.space.find_rates import SpatialRates, find_rates
-from signorini.friction.spatial import SpatialProblem, StopSettings, at_rest, certify, follow_stopping, land_spatial
+from signorini.friction.problem import ContactProblem
+from signorini.law.states import OPEN, STICK
 from tests.helpers.path_samples import Springs, stiff
 
 
@@ -20,7 +22,7 @@ def turned_node(mu, facets, angle, **bounds):
     K = turn @ np.array([[2.0, -1.0, 0.0], [-1.0, 2.0, 0.0], [0.0, 0.0, 2.0]]) @ turn.T
     W = np.linalg.inv(K + np.eye(3))
     given = {"W": (W + W.T) / 2, "b": np.zeros(3), "friction": [mu], "motions": np.zeros((3, 0)), "scale": 4.0}
-    return SpatialProblem.of(**given, facets=facets, **bounds), lambda *force: W @ turn @ [*force, 0.0], turn
+    return ContactProblem.of(**given, facets=facets, **bounds), lambda *force: W @ turn @ [*force, 0.0], turn
 
 
 def pulled(mu, facets, angle, most=8.0, **bounds):
@@ -103,7 +105,7 @@ def plane_and_space(seed, pairs, mu, facets):
     springs = Springs(stiff(seed, pairs), np.full(pairs, mu))
     W = 0.5 * np.eye(3 * pairs)
     W[: 2 * pairs, : 2 * pairs] = springs.problem.W
-    wide = SpatialProblem.of(
+    wide = ContactProblem.of(
         W=W,
         b=np.zeros(3 * pairs),
         friction=springs.problem.friction,
@@ -157,7 +159,7 @@ def test_landings_are_equilibria_where_less_is_stored_than_the_loads_gave(pairs,
     W = np.linalg.inv(S + np.eye(3 * pairs))
     none = np.zeros(3 * pairs)
     friction = np.full(pairs, mu)
-    problem = SpatialProblem.of(
+    problem = ContactProblem.of(
         W=(W + W.T) / 2, b=none, friction=friction, motions=np.zeros((3 * pairs, 0)), scale=1.0, facets=facets
     )
     state, before, rng = at_rest(problem, none, motion=none), none, np.random.default_rng((seed, 1))
@@ -172,7 +174,7 @@ def test_landings_are_equilibria_where_less_is_stored_than_the_loads_gave(pairs,
     limit, landed = segment.end, land_spatial(problem, state, segment).state
     origin = np.concatenate([np.zeros(pairs), landed.h[pairs:]])
     b = limit.b + problem.W @ origin - origin
-    assert certify(replace(problem, b=b), landed.r - (landed.h - origin)) < 1e-10
+    assert certify(replace(problem, b=b), problem.by_pair(landed.r - (landed.h - origin))) < 1e-10
     force, moved = before + segment.jump.factor * (F - before), landed.h - limit.h
     stored = 0.5 * (landed.h @ S @ landed.h - limit.h @ S @ limit.h)
     assert (landed.dissipation >= limit.dissipation - 1e-12).all()
@@ -186,7 +188,7 @@ def test_increments_find_the_random_jumps_that_every_event_finds(behind, pairs, 
     S, none = stiff_in_space(seed, pairs), np.zeros(3 * pairs)
     W = np.linalg.inv(S + np.eye(3 * pairs))
     given = {"W": (W + W.T) / 2, "b": none, "friction": np.full(pairs, mu), "motions": np.zeros((3 * pairs, 0))}
-    problem, rng = SpatialProblem.of(**given, scale=1.0), np.random.default_rng((seed, 1))
+    problem, rng = ContactProblem.of(**given, scale=1.0), np.random.default_rng((seed, 1))
     state, fine = at_rest(problem, none, motion=none), StopSettings(turn=0.1)
     for _ in range(4):
         F = rng.normal(size=3 * pairs)

@@ -14,7 +14,7 @@ from signorini.arrays import Array, IntArray
 from signorini.friction.history.plane.rate_law import CORNER, INSIDE, RATE, RateLaw, Rates
 from signorini.friction.history.plane.responses import Responses
 from signorini.friction.history.plane.state_inverse import SingularState
-from signorini.friction.law import OPEN, STICK
+from signorini.law.states import OPEN, STICK
 
 WRONG = 1e-9
 """Violation of the law, relative to the largest rate, above which rates are none."""

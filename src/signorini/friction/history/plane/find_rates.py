@@ -14,8 +14,8 @@ from signorini.arrays import Array, IntArray
 from signorini.friction.history.plane.rate_law import CORNER, RATE, RateLaw, Rates
 from signorini.friction.history.plane.responses import Responses
 from signorini.friction.history.plane.state_inverse import SingularState
-from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 from signorini.law.bound import SIGN
+from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 COMBINATIONS = 4096
 """Most combinations of states that are tried one by one."""
@@ -228,7 +228,7 @@ def _by_program(responses: Responses, law: RateLaw, load: Array, state: IntArray
     unit = float(np.abs(load).max(initial=0.0)) or 1.0
     forces = np.zeros((2 * n, 2 * n))  # of the normal ones, and of the tangential ones that are free
     forces[presses, presses] = 1.0
-    forces[n + presses, presses] = np.where(slips, problem.bound.slope(state), 0.0)[presses]
+    forces[n + presses, presses] = np.where(slips, problem.pieces.slope(state), 0.0)[presses]
     forces[n + np.flatnonzero(sticks), n + np.flatnonzero(sticks)] = 1.0
     motions = np.diag(free.astype(np.float64))
     at_rest, nothing = law.conditions(state, np.zeros(2 * n), np.zeros(2 * n)), np.zeros(2 * n)

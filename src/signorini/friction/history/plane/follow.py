@@ -25,9 +25,9 @@ from signorini.friction.history.plane.state_inverse import SingularState
 from signorini.friction.history.segment import Breakpoint, Segment
 from signorini.friction.history.state import PathState
 from signorini.friction.history.way import Way, check_loads
-from signorini.friction.law import OPEN, SLIP_PLUS, STICK, UNDECIDED
-from signorini.friction.problem import CoulombProblem
+from signorini.friction.problem import ContactProblem
 from signorini.law.bound import SIGN, plain
+from signorini.law.states import OPEN, SLIP_PLUS, STICK, UNDECIDED
 from signorini.outcome import Outcome
 
 _APART = 1e-2  # of the first kink of a bound: what counts as zero beside it
@@ -55,7 +55,7 @@ class PathSettings:
     standstill: int = 50
 
 
-def follow(problem: CoulombProblem, start: PathState, b_end: Array, *, settings: PathSettings | None = None) -> Segment:
+def follow(problem: ContactProblem, start: PathState, b_end: Array, *, settings: PathSettings | None = None) -> Segment:
     """Follow the load from ``start.b`` straight to ``b_end``.
 
     ``G h - W r = b(s)`` with h = (gap, total tangential displacement), Coulomb's law for the slip rate.
@@ -94,7 +94,7 @@ def follow(problem: CoulombProblem, start: PathState, b_end: Array, *, settings:
 
     >>> from signorini.friction.history.plane import initial_state
     >>> W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    >>> problem = CoulombProblem.of(W=W, b=np.zeros(2), friction=[1.0], motions=np.zeros((2, 0)), scale=1.0)
+    >>> problem = ContactProblem.of(W=W, b=np.zeros(2), friction=[1.0], motions=np.zeros((2, 0)), scale=1.0)
     >>> pressed = follow(problem, initial_state(problem, np.zeros(2)), W @ [-1.0, 0.0])
     >>> pulled = follow(problem, pressed.end, W @ [-1.0, 4.0])
     >>> [(round(4.0 * event.factor, 9), event.what) for event in pulled.events], pulled.end.h.round(6).tolist()
@@ -122,17 +122,16 @@ class Walk(Way):
     responses : of the interface
     """
 
-    def __init__(self, problem: CoulombProblem, start: PathState, b_end: Array, settings: PathSettings) -> None:
+    def __init__(self, problem: ContactProblem, start: PathState, b_end: Array, settings: PathSettings) -> None:
         target = np.array(b_end, dtype=np.float64)
         check_loads(2 * problem.pairs, start=start.b, b_end=target)
         self.b_start, self.b_end, self.settings = start.b, target, settings
         self.problem = replace(problem, b=frozen(target - start.b))
         self.load = self.problem.b
         self.responses = Responses(self.problem)
-        self.bound = self.problem.bound
-        limit = np.inf if problem.limit is None else problem.limit
-        self.unbounded = np.isinf(problem.friction) & np.isinf(limit) & ~self.problem.locked
-        self.forced = np.where(self.unbounded, STICK, self.problem.closed)
+        self.bound = self.problem.pieces
+        self.unbounded = problem.unbounded & ~self.problem.locked[0]
+        self.forced = np.where(self.unbounded, STICK, self.problem.law.closed)
         unit = problem.scale or 1.0
         # a kink at small pressures is told from the corner
         self.width = np.minimum(settings.width * unit, np.maximum(_APART * self.bound.kinks[1], _ROUNDING * unit))
@@ -334,9 +333,10 @@ class Walk(Way):
 
     def _certificate(self, after: PathState) -> float:
         """Of the piece as one increment: equilibrium, no tension, the friction cone, slip against friction."""
-        n = self.problem.pairs
-        origin = np.concatenate([np.zeros(n), self.now.h[n:]])
-        return certify(self.problem, after.r - (after.h - origin), b=after.b, origin=origin)
+        by_pair = self.problem.by_pair
+        origin = by_pair(self.now.h).copy()
+        origin[0] = 0.0
+        return certify(self.problem, by_pair(after.r) - (by_pair(after.h) - origin), b=after.b, origin=origin)
 
     def ended(self, failure: NoRates) -> Segment:
         """The segment up to a jump, or to where nothing was found."""

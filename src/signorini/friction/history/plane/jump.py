@@ -12,7 +12,7 @@ from signorini.friction.history.plane.find_rates import NoRates
 from signorini.friction.history.plane.rate_law import weight
 from signorini.friction.history.segment import Jump
 from signorini.friction.history.state import PathState
-from signorini.friction.problem import CoulombProblem
+from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import pulled_away
 
 BEYOND = 1e-4
@@ -24,7 +24,7 @@ LIMITED = "gross sliding: every closed pair has used up its friction, which more
 
 
 def explain(
-    problem: CoulombProblem, now: PathState, b_end: Array, factor: float, acting: IntArray, lost: NoRates, width: Array
+    problem: ContactProblem, now: PathState, b_end: Array, factor: float, acting: IntArray, lost: NoRates, width: Array
 ) -> Jump:
     """The jump at a state that no rates continue.
 

@@ -21,8 +21,8 @@ from signorini.friction.history.plane.follow import PathSettings, Walk
 from signorini.friction.history.plane.rate_law import CORNER, INSIDE, RateLaw, Rates
 from signorini.friction.history.segment import Segment
 from signorini.friction.history.state import PathState
-from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
-from signorini.friction.problem import CoulombProblem
+from signorini.friction.problem import ContactProblem
+from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 TURNS = 100
 """Most times that the load turns."""
@@ -45,7 +45,7 @@ class Landing:
 
 
 def land(
-    problem: CoulombProblem, start: PathState, segment: Segment, *, settings: PathSettings | None = None
+    problem: ContactProblem, start: PathState, segment: Segment, *, settings: PathSettings | None = None
 ) -> Landing | None:
     """Follow a segment beyond its jump to the next equilibrium at the same load; None where none was found.
 
@@ -67,7 +67,7 @@ def land(
 
     >>> from signorini.friction.history.plane import follow, initial_state
     >>> W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    >>> problem = CoulombProblem.of(W=W, b=np.zeros(2), friction=[3.0], motions=np.zeros((2, 0)), scale=1.0)
+    >>> problem = ContactProblem.of(W=W, b=np.zeros(2), friction=[3.0], motions=np.zeros((2, 0)), scale=1.0)
     >>> pressed = follow(problem, initial_state(problem, np.zeros(2)), W @ [-1.0, 0.0]).end
     >>> landing = land(problem, pressed, follow(problem, pressed, W @ [-1.0, 4.0]))
     >>> landing.state.h.round(9).tolist(), round(float(landing.state.dissipation[0]), 9)

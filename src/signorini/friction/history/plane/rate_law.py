@@ -24,8 +24,8 @@ from functools import cached_property
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.friction.law import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 from signorini.law.bound import SIGN, FrictionBound, plain
+from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 INSIDE, CORNER = -1, 0
 """Kinds of pairs; on an edge the kind is the code of the slip that it allows, at a kink that of the branch below."""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Motions and forces of the pairs under a load, with every pair's state given: the linear map behind the path.
 
-In the force form (see `signorini.friction.cone`) a state leaves these unknowns: the normal force of every closed pair,
+In the force form (see `friction.linear`) a state leaves these unknowns: the normal force of every closed pair,
 the tangential force of those that stick, and the rigid motion. Slipping pairs carry ``r_t = s mu p``, mu the slope of
 their bound; open pairs take no part. Friction that does not depend on p is a load, for the caller.
 
@@ -14,7 +14,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.friction.history.plane.state_inverse import StateInverse
-from signorini.friction.problem import CoulombProblem
+from signorini.friction.problem import ContactProblem
 
 ROUNDING = 2e-15
 """Error of a response, relative to its largest entry, that is not refined."""
@@ -35,7 +35,7 @@ class Responses:
     Examples
     --------
     >>> from signorini.friction import STICK
-    >>> problem = CoulombProblem.of(
+    >>> problem = ContactProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.zeros(2), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
     >>> responses = Responses(problem)
@@ -44,7 +44,7 @@ class Responses:
     ([0.0, 0.0], [2.0, -0.4])
     """
 
-    def __init__(self, problem: CoulombProblem) -> None:
+    def __init__(self, problem: ContactProblem) -> None:
         self.problem = problem
         self.inverse = StateInverse(problem)
         self.pivots = 0

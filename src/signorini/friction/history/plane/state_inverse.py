@@ -12,8 +12,8 @@ from scipy.linalg import blas, lapack
 
 from signorini.arrays import Array, IntArray
 from signorini.condense.body_blocks import inverse_of
-from signorini.friction.law import OPEN, STICK
-from signorini.friction.problem import CoulombProblem
+from signorini.friction.problem import ContactProblem
+from signorini.law.states import OPEN, STICK
 
 SINGULAR = 1e-13
 """Reciprocal condition below which a state counts as singular."""
@@ -47,7 +47,7 @@ class StateInverse:
 
     Examples
     --------
-    >>> problem = CoulombProblem.of(
+    >>> problem = ContactProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.zeros(2), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
     >>> inverse = StateInverse(problem)
@@ -57,11 +57,11 @@ class StateInverse:
     ([], 1, 2)
     """
 
-    def __init__(self, problem: CoulombProblem) -> None:
+    def __init__(self, problem: ContactProblem) -> None:
         A, self._motions = problem.image.A, problem.image.R
         self._forces = np.hstack([A, self._motions])  # what all equations see of each, in rows
         equations = self._forces.shape[1]
-        self._bound, self._n = problem.bound, problem.pairs
+        self._bound, self._n = problem.pieces, problem.pairs
         self._state: IntArray | None = None
         self._columns = np.empty((equations, equations), order="F")  # of the unknowns, as all equations see them
         self._inverse = np.empty((0, 0), order="F")  # with room to grow

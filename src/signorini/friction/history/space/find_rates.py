@@ -17,8 +17,8 @@ from signorini.friction.history.space.no_rates_proof import Exhausted, search
 from signorini.friction.history.space.rate_problem import CONE, FACET, GAP, KINK, Choice
 from signorini.friction.history.space.smooth_cones import ConeProblem
 from signorini.friction.history.state import PathState
-from signorini.friction.spatial.law import OPEN, SLIP, STICK
-from signorini.friction.spatial.problem import SpatialProblem
+from signorini.friction.problem import ContactProblem
+from signorini.law.states import OPEN, SLIP, STICK
 
 ENUMERATED = 16
 """Most complementary numbers of which every combination is tried."""
@@ -49,7 +49,7 @@ class SpatialRates:
     r: Array
 
 
-def find_rates(problem: SpatialProblem, now: PathState, width: float) -> SpatialRates | NoRates:
+def find_rates(problem: ContactProblem, now: PathState, width: float) -> SpatialRates | NoRates:
     """Rates behind a state that obey the law, or why there are none.
 
     Lemke's method, then every combination of what pairs may do (see `choice`), up to 2^16 of them; linear programs
@@ -72,7 +72,7 @@ def find_rates(problem: SpatialProblem, now: PathState, width: float) -> Spatial
 
     >>> from dataclasses import replace
     >>> from signorini.friction.history.space.follow import at_rest, follow_stopping
-    >>> problem = SpatialProblem.of(
+    >>> problem = ContactProblem.of(
     ...     W=0.5 * np.eye(3), b=np.zeros(3), friction=[0.5], motions=np.zeros((3, 0)), scale=1.0, facets=8
     ... )
     >>> now = follow_stopping(problem, at_rest(problem, np.zeros(3)), np.array([-0.5, 0.25, 0.0])).end
@@ -85,7 +85,7 @@ def find_rates(problem: SpatialProblem, now: PathState, width: float) -> Spatial
     return NoRates(proof=choice, proved=False) if isinstance(choice, str) else _solved(choice)
 
 
-def departures(problem: SpatialProblem, now: PathState, width: float) -> Iterator[SpatialRates]:
+def departures(problem: ContactProblem, now: PathState, width: float) -> Iterator[SpatialRates]:
     """Rates in which acting pairs leave their state, all of them first, then only some; others slip on, or may stick.
 
     Where no pair acts, in the middle of a curve, those in which every pair stays in its state.
@@ -120,7 +120,7 @@ def departures(problem: SpatialProblem, now: PathState, width: float) -> Iterato
                 yield found
 
 
-def acting_pairs(problem: SpatialProblem, now: PathState, width: float) -> IntArray:
+def acting_pairs(problem: ContactProblem, now: PathState, width: float) -> IntArray:
     """Pairs that may not go on as they are, see `Choice`; none where that is not known."""
     choice = Choice.at(problem, now, width)
     return np.array([] if isinstance(choice, str) else choice.acting, dtype=np.int64)
@@ -160,8 +160,8 @@ def _solved(
         return NoRates(proof="the state asked for is singular", proved=False)
     reduced = M[np.ix_(free, free)] - M[np.ix_(free, given)] @ answer[:, :-1]
     rest = q[free] - M[np.ix_(free, given)] @ answer[:, -1]
-    if len(choice.friction):
-        cones = choice.pair[choice.kind == CONE][: len(choice.friction)]
+    if choice.friction.size:
+        cones = choice.pair[choice.kind == CONE][: choice.friction.shape[1]]
         stay = np.zeros(len(cones), dtype=np.bool_) if closed is None else closed[cones]
         found = _with_cones(ConeProblem(M=reduced, q=rest, friction=choice.friction, closed=stay), choice.size)
     else:
@@ -211,7 +211,7 @@ def _complementary(M: Array, q: Array, size: float) -> Array | NoRates:
     combinations = f"2^{len(q)} combinations of states"
     if found.status is not lcp.Status.NO_SOLUTION:
         return evidence(ending, combinations)
-    answer = search(ConeProblem(M=M, q=q, friction=np.zeros((0, 2)), closed=np.zeros(0, dtype=np.bool_)))
+    answer = search(ConeProblem(M=M, q=q, friction=np.zeros((2, 0)), closed=np.zeros(0, dtype=np.bool_)))
     if not isinstance(answer, Exhausted):
         return answer
     if answer.undecided:

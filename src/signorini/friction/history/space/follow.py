@@ -22,17 +22,17 @@ from signorini.friction.history.plane.find_rates import NoRates
 from signorini.friction.history.segment import Breakpoint, Jump, Segment
 from signorini.friction.history.space.find_rates import SpatialRates, acting_pairs, find_rates
 from signorini.friction.history.space.missed_jumps import passed_over
-from signorini.friction.history.space.straight import columns, held_until, lasts, spare, turned
+from signorini.friction.history.space.straight import held_until, lasts, tangents, turned
 from signorini.friction.history.state import PathState
 from signorini.friction.history.way import Way, check_loads
+from signorini.friction.problem import ContactProblem
+from signorini.friction.pull_away import pulled_away
+from signorini.friction.result import ContactAnswer
+from signorini.friction.solve import ContactSettings, solve_contact
 from signorini.friction.space.bearing import OVERLOADED, Bearing, sliding
 from signorini.friction.space.standstill import standstill
-from signorini.friction.spatial.law import OPEN, SLIP, STICK
-from signorini.friction.spatial.problem import SpatialProblem
-from signorini.friction.spatial.result import SpatialResult
-from signorini.friction.spatial.rigid import pulled_away
-from signorini.friction.spatial.solve import SpatialSettings, solve_spatial
 from signorini.law.bound import STEEP
+from signorini.law.states import OPEN, SLIP, STICK
 from signorini.outcome import Outcome
 
 SHORTEST = 1e-12
@@ -55,7 +55,7 @@ _LOST = 1e-7  # part of the segment: where not even that has a solution nothing 
 _TRIES = 60  # at one increment
 _IDLE = 1e-12  # of the data: a normal force that rounding leaves, under which nothing slips
 _NEAR = 1e-6  # of the data: width of zero at an event that smooth sections make uncertain
-_QUICK = SpatialSettings(newton_steps=12, swept_rounds=1, proximal_rounds=0, springs=())
+_QUICK = ContactSettings(searched_steps=12, swept_rounds=1, proximal_rounds=0, springs=())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,7 +78,7 @@ class StopSettings:
 
 
 def follow_stopping(
-    problem: SpatialProblem,
+    problem: ContactProblem,
     start: PathState,
     b_end: Array,
     *,
@@ -109,7 +109,7 @@ def follow_stopping(
     --------
     One pair, pressed by 1 and pulled sideways by up to 1 across an octagon of friction: slips at 0.5.
 
-    >>> problem = SpatialProblem.of(
+    >>> problem = ContactProblem.of(
     ...     W=0.5 * np.eye(3), b=np.zeros(3), friction=[0.5], motions=np.zeros((3, 0)), scale=1.0, facets=8
     ... )
     >>> pressed = follow_stopping(problem, at_rest(problem, np.zeros(3)), np.array([-0.5, 0.0, 0.0]))
@@ -131,7 +131,7 @@ def follow_stopping(
     return walk.segment(Outcome.FOLLOWED, None, f"followed through {len(walk.events)} events")
 
 
-def at_rest(problem: SpatialProblem, b: Array, *, motion: Array | None = None) -> PathState:
+def at_rest(problem: ContactProblem, b: Array, *, motion: Array | None = None) -> PathState:
     """The start of a history: forces zero, or, where the load presses already, one increment from zero slip.
 
     Parameters
@@ -142,15 +142,21 @@ def at_rest(problem: SpatialProblem, b: Array, *, motion: Array | None = None) -
     """
     n = problem.pairs
     posed = replace(problem, b=frozen(b))
-    h = posed.free_motion if motion is None else motion
+    h = posed.free_motion() if motion is None else motion
     if (motion is None and problem.floating) or h[:n].min(initial=0.0) < -1e-10 * (problem.scale or 1.0):
-        result = solve_spatial(posed)
+        result = solve_contact(posed)
         if not result.solved:
             raise InputError(f"presses at the start, and no equilibrium was found: {result.message}", where=("b",))
-        h, r = _split(result)
-        slip = np.where(np.tile(result.state == OPEN, 2), 0.0, h[n:])
-        spent = np.maximum(-(columns(r[n:]) * columns(slip)).sum(axis=1), 0.0)
-        return PathState(b=b, h=h, r=r, state=result.state, anchor=h[n:], slip=slip, dissipation=spent)
+        slip = np.where(result.state == OPEN, 0.0, result.h[1:])
+        return PathState(
+            b=b,
+            h=result.h.ravel(),
+            r=result.r.ravel(),
+            state=result.state,
+            anchor=result.h[1:].ravel(),
+            slip=slip.ravel(),
+            dissipation=np.maximum(-(result.r[1:] * slip).sum(axis=0), 0.0),
+        )
     h = np.concatenate([np.maximum(h[:n], 0.0), h[n:]])
     none = np.zeros(2 * n)
     return PathState(b=b, h=h, r=np.zeros(3 * n), state=np.full(n, OPEN), anchor=h[n:], slip=none, dissipation=none[:n])
@@ -172,7 +178,7 @@ class _Trial:
 
     step: float
     after: PathState
-    result: SpatialResult
+    result: ContactAnswer
     until: float
     each: Array
     turn: float
@@ -186,7 +192,7 @@ class Walk(Way):
     problem, start, b_end, settings : see `follow_stopping`
     """
 
-    def __init__(self, problem: SpatialProblem, start: PathState, b_end: Array, settings: StopSettings) -> None:
+    def __init__(self, problem: ContactProblem, start: PathState, b_end: Array, settings: StopSettings) -> None:
         check_loads(3 * problem.pairs, start=start.b, b_end=b_end)
         super().__init__(start)
         self.problem, self.start, self.b_end, self.settings = problem, start, b_end, settings
@@ -194,8 +200,8 @@ class Walk(Way):
         self.last, self.tried = _FIRST / _PROBE, 0
         # up to where every event ends an increment; whether that failed; up to where no energy is missing
         self.careful, self.trusting, self.balanced = 0.0, False, 0.0
-        self.smooth = bool(((problem.mu > 0).any(axis=1) & (problem.sides == 0)).any())
-        self.refused: SpatialResult | None = None
+        self.smooth = bool((problem.law.rubs & (problem.section.sides == 0)).any())
+        self.refused: ContactAnswer | None = None
         self.limited = False  # whether the load has a limit where motions run away
         self._searched = False  # long, once in vain: shorter increments are near where they begin, or there are none
         self._rate: Array | None = None  # of r - h in the last increment that was found, per part of the segment
@@ -262,9 +268,9 @@ class Walk(Way):
         if trial is not None and trial.until >= 1.0 - _LATE:
             self._enter(trial, self._settled(trial, trial.after.state), 1)
 
-    def _near_by(self, trial: _Trial | SpatialResult) -> _Trial | None:
+    def _near_by(self, trial: _Trial | ContactAnswer) -> _Trial | None:
         """An increment that moves no pair farther than the loads of the whole history deform the bodies."""
-        if isinstance(trial, SpatialResult) or np.abs(trial.after.h - self.now.h).max() > (self.problem.scale or 1.0):
+        if isinstance(trial, ContactAnswer) or np.abs(trial.after.h - self.now.h).max() > (self.problem.scale or 1.0):
             return None
         return trial
 
@@ -285,7 +291,7 @@ class Walk(Way):
             h, r = step * rates.h, now.r + step * rates.r
             # the law of the whole piece is that in its middle
             trial = self._trial(step, step, 0.5 * (now.r + r - h) - np.concatenate([now.h[:n], np.zeros(2 * n)]))
-            if isinstance(trial, SpatialResult):
+            if isinstance(trial, ContactAnswer):
                 step /= 16.0
                 continue
             off = np.abs(trial.after.h - now.h - h).max() + np.abs(trial.after.r - r).max()
@@ -308,7 +314,7 @@ class Walk(Way):
         for times in _ACROSS:
             y = now.r + times * (r - h) - np.concatenate([now.h[:n], np.zeros(2 * n)])
             trial = self._trial(_FOLD, _FOLD, y)
-            if isinstance(trial, SpatialResult) or trial.turn > _TURNED:
+            if isinstance(trial, ContactAnswer) or trial.turn > _TURNED:
                 continue
             moved = trial.after.h - now.h
             if moved @ h > 0.5 * float(h @ h):
@@ -320,7 +326,7 @@ class Walk(Way):
         """How long no normal force vanishes or comes to a kink of the bound on friction, within the segment."""
         p, rate = self.now.r[: self.problem.pairs], rates.r[: self.problem.pairs]
         times = [self.reach - self.factor]
-        for kink in self.problem.bound.kinks[:-1]:
+        for kink in self.problem.pieces.kinks[:-1]:
             away = np.where(np.isfinite(kink), kink, np.inf) - p
             comes = (away * rate > 0.0) & (np.abs(away) > self.width)
             times.append(float((away[comes] / rate[comes]).min(initial=np.inf)))
@@ -342,7 +348,7 @@ class Walk(Way):
             longer = late * (_LOOSER ** (number - _PATIENCE) if late == _LATE else 1.0)
             ahead = None if self._rate is None or not self.now.r.any() else self._here + step * self._rate
             trial = self._trial(step, shortest, ahead)
-            if isinstance(trial, SpatialResult):
+            if isinstance(trial, ContactAnswer):
                 words, longest = trial.message, step
                 if not self._leaves:
                     self.refused = trial
@@ -398,7 +404,7 @@ class Walk(Way):
         moved = np.where(np.tile(pressed, 2), h[n:] - now.h[n:], 0.0)
         late = (trial.each < 1.0 - _ROUNDING) & (now.state != OPEN)
         rubbing = np.where(np.tile(late, 2), r[n:], 0.5 * (r[n:] + now.r[n:]))
-        lost = -(columns(rubbing) * columns(moved)).sum(axis=1)
+        lost = -(tangents(rubbing) * tangents(moved)).sum(axis=0)
         return replace(
             end, h=h, r=r, state=state, anchor=h[n:], slip=now.slip + moved, dissipation=now.dissipation + lost
         )
@@ -406,7 +412,7 @@ class Walk(Way):
     def _grips(self, trial: _Trial) -> bool:
         """Whether a pair that holds friction without pressure closes in it, which sticks where it touches, or opens."""
         turns = (self.now.state == OPEN) != (trial.after.state == OPEN)
-        grips = turns & (self.problem.bound.slopes[0] >= STEEP) & (trial.each < 1.0 - _LATE)
+        grips = turns & (self.problem.mu >= STEEP) & (trial.each < 1.0 - _LATE)
         return bool(grips.any()) and not self.trusting
 
     def _room(self, trial: _Trial, state: IntArray) -> float:
@@ -433,7 +439,7 @@ class Walk(Way):
         n = self.problem.pairs
         return self.now.r - np.concatenate([self.now.h[:n], np.zeros(2 * n)])
 
-    def _trial(self, step: float, shortest: float, ahead: Array | None = None) -> _Trial | SpatialResult:
+    def _trial(self, step: float, shortest: float, ahead: Array | None = None) -> _Trial | ContactAnswer:
         """The increment of a part of the segment, sought from its beginning or ahead; or why it has none."""
         now, n, problem = self.now, self.problem.pairs, self.problem
         factor = self.factor + step
@@ -443,14 +449,15 @@ class Walk(Way):
         origin = np.concatenate([np.zeros(n), now.h[n:]])
         increment = replace(problem, b=frozen(problem.misfit(origin, np.zeros(3 * n), b)))
         self.tried += 1
-        y = None if not now.r.any() else self._here
+        if ahead is None and now.r.any():
+            ahead = self._here
+        start = None if ahead is None else problem.by_pair(ahead)
         long = step <= shortest and not self._searched
-        result = solve_spatial(increment, y if ahead is None else ahead, settings=None if long else _QUICK)
+        result = solve_contact(increment, start, settings=None if long else _QUICK)
         if not result.solved:
             self._searched |= long
             return result
-        h, r = _split(result)
-        slip = result.slip
+        h, r, slip = result.h.ravel(), result.r.ravel(), result.h[1:]
         self._rate = (r - now.r - (h + origin - now.h)) / step
         until = held_until(increment, now, h, r, slip, self.width)
         least = float(until.min(initial=1.0))
@@ -486,7 +493,7 @@ class Walk(Way):
             return self.segment(Outcome.NOT_FOUND, None, lost.proof)
         n, r = self.problem.pairs, self.now.r
         pressed = r[:n] > self.width
-        spent = pressed & (spare(self.problem, r) <= self.near)
+        spent = pressed & (self.problem.law.reserve(self.problem.by_pair(r)) <= self.near)
         leaves, refused = self._leaves, self.refused
         acting = np.flatnonzero(spent) if leaves else acting_pairs(self.rate_problem, self.now, self.near)
         if self._overloaded:
@@ -508,13 +515,7 @@ class Walk(Way):
         return self.tried, 0, 0
 
 
-def _share(problem: SpatialProblem, b: Array) -> float:
+def _share(problem: ContactProblem, b: Array) -> float:
     """What of a load (3n,) on rigid motions no forces of the pairs take; 0 where they take all."""
     pull = pulled_away(replace(problem, b=frozen(b)))
     return 0.0 if pull is None else pull.share
-
-
-def _split(result: SpatialResult) -> tuple[Array, Array]:
-    """Motions and forces of an answer, each (3n,)."""
-    h = np.concatenate([result.gap, result.slip.T.ravel()])
-    return h, np.concatenate([result.normal_force, result.tangential_force.T.ravel()])

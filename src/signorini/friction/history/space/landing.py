@@ -14,11 +14,11 @@ from signorini.friction.history.segment import Segment
 from signorini.friction.history.space.find_rates import departures, find_rates
 from signorini.friction.history.space.follow import StopSettings, Walk
 from signorini.friction.history.state import PathState
-from signorini.friction.spatial.problem import SpatialProblem
+from signorini.friction.problem import ContactProblem
 
 
 def land_spatial(
-    problem: SpatialProblem, start: PathState, segment: Segment, *, settings: StopSettings | None = None
+    problem: ContactProblem, start: PathState, segment: Segment, *, settings: StopSettings | None = None
 ) -> Landing | None:
     """Follow a segment beyond its jump to the next equilibrium at the same load; None where none was found.
 
@@ -41,7 +41,7 @@ def land_spatial(
     >>> import numpy as np
     >>> from signorini.friction.history.space.follow import at_rest, follow_stopping
     >>> W = np.linalg.inv(np.array([[3.0, -1.0, 0.0], [-1.0, 3.0, 0.0], [0.0, 0.0, 3.0]]))
-    >>> problem = SpatialProblem.of(
+    >>> problem = ContactProblem.of(
     ...     W=W, b=np.zeros(3), friction=[3.0], motions=np.zeros((3, 0)), scale=1.0, facets=8
     ... )
     >>> pressed = follow_stopping(problem, at_rest(problem, np.zeros(3)), W @ [-1.0, 0.0, 0.0]).end

@@ -18,15 +18,14 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.friction.history.segment import Breakpoint
 from signorini.friction.history.state import PathState
-from signorini.friction.spatial.law import OPEN
-from signorini.friction.spatial.problem import SpatialProblem
-from signorini.friction.spatial.section import outermost
+from signorini.friction.problem import ContactProblem
+from signorini.law.states import OPEN
 
 _UNEVEN = 1.0  # of what increments would miss whose every pair acts; smooth ways of few pairs come up to it
 _ROUNDING = 1e-12  # of the energies compared
 
 
-def passed_over(problem: SpatialProblem, start: PathState, pieces: Sequence[Breakpoint], since: float) -> int | None:
+def passed_over(problem: ContactProblem, start: PathState, pieces: Sequence[Breakpoint], since: float) -> int | None:
     """The first increment that misses more energy than smooth ones of its length do, if any.
 
     Parameters
@@ -40,7 +39,7 @@ def passed_over(problem: SpatialProblem, start: PathState, pieces: Sequence[Brea
     --------
     One pair that rubs under a pressure of 1, and then leaves at once for a gap of 1, in a tenth of the way:
 
-    >>> problem = SpatialProblem.of(
+    >>> problem = ContactProblem.of(
     ...     W=0.5 * np.eye(3), b=np.zeros(3), friction=[1.0], motions=np.zeros((3, 0)), scale=1.0
     ... )
     >>> def at(h, r, lost):
@@ -68,14 +67,14 @@ def passed_over(problem: SpatialProblem, start: PathState, pieces: Sequence[Brea
     return None
 
 
-def _missing(problem: SpatialProblem, one: PathState, two: PathState) -> float:
+def _missing(problem: ContactProblem, one: PathState, two: PathState) -> float:
     """The energy that an increment misses, pair by pair; of one that slips what its first force lacks of the most."""
     n, moved = problem.pairs, two.h - one.h
     normal, *along = (0.5 * (one.r + two.r) * moved).reshape(3, n)
-    slip, force = moved[n:].reshape(2, n).T, one.r[n:].reshape(2, n).T
-    most = problem.bound.at(np.maximum(one.r[:n], 0.0))[:, None] * outermost(slip, problem.axes, problem.sides)
+    slip, force = moved[n:].reshape(2, n), one.r[n:].reshape(2, n)
+    most = problem.bound.at(np.maximum(one.r[:n], 0.0)) * problem.section.farthest(slip)
     rubs = (one.state != OPEN) & (two.state != OPEN)
-    lacking = 0.5 * ((most + force) * slip).sum(axis=1)
+    lacking = 0.5 * ((most + force) * slip).sum(axis=0)
     friction = np.where(rubs, lacking, along[0] + along[1] + two.dissipation - one.dissipation)
     return float((np.abs(normal) + np.abs(friction)).sum())
 

@@ -74,7 +74,7 @@ def search(problem: ConeProblem) -> Array | Exhausted:
     >>> search(pair(-1.0, 0.5, 0.0)).proved, search(pair(1.0, 0.5, 0.0)).round(12).tolist()
     (True, [0.0, 0.0, 0.0])
     """
-    N, m = problem.numbers, len(problem.friction)
+    N, m = problem.numbers, len(problem.closed)
     unit = problem.unit
     posed = replace(problem, q=problem.q / unit)
     nodes = [_Node(numbers=(None,) * N, pairs=(None,) * m)]
@@ -118,7 +118,7 @@ def _branches(problem: ConeProblem, node: _Node, x: Array, tangents: list[list[f
         parts = (region[0], middle), (middle, region[1])
     else:
         _, along = _rows(problem, k, problem.M)
-        start = problem.q[N + k + len(problem.friction) * np.arange(1, 3)] / problem.friction[k]
+        start = problem.q[N + k + len(problem.closed) * np.arange(1, 3)] / problem.friction[:, k]
         one, two = along @ x + start
         tangents[k].append(float(np.arctan2(two, one)))
         parts = (region,)
@@ -128,8 +128,8 @@ def _branches(problem: ConeProblem, node: _Node, x: Array, tangents: list[list[f
 
 def _rows(problem: ConeProblem, k: int, matrix: Array) -> tuple[Array, Array]:
     """The normal row of a pair and its two tangential ones, these where its section is a circle of forces."""
-    at = problem.numbers + k + len(problem.friction) * np.arange(3)
-    return matrix[at[0]], matrix[at[1:]] / problem.friction[k][:, None]
+    at = problem.numbers + k + len(problem.closed) * np.arange(3)
+    return matrix[at[0]], matrix[at[1:]] / problem.friction[:, k, None]
 
 
 class _Programme:
@@ -194,12 +194,12 @@ def _relaxed(problem: ConeProblem, node: _Node, tangents: list[list[float]], wor
 
 def _pair(problem: ConeProblem, k: int, region: Region, tangents: list[float], programme: _Programme) -> None:
     """What a pair in a region allows."""
-    N, m = problem.numbers, len(problem.friction)
+    N, m = problem.numbers, len(problem.closed)
     at = N + k + m * np.arange(3)
     closed = problem.closed[k] or region not in (None, "open")
     programme.low[at[0]], programme.high[at[0]] = 0.0, 0.0 if closed else _FAR
     normal, along = _rows(problem, k, problem.M)
-    start = problem.q[at[1:]] / problem.friction[k]
+    start = problem.q[at[1:]] / problem.friction[:, k]
     if region == "open":
         programme.equal += [(row, -problem.q[i]) for row, i in zip(problem.M[at], at, strict=True)]
         return
@@ -222,5 +222,5 @@ def _pair(problem: ConeProblem, k: int, region: Region, tangents: list[float], p
     touch(0.5 * (low + high), reach=float(np.cos(0.5 * (high - low))), sign=-1.0)
     for angle, sign in ((low, 1.0), (high, -1.0)):  # slip is against the force, between both directions
         row = np.zeros(len(problem.q))
-        row[at[1:]] = sign * np.array([-np.sin(angle), np.cos(angle)]) * problem.friction[k]
+        row[at[1:]] = sign * np.array([-np.sin(angle), np.cos(angle)]) * problem.friction[:, k]
         programme.above.append((row, 0.0))

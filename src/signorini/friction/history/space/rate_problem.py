@@ -23,11 +23,10 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.friction.history.space.sticking_response import Held
-from signorini.friction.history.space.straight import columns
+from signorini.friction.history.space.straight import tangents
 from signorini.friction.history.state import PathState
-from signorini.friction.spatial.law import SLIP
-from signorini.friction.spatial.problem import SpatialProblem
-from signorini.friction.spatial.section import facets_of, outermost
+from signorini.friction.problem import ContactProblem
+from signorini.law.states import SLIP
 
 FACET, GAP, KINK, CONE = 0, 1, 2, 3
 """Kinds of complementary numbers; CONE: one of three rows of a pair in Coulomb's law."""
@@ -65,16 +64,16 @@ class PairSituation:
     widths: Array
 
     @classmethod
-    def at(cls, problem: SpatialProblem, now: PathState, width: float, opened: BoolArray) -> PairSituation:
+    def at(cls, problem: ContactProblem, now: PathState, width: float, opened: BoolArray) -> PairSituation:
         """Pairs at a state; those ``opened`` (n,) are taken to open."""
-        n, bound = problem.pairs, problem.bound
+        n, bound, law = problem.pairs, problem.pieces, problem.law
         widths = np.minimum(width, np.maximum(_APART * bound.kinks[1], _ROUNDING * (problem.scale or 1.0)))
         gap, p = now.h[:n], now.r[:n]
         corner = (gap <= widths) & (p <= widths) & ~opened
         closed = (corner | (p > widths)) & ~opened
         rubs = closed & ((bound.slopes[0] > 0) | (bound.starts[0] > 0))
-        smooth = corner & rubs & (problem.sides == 0) & (problem.axes > 0).all(axis=1)
-        dragged = (problem.locked & (problem.b[n:].reshape(2, n).T != 0)).any(axis=1) & ~problem.dragged
+        smooth = corner & rubs & (problem.section.sides == 0) & (problem.section.axes > 0).all(axis=0)
+        dragged = (problem.locked & ~problem.still).any(axis=0) & ~law.dragged
         branch = bound.branch(np.where(corner, 0.0, p))
         slope = bound.slopes[branch, np.arange(n)]
         below, above, kink = slope, slope, np.zeros(n, dtype=np.bool_)
@@ -89,8 +88,8 @@ class PairSituation:
             kink=kink,
             below=below,
             above=above,
-            smooth=smooth & ~problem.dragged,
-            lawless=(smooth & problem.dragged) | (rubs & dragged) | problem.bounded,
+            smooth=smooth & ~law.dragged,
+            lawless=(smooth & law.dragged) | (rubs & dragged) | problem.bounded,
             widths=widths,
         )
 
@@ -105,8 +104,8 @@ class Choice:
     standing : where the pairs stand
     kind, pair : (N,) FACET (z is a slip rate), GAP (an opening rate), KINK or CONE (at last; z is an opening rate, or
         one along a tangent), and the pair
-    normal : (N, 2) of facets
-    friction : (m, 2) half-axes of the sections of the m pairs in Coulomb's law, for a normal force of 1
+    normal : (2, N) of facets
+    friction : (2, m) half-axes of the sections of the m pairs in Coulomb's law, for a normal force of 1
     motion : (c, N) of the held rows
     M, q : (N, N) and (N,)
     size : of the terms that q is the sum of: what is left where they cancel is as sure as they are
@@ -128,7 +127,7 @@ class Choice:
 
     @classmethod
     def at(
-        cls, problem: SpatialProblem, now: PathState, width: float, *, opened: BoolArray | None = None
+        cls, problem: ContactProblem, now: PathState, width: float, *, opened: BoolArray | None = None
     ) -> Choice | str:
         """The choice at a state under a load rate, the b of the problem; why there is none, in words.
 
@@ -151,7 +150,7 @@ class Choice:
         meets, cones = np.flatnonzero(standing.corner & ~standing.smooth), np.flatnonzero(standing.smooth)
         everyone = np.concatenate([pair, meets, kinks, cones, cones, cones])
         kind = np.repeat([FACET, GAP, KINK, CONE], [len(pair), len(meets), len(kinks), 3 * len(cones)])
-        normals = np.concatenate([normal, np.zeros((len(everyone) - len(pair), 2))])
+        normals = np.concatenate([normal, np.zeros((2, len(everyone) - len(pair)))], axis=1)
         motion, asked = _rows(held, kind, everyone, normals, reach * standing.above[pair])
         answers = held.forces(motion)
         M, terms = asked @ answers, np.abs(asked) @ np.abs(answers)
@@ -171,7 +170,7 @@ class Choice:
             kind=kind,
             pair=everyone,
             normal=normals,
-            friction=problem.axes[cones] * standing.above[cones, None],
+            friction=problem.section.axes[:, cones] * standing.above[cones],
             motion=motion,
             M=M,
             q=q,
@@ -186,29 +185,27 @@ class Choice:
     def rates(self, z: Array) -> tuple[Array, Array]:
         """Rates of motions and forces, each (3n,), of a z."""
         problem = self.held.problem
-        n, dragged = problem.pairs, np.flatnonzero(problem.dragged & self.standing.closed)
+        n, dragged = problem.pairs, np.flatnonzero(problem.law.dragged & self.standing.closed)
         h, r = self.held.whole(self.motion @ z)
         if len(dragged):
-            against = -columns(problem.b[n:])[dragged]
-            most = outermost(against, problem.axes[dragged], problem.sides[dragged])
-            carries = most * (self.standing.above * r[:n])[dragged, None]
-            r[n + dragged], r[2 * n + dragged] = carries.T
+            most = problem.section.among(dragged).farthest(-tangents(problem.b[n:])[:, dragged])
+            r[n + dragged], r[2 * n + dragged] = most * (self.standing.above * r[:n])[dragged]
         return h, r
 
 
-def _facets(problem: SpatialProblem, standing: PairSituation, now: PathState) -> tuple[IntArray, Array, Array]:
-    """Pairs, normals (m, 2) and reaches (m,) of the facets that they may slip on."""
+def _facets(problem: ContactProblem, standing: PairSituation, now: PathState) -> tuple[IntArray, Array, Array]:
+    """Pairs, normals (2, m) and reaches (m,) of the facets that they may slip on."""
     n = problem.pairs
-    force = columns(now.r[n:])
-    normals, reach = facets_of(problem.axes, problem.sides, force)
+    force = tangents(now.r[n:])
+    normals, reach = problem.section.facets(force)
     most = problem.bound.at(np.maximum(now.r[:n], 0.0))
-    spare = np.where(np.isfinite(reach), reach, 0.0) * most - (normals * force).sum(axis=2)
+    spare = np.where(np.isfinite(reach), reach, 0.0) * most - (normals * force).sum(axis=1)
     spare = np.where(np.isfinite(reach), spare, np.inf)
     nearest = np.where(now.state == SLIP, spare.min(axis=0, initial=np.inf), 0.0)
     touched = standing.corner | (spare <= np.maximum(standing.widths, nearest * (1.0 + 1e-12)))
-    touched &= standing.rubs & ~problem.dragged & ~standing.smooth
+    touched &= standing.rubs & ~problem.law.dragged & ~standing.smooth
     side, pair = np.nonzero(touched & np.isfinite(reach))
-    return pair, normals[side, pair], reach[side, pair]
+    return pair, normals[side, :, pair].T, reach[side, pair]
 
 
 def _rows(held: Held, kind: IntArray, pair: IntArray, normals: Array, share: Array) -> tuple[Array, Array]:
@@ -219,8 +216,7 @@ def _rows(held: Held, kind: IntArray, pair: IntArray, normals: Array, share: Arr
     for axis in (1, 2):
         at = held.place[axis * n + pair[f]]
         has = at >= 0
-        motion[at[has], f[has]] = -normals[f[has], axis - 1]
-        asked[f[has], at[has]] = -normals[f[has], axis - 1]
+        motion[at[has], f[has]] = asked[f[has], at[has]] = -normals[axis - 1, f[has]]
     asked[f, held.place[pair[f]]] = share
     motion[held.place[pair[g]], g] = asked[g, held.place[pair[g]]] = 1.0
     asked[k, held.place[pair[k]]] = 1.0

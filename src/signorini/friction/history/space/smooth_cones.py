@@ -19,7 +19,7 @@ import numpy as np
 
 from signorini import lcp
 from signorini.arrays import Array, BoolArray
-from signorini.friction.spatial.section import project
+from signorini.law.section import FrictionSection
 
 _SIDES = (8, 12)  # of the polygons whose answers Newton's method starts from
 _STEPS = 30
@@ -34,7 +34,7 @@ class ConeProblem:
     Attributes
     ----------
     M, q : (N + 3m, N + 3m) and (N + 3m,)
-    friction : (m, 2) half-axes of the section at a normal force of 1, > 0
+    friction : (2, m) half-axes of the section at a normal force of 1, > 0
     closed : (m,) pairs that may not open
 
     Examples
@@ -42,7 +42,7 @@ class ConeProblem:
     One pair, pressed by 1 and pulled by 1 along its second tangent, slips:
 
     >>> problem = ConeProblem(
-    ...     M=np.eye(3), q=np.array([1.0, 0.0, -1.0]), friction=np.full((1, 2), 0.4), closed=np.array([False])
+    ...     M=np.eye(3), q=np.array([1.0, 0.0, -1.0]), friction=np.full((2, 1), 0.4), closed=np.array([False])
     ... )
     >>> x = problem.newton(problem.q)
     >>> x.round(12).tolist(), problem.w(x).round(12).tolist()
@@ -57,7 +57,7 @@ class ConeProblem:
     @property
     def numbers(self) -> int:
         """N."""
-        return len(self.q) - 3 * len(self.friction)
+        return len(self.q) - 3 * len(self.closed)
 
     @property
     def unit(self) -> float:
@@ -70,22 +70,22 @@ class ConeProblem:
 
     def obeyed(self, y: Array) -> tuple[Array, Array]:
         """(N + 3m,) The w of a y that obeys the law, and its derivative."""
-        N, m = self.numbers, len(self.friction)
+        N, m = self.numbers, len(self.closed)
         w, slope = np.maximum(y, 0.0), np.diag((y > 0.0).astype(np.float64))
         pressed = np.maximum(y[N : N + m], 0.0)
-        w[N:], left, tau, kappa = project(y[N:], self.friction, pressed, np.zeros(m, dtype=np.int64))
+        found = FrictionSection(axes=self.friction, sides=np.zeros(m, dtype=np.int64)).project(
+            y[N + m :].reshape(2, m), pressed
+        )
+        w[N + m :], left = found.r.ravel(), found.left
         normal, along = N + np.arange(m), N + m * np.arange(1, 3)[:, None] + np.arange(m)
         w[normal[self.closed]], slope[normal[self.closed], normal[self.closed]] = y[normal[self.closed]], 1.0
         slope[along, along] = 0.0
         share = np.divide(w[along], pressed, out=np.zeros((2, m)), where=pressed > 0.0)
-        sticks, slips = (pressed > 0.0) & (left == 2), (pressed > 0.0) & (left == 1)
-        slope[along[:, sticks], along[:, sticks]] = 1.0
-        across = np.where(slips, 1.0 / (1.0 + kappa), 0.0)
+        slips, across = (pressed > 0.0) & (left == 1), found.slope
         for i in range(2):
             for j in range(2):
-                slope[along[i], along[j]] += across * tau[:, i] * tau[:, j]
-            slope[along[i], normal] = np.where(slips, share[i], 0.0)
-            slope[along[i], normal] -= across * tau[:, i] * (tau.T * share).sum(axis=0)
+                slope[along[i], along[j]] = across[i, j]
+            slope[along[i], normal] = np.where(slips, share[i] - (across[i] * share).sum(axis=0), 0.0)
         return w, slope
 
     def lacking(self, x: Array) -> Array:
@@ -113,7 +113,7 @@ class ConeProblem:
 
     def found(self) -> Array | None:
         """A solution x by Newton's method, from polygons, or all pairs sticking or open; None where it finds none."""
-        N, m = self.numbers, len(self.friction)
+        N, m = self.numbers, len(self.closed)
         for sides in _SIDES:
             x = self._on_polygons(sides)
             x = None if x is None else self.newton(self.w(x) - x)
@@ -129,7 +129,7 @@ class ConeProblem:
 
     def _on_polygons(self, sides: int) -> Array | None:
         """An x that obeys the law with polygons around the sections, by Lemke's method; None where that finds none."""
-        N, m = self.numbers, len(self.friction)
+        N, m = self.numbers, len(self.closed)
         angle = (np.arange(sides) + 0.5) * (2.0 * np.pi / sides)
         size = N + m + m * sides
         moves, asks = np.zeros((len(self.q), size)), np.zeros((size, len(self.q)))
@@ -138,7 +138,7 @@ class ConeProblem:
         for k in range(m):
             at = N + m + k * sides + np.arange(sides)
             for i, share in enumerate((np.cos(angle), np.sin(angle))):
-                normal = share / self.friction[k, i]
+                normal = share / self.friction[i, k]
                 moves[N + (1 + i) * m + k, at] = asks[at, N + (1 + i) * m + k] = -normal
             asks[at, N + k] = 1.0
         may = np.concatenate([np.ones(N, dtype=np.bool_), ~self.closed, np.ones(m * sides, dtype=np.bool_)])

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.friction.spatial.problem import SpatialProblem
+from signorini.friction.problem import ContactProblem
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -29,7 +29,7 @@ class Held:
 
     Examples
     --------
-    >>> problem = SpatialProblem.of(
+    >>> problem = ContactProblem.of(
     ...     W=0.5 * np.eye(3), b=np.array([-1.0, 0.5, 0.0]), friction=[0.3], motions=np.zeros((3, 0)), scale=1.0
     ... )
     >>> held = Held.of(problem, np.array([True]), np.array([True]))
@@ -37,7 +37,7 @@ class Held:
     ([2.0, -1.0, 0.0], [0.0, 0.1, 0.0])
     """
 
-    problem: SpatialProblem
+    problem: ContactProblem
     rows: IntArray
     place: IntArray
     force: Array
@@ -47,12 +47,12 @@ class Held:
     _factor: tuple[Array, bool]
 
     @classmethod
-    def of(cls, problem: SpatialProblem, closed: BoolArray, rubs: BoolArray) -> Held | None:
+    def of(cls, problem: ContactProblem, closed: BoolArray, rubs: BoolArray) -> Held | None:
         """The interface with pairs that are closed, (n,), and rub, (n,); None where that leaves forces undetermined."""
         W, b, n = problem.W, problem.b, problem.pairs
-        tangents = (rubs[:, None] & ~problem.locked & (problem.axes > 0)).T.ravel()
+        tangents = (rubs & ~problem.locked & (problem.section.axes > 0)).ravel()
         holds = np.concatenate([closed, tangents])
-        still = np.concatenate([np.zeros(n, dtype=np.bool_), problem.locked.T.ravel()])
+        still = np.concatenate([np.zeros(n, dtype=np.bool_), problem.locked.ravel()])
         c, o = np.flatnonzero(holds), np.flatnonzero(~holds & ~still)
         place = np.full(3 * n, -1)
         place[c] = np.arange(len(c))

@@ -18,42 +18,25 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.friction.history.state import PathState
-from signorini.friction.spatial.law import OPEN, STICK
-from signorini.friction.spatial.problem import SpatialProblem
-from signorini.friction.spatial.section import outermost
+from signorini.friction.problem import ContactProblem
+from signorini.law.states import OPEN, STICK
 
 _NONE = 1e-9  # of the largest rate: a rate that is none
 _ROUNDING = 1e-12  # of the values that a rate is the difference of
 
 
-def columns(rows: Array) -> Array:
-    """(n, 2) Tangential values that are given row by row, (2n,)."""
-    return rows.reshape(2, -1).T
+def tangents(rows: Array) -> Array:
+    """(2, n) Tangential values that are given row by row, (2n,)."""
+    return rows.reshape(2, -1)
 
 
-def spare(problem: SpatialProblem, r: Array) -> Array:
-    """(n,) Friction to spare, a force: what the normal force could still carry; 0 on the limit."""
-    n = problem.pairs
-    scaled = _over(columns(r[n:]), problem.axes)
-    size = np.linalg.norm(scaled, axis=1)
-    half = np.pi / np.maximum(problem.sides, 1)
-    beside = np.mod(np.arctan2(scaled[:, 1], scaled[:, 0]), 2.0 * half) - half
-    size = np.where(problem.sides > 0, size * np.cos(beside) / np.cos(half), size)
-    return np.asarray(problem.bound.at(np.maximum(r[:n], 0.0)) - size, dtype=np.float64)
-
-
-def _over(force: Array, axes: Array) -> Array:
-    """(n, 2) Forces over the half-axes of sections of size 1; none along an axis of length 0."""
-    return np.divide(force, axes, out=np.zeros_like(force), where=axes > 0)
-
-
-def held_until(problem: SpatialProblem, start: PathState, h: Array, r: Array, slip: Array, width: float) -> Array:
+def held_until(problem: ContactProblem, start: PathState, h: Array, r: Array, slip: Array, width: float) -> Array:
     """(n,) Estimated part of a piece up to which the law holds, 1 where it holds all the way.
 
     Parameters
     ----------
     start : at its beginning
-    h, r : (3n,) at its end, where the law holds for the slip increment (n, 2)
+    h, r : (3n,) at its end, where the law holds for the slip increment (2, n)
     width : of zero for a gap and a force
     """
     n = problem.pairs
@@ -62,22 +45,22 @@ def held_until(problem: SpatialProblem, start: PathState, h: Array, r: Array, sl
     closes, opens = (r[:n] > width) & (gap > width), (h[:n] > width) & (p > width)
     until[closes] = gap[closes] / (gap + r[:n])[closes]
     until[opens] = p[opens] / (p + h[:n])[opens]
-    size = np.linalg.norm(slip, axis=1)
+    size = np.linalg.norm(slip, axis=0)
     slips = (r[:n] > 0) & (size > width) & ~closes
-    most = problem.bound.at(p)[:, None] * outermost(slip, problem.axes, problem.sides)
-    lacking = ((most + columns(start.r[n:])) * slip).sum(axis=1) / np.where(slips, size, 1.0)
+    most = problem.bound.at(p) * problem.section.farthest(slip)
+    lacking = ((most + tangents(start.r[n:])) * slip).sum(axis=0) / np.where(slips, size, 1.0)
     # on a smooth section the force turns with the slip; how far is another question, see `turned`
-    inside = (problem.sides > 0) | (spare(problem, start.r) > width)
+    inside = (problem.section.sides > 0) | (problem.law.reserve(problem.by_pair(start.r)) > width)
     starts = slips & inside & (lacking > width)
     until[starts] = lacking[starts] / (lacking + size)[starts]
-    for kink in problem.bound.kinks[1:-1]:
+    for kink in problem.pieces.kinks[1:-1]:
         low, high = np.minimum(p, r[:n]), np.maximum(p, r[:n])
         passes = slips & (low < kink - width) & (kink + width < high)
         until[passes] = np.minimum(until, (kink - p) / np.where(passes, r[:n] - p, 1.0))[passes]
     return until
 
 
-def turned(problem: SpatialProblem, start: PathState, r: Array, slip: Array, width: float) -> float:
+def turned(problem: ContactProblem, start: PathState, r: Array, slip: Array, width: float) -> float:
     """Largest angle by which friction turns on smooth sections, of pairs that slip on their limit all the way.
 
     Parameters
@@ -85,17 +68,18 @@ def turned(problem: SpatialProblem, start: PathState, r: Array, slip: Array, wid
     start, r, slip, width : see `held_until`
     """
     n = problem.pairs
-    one, two = columns(start.r[n:]), columns(r[n:])
-    long = np.minimum(np.linalg.norm(one, axis=1), np.linalg.norm(two, axis=1))
-    slips = np.linalg.norm(slip, axis=1) > width
-    which = slips & (problem.sides == 0) & (long > 1e3 * width) & (spare(problem, start.r) <= width)
+    one, two = tangents(start.r[n:]), tangents(r[n:])
+    long = np.minimum(np.linalg.norm(one, axis=0), np.linalg.norm(two, axis=0))
+    slips = np.linalg.norm(slip, axis=0) > width
+    spent = problem.law.reserve(problem.by_pair(start.r)) <= width
+    which = slips & (problem.section.sides == 0) & (long > 1e3 * width) & spent
     if not which.any():
         return 0.0
-    cross = one[which, 0] * two[which, 1] - one[which, 1] * two[which, 0]
-    return float(np.abs(np.arctan2(cross, (one[which] * two[which]).sum(axis=1))).max())
+    cross = one[0, which] * two[1, which] - one[1, which] * two[0, which]
+    return float(np.abs(np.arctan2(cross, (one[:, which] * two[:, which]).sum(axis=0))).max())
 
 
-def lasts(problem: SpatialProblem, start: PathState, end: PathState, width: float) -> float:
+def lasts(problem: ContactProblem, start: PathState, end: PathState, width: float) -> float:
     """At how many times its length a piece must end since a gap, a normal force or friction to spare vanishes.
 
     Parameters
@@ -120,19 +104,20 @@ def lasts(problem: SpatialProblem, start: PathState, end: PathState, width: floa
     s = problem.bound.at(np.maximum(start.r[:n], 0.0))
     ds = problem.bound.at(np.maximum(r[:n], 0.0)) - s
     rubs = closed & (s + ds > 0)
-    for kink in problem.bound.kinks[1:-1]:
+    for kink in problem.pieces.kinks[1:-1]:
         vanish(rubs & (kink > start.r[:n] + width), kink - start.r[:n], -dr[:n])
         vanish(rubs & (kink < start.r[:n] - width), start.r[:n] - kink, dr[:n])
-    f, df = _over(columns(start.r[n:]), problem.axes), _over(columns(dr[n:]), problem.axes)
-    for j in range(int(problem.sides.max(initial=0))):
-        half = np.pi / np.maximum(problem.sides, 1)
-        normal = np.column_stack([np.cos((2 * j + 1) * half), np.sin((2 * j + 1) * half)])
+    axes, sides = problem.section.axes, problem.section.sides
+    f, df = _over(tangents(start.r[n:]), axes), _over(tangents(dr[n:]), axes)
+    for j in range(int(sides.max(initial=0))):
+        half = np.pi / np.maximum(sides, 1)
+        normal = np.stack([np.cos((2 * j + 1) * half), np.sin((2 * j + 1) * half)])
         reach = np.cos(half)
-        vanish(rubs & (problem.sides > j), reach * s - (normal * f).sum(axis=1), reach * ds - (normal * df).sum(axis=1))
-    sticks = rubs & (problem.sides == 0) & (end.state == STICK)
-    a = (df**2).sum(axis=1) - ds**2
-    b = (f * df).sum(axis=1) - s * ds
-    c = (f**2).sum(axis=1) - s**2
+        vanish(rubs & (sides > j), reach * s - (normal * f).sum(axis=0), reach * ds - (normal * df).sum(axis=0))
+    sticks = rubs & (sides == 0) & (end.state == STICK)
+    a = (df**2).sum(axis=0) - ds**2
+    b = (f * df).sum(axis=0) - s * ds
+    c = (f**2).sum(axis=0) - s**2
     root = np.sqrt(np.maximum(b * b - a * c, 0.0))
     outward = sticks & (b > 0) & (b * b >= a * c)
     inward = sticks & (b <= 0) & (a > least**2)
@@ -140,3 +125,8 @@ def lasts(problem: SpatialProblem, start: PathState, end: PathState, width: floa
         if which.any():
             times.append(float((above[which] / below[which]).min()))
     return min(times)
+
+
+def _over(force: Array, axes: Array) -> Array:
+    """(2, n) Forces over the half-axes of sections of size 1; none along an axis of length 0."""
+    return np.divide(force, axes, out=np.zeros_like(force), where=axes > 0)
