@@ -300,8 +300,6 @@ RULES = {
 PENDING = {
     "condense": "signatures parameters",
     #
-    "engine": "nouns parameters constants",
-    #
     "fem": "signatures parameters",
     #
     "friction": "files nouns parameters classes constants",
@@ -311,8 +309,6 @@ PENDING = {
     "law": "constants",
     #
     "meshing": "parameters",
-    #
-    "solution": "nouns parameters constants",
     #
 }
 """Rules that a room does not keep yet: what it keeps is taken out, and modules that move take their rules along."""

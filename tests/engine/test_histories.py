@@ -190,7 +190,7 @@ def test_increments_until_the_answer_stays(monkeypatch):
     assert errors[1] < 0.5 * errors[0]
     assert errors[1] < 0.02
     assert sg.solve(zhu_cylinder(refine=2, friction=0.0, steps=steps)).last.increments == 2
-    monkeypatch.setattr("signorini.engine.automatic.MOST", 8)
+    monkeypatch.setattr("signorini.engine.automatic.MAX_INCREMENTS", 8)
     with pytest.raises(sg.SolveFailed, match="8 increments still change contact forces by"):
         sg.solve(zhu_cylinder(refine=1, steps=steps))
 

@@ -24,12 +24,12 @@ from signorini.engine.step_parts import FollowedPart, StepPart
 from signorini.errors import SolveFailed, told
 from signorini.outcome import Outcome
 
-MOST = 4096
+MAX_INCREMENTS = 4096
 """Increments of one straight part of a step; in space the part of it that they need not undercut."""
 _CERTAIN = 16  # increments on a way in space of which it is believed that it jumps, or that it does not
 _VAIN = 16  # times as many increments, that change the answer no less: it does not settle
 _LOST = 4  # times the number that is enough: the most that are tried where a way in space is lost
-_MORE = 'expected less? Give the step increments = "auto" or their number'
+_FINER_HINT = 'expected less? Give the step increments = "auto" or their number'
 
 
 def follow_automatically(
@@ -60,8 +60,8 @@ def follow_automatically(
     changes, number, why = "the answer, where one is found", 1, ""
     seen: dict[int, float] = {}
     more, fewer = (2, "half as many") if prepared.interface.directions == 2 else (4, "a quarter as many")
-    most = MOST if enough is None or prepared.interface.directions == 2 else _LOST * enough
-    while number <= MOST:
+    most = MAX_INCREMENTS if enough is None or prepared.interface.directions == 2 else _LOST * enough
+    while number <= MAX_INCREMENTS:
         try:
             with prepared.clock.again(why):
                 fine, words = _followed(part, number, jump)
@@ -81,7 +81,7 @@ def follow_automatically(
             if change <= tolerance and (number >= _CERTAIN or _defect(prepared, fine) <= tolerance):
                 return replace(fine, path="increments", notes=(*fine.notes, note))
             if enough is not None and number >= enough:
-                return replace(fine, path="increments", notes=(*fine.notes, f"{note}; {_MORE}"))
+                return replace(fine, path="increments", notes=(*fine.notes, f"{note}; {_FINER_HINT}"))
             seen[number] = change
             if number >= _VAIN * _CERTAIN and change >= seen.get(number // _VAIN, np.inf):
                 break
@@ -96,10 +96,10 @@ def follow_automatically(
         return replace(fine, path="increments", notes=(*fine.notes, note))
     raise SolveFailed(
         told(
-            f"{part.where}: {min(number, MOST)} increments still change {changes}",
+            f"{part.where}: {min(number, MAX_INCREMENTS)} increments still change {changes}",
             remedy='a larger tolerance, or path = "exact" where sections are polygons or the model is plane',
             evidence=""
-            if number > MOST
+            if number > MAX_INCREMENTS
             else f"{number // _VAIN} changed it by no more, they lead to different answers",
         ),
         status=Outcome.NOT_FOUND,

@@ -23,7 +23,7 @@ from signorini.solution.certificate import Certificate
 from signorini.solution.scale import Loading
 from signorini.solution.state import State
 
-_MORE = 1e-9  # of the friction bound: what counts as beyond it
+_BOUND_TOL = 1e-9  # of the friction bound: what counts as beyond it
 
 
 def switched(prepared: Prepared, state: State, absent: BoolArray) -> State:
@@ -60,12 +60,18 @@ def relaxed(prepared: Prepared, state: State, where: str) -> tuple[State, Certif
 
     That is no gradual motion: the energy set free beyond what friction takes, by the mean of its forces before and
     after, is counted as released. None where nothing slips.
+
+    Parameters
+    ----------
+    prepared : under the law of the step
+    state : at the end of the step before
+    where : name of the step, for messages
     """
     n, interface = len(prepared.interface), prepared.interface
     tangential, bound = interface.effort(state.forces[n:]), interface.most(state.forces[:n])
     bound[interface.sticks] = np.inf
     size = float(np.abs(state.forces).max(initial=0.0))
-    if not (~prepared.absent & (tangential > (1.0 + _MORE) * bound + 1e-12 * size)).any():
+    if not (~prepared.absent & (tangential > (1.0 + _BOUND_TOL) * bound + 1e-12 * size)).any():
         return None
     after, certificate, tried = advance(prepared, state, state.point, f"{where}, friction lowered")
     spent = 0.5 * (state.forces + after.forces)[n:] * (after.slip - state.slip)
@@ -79,6 +85,7 @@ def staged(prepared: Prepared, stage: Stage, loading: Loading) -> Prepared:
     Parameters
     ----------
     prepared : with every contact switched on and the friction that the contacts themselves have
+    stage : the step
     loading : the most that was imposed up to the end of the step: what its certificates refer to
 
     Raises

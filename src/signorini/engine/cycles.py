@@ -14,7 +14,7 @@ from signorini.solution.results import Cycle
 from signorini.solution.scale import Scale
 from signorini.solution.state import State
 
-SAME = 1e-8
+REPEAT_TOL = 1e-8
 """Forces of the largest, and slips of the size of the data, that count as equal."""
 
 
@@ -65,12 +65,12 @@ def _across(tangential: Array, n: int) -> Array:
 
 def judge(cycles: Sequence[Cycle], scale: Scale) -> tuple[str, str]:
     """One of "shakes down", "steady", "ratchets" and "not yet", and the same in a sentence."""
-    still = _since(cycles, [cycle.sliding <= SAME * scale.length for cycle in cycles])
+    still = _since(cycles, [cycle.sliding <= REPEAT_TOL * scale.length for cycle in cycles])
     if still is not None:
         return "shakes down", f"shakes down: no pair slips from cycle {still} on"
-    repeats = [cycle.change <= SAME for cycle in cycles]
+    repeats = [cycle.change <= REPEAT_TOL for cycle in cycles]
     closed = _since(
-        cycles, [same and cycle.drift <= SAME * scale.length for same, cycle in zip(repeats, cycles, strict=True)]
+        cycles, [same and cycle.drift <= REPEAT_TOL * scale.length for same, cycle in zip(repeats, cycles, strict=True)]
     )
     last = cycles[-1]
     if closed is not None:

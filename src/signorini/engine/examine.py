@@ -3,21 +3,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import scipy.sparse as sp
 
 from signorini.arrays import Array
 from signorini.engine.duplicate_check import refuse_idle, refuse_same_contacts
-from signorini.engine.free_motion_check import refuse_unheld
+from signorini.engine.free_motion_check import left_out, refuse_free_motions
+from signorini.errors import InputError
 from signorini.fem.links import linked_nodes
 from signorini.fem.loads import nodal_loads
 from signorini.fem.locking import refuse_locking
 from signorini.fem.rigid import ConnectedBody, connected_bodies, free_motions, rigid_motions
 from signorini.fem.space import Space, make_space
 from signorini.fem.supports import Constraints, make_constraints
-from signorini.interface.interface import Interface, make_interface
+from signorini.interface.interface import Interface, make_interface, pairs_of
 from signorini.model.model import Model
 from signorini.model.stage import Stage, Standing, stages
 from signorini.solution.checkpoint import Checkpoint
@@ -77,9 +78,8 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         start.check(model, interface)
     parts = connected_bodies(space, model)
     motions = rigid_motions(space, parts)
-    refuse_unheld(model, space, constraints, interface, parts, motions, schedule)
     loading = most_imposed(schedule, loads, constraints, None if start is None else start.loading)
-    return Examined(
+    examined = Examined(
         model=model,
         space=space,
         constraints=constraints,
@@ -90,6 +90,30 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         floating=floating_motions(motions, constraints, interface),
         scale=data_scale(space, model, loading, interface),
     )
+    _refuse_unheld(examined, schedule)
+    return examined
+
+
+def _refuse_unheld(examined: Examined, schedule: Sequence[Stage]) -> None:
+    """Look at every step with other supports or contacts than those before, ahead of solving any.
+
+    Raises
+    ------
+    InputError
+        If a body can move: with its motion, and with what lets it go.
+    """
+    space, model, interface, seen = examined.space, examined.model, examined.interface, set()
+    for stage in schedule:
+        if (stage.released, stage.inactive) in seen:
+            continue
+        seen.add((stage.released, stage.inactive))
+        alike = stage.released == schedule[0].released
+        now = examined.constraints if alike else make_constraints(space, model, without=stage.released)
+        left = interface.among(~pairs_of(model, interface, stage.inactive)) if stage.inactive else interface
+        try:
+            refuse_free_motions(space, now, left, examined.parts, examined.motions)
+        except InputError as error:
+            raise left_out(error, stage) from error
 
 
 def most_imposed(

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Refuse bodies that neither supports nor contact hold, in any step, by name and with their motion."""
+"""Refuse bodies that neither supports nor contact hold, by name and with their motion."""
 
 from __future__ import annotations
-
-from collections.abc import Sequence
 
 import numpy as np
 import scipy.sparse as sp
@@ -12,44 +10,9 @@ from signorini.arrays import Array
 from signorini.errors import InputError
 from signorini.fem.rigid import ConnectedBody, describe_motions, free_motions
 from signorini.fem.space import Space
-from signorini.fem.supports import Constraints, make_constraints
-from signorini.interface.interface import Interface, pairs_of
-from signorini.model.model import Model
+from signorini.fem.supports import Constraints
+from signorini.interface.interface import Interface
 from signorini.model.stage import Stage
-
-
-def refuse_unheld(
-    model: Model,
-    space: Space,
-    constraints: Constraints,
-    interface: Interface,
-    parts: tuple[ConnectedBody, ...],
-    motions: sp.csr_array,
-    schedule: Sequence[Stage],
-) -> None:
-    """Look at every step with other supports or contacts than those before, ahead of solving any.
-
-    Parameters
-    ----------
-    constraints : under the supports of the first step
-
-    Raises
-    ------
-    InputError
-        If a body can move: with its motion, and with what lets it go.
-    """
-    seen = set()
-    for stage in schedule:
-        if (stage.released, stage.inactive) in seen:
-            continue
-        seen.add((stage.released, stage.inactive))
-        alike = stage.released == schedule[0].released
-        now = constraints if alike else make_constraints(space, model, without=stage.released)
-        left = interface.among(~pairs_of(model, interface, stage.inactive)) if stage.inactive else interface
-        try:
-            refuse_free_motions(space, now, left, parts, motions)
-        except InputError as error:
-            raise left_out(error, stage) from error
 
 
 def left_out(error: InputError, stage: Stage) -> InputError:
@@ -68,7 +31,19 @@ def refuse_free_motions(
     parts: tuple[ConnectedBody, ...],
     motions: sp.csr_array,
 ) -> None:
-    """A motion that neither supports nor contact can resist has no place that a solver could find."""
+    """A motion that neither supports nor contact can resist has no place that a solver could find.
+
+    Parameters
+    ----------
+    space : unknowns
+    constraints, interface : the supports and the pairs
+    parts, motions : connected pieces, and (dofs, motions of all of them) their rigid motions
+
+    Raises
+    ------
+    InputError
+        If a part can move: with its motion.
+    """
     dofs = space.dofs(np.unique(interface.B.indices // space.dimension)).ravel()
     touching = sp.csr_array((np.ones(len(dofs)), (np.arange(len(dofs)), dofs)), (len(dofs), space.number_of_dofs))
     free = free_motions(motions, constraints, touching)

@@ -165,7 +165,13 @@ def _polished(
 
 
 def settled(prepared: Prepared, forces: Array, status: IntArray) -> tuple[Array, IntArray]:
-    """Forces (d n,) and states (n,) of the pairs, of which those that nothing but rounding presses are open."""
+    """Forces and states of the pairs, of which those that nothing but rounding presses are open.
+
+    Parameters
+    ----------
+    prepared : the model
+    forces, status : (d n,) forces and (n,) codes as they were found
+    """
     interface, n = prepared.interface, len(status)
     idle = ~interface.tied & (status != OPEN) & (forces[:n] <= _UNLOADED * prepared.scale.force)
     return np.where(interface.rows(idle), 0.0, forces), np.where(idle, OPEN, status)
@@ -241,7 +247,9 @@ def measured(prepared: Prepared, state: State, before: Array | None = None) -> C
 
     Parameters
     ----------
-    before : (n,) tangential displacement at which its slip increment began; its own where not given
+    prepared : the model under the law of the moment
+    state : to be measured
+    before : ((d - 1) n,) tangential displacement at which its slip increment began; its own where not given
     """
     return certify(
         prepared,
@@ -253,7 +261,18 @@ def measured(prepared: Prepared, state: State, before: Array | None = None) -> C
 
 
 def certified(prepared: Prepared, state: State, before: Array, where: str) -> Certificate:
-    """Measure a state; what does not pass is no solution."""
+    """Measure a state; what does not pass is no solution.
+
+    Parameters
+    ----------
+    prepared, state, before : as of `measured`
+    where : for messages
+
+    Raises
+    ------
+    SolveFailed
+        If the state does not pass.
+    """
     certificate = measured(prepared, state, before)
     if certificate.passed:
         return certificate
@@ -273,7 +292,14 @@ def certified(prepared: Prepared, state: State, before: Array, where: str) -> Ce
 
 
 def refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
-    """Supports that hold both sides of a pair decide its gap; no force can mend an overlap there."""
+    """Supports that hold both sides of a pair decide its gap; no force can mend an overlap there.
+
+    Parameters
+    ----------
+    prepared : the model
+    gap : (n,) that supports leave, length
+    where : for messages
+    """
     held = np.nonzero(prepared.solver.held & ~prepared.absent & (gap < -1e-12 * prepared.scale.length))[0]
     if len(held):
         pair = held[np.argmin(gap[held])]

@@ -20,7 +20,7 @@ from signorini.errors import SolveFailed, told
 from signorini.outcome import Outcome
 from signorini.solution.state import State
 
-_ZOOMS, _FINER = 3, 16  # times that the largest change is looked at in as many increments
+_ZOOMS, _WATCH_INCREMENTS = 3, 16  # times that the largest change is looked at in as many increments
 _SUDDEN = 0.5  # of that change, in one of them each time: no increments resolve it
 _SAME_LOAD = 1e-9  # part of a step: how far behind the end of an increment a jump at its very end may be seen
 
@@ -85,7 +85,7 @@ def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
             return None
         low, high, before = ends[k], ends[k + 1], states[k]
         try:
-            finer = follow_to_events(_between(part, before, low, high), _FINER)
+            finer = follow_to_events(_between(part, before, low, high), _WATCH_INCREMENTS)
         except SolveFailed as failure:
             return failure if failure.status == Outcome.JUMP else None
         states = [before, *(shot.state for shot in finer.snapshots)]

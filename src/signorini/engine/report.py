@@ -35,7 +35,8 @@ def step_result(
     Parameters
     ----------
     prepared : under the law of the step
-    followed : all of the step
+    stage : the step
+    followed : all of it
     cycle_ends : load factors at which its cycles end; one where it does not repeat
     finished : whether it goes to the end of the step
     """
@@ -165,7 +166,13 @@ def _number(values: Array) -> float | Array:
 
 
 def contacts_of(prepared: Prepared, before: State, state: State) -> tuple[ContactResult, ...]:
-    """The contacts in one state, with slips and dissipation since another."""
+    """The contacts in one state, with slips and dissipation since another.
+
+    Parameters
+    ----------
+    prepared : the model
+    before, state : the other state, and the one
+    """
     moved = prepared.interface.across(state.slip - before.slip)
     return tuple(
         _contact_result(prepared, _surface(prepared, i), before, state, moved, moved)

@@ -58,7 +58,9 @@ GIVEN_WAY = "the condensed interface gave no certified answer; contact was solve
 """What a step says that was solved so."""
 
 _BEHIND_A_JUMP = 10  # increments
-_ENOUGH = 16  # in space, where no increments were asked for: none needs to be shorter than 1/16 of a straight part
+_SPACE_INCREMENTS = (
+    16  # in space, where no increments were asked for: none needs to be shorter than 1/16 of a straight part
+)
 
 
 def solve(
@@ -71,7 +73,13 @@ def solve(
     clock: Clock | None = None,
     after_step: Callable[[History], None] | None = None,
 ) -> History:
-    """Solve every step of a model and certify every increment; see :func:`signorini.api.solve`, which dresses it."""
+    """Solve every step of a model and certify every increment.
+
+    Parameters
+    ----------
+    model, start, backend, raise_on_failure, wellposed, clock, after_step : as of :func:`signorini.api.solve`, which
+        dresses it
+    """
     prepared = prepare(model, start=start, backend=backend, clock=clock)
     return solve_prepared(
         prepared, start=start, raise_on_failure=raise_on_failure, wellposed=wellposed, after_step=after_step
@@ -92,6 +100,7 @@ def solve_prepared(
     Parameters
     ----------
     start : for which the model was prepared
+    raise_on_failure, wellposed : as of :func:`signorini.api.solve`
     after_step : is given what is finished after every step but the last
     """
     refuse_fields(prepared.model)
@@ -315,7 +324,7 @@ def _as_asked(stage: Stage, part: StepPart) -> FollowedPart:
         number = _increments(step, part.interval, stage)
         return follow_watchfully(part, number, stops=step.jump == "stop")
     if step.path is None and interface.directions == 3:
-        return follow_automatically(part, step.tolerance, enough=_ENOUGH, jump=jump)
+        return follow_automatically(part, step.tolerance, enough=_SPACE_INCREMENTS, jump=jump)
     try:
         return follow_exactly(part, jumps=step.follows_jumps)
     except SolveFailed as failure:

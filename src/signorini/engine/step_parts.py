@@ -19,7 +19,7 @@ from signorini.solution.certificate import Certificate
 from signorini.solution.results import PairEvent
 from signorini.solution.state import LoadPoint, State
 
-_SAME = 1e-9  # parts of a step closer than this are one
+_KINK_TOL = 1e-9  # of a step: kinks and times asked for that are closer are one
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,15 +56,16 @@ def straight_parts(stage: Stage, start: LoadPoint, end: LoadPoint) -> Iterator[t
 
     Parameters
     ----------
+    stage : the step
     start, end : points at the ends of the step; everything but factors changes linearly from one to the other
     """
     count, step = len(stage.ends), stage.step
     kinks = [(j / count, "segment") for j in range(1, count + 1)]
     asked = step.at if isinstance(step.at, tuple) else ()
-    between = tuple(part for part in asked if min(abs(part - kink) for kink, _ in kinks) > _SAME)
+    between = tuple(part for part in asked if min(abs(part - kink) for kink, _ in kinks) > _KINK_TOL)
     low = 0.0
     for high, what in sorted([*kinks, *((part, "asked") for part in between)]):
-        j = min(int(np.ceil(high * count - _SAME)), count) - 1
+        j = min(int(np.ceil(high * count - _KINK_TOL)), count) - 1
         first = stage.ends[j - 1] if j else start.factors
         t = high * count - j if what == "asked" else 1.0
         way = start.towards(end, high)
@@ -79,7 +80,7 @@ def straight_parts(stage: Stage, start: LoadPoint, end: LoadPoint) -> Iterator[t
                 high=high,
                 ends="asked" if what == "asked" else "segment",
                 cycle=cycle,
-                asked=high < 1.0 and any(abs(part - high) <= _SAME for part in asked),
+                asked=high < 1.0 and any(abs(part - high) <= _KINK_TOL for part in asked),
             ),
             point,
         )
@@ -118,7 +119,7 @@ class StepPart:
 
     @property
     def woken(self) -> StepPart:
-        """The same with all bodies free to move."""
+        """The part with all bodies free to move."""
         if self.awake is None:
             return self
         return replace(self, prepared=self.awake, awake=None, waiting=np.zeros(0, np.bool_))

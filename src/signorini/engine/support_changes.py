@@ -15,7 +15,7 @@ from signorini.fem.supports import Constraints
 from signorini.model.stage import Stage
 from signorini.solution.state import LoadPoint, State
 
-_SAME = 1e-9  # of the largest displacement: what compilers of other machines may change in it
+_PLACE_TOL = 1e-9  # of the largest displacement: what compilers of other machines may change in it
 
 
 def handed_over(prepared: Prepared, before: Constraints, state: State) -> State:
@@ -58,7 +58,7 @@ def refuse_moved(prepared: Prepared, state: State) -> None:
     constraints, u = prepared.constraints, state.displacement
     imposed = applied(prepared, state.point)[1]
     off = np.where(constraints.held, np.abs(u - imposed), 0.0)
-    if off.max(initial=0.0) <= _SAME * max(np.abs(u).max(initial=0.0), np.abs(imposed).max(initial=0.0)):
+    if off.max(initial=0.0) <= _PLACE_TOL * max(np.abs(u).max(initial=0.0), np.abs(imposed).max(initial=0.0)):
         return
     dof = int(np.argmax(off))
     model, (node, axis) = prepared.model, divmod(dof, prepared.model.dimension)
@@ -78,14 +78,22 @@ def support_forces(constraints: Constraints, state: State, loads: Array) -> Arra
 
     Parameters
     ----------
-    loads : (dofs,) nodal forces of the loads in that state
+    constraints : the supports
+    state, loads : a state, and (dofs,) nodal forces of the loads in it
     """
     force = constraints.handed_on(np.where(constraints.alone, 0.0, state.external - loads))
     return np.where(constraints.held, force, 0.0)
 
 
 def at_the_end(prepared: Prepared, stage: Stage, point: LoadPoint) -> tuple[Array, Array]:
-    """Given forces and offsets at the end of a step, from those at its beginning: supports that restore have none."""
+    """Given forces and offsets at the end of a step, each (dofs,) or empty: supports that restore have none.
+
+    Parameters
+    ----------
+    prepared : under the supports of the step
+    stage : the step
+    point : of the load history at its beginning
+    """
     if not len(point.offset):
         return point.reaction, point.offset
     labels = [support.label for support in prepared.model.supports]

@@ -46,8 +46,8 @@ _ADVICE = {
     "tangents": "; a plane of symmetry that lets go belongs into one run with the steps before it",
 }
 
-_SAME = 1e-9  # of a number: what compilers of other machines may change in it
-_NONE = 1e-12  # of the size of the mesh, or of 1: a gap, or part of a unit vector, that is none
+_NUMBER_TOL = 1e-9  # of a number: what compilers of other machines may change in it
+_ZERO_TOL = 1e-12  # of the size of the mesh, or of 1: a gap, or part of a unit vector, that is none
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -81,7 +81,14 @@ class Checkpoint(Short):
     def of(
         model: Model, interface: Interface, state: State, standing: Standing, loading: Loading, near: BoolArray
     ) -> Checkpoint:
-        """Of a state on the interface of a model."""
+        """Of a state on the interface of a model.
+
+        Parameters
+        ----------
+        model, interface, state : the model, its n pairs and where they stand
+        standing, loading : what steps have set, and the most that was imposed so far
+        near : (n,) pairs that the law of contact was asked of
+        """
         return Checkpoint(
             state=state,
             standing=standing,
@@ -134,7 +141,7 @@ class Checkpoint(Short):
         for name, words in _POSED.items():
             old, new = self.posed[name], getattr(interface, name)
             if old.dtype.kind == "f":
-                same = np.isclose(old, new, rtol=_SAME, atol=_NONE * (size if name == "gap" else 1.0))
+                same = np.isclose(old, new, rtol=_NUMBER_TOL, atol=_ZERO_TOL * (size if name == "gap" else 1.0))
             else:
                 same = old == new
             other = np.flatnonzero(~same.reshape(len(same), -1).all(axis=1))
@@ -156,7 +163,7 @@ def _spelled(value: Any) -> str:
 
 
 def digest(mesh: Mesh) -> str:
-    """The same for two meshes only if points and cells are the same.
+    """Letters that two meshes share only if points and cells are the same.
 
     >>> mesh = Mesh(points=[[0, 0], [1, 0], [0, 1]], cells={"triangle": [[0, 1, 2]]}, bodies={}, boundaries={})
     >>> len(digest(mesh))

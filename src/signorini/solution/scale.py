@@ -41,7 +41,7 @@ class Scale:
     size: float = 0.0
 
     def bent(self, softness: float) -> Scale:
-        """The same for bodies that loads move farther than they compress them: slender ones.
+        """Sizes for bodies that loads move farther than they compress them: slender ones.
 
         Parameters
         ----------
@@ -75,6 +75,7 @@ def loading_of(
 
     Parameters
     ----------
+    stage : the step
     loads : nodal forces at factor 1 by name, each (dofs,)
     constraints : with what supports prescribe at factor 1
     before : what it had imposed before the step
@@ -91,6 +92,12 @@ def data_scale(space: Space, model: Model, loading: Loading, interface: Interfac
 
     Of axisymmetric bodies half the largest radius stands for the thickness: contact bears on a part of it. In space it
     is the edge of a cube as large as all bodies.
+
+    Parameters
+    ----------
+    space, model : the mesh and what is on it
+    loading : the most that was imposed
+    interface : the pairs, whose overlaps are imposed too
     """
     loaded, imposed = loading.force, max(loading.imposed, float(np.max(-interface.gap, initial=0.0)))
     bodies = zip(model.bodies, _across(space, model), strict=True)
