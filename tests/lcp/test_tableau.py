@@ -10,7 +10,7 @@ from benchmarks import lcp_problems as problems
 from signorini import lcp
 from signorini.lcp import walk
 from signorini.lcp.delayed import SOLVED, DelayedTableau, Tolerances
-from signorini.lcp.tableau import DELAYED, Tableau
+from signorini.lcp.tableau import MAX_DELAYED, Tableau
 
 
 def started(n: int, seed: int) -> Tableau:
@@ -20,7 +20,7 @@ def started(n: int, seed: int) -> Tableau:
     return tableau
 
 
-@pytest.mark.parametrize("limit", [1, 2, DELAYED - 1, DELAYED, 10 * DELAYED])
+@pytest.mark.parametrize("limit", [1, 2, MAX_DELAYED - 1, MAX_DELAYED, 10 * MAX_DELAYED])
 def test_delayed_updates_are_the_updates(limit):
     tableau = started(60, seed=4)
     entering = int(tableau.nonbasic[-1]) + 60
@@ -28,7 +28,7 @@ def test_delayed_updates_are_the_updates(limit):
         reason, entering, _, pivots = tableau.walk(
             entering, limit, Tolerances(pivot=1e-11, tie=1e-12, size=1.0), theta_stays=False
         )
-        assert pivots == min(limit, DELAYED) or reason == SOLVED
+        assert pivots == min(limit, MAX_DELAYED) or reason == SOLVED
         walked = tableau.T.copy()
         assert tableau.refresh()
         np.testing.assert_allclose(walked, tableau.T, atol=1e-11 * np.abs(tableau.T).max())
@@ -43,8 +43,8 @@ def test_delayed_updates_are_the_updates(limit):
 def test_the_block_does_not_change_the_path(monkeypatch):
     posed = problems.frictional_contact(40, np.random.default_rng(3))
     found = []
-    for block in (1, 3, DELAYED, 500):
-        monkeypatch.setattr("signorini.lcp.tableau.DELAYED", block)
+    for block in (1, 3, MAX_DELAYED, 500):
+        monkeypatch.setattr("signorini.lcp.tableau.MAX_DELAYED", block)
         found.append(lcp.solve(posed.M, posed.q, method="lemke"))
     assert all(solution.solved for solution in found)
     assert len({solution.iterations for solution in found}) == 1

@@ -14,7 +14,7 @@ from scipy.linalg.blas import dgemm
 from signorini.arrays import Array, IntArray
 from signorini.lcp.delayed import DelayedTableau, Tolerances
 
-DELAYED = 32
+MAX_DELAYED = 32
 """Pivots whose updates are applied together."""
 
 
@@ -40,7 +40,7 @@ class Tableau:
         self.column_of[:n] = -1
         self.row_of = np.arange(2 * n + 1)
         self.row_of[n:] = -1
-        self._U, self._V = np.empty((n, DELAYED), order="F"), np.empty((DELAYED, n + 2))
+        self._U, self._V = np.empty((n, MAX_DELAYED), order="F"), np.empty((MAX_DELAYED, n + 2))
         self._rows: IntArray = np.empty(n, dtype=np.int64)
 
     @property

@@ -22,7 +22,7 @@ from signorini.linalg._graph import absolute_energies, components
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.linalg.system import System
 
-SUSPICIOUS = 1e-5
+SUSPICIOUS_PIVOT = 1e-5
 """A pivot this small against its diagonal entry calls for the test of the energy."""
 
 ROUNDOFF = 16 * float(np.finfo(np.float64).eps)

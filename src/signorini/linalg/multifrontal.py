@@ -22,7 +22,7 @@ from signorini.arrays import Array
 from signorini.linalg import _fronts
 from signorini.linalg._blas import scratch
 from signorini.linalg._graph import Elimination
-from signorini.linalg.definite import SUSPICIOUS, check_energy
+from signorini.linalg.definite import SUSPICIOUS_PIVOT, check_energy
 from signorini.linalg.plan import Plan, analyse
 from signorini.linalg.protocol import NotPositiveDefinite, Reduced
 from signorini.linalg.system import Int32Array, System, columns, like
@@ -109,6 +109,6 @@ def factorise(system: System) -> MultifrontalFactorisation:
     result = MultifrontalFactorisation(
         n=system.n, m=system.m, plan=plan, factor=made.columns, condensed=made.condensed, slots=slots
     )
-    if np.any(_fronts.pivots(plan.fronts, made.columns) < SUSPICIOUS * made.diagonal):
+    if np.any(_fronts.pivots(plan.fronts, made.columns) < SUSPICIOUS_PIVOT * made.diagonal):
         check_energy(system, lambda load: result.reduce(load).expand(np.zeros(system.m)))
     return result

@@ -19,7 +19,7 @@ from scipy.sparse.linalg import SuperLU, splu
 
 from signorini.arrays import Array
 from signorini.linalg._triangular import backward, forward
-from signorini.linalg.definite import SUSPICIOUS, check_energy
+from signorini.linalg.definite import SUSPICIOUS_PIVOT, check_energy
 from signorini.linalg.ordering import elimination_order
 from signorini.linalg.protocol import NotPositiveDefinite, Reduced
 from signorini.linalg.system import Int32Array, System, columns, interface_lift, like, node_graph
@@ -97,7 +97,7 @@ def factorise(system: System) -> SuperLUFactorisation:
     entry = diagonal[factor.order[: len(factor.pivot)]]
     if np.any(bad := factor.pivot <= 0):
         raise NotPositiveDefinite(int(factor.order[np.argmax(bad)]))
-    if np.any(factor.pivot < SUSPICIOUS * entry):
+    if np.any(factor.pivot < SUSPICIOUS_PIVOT * entry):
         check_energy(system, factor.held)
     return factor
 
