@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+import signorini as sg
 from signorini.cli import main
 from signorini.output import fields
 
@@ -42,27 +43,53 @@ S
 """
 
 
-def test_a_run_makes_one_space_and_the_stresses_of_every_step_once(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """For the last state, the series, ``.frd`` and ``.dat``, where two tables ask for the stresses of each step."""
-    calls: Counter[str] = Counter()
+@pytest.fixture
+def calls(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
+    """How often spaces and stresses are computed for files."""
+    found: Counter[str] = Counter()
 
     def counted(name: str) -> Callable[..., object]:
         real = getattr(fields, name)
 
         def call(*given: object, **keys: object) -> object:
-            calls[name] += 1
+            found[name] += 1
             return real(*given, **keys)
 
         return call
 
     for name in ("make_space", "body_stresses", "point_stresses"):
         monkeypatch.setattr(fields, name, counted(name))
-    monkeypatch.setattr("signorini.output.folder._MAX_KEEP_SHARE", -1.0)  # nothing is written before the end
-    deck, out = tmp_path / "press.inp", tmp_path / "out"
+    return found
+
+
+def deck_of(tmp_path: Path) -> Path:
+    """A block that is pressed in three steps."""
+    deck = tmp_path / "press.inp"
     deck.write_text(DECK.format(steps="".join(STEP.format(u=u) for u in (-0.1, -0.2, -0.3))))
-    assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0
+    return deck
+
+
+def test_a_run_makes_one_space_and_the_stresses_of_every_step_once(
+    tmp_path: Path, calls: Counter[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """For the last state, the series, ``.frd`` and ``.dat``, where two tables ask for the stresses of each step."""
+    monkeypatch.setattr("signorini.output.folder._MAX_KEEP_SHARE", -1.0)  # nothing is written before the end
+    out = tmp_path / "out"
+    assert main(["run", str(deck_of(tmp_path)), "-o", str(out), "--quiet"]) == 0
     names = {file.name for file in out.iterdir()}
     assert names >= {"solution.vtu", "solution_0003.vtu", "solution.pvd", "solution.frd", "solution.dat"}
     assert calls == {"make_space": 1, "body_stresses": 3, "point_stresses": 3}
+
+
+def test_stresses_are_kept_where_several_files_need_them_and_of_the_last_state(
+    tmp_path: Path, calls: Counter[str]
+) -> None:
+    """A long history whose files need each state once must not hold the stresses of all."""
+    solution = sg.solve(sg.read(deck_of(tmp_path)))
+    first, second, third = solution.steps
+    for shared, count in (((), 4), ((first, second), 3)):
+        calls.clear()
+        found = fields.Fields(solution.model, shared=shared)
+        for step in (first, second, third, third, second):
+            found.stresses(step)
+        assert calls["body_stresses"] == count

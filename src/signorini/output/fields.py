@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -46,16 +47,18 @@ class BodyFields:
 
 
 class Fields:
-    """The fields of a model's bodies in any state: one space for all, and the stresses of every step's end once.
+    """The fields of a model's bodies in any state: one space for all, and the stresses that several files need once.
 
     Parameters
     ----------
     model : whose states are asked for
+    shared : ends of steps that several files hold: their stresses are kept, of other states those of the last one
     """
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, shared: Collection[StepResult] = ()) -> None:
         self.model = model
-        self._ends: dict[StepResult, list[BodyStress]] = {}
+        self._shared: frozenset[State] = frozenset(shared)
+        self._kept: dict[State, list[BodyStress]] = {}
         self._points: tuple[StepResult, list[tuple[IntArray, Array]]] | None = None
 
     @cached_property
@@ -64,16 +67,12 @@ class Fields:
         return make_space(self.model.mesh, axisymmetric=self.model.axisymmetric)
 
     def stresses(self, state: State) -> list[BodyStress]:
-        """Stresses of every body at its nodes; those of ends of steps, which several files hold, are kept."""
-        if isinstance(state, Instant):
-            return self._stresses(state)
-        if state not in self._ends:
-            self._ends[state] = self._stresses(state)
-        return self._ends[state]
-
-    def _stresses(self, state: State) -> list[BodyStress]:
-        assert state.displacement is not None
-        return body_stresses(self.space, self.model, state.displacement, state.factors)
+        """Stresses of every body at its nodes."""
+        if state not in self._kept:
+            assert state.displacement is not None
+            found = body_stresses(self.space, self.model, state.displacement, state.factors)
+            self._kept = {end: stresses for end, stresses in self._kept.items() if end in self._shared} | {state: found}
+        return self._kept[state]
 
     def cell_stresses(self, step: StepResult) -> list[tuple[IntArray, Array]]:
         """Stresses in the cells, see :func:`signorini.fem.stress.point_stresses`; those of one step are kept."""

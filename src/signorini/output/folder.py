@@ -217,7 +217,9 @@ class Publisher:
         """
         if not history.steps and history.escape is None:
             return []
-        running, prints, fields = history.status == Outcome.RUNNING, self.prints, Fields(history.model)
+        running = history.status == Outcome.RUNNING
+        prints = None if running else self.prints
+        fields = Fields(history.model, shared=() if prints is None else history.steps)
         names = _write_tables(history, fields, aside, done=self._written) if history.steps else []
         if running:
             last = self.folder / ARCHIVE if ARCHIVE in self._written else None
@@ -225,7 +227,7 @@ class Publisher:
         else:
             write_archive(history, aside / ARCHIVE)
         names.append(ARCHIVE)
-        if history.steps and not running and prints is not None:
+        if history.steps and prints is not None:
             write_frd(history, fields, aside / "solution.frd", prints.times)
             names.append("solution.frd")
             if prints.tables:
