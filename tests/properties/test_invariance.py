@@ -236,8 +236,8 @@ def test_units_in_space(length):
     """With powers of two every number is the same to the last digit: the certificate, and which pairs are left out."""
     modulus = 2.0**12
     here, there = (prepare(ball_on_block(*units)) for units in ((1.0, 1.0), (length, modulus)))
-    np.testing.assert_array_equal(there.bodies.active, here.bodies.active)
-    assert 0 < here.bodies.active.sum() < len(here.interface)
+    np.testing.assert_array_equal(there.solver.active, here.solver.active)
+    assert 0 < here.solver.active.sum() < len(here.interface)
     one, two = (solve_prepared(prepared).last for prepared in (here, there))
     np.testing.assert_array_equal(two.contacts[0].pressure, modulus * one.contacts[0].pressure)
     assert two.certificate == one.certificate
@@ -252,7 +252,7 @@ def test_pairs_that_touch_are_kept():
         pressed = prepare(replace(model, obstacles=[force]))
         found = solve_prepared(pressed).last
         closed = found.contacts[0].closed
-        assert not closed[~pressed.bodies.active].any()
+        assert not closed[~pressed.solver.active].any()
         moved = replace(ball, u=(0, 0, found.obstacles["ball"].displacement[2]), force=None)
         driven = prepare(replace(model, obstacles=[moved]))
-        assert not closed[~driven.bodies.active].any()
+        assert not closed[~driven.solver.active].any()

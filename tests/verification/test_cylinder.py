@@ -8,6 +8,7 @@ import pytest
 
 from signorini.engine.solve import solve
 from signorini.gallery.cylinder import FORCE, HERTZ, E, zhu_cylinder
+from signorini.model.step import Step
 from signorini.reference.hertz import HertzLine
 
 # METHOD 9, another code on another mesh of 76 quadrilaterals: pressures at x = 0, 0.5, ..., 2.5
@@ -21,8 +22,8 @@ COMPLIANCES = [1 / (E * 10.0**k) for k in range(1, 17)] + [0.0]
 
 
 @functools.cache
-def solved(**options):
-    return solve(zhu_cylinder(**options))
+def solved(increments=1, **options):
+    return solve(zhu_cylinder(steps=[Step(increments=increments)], **options))
 
 
 def along_x(contact):
