@@ -17,7 +17,7 @@ import numpy as np
 
 import signorini as sg
 from benchmarks import command
-from signorini.deck import load
+from signorini.deck import load_deck
 
 _COMMANDS = "read result.frd\nsend all abq\nds 1 e {}\nsend all abq ds1 e{}\nquit\n"
 
@@ -33,7 +33,7 @@ def blocks(text: str, keyword: str) -> list[list[float]]:
 
 def check(deck: Path, folder: Path) -> str:
     """What comes back of a deck, in words."""
-    solution = sg.solve(load(deck, small_strain=True).model)
+    solution = sg.solve(load_deck(deck, small_strain=True).model)
     solution.write(folder / "result.frd")
     mesh, first = solution.model.mesh, solution.steps[0]
     worst = 0.0

@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 
 import signorini as sg
 from benchmarks import command, page
-from signorini.deck import load
+from signorini.deck import load_deck
 
 _TABLE = re.compile(r"displacements \(vx,vy,vz\) for set (\S+) and time +(\S+)\s*\n\s*\n((?:[ \d].*\n?)+)")
 _SECONDS = 300  # for CalculiX
@@ -140,7 +140,7 @@ def by_calculix(text: str, folder: Path, seconds: float = _SECONDS) -> Values:
 
 def apart(deck: Path, values: Values) -> float | None:
     """Largest difference of the displacements, as a part of the largest; None without a reference."""
-    solution = sg.solve(load(deck, small_strain=True).model)
+    solution = sg.solve(load_deck(deck, small_strain=True).model)
     row = {int(number): i for i, number in enumerate(solution.model.mesh.labels)}
     nodes = [number for number in values if number in row]
     if not nodes:
@@ -155,7 +155,7 @@ def compare(deck: Path, folder: Path, *, ccx: bool) -> Compared | None:
     """All comparisons of a deck; None if there is none."""
     printed, text = reference(deck), deck.read_text(errors="replace")
     if not printed and not ccx:
-        load(deck, small_strain=True)
+        load_deck(deck, small_strain=True)
         return None
     found = Compared(deck.stem, len(printed), apart(deck, printed) if printed else None)
     if ccx:

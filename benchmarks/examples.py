@@ -29,7 +29,7 @@ import signorini as sg
 from benchmarks import command, page
 from benchmarks.deck_text import deck_text
 from benchmarks.decks import Values, by_calculix, plain, spelled
-from signorini.deck import load
+from signorini.deck import load_deck
 from signorini.deck.inp.syntax import read_cards
 
 _SECONDS = 60  # for what makes a mesh, and for each run of CalculiX
@@ -158,7 +158,7 @@ def apart(solution: sg.Solution, values: Values) -> float | None:
 
 def compared(deck: Path, folder: Path) -> list[str]:
     """Nodes and the three differences."""
-    solution = sg.solve(load(deck, small_strain=True).model)
+    solution = sg.solve(load_deck(deck, small_strain=True).model)
     cards = read_cards(deck)
     text = deck_text(cards)
     found = [str(len(solution.model.mesh.points))]
@@ -168,7 +168,7 @@ def compared(deck: Path, folder: Path) -> list[str]:
         own = folder / "own.inp"
         own.write_text(small)
         values = by_calculix(small, folder, _SECONDS)
-        found.append(spelled(apart(sg.solve(load(own, small_strain=True).model), values) if values else None))
+        found.append(spelled(apart(sg.solve(load_deck(own, small_strain=True).model), values) if values else None))
     return found
 
 

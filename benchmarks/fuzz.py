@@ -35,7 +35,7 @@ from benchmarks import command
 from benchmarks.mutations import KINDS, Corpus, corpus, damage, small_model
 from signorini.api import solve
 from signorini.cli.check_text import deck_text
-from signorini.deck import load
+from signorini.deck import load_deck
 from signorini.engine.examine import examine
 from signorini.errors import InputError, SolveFailed
 from signorini.fem.profile import read_profile
@@ -75,7 +75,7 @@ def outcome(kind: str, path: Path, sound: Corpus) -> str:
 
 def _read(kind: str, path: Path, sound: Corpus) -> None:
     if kind in ("toml", "inp"):
-        deck = load(path, small_strain=True)
+        deck = load_deck(path, small_strain=True)
         try:
             deck_text(deck, examine(deck.model))
         except InputError as error:

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 import signorini as sg
 from benchmarks import command
 from signorini.arrays import padded
-from signorini.deck import load
+from signorini.deck import load_deck
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
 from signorini.output.ccx_contact import slave_values
@@ -55,7 +55,7 @@ def apart(found: Values, wanted: Values) -> float:
 
 def check(deck: Path, folder: Path) -> str:
     """What comes back of a deck, in words."""
-    solution = sg.solve(load(deck, small_strain=True).model)
+    solution = sg.solve(load_deck(deck, small_strain=True).model)
     mesh, steps = solution.model.mesh, solution.steps
     used = np.unique(np.concatenate([cells.ravel() for cells in mesh.cells.values()]))
     worst: dict[str, float] = {}

@@ -11,7 +11,7 @@ import time
 from typing import Any
 
 from benchmarks import command, page
-from signorini.bench.models import cylinder
+from signorini.bench.models import cylinder_ratios
 
 HEAD = (
     "unknowns",
@@ -48,7 +48,7 @@ def main() -> None:
     parser.add_argument("--one", action="store_true", help="measure in this process")
     options = parser.parse_args()
     if options.one:
-        print(json.dumps(list(cylinder(options.dofs[0], timer=time.process_time))))
+        print(json.dumps(list(cylinder_ratios(options.dofs[0], timer=time.process_time))))
         return
     found = [row for dofs in options.dofs for row in page.measured("benchmarks.ratio", "--dofs", dofs)]
     backends = ", ".join(dict.fromkeys(row["backend"] for row in found))

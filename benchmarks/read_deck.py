@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks import command
-from signorini.deck import load
+from signorini.deck import load_deck
 
 _END = """*ELSET, ELSET=ROW, GENERATE
 1, {last}
@@ -59,7 +59,7 @@ def main() -> None:
         deck = Path(folder, "square.inp")
         write(deck, options.side)
         start = time.process_time()
-        model = load(deck).model
+        model = load_deck(deck).model
         seconds = time.process_time() - start
         memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
         print(f"{deck.stat().st_size / 1e6:.0f} MB, {model.mesh}: {seconds:.1f} s (CPU), {memory / 1e9:.2f} GB at most")

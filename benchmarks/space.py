@@ -11,7 +11,7 @@ import time
 from typing import Any
 
 from benchmarks import command, page
-from signorini.bench.models import blocks
+from signorini.bench.models import cube_ratios
 
 LARGE = 200_000
 """Unknowns from which one run has to do."""
@@ -78,7 +78,7 @@ def main() -> None:
     options = parser.parse_args()
     if options.one:
         (dofs,) = options.dofs
-        print(json.dumps(list(blocks(dofs, timer=time.process_time, repeats=1 if dofs > LARGE else REPEATS))))
+        print(json.dumps(list(cube_ratios(dofs, timer=time.process_time, repeats=1 if dofs > LARGE else REPEATS))))
         return
     found = [row for dofs in options.dofs for row in measure(dofs)]
     lines = [page.table(HEAD, [row(each) for each in found])]

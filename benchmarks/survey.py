@@ -15,13 +15,13 @@ from pathlib import Path
 
 import signorini as sg
 from benchmarks import command, page
-from signorini.deck import load
+from signorini.deck import load_deck
 
 
 def outcome(deck: Path) -> str:
     """ "solved", the keyword that refuses a deck, or what it lacks."""
     try:
-        sg.solve(load(deck, small_strain=True).model)
+        sg.solve(load_deck(deck, small_strain=True).model)
     except (sg.InputError, sg.SolveFailed) as error:
         words = re.sub(r"^.*?\.inp:(\d+: )? ?", "", str(error))
         lacks = re.match(r"has no (\*[A-Z ]+)", words)

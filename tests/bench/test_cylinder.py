@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from signorini.bench.suite import run
+from signorini.bench.suite import benchmark_rows
 from signorini.solution.certificate import certify
 
 KEYS = {
@@ -30,7 +30,7 @@ KEYS = {
 
 
 def test_rows_of_the_contract() -> None:
-    rows = list(run(["cylinder"], 600))
+    rows = list(benchmark_rows(["cylinder"], 600))
     assert [row["friction"] for row in rows] == [0.0, 0.4]
     for row in rows:
         assert set(row) == KEYS
@@ -42,7 +42,7 @@ def test_rows_of_the_contract() -> None:
 
 
 def test_cubes_in_space() -> None:
-    rows = list(run(["cubes"], 1500))
+    rows = list(benchmark_rows(["cubes"], 1500))
     assert [row["name"] for row in rows] == 2 * ["cubes"] + 2 * ["cubes, not matching"]
     assert [row["default"] for row in rows] == [True, False, True, False]
     for row in rows:
@@ -61,4 +61,4 @@ def test_contact_seconds_leave_nothing_out(monkeypatch: pytest.MonkeyPatch) -> N
         return certify(*arguments, **named)  # type: ignore[arg-type]
 
     monkeypatch.setattr(importlib.import_module("signorini.engine.increments"), "certify", slow)
-    assert all(row["contact_seconds"] > 0.1 for row in run(["cylinder"], 300))
+    assert all(row["contact_seconds"] > 0.1 for row in benchmark_rows(["cylinder"], 300))

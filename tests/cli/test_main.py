@@ -167,7 +167,7 @@ def test_verify(
             assert capsys.readouterr().out.count("Hertz") == min(done, 1)  # the row before is there already
             yield CASE | {"passed": one}
 
-    monkeypatch.setitem(sys.modules, "signorini.verify.suite", types.SimpleNamespace(run=run))
+    monkeypatch.setitem(sys.modules, "signorini.verify.suite", types.SimpleNamespace(verification_rows=run))
     file = tmp_path / "cases.json"
     assert main(["verify", "--all", "--json", str(file)]) == code
     assert asked == [True]
@@ -184,7 +184,7 @@ def test_bench(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.C
         asked.append((names, dofs, sample))
         return [{"name": "cylinder", "dofs": 186, "ratio": 1.25}]
 
-    monkeypatch.setitem(sys.modules, "signorini.bench.suite", types.SimpleNamespace(run=run))
+    monkeypatch.setitem(sys.modules, "signorini.bench.suite", types.SimpleNamespace(benchmark_rows=run))
     file = tmp_path / "bench.json"
     assert main(["bench", "cylinder", "--dofs", "200", "--json", str(file)]) == 0
     assert asked == [(["cylinder"], 200, None)]

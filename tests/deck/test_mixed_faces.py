@@ -7,7 +7,7 @@ import pytest
 
 import signorini as sg
 from signorini.cli import main
-from signorini.deck import load
+from signorini.deck import load_deck
 from signorini.meshing.read import read_mesh
 from signorini.model.mesh import FACES
 
@@ -124,10 +124,10 @@ def test_gmsh_and_keywords_say_the_same(folder, tmp_path):
     mesh = read_mesh(folder / "mesh.msh")
     order = 2 if "wedge15" in mesh.cells else 1
     assert [part.shape[1] for part in mesh.boundaries["low.top"]] == ([3, 4] if order == 1 else [6, 8])
-    expected = sg.solve(load(folder / "deck.toml").model).last
+    expected = sg.solve(load_deck(folder / "deck.toml").model).last
     for nodal in (False, True):
         (tmp_path / "deck.inp").write_text(keywords(mesh, nodal=nodal))
-        deck = load(tmp_path / "deck.inp")
+        deck = load_deck(tmp_path / "deck.inp")
         assert all(len(deck.model.mesh.facets(name)) == 2 for name in SURFACES)
         found = sg.solve(deck.model).last
         np.testing.assert_allclose(found.displacement, expected.displacement, atol=1e-12)
@@ -140,7 +140,7 @@ def test_a_converted_deck_and_an_archive_are_the_same_model(folder, tmp_path):
     mesh = read_mesh(folder / "mesh.msh")
     (tmp_path / "deck.inp").write_text(keywords(mesh))
     assert main(["convert", str(tmp_path / "deck.inp"), "-o", str(tmp_path / "deck.toml")]) == 0
-    one, other = load(tmp_path / "deck.inp").model, load(tmp_path / "deck.toml").model
+    one, other = load_deck(tmp_path / "deck.inp").model, load_deck(tmp_path / "deck.toml").model
     solution = sg.solve(one)
     np.testing.assert_allclose(sg.solve(other).last.displacement, solution.last.displacement, atol=1e-12)
     solution.write(tmp_path / "all.h5")

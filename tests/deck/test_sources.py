@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from signorini.cli import main
-from signorini.deck import DeckError, load
+from signorini.deck import DeckError, load_deck
 from signorini.deck.inp.syntax import read_cards
 from signorini.errors import InputError
 from signorini.sources import Reach
@@ -63,13 +63,13 @@ def test_others_are_refused(deck: Path, name: str) -> None:
     toml = deck.with_name("deck.toml")
     toml.write_text(f"[mesh]\nfile = '{name}'\n[material.a]\nE = 1.0\nnu = 0.0\n[[body]]\nname = 'b'\nmaterial = 'a'\n")
     with pytest.raises(DeckError, match=rf"deck\.toml:2: mesh\.file: .*{FAR[name]}"):
-        load(toml)
+        load_deck(toml)
     head = (
         "[mesh]\ngenerator = 'rectangle'\n[material.a]\nE = 1.0\nnu = 0.0\n[[body]]\nname = 'block'\nmaterial = 'a'\n"
     )
     toml.write_text(f"{head}[[contact]]\nnonmortar = 'bottom'\nprofile = {{ file = '{name}' }}\n")
     with pytest.raises(DeckError, match=rf"deck\.toml:11: contact\[0\]\.profile\.file: .*{FAR[name]}"):
-        load(toml)
+        load_deck(toml)
 
 
 def test_the_user_can_allow_more(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -8,7 +8,7 @@ import pytest
 
 import signorini as sg
 from signorini.cli import main
-from signorini.deck import load
+from signorini.deck import load_deck
 from signorini.fem.space import make_space
 from signorini.fem.stress import point_stresses
 from signorini.output.ccx_contact import tangents
@@ -93,7 +93,7 @@ def test_stresses_totals_and_contact_forces(tmp_path: Path) -> None:
     text = (DECKS / "two_blocks.inp").read_text()
     asked = "*NODE PRINT, NSET=Base, TOTALS=ONLY\nRF\n*EL PRINT, ELSET=Upper\nS\n*CONTACT PRINT\nCF\n*END STEP"
     deck.write_text(text.replace("*END STEP", asked, 1))
-    found = load(deck)
+    found = load_deck(deck)
     solution = sg.solve(found.model)
     assert found.prints is not None
     write_dat(solution, Fields(solution.model), found.prints, tmp_path / "x.dat")
@@ -122,7 +122,7 @@ def asked(folder: Path, name: str, keywords: str, *changes: tuple[str, str]) -> 
     deck = folder / "deck.inp"
     head, _, _ = text.rpartition("*END STEP")
     deck.write_text(f"{head}{keywords}\n*END STEP\n")
-    found = load(deck)
+    found = load_deck(deck)
     solution = sg.solve(found.model)
     assert found.prints is not None
     write_dat(solution, Fields(solution.model), found.prints, folder / "x.dat")

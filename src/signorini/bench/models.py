@@ -20,7 +20,7 @@ _ENTRIES = 40.0
 """Numbers held at the worst time of the contact solve, of z^(4/3): their pages are touched before a long run."""
 
 
-def cylinder(dofs: int, *, timer: Timer = time.perf_counter) -> Iterator[dict[str, Any]]:
+def cylinder_ratios(dofs: int, *, timer: Timer = time.perf_counter) -> Iterator[dict[str, Any]]:
     """Time the cylinder with about ``dofs`` unknowns, mu = 0 and 0.4, one increment; by default on the wall.
 
     Yields
@@ -33,7 +33,7 @@ def cylinder(dofs: int, *, timer: Timer = time.perf_counter) -> Iterator[dict[st
         yield price("cylinder", zhu_cylinder(friction=friction, refine=refine), timer)
 
 
-def blocks(dofs: int, *, timer: Timer = time.perf_counter, repeats: int = REPEATS) -> Iterator[dict[str, Any]]:
+def cube_ratios(dofs: int, *, timer: Timer = time.perf_counter, repeats: int = REPEATS) -> Iterator[dict[str, Any]]:
     """Time two cubes with about ``dofs`` unknowns, mu = 0.3, one increment.
 
     Parameters

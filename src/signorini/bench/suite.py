@@ -9,7 +9,7 @@ from typing import Any
 
 from signorini.bench.equilibria import equilibria
 from signorini.bench.hard import hard, spread
-from signorini.bench.models import blocks, cylinder
+from signorini.bench.models import cube_ratios, cylinder_ratios
 from signorini.errors import InputError, one_of
 
 NAMES = ("cylinder", "cubes", "hard")
@@ -17,7 +17,7 @@ DOFS = (5_000, 50_000)
 """Sizes where none is asked for."""
 
 
-def run(
+def benchmark_rows(
     names: Sequence[str],
     dofs: int | None,
     sample: int | None = None,
@@ -59,4 +59,4 @@ def _rows(
             yield {"name": "hard", "words": str(found), **asdict(found)}
         else:
             for size in sizes:
-                yield from blocks(size) if name == "cubes" else cylinder(size)
+                yield from cube_ratios(size) if name == "cubes" else cylinder_ratios(size)

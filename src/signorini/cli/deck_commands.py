@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 from signorini.cli.progress import progress
-from signorini.deck import Deck, load
+from signorini.deck import Deck, load_deck
 from signorini.errors import InputError
 
 
@@ -74,7 +74,7 @@ def convert(options: argparse.Namespace) -> int:
 
 def _load(options: argparse.Namespace) -> Deck:
     """Read ``options.deck`` as the options say."""
-    return load(
+    return load_deck(
         options.deck,
         small_strain=options.small_strain,
         deck_increments=options.increments == "deck",

@@ -36,12 +36,12 @@ _BENCH_COLUMNS = (
 def verify(options: argparse.Namespace) -> int:
     """Print every row as soon as it is computed; 0 only if every case passed."""
     file = _json_file(options.json)
-    from signorini.verify.suite import run
+    from signorini.verify.suite import verification_rows
 
     cases: list[Mapping[str, Any]] = []
     with progress_bar() as tell:
         print(_line(_VERIFY_COLUMNS))
-        for case in run(slow=options.all, begin=_beginning(tell)):
+        for case in verification_rows(slow=options.all, begin=_beginning(tell)):
             if not cases or case["case"] != cases[-1]["case"]:
                 print(case["case"])
             cases.append(case)
@@ -56,11 +56,11 @@ def verify(options: argparse.Namespace) -> int:
 def bench(options: argparse.Namespace) -> int:
     """Print what is found as soon as it is known, the table of times at the end; 0 if everything could be timed."""
     file = _json_file(options.json)
-    from signorini.bench.suite import run
+    from signorini.bench.suite import benchmark_rows
 
     results = []
     with progress_bar() as tell:
-        for result in run(options.names, options.dofs, options.sample, _beginning(tell)):
+        for result in benchmark_rows(options.names, options.dofs, options.sample, _beginning(tell)):
             results.append(result)
             if "counts" in result:
                 counts = ", ".join(f"{what} {count}" for what, count in result["counts"].items())

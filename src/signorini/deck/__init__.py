@@ -3,6 +3,6 @@
 
 from signorini.deck.deck import Deck
 from signorini.deck.error import DeckError
-from signorini.deck.load import load, read
+from signorini.deck.load import load_deck, read
 
-__all__ = ["Deck", "DeckError", "load", "read"]
+__all__ = ["Deck", "DeckError", "load_deck", "read"]

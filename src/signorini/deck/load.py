@@ -39,10 +39,10 @@ def read(
     DeckError
         An :class:`InputError` that begins with file and line: ``deck.toml:12: contact[0].friction: ...``.
     """
-    return load(path, small_strain=small_strain, deck_increments=deck_increments, allow=allow).model
+    return load_deck(path, small_strain=small_strain, deck_increments=deck_increments, allow=allow).model
 
 
-def load(
+def load_deck(
     path: str | Path, *, small_strain: bool = False, deck_increments: bool = False, allow: Iterable[str | Path] = ()
 ) -> Deck:
     """Read a deck and keep its lines, so that errors found later can be told with theirs.

@@ -42,11 +42,11 @@ def write_deck(model: Model, path: Path) -> list[Path]:
 
     mesh = path.with_suffix(".vtu")
     write_mesh(model.mesh, mesh)
-    path.write_text(deck_text(model, mesh.name), encoding="utf-8")
+    path.write_text(toml_text(model, mesh.name), encoding="utf-8")
     return [path, mesh]
 
 
-def deck_text(model: Model, mesh: str) -> str:
+def toml_text(model: Model, mesh: str) -> str:
     """A deck as text.
 
     Parameters
@@ -56,7 +56,7 @@ def deck_text(model: Model, mesh: str) -> str:
     Examples
     --------
     >>> from signorini.gallery.cylinder import zhu_cylinder
-    >>> print(*deck_text(zhu_cylinder(), "disk.vtu").splitlines()[:7], sep="\\n")
+    >>> print(*toml_text(zhu_cylinder(), "disk.vtu").splitlines()[:7], sep="\\n")
     title = "Elastic cylinder on a rigid foundation"
     kind = "plane strain"
     <BLANKLINE>

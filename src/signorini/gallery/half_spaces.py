@@ -82,7 +82,7 @@ def ball(
     )
 
 
-def round_punch(*, n: int) -> Model:
+def body_on_round_punch(*, n: int) -> Model:
     """A quarter of an elastic cylinder 20 times as large pressed by 1 in all on a flat rigid punch of radius 1.
 
     Parameters

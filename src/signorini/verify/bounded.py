@@ -17,7 +17,7 @@ from signorini.gallery.half_planes import EQUAL, HALF_WIDTH, equal_half_planes
 from signorini.model.conditions import Support
 from signorini.model.step import Step
 from signorini.reference.tresca import LimitedShear
-from signorini.verify.check import Check, table
+from signorini.verify.check import Check, checks_of
 from signorini.verify.one_node import pressed_and_pulled
 
 
@@ -33,7 +33,7 @@ def _one_node() -> Iterator[Check]:
     """K = [[2, -1], [-1, 2]] in (gap, slip), pressed by 1, pulled to 4, mu 1, limit 0.4: p = 1 - s while it slips."""
     _, _, path = pressed_and_pulled(friction=1.0, limit=0.4)
     events: dict[str, float] = {event.what: 4.0 * event.factor for event in path.events}
-    yield from table(
+    yield from checks_of(
         "one node with a shear limit, exact path",
         ("slips, at the limit, f_t", events["slips"], 0.4, 1e-12),
         ("leaves the limit, f_t", events["kinks"], 1.6, 1e-12),
@@ -53,7 +53,7 @@ def _sliding_block() -> Iterator[Check]:
     for thickness in (1.0, 2.5):
         floor = solve(replace(dragged, thickness=thickness)).contact(contact.label)
         force = np.linalg.norm(floor.tangential_force)
-        yield from table(
+        yield from checks_of(
             "block dragged over a floor, shear limit",
             (f"friction force over the limit, thickness {thickness:g}", force / 0.01, floor.area.sum(), 1e-10),
             source="limit times area",
@@ -72,7 +72,7 @@ def _half_planes() -> Iterator[Check]:
     found = solve(replace(model, contacts=[contact])).contact("contact")
     x, case = found.points[:, 0], f"equal half-planes, Tresca's law, nodes at {spacing} a, exact path"
     off = np.abs(found.traction + exact.traction(x, Q))[np.abs(x) < 0.5 * a]
-    yield from table(
+    yield from checks_of(
         case,
         ("c/a, to a node distance", np.abs(x[found.status == "stick"]).max() / a, 0.75**0.5, spacing),
         ("q(0) / limit", np.abs(found.traction)[np.abs(x).argmin()] / limit, 1.0 / 3.0, 0.01),
@@ -102,7 +102,7 @@ def _convex_minimum() -> Iterator[Check]:
     box = (np.append(np.zeros(n), -limit), np.append(np.full(n, np.inf), limit))
     least = lsq_linear(L.T, -np.linalg.solve(L, c), bounds=box, tol=1e-14).x
     forces = np.append(result.normal_force, result.tangential_force)
-    yield from table(
+    yield from checks_of(
         "Tresca's law, 20 random pairs",
         ("distance of the forces from the minimum of the energy", np.abs(forces - least).max(), 0.0, 1e-7),
         source="bounded least squares (scipy)",

@@ -12,7 +12,7 @@ import numpy as np
 from signorini.arrays import Array
 
 Row = tuple[str, SupportsFloat, SupportsFloat, float] | tuple[str, SupportsFloat, SupportsFloat, float, str]
-"""Of :func:`table`."""
+"""Of :func:`checks_of`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +68,7 @@ class Check:
         }
 
 
-def table(case: str, *rows: Row, source: str = "", least: bool = False) -> Iterator[Check]:
+def checks_of(case: str, *rows: Row, source: str = "", least: bool = False) -> Iterator[Check]:
     """Checks of one case.
 
     Parameters
@@ -81,7 +81,7 @@ def table(case: str, *rows: Row, source: str = "", least: bool = False) -> Itera
     Examples
     --------
     >>> rows = (("pressure", 1.25, 1.0, 0.02), ("gap", 0.0, 0.0, 1e-9))
-    >>> [check.error for check in table("P1", *rows, source="exact")]
+    >>> [check.error for check in checks_of("P1", *rows, source="exact")]
     [0.25, 0.0]
     """
     for quantity, computed, reference, tolerance, *own in rows:

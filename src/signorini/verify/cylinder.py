@@ -14,7 +14,7 @@ from signorini.gallery.cylinder import HERTZ, RADIUS, E, zhu_cylinder
 from signorini.model.step import Step
 from signorini.reference.hertz import HertzLine
 from signorini.solution.results import ContactResult
-from signorini.verify.check import Check, table
+from signorini.verify.check import Check, checks_of
 
 _REFINED = "refined independent computation"
 
@@ -28,8 +28,8 @@ def paper_mesh() -> Iterator[Check]:
         case = "paper's cylinder, 76 cells, " + ("exact law" if power is None else f"E_n = 1e{power} E")
         for quantity, part, tolerance in (("p, worst x <= 2", x < 2.25, 0.04), ("p at x = 2.5", x > 2.25, 0.10)):
             worst = np.argmax(np.where(part, np.abs(contact.pressure[:6] / exact - 1.0), -1.0))
-            yield from table(case, (quantity, contact.pressure[worst], exact[worst], tolerance), source="Hertz")
-        yield from table(case, ("normal force", contact.normal_force[1], 78.0, 1e-10), source="equilibrium")
+            yield from checks_of(case, (quantity, contact.pressure[worst], exact[worst], tolerance), source="Hertz")
+        yield from checks_of(case, ("normal force", contact.normal_force[1], 78.0, 1e-10), source="equilibrium")
 
 
 def refined() -> Iterator[Check]:
@@ -40,7 +40,7 @@ def refined() -> Iterator[Check]:
         ("rigid cut, mu 0", zhu_cylinder(friction=0.0, refine=8, spread="displacement"), 37.69),
     ):
         pressure = solve(model).contact("foundation").pressure
-        yield from table(
+        yield from checks_of(
             "paper's cylinder, refined 8 times", (f"p(0), {words}", pressure[0], reference, 1e-3, _REFINED)
         )
 
@@ -49,7 +49,7 @@ def exact_path() -> Iterator[Check]:
     """With friction the load history counts: followed from event to event."""
     step = solve(zhu_cylinder(friction=0.4, refine=8, steps=[Step(name="press", path="exact")])).last
     balance = step.work / (step.strain_energy + step.dissipation)
-    yield from table(
+    yield from checks_of(
         "paper's cylinder, refined 8 times, exact path",
         ("p(0), mu 0.4", step.contacts[0].pressure[0], 38.125, 1e-3, f"{_REFINED}, 38.11-38.14"),
         ("work / (strain energy + dissipation)", balance, 1.0, 1e-8, "first law"),
@@ -68,7 +68,7 @@ def increments_at_events() -> Iterator[Check]:
         ("500 equal increments", equal.contact("foundation"), 1e-3),
     ):
         error = _difference(found, contact) / contact.pressure.max()
-        yield from table(
+        yield from checks_of(
             "paper's cylinder, refined twice, mu 0.4",
             (f"largest difference to the exact path / p(0), {quantity}", error, 0.0, tolerance, "each other"),
         )
@@ -88,7 +88,7 @@ def literal_equals_compliance() -> Iterator[Check]:
             literal = solve_literally(formulate(prepared, E_n=E_n, E_tau=E_n))
             compliant = solve(zhu_cylinder(friction=friction, compliance=1.0 / E_n)).contact("foundation")
             difference = _difference(literal, compliant) / HERTZ.peak_pressure
-            yield from table(
+            yield from checks_of(
                 f"literal and compliance formulation, mu {friction:g}",
                 (f"largest difference of tractions / p_0, E_n = 1e{power} E", difference, 0.0, 1e-10, "each other"),
             )
@@ -103,7 +103,7 @@ def small_load() -> Iterator[Check]:
         friction=0.0, force=force, contact_length=2.0 * half_width, contact_spacing=half_width / 10, refine=4
     )
     contact = solve(model).contact("foundation")
-    yield from table(
+    yield from checks_of(
         "cylinder, a/R = 0.01",
         ("p(0)", contact.pressure[0], hertz.peak_pressure, 5e-3),
         ("half-width, to a node distance", contact.points[contact.closed, 0].max(), half_width, 0.025),

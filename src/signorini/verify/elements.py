@@ -20,7 +20,7 @@ from signorini.reference.discs import rotating_disc
 from signorini.reference.hertz import contact_modulus
 from signorini.reference.hertz_point import HertzPoint
 from signorini.reference.lame import hollow_sphere
-from signorini.verify.check import Check, table
+from signorini.verify.check import Check, checks_of
 
 _STEEL = Elastic(E=200.0, nu=0.3, density=2.0, expansion=1e-3)
 
@@ -40,7 +40,7 @@ def sphere_on_a_plane() -> Iterator[Check]:
     r = contact.points[:, 0]
     inside = r < 0.8 * hertz.contact_radius
     worst = np.abs(contact.pressure - hertz.pressure(r))[inside].max() / hertz.peak_pressure
-    yield from table(
+    yield from checks_of(
         "Sphere on a plane (axisymmetric)",
         ("peak pressure", contact.pressure[r.argmin()], hertz.peak_pressure, 0.01),
         ("largest error of the pressure, r < 0.8 a, over the peak", worst, 0.0, 0.01),
@@ -48,7 +48,7 @@ def sphere_on_a_plane() -> Iterator[Check]:
     )
 
 
-def hollow_spheres() -> Iterator[Check]:
+def revolved_hollow_spheres() -> Iterator[Check]:
     """A hollow sphere under pressure: steel in quadratic cells, rubber in cells with a mean dilatation."""
     cases: tuple[tuple[float, Cells, Literal["standard", "mean dilatation"]], ...] = (
         (0.3, "quad8", "standard"),
@@ -67,7 +67,7 @@ def hollow_spheres() -> Iterator[Check]:
         )
         found = solve(model).along([(1.0, 0.0), (1.5, 0.0)], body="ring")
         u, _, hoop = hollow_sphere(np.array([1.0, 1.5]), inner=1.0, outer=2.0, pressure=3.0, E=200.0, nu=nu)
-        yield from table(
+        yield from checks_of(
             f"Hollow sphere, nu = {nu:g}, {cells}" + (f", {formulation}" if nu > 0.4 else ""),
             ("displacement inside", found.displacement[0, 0], u[0], 0.01),
             ("hoop stress in the middle", found.stress[1, 2], hoop[1], 0.01),
@@ -88,7 +88,7 @@ def cantilever() -> Iterator[Check]:
         )
         tip = solve(bent).along([(length, -0.5)], body="block").displacement[0, 1]
         exact = 4.0 * length**3 / E + 2.4 * length * (1.0 + nu) / E
-        yield from table(
+        yield from checks_of(
             f"Cantilever of 1 x 8 cells, {cells}", ("deflection of the tip", tip, exact, 0.01, "Timoshenko's beam")
         )
 
@@ -106,7 +106,7 @@ def inside_bodies() -> Iterator[Check]:
     found = solve(spinning).along([(1.0, 0.0), (1.5, 0.0)], body="ring")
     at = np.array([1.0, 1.5])
     u, _, hoop = rotating_disc(at, inner=1.0, outer=2.0, omega=3.0, density=2.0, E=_STEEL.E, nu=_STEEL.nu)
-    yield from table(
+    yield from checks_of(
         "Rotating disc, quad8",
         ("displacement inside", found.displacement[0, 0], u[0], 0.005),
         ("hoop stress in the middle", found.stress[1, 1], hoop[1], 0.005),
@@ -120,4 +120,4 @@ def inside_bodies() -> Iterator[Check]:
     )
     stress = solve(heated).stress("block").stress[:, 1].max()
     exact = -10.0 * _STEEL.expansion * _STEEL.E / (1.0 - _STEEL.nu)
-    yield from table("Block heated between walls, plane strain", ("stress", stress, exact, 1e-9, "Hooke's law"))
+    yield from checks_of("Block heated between walls, plane strain", ("stress", stress, exact, 1e-9, "Hooke's law"))

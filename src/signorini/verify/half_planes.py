@@ -12,7 +12,7 @@ from signorini.gallery.half_planes import EQUAL, HALF_WIDTH, NU, equal_half_plan
 from signorini.model.step import Step
 from signorini.reference.spence import stick_ratio
 from signorini.solution.results import ContactResult
-from signorini.verify.check import Check, table
+from signorini.verify.check import Check, checks_of
 
 _PULL = 0.7
 _BONDED = 0.543076  # shear over pressure at the corner of a bonded square block (benchmark B07)
@@ -46,7 +46,7 @@ def _cattaneo_mindlin(*, spacing: float, size: float, loss: float) -> Iterator[C
     pulled = np.abs(contact.traction + EQUAL.traction(x, highest))[inside]
     turned = np.abs(back.traction + EQUAL.traction_back(x, highest, -highest))[inside]
     first, second = cycles.cycles
-    yield from table(
+    yield from checks_of(
         case,
         ("c/a, to a node distance", stuck / HALF_WIDTH, held / HALF_WIDTH, spacing / 0.5477),
         ("q pulled, largest error off the edges / mu p_0", pulled.max() / most, 0.0, 0.03),
@@ -67,7 +67,7 @@ def spence() -> Iterator[Check]:
             contact = solve(punch(curved=curved, friction=friction, spacing=spacing, closed=0.95)).contact("punch")
             x = contact.points[:, 0]
             ratio = x[contact.status == "stick"].max() / x[contact.closed].max()
-            yield from table(
+            yield from checks_of(
                 f"Spence, {'round' if curved else 'flat'} punch, node distance {spacing}",
                 (f"c/a, mu {friction:g}", ratio, stick_ratio(friction, NU), 0.02, "Spence (1973, 1975)"),
             )
@@ -85,7 +85,7 @@ def complete_contact() -> Iterator[Check]:
         for finest in (1e-6, 1e-4)
     )
     length = "slips below mu = 0.5431, over a length that no mesh decides"
-    yield from table(
+    yield from checks_of(
         "square block on a half-plane, cells 1e-6 at the corner",
         (
             "largest |shear| / pressure towards the corner, bonded",

@@ -21,7 +21,7 @@ from signorini.model.model import Kind, Model
 from signorini.model.obstacle import Plane
 from signorini.reference.hertz import HertzLine, contact_modulus
 from signorini.reference.hertz_point import HertzPoint
-from signorini.verify.check import Check, table
+from signorini.verify.check import Check, checks_of
 
 _LINE = HertzLine(force=LINE_FORCE, radius=RADIUS, modulus=MODULUS)
 _POINT = HertzPoint(force=POINT_FORCE, radius=RADIUS, modulus=MODULUS)
@@ -55,7 +55,7 @@ def _contact(kind: Kind, cells: Cells, across: tuple[int, int]) -> Iterator[Chec
     order = np.argsort(contact.points[:, 0])
     x, pressure = contact.points[order, 0], contact.pressure[order]
     defect = (pressure - hertz.pressure(x))[x < _INSIDE] / hertz.peak_pressure
-    yield from table(
+    yield from checks_of(
         case,
         ("p_0", pressure[0], hertz.peak_pressure, 0.01),
         ("a, to a cell", contact.points[contact.closed, 0].max(), 1.0, SEAT / across[0]),
@@ -92,7 +92,7 @@ def _axis(
 ) -> Iterator[Check]:
     worst = max(float(np.abs(one - other).max()) for one, other in zip(found, exact, strict=True))
     shear = [float(np.abs(across - along).max()) / 2.0 / hertz.peak_pressure for across, along in (found, exact)]
-    yield from table(
+    yield from checks_of(
         case,
         ("largest error of the stresses / p_0, 0.2 a < z < 2 a", worst / hertz.peak_pressure, 0.0, 0.01),
         ("largest shear stress / p_0", shear[0], shear[1], 0.01),
@@ -100,7 +100,7 @@ def _axis(
     )
 
 
-def equal_spheres() -> Iterator[Check]:
+def revolved_spheres() -> Iterator[Check]:
     """B03: spheres of radius 50 whose equators approach by 4, as one on its plane of symmetry and as two."""
     half = _half_sphere(0.5)
     coarser = _half_sphere(0.75)
@@ -117,14 +117,14 @@ def equal_spheres() -> Iterator[Check]:
     ):
         found, by_approach, by_force = _centre(model, name, 4.0)
         known = "Hertz; Code_Aster SSNV104; a finite body is stiffer"
-        yield from table(
+        yield from checks_of(
             f"B03 equal spheres, a/R 0.2, {words}",
             ("sigma_zz at the centre, for the approach of 4", found, by_approach, 0.05, known),
             ("sigma_zz at the centre, for the force it takes", found, by_force, 0.03, "Hertz"),
         )
 
 
-def small_equal_spheres() -> Iterator[Check]:
+def small_revolved_spheres() -> Iterator[Check]:
     """B03 with smaller approaches, and with finer cells: what is left at a/R = 0.2 is the finite body, not the mesh."""
     excess = {}
     for approach, cells in ((4.0, 15), (4.0, 30), (1.0, 30), (0.25, 30)):
@@ -133,7 +133,7 @@ def small_equal_spheres() -> Iterator[Check]:
         found, by_approach, _ = _centre(_sphere_on_its_plane(mesh, approach), "disk", approach)
         excess[approach, cells] = found / by_approach - 1.0
     case = "B03 equal spheres, quad8: excess of sigma_zz at the centre over Hertz at the same approach"
-    yield from table(
+    yield from checks_of(
         case,
         ("a/R 0.2: change with cells of half the size", excess[4.0, 30] - excess[4.0, 15], 0.0, 0.003, "each other"),
         ("a/R 0.1", excess[1.0, 30], 0.0, 0.03, "Hertz"),

@@ -12,7 +12,7 @@ from signorini.friction.history.plane import PathState, Segment, follow, initial
 from signorini.friction.history.space import at_rest, follow_stopping, land_spatial
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
-from signorini.verify.check import Check, table
+from signorini.verify.check import Check, checks_of
 
 # unknowns (gap, slip): u_n of the catalogue is -gap there, so that the coupling changes sign
 _IMAGE = np.linalg.inv(np.array([[2.0, -1.0], [-1.0, 2.0]]) + np.eye(2)).astype(np.float64)
@@ -23,7 +23,7 @@ def one_node() -> Iterator[Check]:
     """K = [[2, 1], [1, 2]], pressed by 1: unique at mu = 1; at mu = 3 and f_t = 2.5 one of three solutions."""
     known = np.array([[0.0, 0.0], [0.0, 0.5], [1 / 6, 4 / 3]])
     distance = np.abs(known - _gap_and_slip(friction=3.0, push=2.5)).max(axis=1).min()
-    yield from table(
+    yield from checks_of(
         "one-node Coulomb problem",
         # slip at mu = 1: 2 u_t = 1.5 - N with N = 1 - u_t
         ("slip, mu 1, f_t 1.5", _gap_and_slip(friction=1.0, push=1.5)[1], 0.5, 1e-10),
@@ -47,7 +47,7 @@ def one_node_path() -> Iterator[Check]:
             found = [("jumps at f_t", 4 * path.jump.factor, 3.0), ("gap where it lands", end.h[0], 1 / 3)]
             found += [("u_t where it lands", end.h[1], 5 / 3)]
         found.append(("dissipation", end.dissipation[0], 0.5 if path.jump is None else 1.5))
-        yield from table(
+        yield from checks_of(
             "one-node Coulomb problem, exact path",
             *((f"{quantity}, mu {friction:g}", computed, exact, 1e-12) for quantity, computed, exact in found),
             source="by hand, Klarbring (1990)",
@@ -89,7 +89,7 @@ def one_node_path_in_space() -> Iterator[Check]:
         found = [("jumps at f_t", np.nan if path.jump is None else 4 * path.jump.factor, 3.0)]
         found += [("gap where it lands", gap, 1 / 3), ("u_t where it lands", along, 5 / 3)]
         found.append(("dissipation", end.dissipation[0], 1.5))
-        yield from table(
+        yield from checks_of(
             f"one-node Coulomb problem in space, pulled along {words}",
             *((quantity, computed, exact, 1e-11) for quantity, computed, exact in found),
             source="by hand, Klarbring (1990)",

@@ -22,7 +22,7 @@ from signorini.model.mesh import join
 from signorini.model.model import Kind, Model
 from signorini.model.step import Step
 from signorini.solution.history import History
-from signorini.verify.check import Check, Row, farthest, table
+from signorini.verify.check import Check, Row, checks_of, farthest
 
 _EXACT = 1e-9
 _MESHES: tuple[tuple[Cells, tuple[int, int]], ...] = (
@@ -48,14 +48,14 @@ def patch_p1() -> Iterator[Check]:
         history, case = solve(straight), f"P1 two blocks, {_say(cells, across)}"
         contact = history.contact("interface")
         sunk = farthest(history.last.displacement[contact.node, 1], -0.05)
-        yield from table(
+        yield from checks_of(
             case,
             ("contact pressure", farthest(contact.pressure, 1e5), 1e5, _EXACT),
             ("u_y on the interface", sunk, -0.05, _EXACT),
             source="exact",
         )
         history = solve(_oblique(straight, (0.0, -0.05), pressed, corners))
-        yield from table(
+        yield from checks_of(
             f"{case}{_TURNED}",
             ("contact pressure", farthest(history.contact("interface").pressure, 1e5), 1e5, _EXACT),
             _stress_error(history, (0.0, -1e5), _TURN),
@@ -74,7 +74,7 @@ def patch_p2() -> Iterator[Check]:
         for model, angle, words in ((straight, 0.0, ""), (oblique, _TURN, _TURNED)):
             history = solve(model)
             contact = history.contact("interface")
-            yield from table(
+            yield from checks_of(
                 f"P2, {_say(cells, across)}{words}",
                 ("contact pressure", farthest(contact.pressure, 25.0), 25.0, _EXACT),
                 _stress_error(history, (0.0, -25.0), angle),
@@ -102,7 +102,7 @@ def patch_p4() -> Iterator[Check]:
         for model, angle, words in ((straight, 0.0, ""), (oblique, _TURN, _TURNED)):
             history, case = solve(model), f"P4 four blocks, {cells}, {' : '.join(map(str, across))}{words}"
             beside = [history.contact(name).pressure for name in ("southeast.left", "northeast.left")]
-            yield from table(
+            yield from checks_of(
                 case,
                 ("contact pressure, 10", farthest(np.concatenate(beside), 10.0), 10.0, _EXACT),
                 ("contact pressure, 20", farthest(history.contact("northwest.bottom").pressure, 20.0), 20.0, _EXACT),
@@ -126,7 +126,7 @@ def patch_p5() -> Iterator[Check]:
         case = f"P5 parabola, {kind}, {_say(cells, across)}{_TURNED if angle else ''}"
         history = solve(model)
         contact = history.contact("interface")
-        yield from table(
+        yield from checks_of(
             case,
             ("contact pressure", farthest(contact.pressure, 10.0), 10.0, _EXACT),
             ("friction / p", farthest(contact.traction / 10.0, 0.0), 0.0, _EXACT),
@@ -137,7 +137,7 @@ def patch_p5() -> Iterator[Check]:
             simple = replace(model, contacts=[replace(model.contacts[0], coupling="node-to-segment")])
             wrong = np.abs(solve(simple).contact("interface").pressure / 10.0 - 1.0).max()
             row = ("error of the pressure, node to segment", wrong, 0.01, 0.0, "fails, as it should")
-            yield from table(case, row, least=True)
+            yield from checks_of(case, row, least=True)
 
 
 def patch_p6() -> Iterator[Check]:
@@ -150,10 +150,10 @@ def patch_p6() -> Iterator[Check]:
             contact = solve(_pushed(share * friction * normal, friction, cells, angle)).contact("interface")
             held, pressed = float(contact.tangential_force @ along[0]), float(contact.normal_force @ along[1])
             row = ("friction / N", -held / pressed, share * friction, _EXACT, "equilibrium")
-            yield from table(f"P6 pushed block, T = {share:g} mu N, {words}", row)
+            yield from checks_of(f"P6 pushed block, T = {share:g} mu N, {words}", row)
         history = solve(_pushed(1.01 * friction * normal, friction, cells, angle), raise_on_failure=False)
         row = ("1 if no equilibrium is proved", history.status == "no_equilibrium", 1.0, 0.0, "equilibrium")
-        yield from table(f"P6 pushed block, T = 1.01 mu N, {words}", row)
+        yield from checks_of(f"P6 pushed block, T = 1.01 mu N, {words}", row)
 
 
 def _pushed(push: float, friction: float, cells: Cells, angle: float) -> Model:
@@ -177,7 +177,7 @@ def patch_discs() -> Iterator[Check]:
         contact = history.contact("interface")
         u, (r, z) = history.last.displacement, history.model.mesh.points.T
         wrong = np.abs(u - np.column_stack([0.003 * r, -0.01 * z])).max() / 0.015
-        yield from table(
+        yield from checks_of(
             f"Axisymmetric discs, {_say(cells, across)}",
             ("contact pressure", farthest(contact.pressure, 10.0), 10.0, _EXACT),
             ("largest error of u / largest u", wrong, 0.0, _EXACT),

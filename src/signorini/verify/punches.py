@@ -15,7 +15,7 @@ from signorini.gallery.half_planes import punch, square_on_half_plane
 from signorini.model.model import Kind
 from signorini.reference.corners import bonded_corner, frictionless_corner
 from signorini.solution.results import ContactResult
-from signorini.verify.check import Check, table
+from signorini.verify.check import Check, checks_of
 
 
 def flat_punches() -> Iterator[Check]:
@@ -28,7 +28,7 @@ def flat_punches() -> Iterator[Check]:
         for cells in ("quad", "quad8"):
             model = punch(curved=False, friction=0.0, spacing=0.01, kind=kind, cells=cells)
             found = _share(solve(model).contact("punch"), revolved=kind == "axisymmetric")
-            yield from table(
+            yield from checks_of(
                 f"B06 flat punch, {kind}, {cells}", ("share of the load within a/2", found, share, 0.01, source)
             )
 
@@ -53,7 +53,7 @@ def corner_exponents() -> Iterator[Check]:
         contact = solve(square_on_half_plane(friction=friction, finest=1e-6)).contact("contact")
         r = 1.0 - contact.points[:, 0]
         near = (r > 3e-5) & (r < 1e-3)
-        yield from table(
+        yield from checks_of(
             "B07 square block on a half-plane, cells 1e-6 at the corner",
             (f"exponent of the pressure, {words}", _exponent(r[near], contact.pressure[near], second), exponent, 0.02),
             source="Williams (1952)" if friction else "Dundurs, Lee (1972)",

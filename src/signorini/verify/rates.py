@@ -20,7 +20,7 @@ from signorini.model.material import Elastic
 from signorini.model.mesh import join
 from signorini.model.model import Model
 from signorini.reference.corners import bonded_corner, frictionless_corner
-from signorini.verify.check import Check, table
+from signorini.verify.check import Check, checks_of
 
 Make = Callable[[int, Cells], Model]
 
@@ -78,7 +78,7 @@ def _rate(
         return float(np.sqrt(squares[0] / squares[1])) - ratio
 
     quantity = f"rate from n = {numbers[0]} to {numbers[1]}, against {numbers[2]}"
-    yield from table(
+    yield from checks_of(
         f"energy norm, {words}, {cells}",
         (quantity, brentq(defect, 0.05, 6.0), rate, 0.1),
         source="1 + exponent of the corner's stress" if exactly else "order of the cells, at most 3/2 at a free edge",

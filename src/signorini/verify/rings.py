@@ -18,7 +18,7 @@ from signorini.model.material import Elastic
 from signorini.model.mesh import join
 from signorini.model.model import Kind, Model
 from signorini.reference.lame import hollow_sphere, press_fit_pressure, thick_cylinder
-from signorini.verify.check import Check, farthest, table
+from signorini.verify.check import Check, checks_of, farthest
 
 _SOURCE = "Lame; Timoshenko, Goodier section 28"
 _EXPANSION, _COOLING = 1e-3, -5.0  # per degree, degrees
@@ -87,7 +87,7 @@ def hollow_bodies() -> Iterator[Check]:
             model = _hollow("axisymmetric" if kind == "axisymmetric" else "plane strain", cells, along)
             contact = solve(model).contact("interface")
             exact = -float(radial[0])
-            yield from table(
+            yield from checks_of(
                 f"B09 {words} 20/30/40, {_say(cells, along)}",
                 ("interface pressure, mean", contact.pressure @ contact.area / contact.area.sum(), exact, 1e-3),
                 # worst at the pole of a meridian
@@ -137,4 +137,4 @@ def _say(cells: Cells, along: int | tuple[int, int]) -> str:
 
 def _worst_node(case: str, model: Model, exact: float, tolerance: float) -> Iterator[Check]:
     pressure = farthest(solve(model).contact("fit").pressure, exact)
-    yield from table(case, ("interface pressure, worst node", pressure, exact, tolerance, _SOURCE))
+    yield from checks_of(case, ("interface pressure, worst node", pressure, exact, tolerance, _SOURCE))

@@ -17,7 +17,7 @@ from skfem.models.poisson import laplace
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.lcp import solve
 from signorini.lcp.mixed import eliminate_free
-from signorini.verify.check import Check, table
+from signorini.verify.check import Check, checks_of
 
 _OFF = 0.137
 """The end of contact lies inside a cell, on every mesh."""
@@ -29,7 +29,7 @@ def scalar_signorini() -> Iterator[Check]:
     """Rates in H1 for linear and quadratic triangles on a rectangle, by the two finest meshes."""
     for words, element, rate in (("P1", ElementTriP1(), 1.0), ("P2", ElementTriP2(), 1.5)):
         errors, wrong = np.transpose([_solved(n, element) for n in NUMBERS])
-        yield from table(
+        yield from checks_of(
             f"B11 Signorini for the Laplacian, {words}",
             (f"rate in H1, n = {NUMBERS[-2]} to {NUMBERS[-1]}", np.log2(errors[-2] / errors[-1]), rate, 0.07),
             ("error in H1 / |u|, finest mesh", errors[-1], 0.0, 0.02),

@@ -14,7 +14,7 @@ from signorini.meshing.plane import Cells
 from signorini.reference.hertz import contact_modulus
 from signorini.reference.hertz_point import HertzPoint
 from signorini.reference.lame import hollow_sphere
-from signorini.verify.check import Check, farthest, table
+from signorini.verify.check import Check, checks_of, farthest
 
 _MODULUS = contact_modulus(*[(MATERIAL.E, MATERIAL.nu)] * 2)
 
@@ -52,7 +52,7 @@ def _equal(
     error = np.abs(contact.pressure - exact.pressure(r)) / exact.peak_pressure
     centre = -float(contact.pressure[np.argmin(r)])
     source = "Hertz; Johnson (1985), section 4.2"
-    yield from table(
+    yield from checks_of(
         f"equal spheres in space, approach {approach:g}, a/R {radius / RADIUS:.2g}, {words}",
         (
             "sigma_zz at the centre, for the approach",
@@ -77,7 +77,7 @@ def hollow() -> Iterator[Check]:
     )
     for words, cells in families:
         contact = solve(hollow_spheres(n=(3, 4), cells=cells)).contact("interface")
-        yield from table(
+        yield from checks_of(
             f"B09 hollow spheres 20/30/40 in space, {words}, 3 : 4 cells",
             ("interface pressure, mean", contact.pressure @ contact.area / contact.area.sum(), exact, 1e-3),
             ("interface pressure, worst node", farthest(contact.pressure, exact), exact, 5e-3),

@@ -10,14 +10,13 @@ from typing import Literal
 import numpy as np
 
 from signorini.engine.solve import solve
-from signorini.gallery import half_spaces
-from signorini.gallery.half_spaces import CONTACT_RADIUS, EQUAL, ball, equal_half_spaces, hertz
+from signorini.gallery.half_spaces import CONTACT_RADIUS, EQUAL, ball, body_on_round_punch, equal_half_spaces, hertz
 from signorini.gallery.press_fit import press_fit_in_space
 from signorini.meshing.plane import Cells
 from signorini.model.model import Model
 from signorini.model.step import Step
 from signorini.reference.hertz_point import round_punch
-from signorini.verify.check import Check, farthest, table
+from signorini.verify.check import Check, checks_of, farthest
 from signorini.verify.rings import fit_pressure
 
 _PULL = 0.7
@@ -60,7 +59,7 @@ def _hertz(case: str, model: Model, *, bodies: int, edge: float, inside: float =
     source = "Hertz; Johnson (1985), section 4.2"
     error = np.abs(contact.pressure - exact.pressure(r)) / exact.peak_pressure
     closed = float(r[contact.closed].max())
-    yield from table(
+    yield from checks_of(
         case,
         ("p_0", contact.pressure[np.argmin(r)], exact.peak_pressure, 0.01),
         ("largest error of p / p_0, r < 0.9 a", error[r < 0.9 * CONTACT_RADIUS].max(), 0.0, inside),
@@ -69,13 +68,13 @@ def _hertz(case: str, model: Model, *, bodies: int, edge: float, inside: float =
     )
 
 
-def punch() -> Iterator[Check]:
+def round_punch_on_body() -> Iterator[Check]:
     """B06: a flat round rigid punch on a body 20 times as large; the pressure is infinite at its edge."""
-    contact = solve(half_spaces.round_punch(n=8)).contact("punch")
+    contact = solve(body_on_round_punch(n=8)).contact("punch")
     r = np.hypot(*contact.points.T[:2])
     inside = r < 0.9
     ratio = contact.pressure[inside] / round_punch(r[inside], force=1.0, radius=1.0)
-    yield from table(
+    yield from checks_of(
         "flat round punch",
         ("p at the centre / exact", ratio[np.argmin(r[inside])], 1.0, 0.01),
         ("p / exact, worst r < 0.9 a", farthest(ratio, 1.0), 1.0, 0.04),
@@ -115,7 +114,7 @@ def _mindlin(*, spacing: float, shift: float) -> Iterator[Check]:
     stuck = np.sqrt(2.0 * contact.area[contact.status == "stick"].sum() / np.pi)
     bent = EQUAL.shift(Q) - EQUAL.shift(tiny * EQUAL.most) / tiny * _PULL
     case, source = f"Mindlin, node distance {spacing:g} a", "Johnson (1985), section 7.2"
-    yield from table(
+    yield from checks_of(
         case,
         ("radius of a circle as large as what sticks", stuck, c, spacing / 2.0),
         ("largest error of q / mu p_0, off the edges", error[off].max(), 0.0, 0.08),
@@ -157,7 +156,7 @@ def _cycle(*, spacing: float, facets: int, loop: float) -> Iterator[Check]:
     _, second = step.cycles
     way = f"{facets} facets, exact path" if facets else "increments to events"
     case, source = f"Mindlin, cycles, node distance {spacing:g} a, {way}", "Johnson (1985), section 7.4"
-    yield from table(
+    yield from checks_of(
         case,
         ("loss of a cycle", second.dissipation, EQUAL.loss(_PULL * EQUAL.most) / 2.0, 0.02, source),
         ("area of the loop / loss", second.work / second.dissipation, 1.0, loop, "first law"),
@@ -166,7 +165,7 @@ def _cycle(*, spacing: float, facets: int, loop: float) -> Iterator[Check]:
     )
 
 
-def press_fit() -> Iterator[Check]:
+def press_fit_as_slab() -> Iterator[Check]:
     """B09 in space: a slab of two rings in plane strain, on meshes that match and do not."""
     exact = fit_pressure("plane strain", 0.01)
     for words, model in (
@@ -175,7 +174,7 @@ def press_fit() -> Iterator[Check]:
         ("20 nodes, 16:22", press_fit_in_space(n_radial=3, n_angular=(16, 22), friction=0.2, cells="quad8")),
     ):
         pressure = farthest(solve(model).contact("fit").pressure, exact)
-        yield from table(
+        yield from checks_of(
             f"press fit in space, hexahedra of {words}",
             ("interface pressure", pressure, exact, 3e-3, "Lame; Timoshenko, Goodier section 28"),
         )

@@ -36,9 +36,9 @@ QUICK: tuple[Case, ...] = (
     hertz.line_contact,
     hertz.point_contact,
     hertz.below_the_contact,
-    hertz.equal_spheres,
-    hertz.small_equal_spheres,
-    fenet.cylinder,
+    hertz.revolved_spheres,
+    hertz.small_revolved_spheres,
+    fenet.fenet_cylinder,
     punches.flat_punches,
     punches.corner_exponents,
     rings.press_fit_plane_stress,
@@ -58,7 +58,7 @@ QUICK: tuple[Case, ...] = (
     cylinder.increments_at_events,
     half_planes.cattaneo_mindlin,
     elements.sphere_on_a_plane,
-    elements.hollow_spheres,
+    elements.revolved_hollow_spheres,
     elements.cantilever,
     elements.inside_bodies,
     solids.spheres,
@@ -67,7 +67,7 @@ QUICK: tuple[Case, ...] = (
     space.ball_on_block,
     space.mindlin,
     space.mindlin_cycle,
-    space.press_fit,
+    space.press_fit_as_slab,
     rates.smooth_contact,
 )
 SLOW: tuple[Case, ...] = (
@@ -77,7 +77,7 @@ SLOW: tuple[Case, ...] = (
     half_planes.complete_contact,
     solids.spheres_refined,
     space.balls_refined,
-    space.punch,
+    space.round_punch_on_body,
     space.mindlin_refined,
     space.mindlin_cycle_exact,
     rates.smooth_contact_refined,
@@ -85,7 +85,7 @@ SLOW: tuple[Case, ...] = (
 )
 
 
-def run(slow: bool = False, begin: Begin = lambda *_: None) -> Iterator[dict[str, str | float | bool]]:
+def verification_rows(slow: bool = False, begin: Begin = lambda *_: None) -> Iterator[dict[str, str | float | bool]]:
     """Run the quick cases, or all of them: the rows of the table, each as soon as it is computed.
 
     Parameters

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.deck import DeckError, load
+from signorini.deck import DeckError, load_deck
 from tests.helpers.two_cells import two_cells
 
 MESH = two_cells("99,0.7,2.") + "*SURFACE,NAME=STOP\nE,S3\n"
@@ -87,7 +87,7 @@ def test_what_nothing_follows_needs_no_support(tmp_path: Path) -> None:
     np.testing.assert_allclose(found.displacement, held.displacement, rtol=0.0, atol=1e-15)
     assert not np.any(found.reactions["rigid STOP idle"])
     with pytest.raises(DeckError, match=r"deck.inp:\d+: \*CLOAD: acts on 'y' of the reference node of line \d+"):
-        load(deck(tmp_path, coupling, "*CLOAD\n99,2,1.\n", CUBE))
+        load_deck(deck(tmp_path, coupling, "*CLOAD\n99,2,1.\n", CUBE))
 
 
 @pytest.mark.parametrize(
@@ -105,4 +105,4 @@ def test_what_nothing_follows_needs_no_support(tmp_path: Path) -> None:
 )
 def test_mistakes_are_named(tmp_path: Path, coupling: str, words: str) -> None:
     with pytest.raises(DeckError, match=words):
-        load(deck(tmp_path, coupling, LOADS))
+        load_deck(deck(tmp_path, coupling, LOADS))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.deck import DeckError, load
+from signorini.deck import DeckError, load_deck
 from signorini.deck.write import write_deck
 from tests.helpers.two_cells import two_cells
 
@@ -32,14 +32,14 @@ def test_a_rigid_body_is_calculix(tmp_path: Path) -> None:
     for node, direction in ((99, 0), (99, -1), (99, 7), (99, 12), (99, 4), (100, 1), (4, 3)):
         path = deck(tmp_path, "*RIGIDBODY,NSET=TOP,REF NODE=99,ROT NODE=100\n", f"*CLOAD\n{node},{direction},1.\n")
         with pytest.raises(DeckError, match=rf"\*CLOAD: direction {direction}; expected 1 to 2"):
-            load(path)
+            load_deck(path)
 
 
 def test_a_reference_node_is_held_and_moved(tmp_path: Path) -> None:
     """Directions 4 to 6 of the reference node are the body's rotations; ENCASTRE holds them too."""
     body = "*RIGID BODY, ELSET=E, REF NODE=99\n"
     with pytest.raises(DeckError, match=r"deck.inp:\d+: \*RIGID BODY.*"):
-        load(deck(tmp_path, "*RIGID BODY, ELSET=E, REF NODE=TOP\n", ""))
+        load_deck(deck(tmp_path, "*RIGID BODY, ELSET=E, REF NODE=TOP\n", ""))
     turned = sg.solve(
         sg.read(deck(tmp_path, "*RIGID BODY, TIE NSET=TOP, REF NODE=99\n", "*BOUNDARY\n99,1,5\n99,6,6,0.001\n"))
     ).last
@@ -47,7 +47,7 @@ def test_a_reference_node_is_held_and_moved(tmp_path: Path) -> None:
     np.testing.assert_allclose(top, 0.001 * np.array([[1.0, -1.0], [1.0, 0.0], [1.0, 1.0]]), atol=1e-15)
     moments = turned.reactions["rigid TOP rotation"]
     np.testing.assert_allclose(moments[2] * 0.001 / 2, turned.strain_energy)
-    model = load(deck(tmp_path, body, "*BOUNDARY\n99, ENCASTRE\n")).model
+    model = load_deck(deck(tmp_path, body, "*BOUNDARY\n99, ENCASTRE\n")).model
     assert {support.u for support in model.supports if support.on == "rigid E"} == {
         (0.0, None, None),
         (None, 0.0, None),
@@ -87,12 +87,12 @@ def test_equations_tie_nodes_and_sets(tmp_path: Path) -> None:
 )
 def test_mistakes_are_told_with_their_line(tmp_path: Path, before: str, words: str) -> None:
     with pytest.raises(DeckError, match=words):
-        load(deck(tmp_path, before, LOADS))
+        load_deck(deck(tmp_path, before, LOADS))
 
 
 def test_a_contradiction_is_told_with_the_line_of_its_equation(tmp_path: Path) -> None:
     moved = "*BOUNDARY\nTOP,2,2,-0.1\n"
-    found = load(deck(tmp_path, "*EQUATION\n2\n4,2,1.,1,2,1.\n2\n5,1,1.,6,1,-1.\n", moved))
+    found = load_deck(deck(tmp_path, "*EQUATION\n2\n4,2,1.,1,2,1.\n2\n5,1,1.,6,1,-1.\n", moved))
     with pytest.raises(sg.InputError) as caught:
         sg.solve(found.model)
     assert str(found.locate(caught.value)).startswith(f"{tmp_path}/deck.inp:24: *EQUATION: contradicts the supports")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.deck import DeckError, load
+from signorini.deck import DeckError, load_deck
 from tests.helpers.calculix import ccx_displacements, needs_ccx
 from tests.helpers.eight_cells import eight_cells
 
@@ -167,7 +167,7 @@ def test_a_surface_of_nodes_holds_whole_faces(tmp_path: Path) -> None:
     said = r"deck.inp:\d+: surface 'S' has nodes of no face that it holds as a whole: 27; expected all nodes of faces"
     for steps, more in (([PULL], lines + pair), (["*DSLOAD\nS,P,1."], lines)):
         with pytest.raises(DeckError, match=said):
-            load(deck(tmp_path, steps, HEAD + more))
+            load_deck(deck(tmp_path, steps, HEAD + more))
 
 
 @pytest.mark.parametrize(
@@ -186,7 +186,7 @@ def test_an_orientation_is_turned(tmp_path: Path, lines: str, angle: float) -> N
     assert sg.read(deck(tmp_path, [PULL], head)).bodies[0].material.angle == pytest.approx(angle)
     out = head.replace(lines, "1.,1.,0.,0.,1.,0.\n2,5.")
     with pytest.raises(DeckError, match=r"\*ORIENTATION: turns by 5 degrees about axis 2; expected axis 3"):
-        load(deck(tmp_path, [PULL], out))
+        load_deck(deck(tmp_path, [PULL], out))
 
 
 def test_gravity_without_a_set_is_that_of_all(tmp_path: Path) -> None:
@@ -229,7 +229,7 @@ def test_another_axis_after_op_new(tmp_path: Path) -> None:
 def test_what_contradicts_itself_is_refused(tmp_path: Path, steps: list[str], named: str, said: str) -> None:
     path = deck(tmp_path, steps)
     with pytest.raises(DeckError, match=said) as caught:
-        load(path)
+        load_deck(path)
     assert path.read_text().splitlines()[(caught.value.line or 0) - 1].startswith(named)
 
 
@@ -244,5 +244,5 @@ def test_what_contradicts_itself_is_refused(tmp_path: Path, steps: list[str], na
 )
 def test_where_programs_differ_is_said(tmp_path: Path, case: str, said: str) -> None:
     odd, plain = CASES[case]
-    assert any(said in note for note in load(deck(tmp_path, odd)).notes)
-    assert not any("CalculiX" in note for note in load(deck(tmp_path, plain)).notes)
+    assert any(said in note for note in load_deck(deck(tmp_path, odd)).notes)
+    assert not any("CalculiX" in note for note in load_deck(deck(tmp_path, plain)).notes)

@@ -9,7 +9,7 @@ import pytest
 
 import signorini as sg
 from signorini.cli import main
-from signorini.deck import DeckError, load
+from signorini.deck import DeckError, load_deck
 
 DECKS = Path(__file__).parent / "decks"
 TWO_BLOCKS = (DECKS / "two_blocks.inp").read_text()
@@ -51,7 +51,7 @@ def test_numbers_of_the_deck_survive(tmp_path: Path) -> None:
 
 
 def test_instances_get_numbers_of_their_own() -> None:
-    deck = load(DECKS / "instances.inp")
+    deck = load_deck(DECKS / "instances.inp")
     assert deck.model.mesh.labels.tolist() == [*range(1, 7), *range(7, 13)]
     assert any("raised" in note for note in deck.notes)
     # turned by half a turn, the first node of the upper block is its upper right corner
@@ -59,7 +59,7 @@ def test_instances_get_numbers_of_their_own() -> None:
 
 
 def test_what_is_left_out_is_told_once() -> None:
-    notes = load(DECKS / "instances.inp").notes
+    notes = load_deck(DECKS / "instances.inp").notes
     assert sum("*OUTPUT" in note and "*RESTART" in note for note in notes) == 1
     assert any("small sliding" in note for note in notes)
     assert any("--increments deck" in note for note in notes)
@@ -141,7 +141,7 @@ def test_what_changes_the_answer_stops_with_its_line(tmp_path: Path, case: str) 
     old, new, begins, said = WRONG[case]
     deck = edited(tmp_path, old, new)
     with pytest.raises(DeckError, match=said) as caught:
-        load(deck)
+        load_deck(deck)
     assert caught.value.line is not None
     assert deck.read_text().splitlines()[caught.value.line - 1].startswith(begins)
 
@@ -254,7 +254,7 @@ def test_a_stiffness_of_tied_surfaces_is_left_out_with_a_note(tmp_path: Path) ->
     law = f"*SURFACE INTERACTION, NAME={name}\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TIED\n1e6\n"
     deck = tmp_path / "deck.inp"
     deck.write_text((text[:a] + law + text[b:]).replace("-0.001", "0.001"))
-    found = load(deck)
+    found = load_deck(deck)
     assert any("tied exactly" in note for note in found.notes)
     assert sg.solve(found.model).steps[0].contacts[0].normal_force[1] != 0.0
 
@@ -306,7 +306,7 @@ def test_gaps_are_adjusted(tmp_path: Path, adjust: str, given: tuple[object, obj
     deck.write_text(deck.read_text().replace("11, 12, 13", "11, 12"))
     if adjust == "Touching":
         with pytest.raises(DeckError, match="does not hold all nodes of the slave surface"):
-            load(deck)
+            load_deck(deck)
 
 
 MIXED = """*NODE
@@ -359,11 +359,11 @@ def test_a_contact_surface_is_of_one_order(tmp_path: Path) -> None:
     pair = "*SURFACE INTERACTION,NAME=I\n*CONTACT PAIR,INTERACTION=I\nS,S\n"
     path.write_text(f"{MIXED}{pair}*STEP\n*STATIC\n*END STEP\n")
     with pytest.raises(DeckError, match=r"deck.inp:\d+: surface 'S' has faces of linear and of quadratic elements"):
-        load(path)
+        load_deck(path)
 
 
 def test_how_others_stabilise_is_left_out(tmp_path: Path) -> None:
     path = tmp_path / "deck.inp"
     static = "*STATIC, STABILIZE=2E-4, FACTOR=2E-4, ALLSDTOL=0, CONTINUE=NO\n0.1, 1.\n"
     path.write_text(f"{MIXED}*STEP\n{static}*DLOAD\nA,P3,2.\n*END STEP\n")
-    assert load(path).model.steps[0].name == "step 1"
+    assert load_deck(path).model.steps[0].name == "step 1"

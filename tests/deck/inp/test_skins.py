@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.deck import DeckError, load
+from signorini.deck import DeckError, load_deck
 from tests.helpers.eight_cells import eight_cells
 
 SKINS = """*ELEMENT,TYPE=T3D2,ELSET=EDGE
@@ -32,7 +32,7 @@ def test_they_carry_nothing(tmp_path: Path) -> None:
     """The body is the same without them; a surface of faces is that of the cells behind them."""
     head = eight_cells()
     with_lid = head.replace("*NSET,NSET=FIX", f"{SKINS}*NSET,NSET=FIX", 1) + "*SURFACE,NAME=S\nLID\n"
-    found = load(deck(tmp_path, with_lid + LOADS))
+    found = load_deck(deck(tmp_path, with_lid + LOADS))
     assert any(note.startswith("T3D2, CPS4: faces and lines of the bodies") for note in found.notes)
     assert found.prints is not None
     assert [len(table.members) for table in found.prints.tables] == [0, 8, 8]
@@ -54,7 +54,7 @@ def test_they_carry_nothing(tmp_path: Path) -> None:
 def test_they_are_no_cells(tmp_path: Path, old: str, new: str, said: str) -> None:
     words = eight_cells().replace("*NSET,NSET=FIX", f"{SKINS}*NSET,NSET=FIX", 1) + "*SURFACE,NAME=S\nLID\n" + LOADS
     with pytest.raises(DeckError, match=said):
-        load(deck(tmp_path, words.replace(old, new)))
+        load_deck(deck(tmp_path, words.replace(old, new)))
 
 
 @pytest.mark.parametrize(("order", "dimension"), [(1, 2), (2, 2), (1, 3), (2, 3)])

@@ -15,7 +15,7 @@ from signorini.deck.deck import Deck
 from signorini.deck.error import DeckError
 from signorini.deck.inp.card import Card
 from signorini.deck.inp.conditions import Conditions, make_conditions
-from signorini.deck.inp.couplings import make_links
+from signorini.deck.inp.couplings import make_deck_links
 from signorini.deck.inp.flatten import flatten
 from signorini.deck.inp.grid import DeckGrid, make_grid
 from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS, of_keyword, refuse_unsupported
@@ -87,7 +87,7 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
 
     known = make_known(cards, outside)
     contacts = make_contacts(outside, known)
-    rigid, equations = make_links(outside, known)
+    rigid, equations = make_deck_links(outside, known)
     conditions = make_conditions(follow_steps(outside, steps, known, rigid), known)
     changes = [make_changes(step.cards, known, contacts) for step in steps]
     kind, thickness = known.grid.kind, _thickness(known.sections[0], known.grid.kind)

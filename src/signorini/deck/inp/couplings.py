@@ -27,7 +27,7 @@ COUPLINGS = ("KINEMATIC", "DISTRIBUTING")
 """Keywords that say how the ``*COUPLING`` before them couples."""
 
 
-def make_links(cards: Sequence[Card], known: Known) -> tuple[list[DeckRigid], list[DeckEquation]]:
+def make_deck_links(cards: Sequence[Card], known: Known) -> tuple[list[DeckRigid], list[DeckEquation]]:
     """Read all ``*RIGID BODY``, ``*COUPLING`` and ``*EQUATION`` keywords: what couples displacements."""
     rigid, equations = _couplings(cards, known, make_rigid_bodies(cards, known))
     return rigid, equations + make_equations(cards, known, rigid)
