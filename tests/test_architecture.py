@@ -32,6 +32,7 @@ BASE = {
     "hdf5",
     "memory",
     "outcome",
+    "settings",
     "short",
     "sources",
     "_version",

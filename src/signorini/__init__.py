@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from signorini.model.step import Step
     from signorini.model.triangulated import Surface
     from signorini.model.varying import Along
+    from signorini.settings import SolverSettings
 
 __all__ = [
     "Along",
@@ -60,6 +61,7 @@ __all__ = [
     "SignoriniError",
     "Solution",
     "SolveFailed",
+    "SolverSettings",
     "Sphere",
     "Step",
     "Support",
@@ -108,6 +110,7 @@ _HOMES = {
     "signorini.model.step": ("Step",),
     "signorini.model.triangulated": ("Surface",),
     "signorini.model.varying": ("Along",),
+    "signorini.settings": ("SolverSettings",),
 }
 _MODULES = {"lcp": "signorini.lcp", "paper": "signorini.engine.paper"}
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}

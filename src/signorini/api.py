@@ -36,6 +36,7 @@ from signorini.plot.escape import plot_escape
 from signorini.plot.picture_data import HistoryData
 from signorini.plot.style import literal
 from signorini.plot.view import write_view
+from signorini.settings import SolverSettings
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.history import History
 
@@ -177,6 +178,7 @@ def solve(
     *,
     start: Start | None = None,
     backend: str = "auto",
+    settings: SolverSettings | None = None,
     raise_on_failure: bool = True,
     wellposed: bool = False,
     clock: Clock | None = None,
@@ -191,6 +193,7 @@ def solve(
         were one with that before: load factors, slips and all that steps have set stay. The model must say the same of
         mesh, bodies, supports, loads and contacts
     backend : of the sparse factorisation, "auto" or a name
+    settings : limits of the methods that solve contact
     raise_on_failure : otherwise a solution whose ``status`` says why is returned, with what was solved before
     wellposed : whether to ask if the solution is the only one: ``solution.wellposedness``
     clock : counts the seconds and tells progress
@@ -221,6 +224,7 @@ def solve(
             model,
             start=begin,
             backend=backend,
+            settings=settings,
             raise_on_failure=raise_on_failure,
             wellposed=wellposed,
             clock=clock,
@@ -275,13 +279,17 @@ class PreparedModel:
         return {contact.label: value for contact in self._prepared.model.contacts}
 
 
-def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) -> PreparedModel:
+def prepare(
+    model: Model, *, backend: str = "auto", settings: SolverSettings | None = None, clock: Clock | None = None
+) -> PreparedModel:
     """Assemble and condense a model once, to solve it many times.
 
     Parameters
     ----------
     model : the problem
     backend : of the sparse factorisation, "auto" or a name
+    settings : limits of the methods that solve contact
+    settings : limits of the methods that solve contact
     clock : counts the seconds and tells progress
 
     Raises
@@ -301,7 +309,7 @@ def prepare(model: Model, *, backend: str = "auto", clock: Clock | None = None) 
     >>> print(light.contact("foundation").normal_force[1].round(9))
     19.5
     """
-    return PreparedModel(prepare_model(model, backend=backend, clock=clock))
+    return PreparedModel(prepare_model(model, backend=backend, settings=settings, clock=clock))
 
 
 def load(path: str | Path) -> Solution:

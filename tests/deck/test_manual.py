@@ -16,6 +16,7 @@ from signorini.model.body import Body
 from signorini.model.conditions import Foundation, Load, Support
 from signorini.model.material import Elastic, Orthotropic
 from signorini.model.step import Step
+from signorini.settings import SolverSettings
 
 MANUAL = (Path(__file__).parents[2] / "docs" / "deck.md").read_text()
 DECK = re.findall(r"```toml\n(.*?)```", MANUAL, re.DOTALL)[0]
@@ -39,7 +40,9 @@ def test_every_key_is_explained() -> None:
         key for key in _KEYS if f"[{key}" not in MANUAL
     }
     keys |= {
-        field.name for kind in (Support, Foundation, Load, Step, Body, Elastic, Orthotropic) for field in fields(kind)
+        field.name
+        for kind in (Support, Foundation, Load, Step, Body, Elastic, Orthotropic, SolverSettings)
+        for field in fields(kind)
     }
     keys |= {name for generator in GENERATORS.values() for name in inspect.signature(generator).parameters}
     missing = sorted(key for key in keys if not re.search(rf"`{key}[` ]", MANUAL))

@@ -14,9 +14,10 @@ from signorini.friction.plane.restricted import restrict_to
 from signorini.friction.plane.state_tree import search
 from signorini.friction.plane.walls import beyond, columns, jacobian, walls
 from signorini.friction.problem import ContactProblem
-from signorini.friction.solve import ContactSettings, solve_contact
+from signorini.friction.solve import solve_contact
 from signorini.gallery.hard import hard_set
 from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
+from signorini.settings import SolverSettings
 from tests.helpers.coulomb_samples import answer, block_on_floor, for_all, random_problem
 
 
@@ -100,7 +101,7 @@ def test_tree_proves_and_springs_name_the_escape():
     step, proved = wedged_out()
     assert proved.outcome == "no_equilibrium"
     assert "no state of the pairs" in proved.message
-    named = solve_contact(step, settings=ContactSettings(tree_pairs=0))
+    named = solve_contact(step, settings=SolverSettings(tree_pairs=0))
     assert named.outcome == "not_found"
     assert named.escape is not None
     np.testing.assert_allclose(np.abs(named.escape).max(), 1.0)
@@ -152,7 +153,7 @@ def test_jacobian_is_the_derivative():
 
 def test_a_path_among_touching_pairs_finds_the_same(cycling):
     whole = solve_contact(cycling)
-    few = solve_contact(cycling, settings=ContactSettings(many_pairs=0))
+    few = solve_contact(cycling, settings=SolverSettings(many_pairs=0))
     assert few.solved
     np.testing.assert_allclose(answer(few), answer(whole), atol=1e-9 * cycling.scale)
 

@@ -8,8 +8,9 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.friction.problem import ContactProblem
 from signorini.friction.result import ContactAnswer
-from signorini.friction.solve import ContactSettings, solve_contact
+from signorini.friction.solve import solve_contact
 from signorini.law.states import OPEN, STICK
+from signorini.settings import SolverSettings
 
 _BISECTIONS = 10
 
@@ -41,7 +42,7 @@ class LimitLoad:
 
 
 def limit_load(
-    problem: ContactProblem, base: Array, start: Array | None = None, *, settings: ContactSettings | None = None
+    problem: ContactProblem, base: Array, start: Array | None = None, *, settings: SolverSettings | None = None
 ) -> LimitLoad | None:
     """How far the load can be raised from ``base`` to the problem's b: bisection, each load from the last solution.
 

@@ -131,6 +131,7 @@ def _solve(
             deck.model,
             start=start,
             backend=options.backend,
+            settings=deck.settings,
             raise_on_failure=False,
             wellposed=options.wellposed,
             clock=clock,

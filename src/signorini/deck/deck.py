@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from signorini.deck.error import DeckError
@@ -12,6 +12,7 @@ from signorini.deck.scan import line_of
 from signorini.errors import InputError, Where
 from signorini.model.model import Model
 from signorini.model.prints import Prints
+from signorini.settings import SolverSettings
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -24,6 +25,7 @@ class Deck:
     path : of the file, as the user spelled it
     lines : line of every key and table, from 1, by its path
     unused_materials : names of materials that no body is made of
+    settings : limits of the methods, of the table ``[solver]``
     prints : what a deck of keywords asks for; None for other decks
     notes : how the model differs from what the deck asks for, and what was left out
     """
@@ -34,6 +36,7 @@ class Deck:
     unused_materials: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     prints: Prints | None = None
+    settings: SolverSettings = field(default_factory=SolverSettings)
 
     def locate(self, error: InputError) -> DeckError:
         """An error that is found after reading with the line of the deck that caused it."""

@@ -14,18 +14,19 @@ from signorini.deck.error import DeckError
 from signorini.deck.inp.build import read_deck
 from signorini.deck.meshes import deck_mesh
 from signorini.deck.syntax import parse
-from signorini.deck.tables import FIELDS, check_keys, deck_bodies, deck_materials, deck_parts
+from signorini.deck.tables import FIELDS, check_keys, deck_bodies, deck_materials, deck_parts, make, table
 from signorini.errors import InputError, Where
 from signorini.model.model import Model
+from signorini.settings import SolverSettings
 from signorini.sources import Reach
 
-_KEYS = ("title", "kind", "thickness", "units", "mesh", "material", *FIELDS)
+_KEYS = ("title", "kind", "thickness", "units", "mesh", "material", "solver", *FIELDS)
 
 
 def read(
     path: str | Path, *, small_strain: bool = False, deck_increments: bool = False, allow: Iterable[str | Path] = ()
 ) -> Model:
-    """Read a deck.
+    """Read the model of a deck; `load` gives what else it says, limits of the solver (``[solver]``) among it.
 
     Parameters
     ----------
@@ -81,4 +82,5 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int], reach
     model = Model(mesh, bodies=bodies, **parts)
     named = {entry["material"] for entry in data["body"]}
     unused = tuple(name for name in materials if name not in named)
-    return Deck(model=model, path=path, lines=MappingProxyType(dict(lines)), unused_materials=unused)
+    settings = make(SolverSettings, table(data.get("solver", {}), ("solver",)), ("solver",))
+    return Deck(model=model, path=path, lines=MappingProxyType(dict(lines)), unused_materials=unused, settings=settings)

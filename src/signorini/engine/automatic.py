@@ -24,8 +24,6 @@ from signorini.engine.step_parts import FollowedPart, StepPart
 from signorini.errors import SolveFailed, told
 from signorini.outcome import Outcome
 
-MAX_INCREMENTS = 4096
-"""Increments of one straight part of a step; in space the part of it that they need not undercut."""
 _CERTAIN = 16  # increments on a way in space of which it is believed that it jumps, or that it does not
 _VAIN = 16  # times as many increments, that change the answer no less: it does not settle
 _LOST = 4  # times the number that is enough: the most that are tried where a way in space is lost
@@ -45,13 +43,14 @@ def follow_automatically(
     ----------
     tolerance : largest change from one number to the next: of a contact force, of the largest one; and of what friction
         dissipates, of the work done on the way
-    enough : number at which to stop whatever it still changes, and to say so; None: go on to 4096
+    enough : number at which to stop whatever it still changes, and to say so; None: go on to the
+        most that settings allow, 4096 by default
     jump : what to do at a jump, in space: stop, follow it to its landing, or None to go on without
 
     Raises
     ------
     SolveFailed
-        If an increment has no certified solution however short, 4096 are not enough, or 16 times as many change the
+        If an increment has no certified solution however short, those are not enough, or 16 times as many change the
         answer no less and no jump shows why (`sudden_change`); in space 4 times ``enough`` are tried where fewer are
         lost.
     """
@@ -60,8 +59,9 @@ def follow_automatically(
     changes, number, why = "the answer, where one is found", 1, ""
     seen: dict[int, float] = {}
     more, fewer = (2, "half as many") if prepared.interface.directions == 2 else (4, "a quarter as many")
-    most = MAX_INCREMENTS if enough is None or prepared.interface.directions == 2 else _LOST * enough
-    while number <= MAX_INCREMENTS:
+    limit = prepared.settings.automatic_increments
+    most = limit if enough is None or prepared.interface.directions == 2 else _LOST * enough
+    while number <= limit:
         try:
             with prepared.clock.again(why):
                 fine, words = _followed(part, number, jump)
@@ -96,10 +96,10 @@ def follow_automatically(
         return replace(fine, path="increments", notes=(*fine.notes, note))
     raise SolveFailed(
         told(
-            f"{part.where}: {min(number, MAX_INCREMENTS)} increments still change {changes}",
+            f"{part.where}: {min(number, limit)} increments still change {changes}",
             remedy='a larger tolerance, or path = "exact" where sections are polygons or the model is plane',
             evidence=""
-            if number > MAX_INCREMENTS
+            if number > limit
             else f"{number // _VAIN} changed it by no more, they lead to different answers",
         ),
         status=Outcome.NOT_FOUND,

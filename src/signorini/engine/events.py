@@ -94,7 +94,7 @@ def follow_to_events(part: StepPart, number: int, *, jumps: bool = False) -> Fol
     SolveFailed
         As `follow_exactly` does.
     """
-    stops = StopSettings(shortest=1.0 / number, turn=_TURN / number**0.5)
+    stops = StopSettings(shortest=1.0 / number, turn=_TURN / number**0.5, solver=part.prepared.settings)
     return _beyond_jumps(part, "increments to events", jumps=jumps, stops=stops)
 
 

@@ -20,6 +20,7 @@ from signorini.errors import InputError
 from signorini.interface.interface import Interface
 from signorini.iterative.bodies import Bodies, make_bodies
 from signorini.iterative.solve import IncrementLoad, solve_iteratively
+from signorini.settings import SolverSettings
 from signorini.solution.scale import Scale
 
 MAX_ENTRIES = 3_000_000
@@ -36,9 +37,11 @@ class MultiplierSolver:
     Attributes
     ----------
     bodies : stiffness and pairs
+    settings : limits of the rounds
     """
 
     bodies: Bodies
+    settings: SolverSettings
 
     @property
     def name(self) -> str:
@@ -116,6 +119,8 @@ class MultiplierSolver:
             bound=system.interface.bound(bodies.pairs),
             force=system.scale.force,
             length=length,
+            tolerance=self.settings.tolerance,
+            rounds=self.settings.multiplier_rounds,
             floating=increment.floating,
         )
         start = bodies.blocks.spread(free)
@@ -134,7 +139,9 @@ class MultiplierSolver:
         )
 
 
-def make_multipliers(examined: Examined, K: sp.csr_array, B: sp.csr_array, candidates: BoolArray) -> MultiplierSolver:
+def make_multipliers(
+    examined: Examined, K: sp.csr_array, B: sp.csr_array, candidates: BoolArray, settings: SolverSettings
+) -> MultiplierSolver:
     """Put bodies and pairs into blocks.
 
     Parameters
@@ -143,6 +150,7 @@ def make_multipliers(examined: Examined, K: sp.csr_array, B: sp.csr_array, candi
     K : (z, z) stiffness of the free displacements
     B : (d n, z) relative displacements of the pairs in terms of them
     candidates : (n,) pairs that may touch
+    settings : limits of the rounds
 
     Raises
     ------
@@ -167,4 +175,4 @@ def make_multipliers(examined: Examined, K: sp.csr_array, B: sp.csr_array, candi
         rigid=sp.csr_array(T.T @ examined.motions),
         candidates=candidates,
     )
-    return MultiplierSolver(bodies=bodies)
+    return MultiplierSolver(bodies=bodies, settings=settings)

@@ -32,6 +32,7 @@ from signorini.model.conditions import Load, Temperature
 from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.stage import stages
+from signorini.settings import SolverSettings
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.scale import Loading, data_scale
@@ -51,6 +52,7 @@ class Prepared(Examined, DiscreteModel):
     solver : the bodies as their contact pairs feel them, and the law
     clock : seconds spent so far
     backend : of the factorisation, or "iterative", as asked for
+    settings : limits of the methods
     softness : the farthest that any load moves the bodies, of its size, where springs hold the pairs: length per force
     released : supports that do not hold
     multiplied : what values of moving supports are multiplied by, beyond the model's
@@ -60,6 +62,7 @@ class Prepared(Examined, DiscreteModel):
     solver: ContactSolver
     clock: Clock
     backend: str
+    settings: SolverSettings = field(default_factory=SolverSettings)
     softness: float = 0.0
     released: frozenset[str] = frozenset()
     multiplied: Mapping[str, float] = field(default_factory=dict)
@@ -108,7 +111,7 @@ class Prepared(Examined, DiscreteModel):
         return now._made_again(_near(now) if self.limited else np.ones(len(self.interface), bool))
 
     def _made_again(self, near: BoolArray) -> Prepared:
-        made = _made(self, self.K, near, self.backend, self.clock)
+        made = _made(self, self.K, near, self.backend, self.settings, self.clock)
         return replace(made, released=self.released, multiplied=self.multiplied)
 
     def under(self, interface: Interface, loading: Loading, absent: BoolArray) -> Prepared:
@@ -137,7 +140,9 @@ class Prepared(Examined, DiscreteModel):
         """The solver of `with_multipliers`; ``patience`` as there."""
         T, nodes = self.constraints.transform, self.constraints.nodes
         K, B = reduced_stiffness(self.K, T), sp.csr_array(self.interface.B @ T)
-        solver = make_multipliers(self, K, B, self.solver.active).under(self.interface, self.scale, self.absent)
+        solver = make_multipliers(self, K, B, self.solver.active, self.settings).under(
+            self.interface, self.scale, self.absent
+        )
         return solver.factored(nodes, self.space.places, patience=patience)
 
     @property
@@ -223,7 +228,12 @@ def _changed_contact(contact: Contact, friction: Mapping[str, float], interferen
 
 @one_thread()
 def prepare(
-    model: Model, *, start: Checkpoint | None = None, backend: str = "auto", clock: Clock | None = None
+    model: Model,
+    *,
+    start: Checkpoint | None = None,
+    backend: str = "auto",
+    settings: SolverSettings | None = None,
+    clock: Clock | None = None,
 ) -> Prepared:
     """Examine, assemble and condense; pairs that seem too far apart to touch are left out.
 
@@ -232,6 +242,7 @@ def prepare(
     model : the problem
     start : from which the history goes on; its pairs are taken along
     backend : of the factorisation, "auto", a name or "iterative"
+    settings : limits of the methods
     clock : counts the seconds
 
     Raises
@@ -247,7 +258,7 @@ def prepare(
         for springs in examined.constraints.springs.values():
             K = sp.csr_array(K + springs.T @ springs)
         near = _near(examined) if start is None else _near(examined) | start.near
-    made = _made(examined, K, near, backend, clock)
+    made = _made(examined, K, near, backend, settings or SolverSettings(), clock)
     before = None if start is None else start.standing
     return replace(made, released=next(stages(model, before=before)).released)
 
@@ -265,7 +276,9 @@ def _near(examined: Examined) -> BoolArray:
     return near
 
 
-def _made(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, clock: Clock) -> Prepared:
+def _made(
+    examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, settings: SolverSettings, clock: Clock
+) -> Prepared:
     """Factorise the bodies with the nodes of the candidates last and put the law on them, or leave them as they are."""
     interface, T, nodes = examined.interface, examined.constraints.transform, examined.constraints.nodes
     data = {field.name: getattr(examined, field.name) for field in fields(Examined)}
@@ -275,15 +288,24 @@ def _made(examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, cl
         whole = iterates(reduced, relative, interface, nodes, examined.space.places, candidates=near, backend=backend)
         solver: ContactSolver
         if whole:
-            solver = make_multipliers(examined, reduced, relative, near)
+            solver = make_multipliers(examined, reduced, relative, near, settings)
     if not whole:
         condensed = _condensed(examined, reduced, relative, near, backend, clock)
         softness = _softness(examined, condensed)
         data["scale"] = examined.scale.bent(softness)
         data["constraints"] = _with_ties(examined, condensed.ties)
-        solver = CondensedSolver.of(condensed, interface, data["scale"])
+        solver = CondensedSolver.of(condensed, interface, data["scale"], settings)
     absent = np.zeros(len(interface), bool)
-    return Prepared(**data, K=K, absent=absent, solver=solver, clock=clock, backend=backend, softness=softness)
+    return Prepared(
+        **data,
+        K=K,
+        absent=absent,
+        solver=solver,
+        clock=clock,
+        backend=backend,
+        settings=settings,
+        softness=softness,
+    )
 
 
 def _softness(examined: Examined, condensed: Condensed) -> float:

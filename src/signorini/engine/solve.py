@@ -44,6 +44,7 @@ from signorini.model.model import Model
 from signorini.model.stage import Stage, Standing, stages
 from signorini.model.step import Step
 from signorini.outcome import Outcome
+from signorini.settings import SolverSettings
 from signorini.solution.certificate import TOLERANCE
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.history import History
@@ -68,6 +69,7 @@ def solve(
     *,
     start: Checkpoint | None = None,
     backend: str = "auto",
+    settings: SolverSettings | None = None,
     raise_on_failure: bool = True,
     wellposed: bool = False,
     clock: Clock | None = None,
@@ -77,10 +79,10 @@ def solve(
 
     Parameters
     ----------
-    model, start, backend, raise_on_failure, wellposed, clock, after_step : as of :func:`signorini.api.solve`, which
-        dresses it
+    model, start, backend, settings, raise_on_failure, wellposed, clock, after_step : as of
+        :func:`signorini.api.solve`, which dresses it
     """
-    prepared = prepare(model, start=start, backend=backend, clock=clock)
+    prepared = prepare(model, start=start, backend=backend, settings=settings, clock=clock)
     return solve_prepared(
         prepared, start=start, raise_on_failure=raise_on_failure, wellposed=wellposed, after_step=after_step
     )

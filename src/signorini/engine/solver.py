@@ -24,6 +24,7 @@ from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 from signorini.interface.interface import Interface
 from signorini.outcome import Outcome
+from signorini.settings import SolverSettings
 from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.scale import Scale
 from signorini.solution.state import State
@@ -148,13 +149,15 @@ class CondensedSolver:
     ----------
     condensed : the interface as the bodies feel it
     law : of the active pairs, without load, in the scaled units of `Condensed`
+    settings : limits of the methods
     """
 
     condensed: Condensed
     law: ContactProblem
+    settings: SolverSettings
 
     @staticmethod
-    def of(condensed: Condensed, interface: Interface, scale: Scale) -> CondensedSolver:
+    def of(condensed: Condensed, interface: Interface, scale: Scale, settings: SolverSettings) -> CondensedSolver:
         """The law of the active pairs, with no load yet.
 
         Parameters
@@ -162,12 +165,13 @@ class CondensedSolver:
         condensed : the interface as the bodies feel it
         interface : the n pairs and their friction
         scale : sizes of the data
+        settings : limits of the methods
         """
         data = _friction(condensed, interface)
         law = ContactProblem(
             image=condensed.image, b=np.zeros(len(condensed.root)), scale=_size(condensed, interface, scale), **data
         )
-        return CondensedSolver(condensed=condensed, law=law)
+        return CondensedSolver(condensed=condensed, law=law, settings=settings)
 
     @property
     def name(self) -> str:
@@ -213,7 +217,7 @@ class CondensedSolver:
         absent : (n,) pairs that are switched off
         """
         if absent.any():
-            return CondensedSolver.of(self.condensed.among(~absent), interface, scale)
+            return CondensedSolver.of(self.condensed.among(~absent), interface, scale, self.settings)
         size = _size(self.condensed, interface, scale)
         return replace(self, law=replace(self.law, scale=size, **_friction(self.condensed, interface)))
 
@@ -225,7 +229,7 @@ class CondensedSolver:
         ways : (k, m) the combinations
         interface, scale : as of `of`
         """
-        return CondensedSolver.of(self.condensed.moving(ways), interface, scale)
+        return CondensedSolver.of(self.condensed.moving(ways), interface, scale, self.settings)
 
     def solve(self, increment: Increment) -> IncrementAnswer:
         """Solve one increment.
@@ -246,7 +250,7 @@ class CondensedSolver:
             with increment.clock.phase("complementarity"):
                 reduced = condensed.reduce(residual)
                 b = b + condensed.right_hand_side(reduced.load, misfit)
-                result = solve_contact(replace(law, b=b), start)
+                result = solve_contact(replace(law, b=b), start, settings=self.settings)
             if not result.solved:
                 break
             with increment.clock.phase("recovery"):
@@ -314,8 +318,13 @@ class CondensedSolver:
         tell : is called in space with the part that is behind
         """
         if self.law.directions == 3:
-            return follow_stopping(self.law, start, b, settings=stops, tell=tell)
+            return follow_stopping(self.law, start, b, settings=stops or self._stops, tell=tell)
         return follow(self.law, start, b)
+
+    @property
+    def _stops(self) -> StopSettings:
+        """Every event ends an increment."""
+        return StopSettings(solver=self.settings)
 
     def land(self, start: PathState, segment: Segment, stops: StopSettings | None) -> Landing | None:
         """Where a jump at the end of a segment lands; None where that is not found.
@@ -327,7 +336,7 @@ class CondensedSolver:
         stops : as of `follow`
         """
         if self.law.directions == 3:
-            return land_spatial(self.law, start, segment, settings=stops)
+            return land_spatial(self.law, start, segment, settings=stops or self._stops)
         return land(self.law, start, segment)
 
 

@@ -5,7 +5,7 @@ from signorini.attempt import MethodRun
 from signorini.friction.certificate import certify
 from signorini.friction.problem import ContactProblem
 from signorini.friction.result import ContactAnswer
-from signorini.friction.solve import ContactSettings, solve_contact
+from signorini.friction.solve import solve_contact
 from signorini.friction.uniqueness import index, mu_low
 from signorini.law.states import OPEN, SLIP, SLIP_MINUS, SLIP_PLUS, STATE_NAMES, STICK, UNDECIDED
 
@@ -19,7 +19,6 @@ __all__ = [
     "UNDECIDED",
     "ContactAnswer",
     "ContactProblem",
-    "ContactSettings",
     "MethodRun",
     "certify",
     "index",

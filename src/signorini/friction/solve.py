@@ -38,41 +38,15 @@ from signorini.friction.pull_away import pulled_away
 from signorini.friction.result import ContactAnswer
 from signorini.friction.space.proximal import proximal_rounds, swept_rounds
 from signorini.law.states import OPEN, SLIP_MINUS, UNDECIDED
+from signorini.settings import SolverSettings
 
+_DEFAULTS = SolverSettings()  # checked once: small problems are solved thousands of times
+_SWEEPS = 20  # of one round, before proximal Newton
 _RUNAWAY_GROWTH = 10.0  # of motions between two stiffnesses of springs, a thousandth of each other
 
 
-@dataclass(frozen=True, kw_only=True)
-class ContactSettings:
-    """How long each method may try.
-
-    Attributes
-    ----------
-    tolerance : of `certify`, relative to the data
-    newton_steps, searched_steps : most linear systems of one Newton run by states, and with a line search
-    pivots_per_pair : most pivots of a path, in rounds
-    springs : stiffness of the springs, falling, in units of the interface stiffness
-    many_pairs : pairs from which a path is first followed among the pairs alone that Newton found touching
-    tree_pairs, tree_programs : most pairs and most linear programs of the tree
-    swept_rounds, sweeps : most rounds of sweeps and proximal Newton, and sweeps of each
-    proximal_rounds : most rounds of proximal Newton alone
-    """
-
-    tolerance: float = 1e-10
-    newton_steps: int = 200
-    searched_steps: int = 25
-    pivots_per_pair: tuple[int, ...] = (10, 100)
-    springs: tuple[float, ...] = (1e-3, 1e-6, 1e-9)
-    many_pairs: int = 200
-    tree_pairs: int = 25
-    tree_programs: int = 2000
-    swept_rounds: int = 15
-    sweeps: int = 20
-    proximal_rounds: int = 50
-
-
 def solve_contact(
-    problem: ContactProblem, start: ArrayLike | None = None, *, settings: ContactSettings | None = None
+    problem: ContactProblem, start: ArrayLike | None = None, *, settings: SolverSettings | None = None
 ) -> ContactAnswer:
     """Solve ``G h - W r = b`` in a law of friction: a certified solution, a proof that there is none, or an escape.
 
@@ -103,7 +77,7 @@ def solve_contact(
     >>> answer.outcome, answer.r.round(12).tolist()
     ('solved', [[2.0], [-0.12], [-0.16]])
     """
-    settings, first = settings or ContactSettings(), _checked(problem, start)
+    settings, first = settings or _DEFAULTS, _checked(problem, start)
     if problem.pairs == 0:
         return nothing_to_solve(problem)
     tried: list[Candidate] = []
@@ -147,7 +121,7 @@ class Task:
 
     problem: ContactProblem
     start: Array | IntArray | None
-    settings: ContactSettings
+    settings: SolverSettings
     tried: Sequence[Candidate]
 
     def polish(self, state: IntArray, *, near: Array | None = None) -> Candidate:
@@ -256,7 +230,7 @@ def _rounds(task: Task) -> Iterator[Candidate]:
     problem, settings = task.problem, task.settings
     steps, tolerance = settings.searched_steps, settings.tolerance
     if problem.directions == 3 and problem.straight:
-        rounds, sweeps = settings.swept_rounds, settings.sweeps
+        rounds, sweeps = settings.swept_rounds, _SWEEPS
         yield from swept_rounds(problem, rounds=rounds, sweeps=sweeps, steps=steps, tolerance=tolerance)
     yield from proximal_rounds(problem, rounds=settings.proximal_rounds, steps=steps, tolerance=tolerance)
 

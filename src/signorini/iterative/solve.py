@@ -35,10 +35,6 @@ from signorini.law.states import OPEN, STICK
 from signorini.linalg.krylov import conjugate_gradients
 from signorini.outcome import Outcome
 
-TOLERANCE = 1e-10
-"""Of the sizes of the data: equilibrium, gaps that should be closed, forces that should have settled."""
-
-_MAX_ROUNDS = 200
 _MAX_NEWTON = 20  # steps a round
 _EQUILIBRIUM_SHARE = 0.1  # of what the multipliers change by: what equilibrium may lack in a round
 _NEWTON_RESIDUAL = 0.1  # of the residual before: what conjugate gradients leave of it
@@ -98,6 +94,8 @@ class IncrementLoad:
     bound : of the friction forces of a pairs
     force, length : sizes of the data
     floating : whether contact alone holds a body
+    tolerance : of the sizes of the data: equilibrium, gaps that should be closed, forces that should have settled
+    rounds : most of them
     """
 
     f: Array
@@ -106,6 +104,8 @@ class IncrementLoad:
     force: float
     length: float
     floating: bool
+    tolerance: float
+    rounds: int
 
 
 def solve_iteratively(bodies: Bodies, load: IncrementLoad, z: Array, forces: Array) -> Answer:
@@ -119,11 +119,11 @@ def solve_iteratively(bodies: Bodies, load: IncrementLoad, z: Array, forces: Arr
     """
     rounds = _Rounds(bodies, load, z, forces)
     worst, best = np.inf, [np.inf]
-    for _ in range(_MAX_ROUNDS):
+    for _ in range(load.rounds):
         rounds.newton()
         worst = rounds.update()
         best.append(min(worst, best[-1]))
-        if worst <= TOLERANCE or not np.isfinite(worst):
+        if worst <= load.tolerance or not np.isfinite(worst):
             break
         if len(best) > bodies.patience and best[-1] > 0.5 * best[-1 - bodies.patience]:
             break
@@ -165,7 +165,7 @@ class _Rounds:
             g = load.f + self.transposed @ forces.ravel() - self.internal
             lag = self.transposed @ (forces - self.multiplier).ravel()
             left = float(np.linalg.norm(g))
-            if left <= _EQUILIBRIUM_SHARE * float(np.linalg.norm(lag)) or left <= 0.1 * TOLERANCE * load.force:
+            if left <= _EQUILIBRIUM_SHARE * float(np.linalg.norm(lag)) or left <= 0.1 * load.tolerance * load.force:
                 return
             law = self.law.slope(self.y, self.bound, self.softened, _STIFFNESS_FLOOR if load.floating else 0.0)
             step, count = self._step(law, g)
@@ -201,7 +201,7 @@ class _Rounds:
         closed = state != OPEN
         moved[0] = np.where(closed, 0.0, np.maximum(moved[0], 0.0))
         moved[1:] = np.where(state == STICK, 0.0, moved[1:])
-        solved = worst <= TOLERANCE
+        solved = worst <= self.load.tolerance
         end = f"{sum(self.iterations)} conjugate gradients, residual {worst:.0e}"
         attempt = MethodRun(method="multipliers", iterations=len(self.changes), changes=tuple(self.changes), end=end)
         return Answer(

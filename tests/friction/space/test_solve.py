@@ -10,9 +10,10 @@ from benchmarks.spatial_problems import from_compliance, hard_random, natural_re
 from signorini import lcp
 from signorini.condense.operator import InterfaceOperator
 from signorini.friction.linear import Equilibrium
-from signorini.friction.solve import ContactSettings, solve_contact
+from signorini.friction.solve import solve_contact
 from signorini.friction.space.sweeps import gauss_seidel
 from signorini.law.states import SLIP, STICK
+from signorini.settings import SolverSettings
 from tests.helpers.faceted import decoded, faceted_lcp
 from tests.helpers.limit_load import limit_load
 from tests.helpers.spatial_samples import block_on_floor, pressed_punch, random_problem
@@ -143,7 +144,7 @@ def test_a_limit_load_below_what_statics_allow_names_the_motion():
     # tilted and dragged: forces in the cones could balance the load, but not those that the block takes
     problem, R = block_on_floor((-1.0, 0.177, -0.23, -0.169, 0.397, 0.126), 0.3, side=5)
     base, _ = block_on_floor((-1.0, 0, 0, 0, 0, 0), 0.3, side=5)
-    few = ContactSettings(swept_rounds=2, proximal_rounds=2)
+    few = SolverSettings(swept_rounds=2, proximal_rounds=2)
     limit = limit_load(problem, base.b, settings=few)
     assert 0.9 < limit.factor < limit.beyond < 0.95
     assert limit.sticking <= 0.1 * limit.closed

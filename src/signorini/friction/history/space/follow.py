@@ -12,7 +12,7 @@ up to there is solved for afresh and certified.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -28,12 +28,13 @@ from signorini.friction.history.way import Way, check_loads
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import pulled_away
 from signorini.friction.result import ContactAnswer
-from signorini.friction.solve import ContactSettings, solve_contact
+from signorini.friction.solve import solve_contact
 from signorini.friction.space.bearing import OVERLOADED, Bearing, sliding
 from signorini.friction.space.standstill import standstill
 from signorini.law.bound import STEEP
 from signorini.law.states import OPEN, SLIP, STICK
 from signorini.outcome import Outcome
+from signorini.settings import SolverSettings
 
 SHORTEST = 1e-12
 """Part of the segment below which an increment counts as none."""
@@ -55,7 +56,7 @@ _LOST = 1e-7  # part of the segment: where not even that has a solution nothing 
 _TRIES = 60  # at one increment
 _IDLE = 1e-12  # of the data: a normal force that rounding leaves, under which nothing slips
 _NEAR = 1e-6  # of the data: width of zero at an event that smooth sections make uncertain
-_QUICK = ContactSettings(searched_steps=12, swept_rounds=1, proximal_rounds=0, springs=())
+_QUICK_STEPS = 12  # of Newton's method, in an increment that may be shorter
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,13 +69,13 @@ class StopSettings:
         beginning; 0: every event ends one
     turn : largest angle by which friction on a smooth section turns in an increment longer than that
     width : of zero for a gap, a force or the friction to spare, relative to the data
-    most : increments; more are no answer
+    solver : limits of the methods, the number of increments among them
     """
 
     shortest: float = 0.0
     turn: float = 0.05
     width: float = 1e-10
-    most: int = 20000
+    solver: SolverSettings = field(default_factory=SolverSettings)
 
 
 def follow_stopping(
@@ -197,6 +198,9 @@ class Walk(Way):
         super().__init__(start)
         self.problem, self.start, self.b_end, self.settings = problem, start, b_end, settings
         self.width = settings.width * (problem.scale or 1.0)
+        self._quick = replace(
+            settings.solver, searched_steps=_QUICK_STEPS, swept_rounds=1, proximal_rounds=0, springs=()
+        )
         self.last, self.tried = _FIRST / _PROBE, 0
         # up to where every event ends an increment; whether that failed; up to where no energy is missing
         self.careful, self.trusting, self.balanced = 0.0, False, 0.0
@@ -334,8 +338,8 @@ class Walk(Way):
 
     def advance(self, *, patience: int) -> str:
         """One increment; why there is none, or nothing. Given up where so many were tried, and pairs act in all."""
-        if len(self.pieces) > self.settings.most:
-            return f"{self.settings.most} increments end at factor {self.factor:.12g}"
+        if len(self.pieces) > self.settings.solver.path_increments:
+            return f"{self.settings.solver.path_increments} increments end at factor {self.factor:.12g}"
         self.refused = None
         shortest = self._shortest
         left = self.reach - self.factor
@@ -453,7 +457,7 @@ class Walk(Way):
             ahead = self._here
         start = None if ahead is None else problem.by_pair(ahead)
         long = step <= shortest and not self._searched
-        result = solve_contact(increment, start, settings=None if long else _QUICK)
+        result = solve_contact(increment, start, settings=self.settings.solver if long else self._quick)
         if not result.solved:
             self._searched |= long
             return result
