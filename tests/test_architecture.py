@@ -307,8 +307,6 @@ PENDING = {
     #
     "interface": "parameters",
     #
-    "law": "constants",
-    #
     "meshing": "parameters",
     #
 }

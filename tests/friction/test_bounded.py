@@ -20,7 +20,7 @@ from signorini.friction.pull_away import pulled_away
 from signorini.friction.solve import solve_contact
 from signorini.friction.uniqueness import all_solutions, always_unique
 from signorini.gallery.hard import hard_set
-from signorini.law.bound import STEEP, FrictionBound
+from signorini.law.bound import ADHESION_SLOPE, FrictionBound
 from signorini.law.states import OPEN
 from tests.helpers.coulomb_samples import HELD, answer, block_on_floor, for_all, random_problem
 from tests.helpers.path_samples import EqualBodies, Springs, increments, loads_at_breakpoints, one_node, stiff
@@ -43,8 +43,10 @@ def test_the_bound_is_what_it_says(seed):
     c, L = rng.choice([0.0, 1e-3, 0.5, 2.0], 40), rng.choice([1e-3, 0.5, 0.50005, 2.0, np.inf], 40)
     bound = FrictionBound.of(mu, adhesion=c, limit=L)
     p = 10.0 ** rng.uniform(-7, 3, 40)
-    sticks = np.where(np.isinf(L), 1e6, STEEP) * p
-    expected = np.minimum(np.where(np.isinf(mu), sticks, np.nan_to_num(mu, posinf=0) * p + np.minimum(STEEP * p, c)), L)
+    sticks = np.where(np.isinf(L), 1e6, ADHESION_SLOPE) * p
+    expected = np.minimum(
+        np.where(np.isinf(mu), sticks, np.nan_to_num(mu, posinf=0) * p + np.minimum(ADHESION_SLOPE * p, c)), L
+    )
     np.testing.assert_allclose(bound.at(p), expected, rtol=1e-12)
     for code, sign in ((2, 1.0), (3, -1.0)):
         state = bound.coded(np.full(40, code), p)
@@ -199,14 +201,14 @@ def test_one_node_with_a_limit_by_hand():
 
 
 def test_one_node_with_adhesion_by_hand():
-    """mu = 0.5, adhesion 0.2: slips at 0.7; where p has fallen to c / STEEP adhesion lets go, and the node jumps."""
+    """mu = 0.5, adhesion 0.2: slips at 0.7; where p has fallen to 1e-3 c adhesion lets go: the node jumps."""
     problem, load = one_node(0.5)
     problem = replace(problem, adhesion=np.array([0.2]))
     pressed, path = pulled(problem, load)
     assert [event.what for event in path.events] == ["slips"]
     assert 4 * path.events[0].factor == pytest.approx(0.7, abs=1e-13)
     assert path.outcome == "jump"
-    left = 0.2 / STEEP
+    left = 0.2 / ADHESION_SLOPE
     assert 4 * path.jump.factor == pytest.approx(0.7 + 1.5 * (1.0 - left), abs=1e-12)
     np.testing.assert_allclose(path.end.r, [left, -0.2 - 0.5 * left], rtol=0, atol=1e-12)
     landing = land(problem, pressed, path)
@@ -285,7 +287,7 @@ def test_equal_bodies_slide_when_every_pair_is_at_its_bound(friction):
     body.problem = replace(body.problem, limit=limit)
     pressed, sheared = body.run((0.6, 0.0), (0.6, 1.0))
     p = pressed.end.r[:12]
-    most = np.minimum(np.minimum(friction, STEEP) * p, limit)
+    most = np.minimum(np.minimum(friction, ADHESION_SLOPE) * p, limit)
     assert sheared.outcome == "jump"
     assert sheared.jump.gross_sliding
     assert sheared.jump.margin > 0.0

@@ -34,7 +34,7 @@ def test_the_states_of_a_solution_are_balanced_as_by_a_factorisation(seed, motio
 def test_newton_ends_where_it_does_with_factorisations(load, pairs, monkeypatch):
     problem = block_on_floor(pairs, load)
     expected = by_states(problem)
-    monkeypatch.setattr("signorini.friction.newton.LARGE", 1)
+    monkeypatch.setattr("signorini.friction.newton.ITERATED_UNKNOWNS", 1)
     found = by_states(problem)
     assert found.attempt.end == expected.attempt.end
     if found.attempt.end == "certified":

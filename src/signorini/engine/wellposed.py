@@ -15,7 +15,7 @@ from signorini.engine.report import contacts_of
 from signorini.errors import SolveFailed
 from signorini.friction.problem import ContactProblem
 from signorini.friction.uniqueness import all_solutions, always_unique, countable, mu_low, search_solutions
-from signorini.law.bound import STEEP
+from signorini.law.bound import ADHESION_SLOPE
 from signorini.solution.results import ContactResult
 from signorini.solution.state import State
 from signorini.solution.wellposedness import WellPosedness
@@ -40,7 +40,7 @@ def assess(prepared: Prepared, state: State | None = None) -> WellPosedness:
         prepared = replace(prepared.widened(), absent=prepared.absent)
     law = prepared.paths.law
     slope = float(law.mu[~law.locked.all(axis=0)].max(initial=0.0))
-    friction, bound = np.inf if slope >= STEEP else slope, mu_low(law)
+    friction, bound = np.inf if slope >= ADHESION_SLOPE else slope, mu_low(law)
     if bound is not None and friction < bound:
         words = _unique(friction, bound, law.floating)
         return WellPosedness(friction=friction, bound=bound, verdict="unique", words=words)

@@ -13,7 +13,7 @@ from signorini.errors import told
 from signorini.friction.candidate import Candidate
 from signorini.friction.problem import ContactProblem
 from signorini.friction.result import ContactAnswer
-from signorini.law.bound import STEEP, plain
+from signorini.law.bound import ADHESION_SLOPE, plain
 from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 from signorini.outcome import Outcome
 
@@ -67,7 +67,7 @@ def solved(problem: ContactProblem, tried: Sequence[Candidate]) -> ContactAnswer
         words += UNDETERMINED
     if found.index == -1 and not problem.floating:
         words += SEVERAL
-    verge = np.flatnonzero((state > STICK) & (problem.bound.tangent(r[0])[0] >= STEEP))
+    verge = np.flatnonzero((state > STICK) & (problem.bound.tangent(r[0])[0] >= ADHESION_SLOPE))
     if len(verge):
         words += VERGE.format(pairs=", ".join(map(str, verge)))
     return ContactAnswer(

@@ -21,15 +21,15 @@ from signorini.condense.operator import InterfaceOperator
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import unresisted
 from signorini.friction.solve import solve_contact
-from signorini.law.bound import STICKY
+from signorini.law.bound import STICKING_FRICTION
 from signorini.law.section import FrictionSection
 from signorini.law.states import OPEN, STICK
 
-_PIECES = 200  # most of an approach
-_SOFT = 1e-6  # of the motion of a pair under a force on it: its own compliance, which shares forces among many pairs
-_STILL = 1e-6  # of the load: a velocity
-_FALLS = 1e-9  # of the velocity: a gap that closes
-_TOGETHER = 1e-12  # of the way: gaps that close together
+_MAX_PIECES = 200  # most of an approach
+_PAIR_COMPLIANCE = 1e-6  # of the motion of a pair under a force on it: its own, which shares forces among many pairs
+_VELOCITY_TOL = 1e-6  # of the load: a velocity
+_CLOSING_TOL = 1e-9  # of the velocity: a gap that closes
+_SAME_TIME_TOL = 1e-12  # of the way: gaps that close together
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,7 +74,7 @@ def approach(P: Array, gap: Array, friction: Array, load: Array, *, width: float
     n, k = len(gap), len(load)
     motion, loose, now = np.zeros(k), np.zeros(k), gap.copy()
     load = load / (np.linalg.norm(load) or 1.0)
-    for _ in range(_PIECES):
+    for _ in range(_MAX_PIECES):
         touching = now <= width
         v = _velocity(P, touching, friction, load)
         if v is None:
@@ -82,7 +82,7 @@ def approach(P: Array, gap: Array, friction: Array, load: Array, *, width: float
         if not v.any():
             return Approach(motion=motion, loose=loose, gap=now)
         closing = -(P[:n] @ v)
-        falls = ~touching & (closing > _FALLS * np.linalg.norm(v) * np.linalg.norm(P[:n], axis=1))
+        falls = ~touching & (closing > _CLOSING_TOL * np.linalg.norm(v) * np.linalg.norm(P[:n], axis=1))
         if not falls.any():
             escape = _escape(P, friction, load, v)
             return None if escape is None else Approach(motion=motion, loose=loose, gap=now, escape=escape)
@@ -90,15 +90,15 @@ def approach(P: Array, gap: Array, friction: Array, load: Array, *, width: float
         motion += time * v
         loose += 0.0 if touching.any() else time * v
         now = now - time * closing
-        now[now <= width + _TOGETHER * time * float(np.abs(closing).max())] = 0.0
+        now[now <= width + _SAME_TIME_TOL * time * float(np.abs(closing).max())] = 0.0
     return None
 
 
 def _escape(P: Array, friction: Array, load: Array, v: Array) -> Array | None:
     """(k,) A motion along which the load works and which no pair resists: v, or another; None where none is known."""
-    n, mu = friction.shape[1], np.minimum(friction, STICKY)
+    n, mu = friction.shape[1], np.minimum(friction, STICKING_FRICTION)
     along = mu * (P[n:] @ v).reshape(-1, n)
-    if (P[:n] @ v >= np.linalg.norm(along, axis=0) - _FALLS * np.linalg.norm(v)).all():
+    if (P[:n] @ v >= np.linalg.norm(along, axis=0) - _CLOSING_TOL * np.linalg.norm(v)).all():
         return v
     return _unresisted(P, mu, load)
 
@@ -111,7 +111,7 @@ def _velocity(P: Array, touching: BoolArray, friction: Array, load: Array) -> Ar
     """(k,) Velocity under a load of size 1, 0 where the touching pairs can bear it; None where none was found."""
     d, still = len(friction) + 1, np.zeros(len(load))
     rows, mu = P[np.tile(touching, d)], friction[:, touching]
-    if _unresisted(rows, np.minimum(mu, STICKY), load) is None:
+    if _unresisted(rows, np.minimum(mu, STICKING_FRICTION), load) is None:
         return still
     if not touching.any():
         return load
@@ -122,13 +122,13 @@ def _velocity(P: Array, touching: BoolArray, friction: Array, load: Array) -> Ar
     v: Array = load + rows.T @ forces
     held = rows[np.concatenate([state != OPEN, np.tile(state == STICK, d - 1)])]
     v -= np.linalg.lstsq(held, held @ v)[0]  # what the compliance of the pairs lets pass
-    return v if np.linalg.norm(v) > _STILL else still
+    return v if np.linalg.norm(v) > _VELOCITY_TOL else still
 
 
 def _forces(rows: Array, friction: Array, load: Array) -> tuple[Array, IntArray] | None:
     """(d m,) Forces of m touching pairs on moving bodies and (m,) their states; None where none were found."""
     compliance = rows @ rows.T
-    compliance[np.diag_indices_from(compliance)] += _SOFT * compliance.trace() / len(compliance)
+    compliance[np.diag_indices_from(compliance)] += _PAIR_COMPLIANCE * compliance.trace() / len(compliance)
     none = np.zeros((len(rows), 0))
     image = InterfaceOperator.of_compliance(compliance, none, none)
     b = image.load(rows @ load, np.zeros(0))

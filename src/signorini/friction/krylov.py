@@ -30,7 +30,7 @@ from signorini.friction.problem import ContactProblem
 from signorini.law.pair import Tangent
 from signorini.linalg.krylov import gmres
 
-LARGE = 500
+ITERATED_UNKNOWNS = 500
 """Unknowns from which a factorisation costs more."""
 
 _DATA_ROUNDING = 1e-14  # of the size of the data: less is rounding

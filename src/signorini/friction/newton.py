@@ -21,7 +21,7 @@ from signorini.arrays import Array, IntArray
 from signorini.attempt import MethodRun
 from signorini.friction.candidate import NewtonEnd
 from signorini.friction.certificate import certify
-from signorini.friction.krylov import LARGE, iterate
+from signorini.friction.krylov import ITERATED_UNKNOWNS, iterate
 from signorini.friction.linear import Balance, Equilibrium, LinearSystem, Unknowns, linear_system
 from signorini.friction.problem import ContactProblem
 from signorini.law.bound import plain
@@ -263,7 +263,7 @@ def searched(
 
 def _many(law: Tangent) -> bool:
     """Whether the unknowns of a law are so many that a factorisation costs more than an iteration."""
-    return bool(np.count_nonzero(law.closed) + law.left.sum() >= LARGE)
+    return bool(np.count_nonzero(law.closed) + law.left.sum() >= ITERATED_UNKNOWNS)
 
 
 def _iterated(problem: ContactProblem, law: Tangent, r: Array, a: Array, forward: float) -> Balance | None:

@@ -43,7 +43,7 @@ class PaperLaw:
 
 
 def make_law(friction: Array, *, E_tau: float, E_n: float) -> PaperLaw:
-    """The law for Coulomb's coefficients (n,) and the penalties E_tau, E_n, pressure per length."""
+    """The law for Coulomb's coefficients ``friction``, (n,), and the penalties E_tau, E_n, pressure per length."""
     n = len(friction)
     D_c = np.tile(np.diag([E_tau, E_n]), (n, 1, 1))
     N = np.tile(np.array([[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0]]), (n, 1, 1))
@@ -112,7 +112,8 @@ def paper_problem(
     B : (2 n, m) relative displacements, (tau, n) pair by pair
     f : (m,) condensed load
     offset : (2 n,) initial gaps in the normal entries, and what supports prescribe
-    friction, area : (n,)
+    friction, area : (n,) Coulomb's coefficient, and area of every pair
+    E_tau, E_n : penalties, pressure per length
 
     Raises
     ------

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from signorini.arrays import Array, BoolArray, IntArray, frozen, read_only
 from signorini.condense.operator import InterfaceOperator
 from signorini.errors import InputError
-from signorini.law.bound import STICKY, Bound, FrictionBound
+from signorini.law.bound import STICKING_FRICTION, Bound, FrictionBound
 from signorini.law.pair import PairLaw
 from signorini.law.section import FrictionSection
 
@@ -205,7 +205,7 @@ class ContactProblem:
         """Of the friction cones, for a larger friction of 1."""
         shape = np.ones((self.directions - 1, self.pairs))
         if not isinstance(self.friction, Bound) and self.friction.ndim == 2:
-            given = np.minimum(self.friction, STICKY)
+            given = np.minimum(self.friction, STICKING_FRICTION)
             largest = given.max(axis=0)
             shape = np.divide(given, largest, out=shape, where=largest > 0)
         sides = np.broadcast_to(np.asarray(self.facets, dtype=np.int64), (self.pairs,))

@@ -26,10 +26,10 @@ from numpy.typing import ArrayLike
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.law.states import SLIP_MINUS, SLIP_PLUS, STICK
 
-STICKY = 1e6
+STICKING_FRICTION = 1e6
 """Friction that stands for ``inf``: without bound the law is not continuous, and need not have a solution."""
 
-STEEP = 1e3
+ADHESION_SLOPE = 1e3
 """Slope with which adhesion begins; also that of a pair that sticks up to a shear limit."""
 
 SIGN = np.array([0.0, 0.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
@@ -99,13 +99,13 @@ class FrictionBound(Bound):
         if not capped.any() and not c.any():
             return cls.coulomb(mu)
         stick = np.isinf(mu)
-        m = np.where(stick, np.where(capped, 0.0, STICKY), mu)
+        m = np.where(stick, np.where(capped, 0.0, STICKING_FRICTION), mu)
         c = np.where(stick, np.where(capped, L, 0.0), np.minimum(c, L))
-        first = m + np.where(c > 0, STEEP, 0.0)
-        ends = c + m * (c / STEEP) >= L  # the first branch reaches the limit
+        first = m + np.where(c > 0, ADHESION_SLOPE, 0.0)
+        ends = c + m * (c / ADHESION_SLOPE) >= L  # the first branch reaches the limit
         limited = capped & (m > 0)
         with np.errstate(divide="ignore", invalid="ignore"):
-            second = np.where(ends | (c == 0), L / first, c / STEEP)
+            second = np.where(ends | (c == 0), L / first, c / ADHESION_SLOPE)
             third = np.where(limited & ~ends & (c > 0), (L - c) / m, np.inf)
         second = np.where((c > 0) | limited, second, np.inf)
         flat = ends | (c == 0)
@@ -120,7 +120,7 @@ class FrictionBound(Bound):
     def coulomb(cls, friction: Array) -> FrictionBound:
         """The bound of friction (n,) alone."""
         zero = np.zeros((1, len(friction)))
-        return cls(slopes=np.minimum(friction, STICKY)[None], starts=zero, kinks=_between(zero))
+        return cls(slopes=np.minimum(friction, STICKING_FRICTION)[None], starts=zero, kinks=_between(zero))
 
     @classmethod
     def constant(cls, size: Array) -> FrictionBound:

@@ -23,7 +23,7 @@ from signorini.law.bound import Bound, FrictionBound
 from signorini.law.section import FrictionSection, Projection
 from signorini.law.states import OPEN, SLIP, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
-_BEYOND = 1e12  # of the friction: a trial force along which a dragged pair slips, whatever else acts on it
+_DRAG_FORCE = 1e12  # of the friction: a trial force along which a dragged pair slips, whatever else acts on it
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -182,7 +182,7 @@ class PairLaw:
         """
         if self.drag is None or len(self.drag) == 1 or not self.dragged.any():
             return y[1:]
-        beyond = _BEYOND * np.maximum(size, self.bound.steepest)[self.dragged]
+        beyond = _DRAG_FORCE * np.maximum(size, self.bound.steepest)[self.dragged]
         drag, trial = self.drag[:, self.dragged], y[1:].copy()
         trial[:, self.dragged] = -beyond * drag / np.linalg.norm(drag, axis=0)
         return trial

@@ -25,7 +25,7 @@ from signorini.arrays import Array, BoolArray, IntArray
 _ROOT_TOL = 1e-15  # of the root and of the axes: a step of Newton's method below it is rounding
 _ROOT_STEPS = 100  # of Newton's method for the nearest point of an ellipse, which takes some five
 _POINT = 1e-150  # half-axis whose square underflows: a section smaller than that is a point
-_FLAT = 1e-8  # of the largest half-axis: one that counts as none
+_FLAT_AXIS = 1e-8  # of the largest half-axis: one that counts as none
 
 
 @njit(cache=True)
@@ -212,7 +212,7 @@ class FrictionSection:
         >>> section.effort(np.array([[0.3, 1.0], [0.2, 1.0]])).round(12).tolist()
         [0.5, 2.0]
         """
-        scaled = force / np.maximum(self.axes, _FLAT)
+        scaled = force / np.maximum(self.axes, _FLAT_AXIS)
         size = np.linalg.norm(scaled, axis=0)
         on = self.sides > 0
         if not on.any():

@@ -42,9 +42,9 @@ from signorini.law.states import OPEN
 
 Covering = Literal["open", "press"]
 
-REFACTOR = 25
-FAR = 1e8
-FLAT = 1e-13
+REFACTOR_PIVOTS = 25  # after which the inverse is computed anew: rank-one updates lose a digit or two in as many
+RUNAWAY_SIZE = 1e8  # of the data: a point so far out is on a ray
+FLAT_TOL = 1e-13  # of the largest slope along a path: below it a wall comes no nearer
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -134,7 +134,7 @@ def follow(problem: ContactProblem, covering: Covering, *, budget: int, seed: in
         d=G @ e if open_start else -(W @ e),
         problem=problem,
         budget=budget,
-        far=np.inf if springs else FAR * problem.scale,
+        far=np.inf if springs else RUNAWAY_SIZE * problem.scale,
         loosened=0.0 if open_start else 1.0 / unit,
     )
     state = admissible(problem, np.full(n, OPEN) if open_start else None)
@@ -159,7 +159,7 @@ def _walk(course: _Course, state: IntArray) -> PathEnd:
         here = np.append(walls[0][slot, pair], -course.loosened * at)
         state = state.copy()
         state[pair], slot = beyond(int(before[pair]), slot, point[n + pair], int(problem.law.closed[pair]))
-        updated = None if pivots % REFACTOR == 0 else _cross(course, X, before, state, pair, -here)
+        updated = None if pivots % REFACTOR_PIVOTS == 0 else _cross(course, X, before, state, pair, -here)
         fresh = _inverse(course, state, pair, -here) if updated is None else updated
         pivots += 1
         if fresh is None:
@@ -182,7 +182,7 @@ def _walk(course: _Course, state: IntArray) -> PathEnd:
 def _entry(course: _Course, walls: tuple[Array, Array], ray: Array) -> tuple[int, int, float]:
     """The first wall met coming from infinity along ``ray[:, 0] + theta ray[:, 1]``: its pair, slot and theta."""
     value, slope = course.room(walls, ray[:, 0], 1.0), course.room(walls, ray[:, 1], 0.0)
-    met = np.divide(-value, slope, out=np.full_like(value, -np.inf), where=slope > FLAT * np.abs(ray[:, 1]).max())
+    met = np.divide(-value, slope, out=np.full_like(value, -np.inf), where=slope > FLAT_TOL * np.abs(ray[:, 1]).max())
     slot, pair = np.unravel_index(int(met.argmax()), met.shape)
     return int(pair), int(slot), float(met[slot, pair])
 
@@ -193,7 +193,7 @@ def _next_wall(
     """Length to the next wall from ``entry`` along ``way`` (never the one just crossed), its pair and slot."""
     value, slope = np.maximum(course.room(walls, entry, 1.0), 0.0), course.room(walls, way, 0.0)
     slope[slot, pair] = 0.0
-    steep = slope < -FLAT * np.abs(way).max()
+    steep = slope < -FLAT_TOL * np.abs(way).max()
     lengths = np.divide(value, -slope, out=np.full_like(value, np.inf), where=steep)
     next_slot, next_pair = np.unravel_index(int(lengths.argmin()), lengths.shape)
     return float(lengths[next_slot, next_pair]), int(next_pair), int(next_slot)

@@ -28,14 +28,14 @@ CLOSED = -2
 MARGIN = 1e-7
 """Equilibrium lacking, relative to scale, above which a branch is refused; a certified solution is at 1e-10."""
 
-_ROUNDED = 1e-13
+_PRODUCT_ROUNDING = 1e-13
 """Of the products that it is summed from: what is rounding, of a column of the program that multipliers should not see
 and of what they prove."""
 
-_FARTHEST = 1e9
+_RUNAWAY_SIZE = 1e9
 """Of the data: how far one unknown may move the pairs. What multipliers see of an unbounded one counts with it."""
 
-_NEARLY = 1e-7  # the same, before multipliers are polished: ten times what the program is solved to
+_PROGRAM_ROUNDING = 1e-7  # of those products, before multipliers are polished: ten times what the program is solved to
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -184,16 +184,16 @@ def _proved(program: _Program, z: Array, low: Array, high: Array) -> float:
     matrix = program.matrix
     size = np.linalg.norm(program.summed, axis=0)
     seen = matrix.T @ z
-    unseen = ~np.isfinite(np.where(seen > 0, high, low)) & (np.abs(seen) <= _NEARLY * size)
-    z = z - np.linalg.lstsq(matrix[:, unseen].T, seen[unseen], rcond=_NEARLY)[0]
+    unseen = ~np.isfinite(np.where(seen > 0, high, low)) & (np.abs(seen) <= _PROGRAM_ROUNDING * size)
+    z = z - np.linalg.lstsq(matrix[:, unseen].T, seen[unseen], rcond=_PROGRAM_ROUNDING)[0]
     reduced = matrix.T @ z
-    reduced[np.abs(reduced) <= _ROUNDED * (program.summed.T @ np.abs(z))] = 0.0
+    reduced[np.abs(reduced) <= _PRODUCT_ROUNDING * (program.summed.T @ np.abs(z))] = 0.0
     most = np.where(reduced > 0, high, low)
     endless = np.isinf(most) & (reduced != 0.0)
     most = np.where(endless | (reduced == 0.0), 0.0, most)
-    far = _FARTHEST * program.load * float((np.abs(reduced) / size)[endless].max(initial=0.0))
+    far = _RUNAWAY_SIZE * program.load * float((np.abs(reduced) / size)[endless].max(initial=0.0))
     cancelled = float(np.abs(z) @ np.abs(program.rhs) + np.abs(reduced) @ np.abs(most))
-    proved = float(z @ program.rhs) - float(reduced @ most) - far - _ROUNDED * cancelled
+    proved = float(z @ program.rhs) - float(reduced @ most) - far - _PRODUCT_ROUNDING * cancelled
     return proved / max(1.0, float(np.abs(z).max(initial=0.0)))
 
 

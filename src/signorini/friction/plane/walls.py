@@ -31,7 +31,7 @@ def walls(state: IntArray, friction: Array | FrictionBound, closed: IntArray) ->
     ----------
     state : (n,) codes with their branch
     friction : the bound, or (n,) mu of Coulomb's law
-    closed : (n,) as in `states`
+    closed : (n,) as in `PairLaw.closed`
 
     Examples
     --------
@@ -43,6 +43,12 @@ def walls(state: IntArray, friction: Array | FrictionBound, closed: IntArray) ->
 
 def placed(state: IntArray, bound: FrictionBound, closed: IntArray) -> tuple[Array, Array]:
     """The coefficients of `walls`, (slots, n, 2), and the a of every wall on their scale, (slots, n).
+
+    Parameters
+    ----------
+    state : (n,) codes with their branch
+    bound : of the friction
+    closed : (n,) as in `PairLaw.closed`
 
     Examples
     --------
@@ -80,6 +86,12 @@ def placed(state: IntArray, bound: FrictionBound, closed: IntArray) -> tuple[Arr
 def beyond(state: int, slot: int, y_t: float, closed: int) -> tuple[int, int]:
     """The state on the other side of wall ``slot`` of a pair's piece, and which wall of that state it is.
 
+    Parameters
+    ----------
+    state, slot : code of the piece, and the wall
+    y_t : tangential part of the point where it is crossed, whose sign an open pair that closes slips with
+    closed : state of the pair wherever it is closed, UNDECIDED where y decides
+
     Examples
     --------
     >>> beyond(STICK, 1, -0.3, UNDECIDED) == (SLIP_MINUS, 1), beyond(OPEN, 0, 0.2, UNDECIDED) == (SLIP_PLUS, 0)
@@ -101,7 +113,9 @@ def jacobian(G: Array, W: Array, slope: Array, state: IntArray) -> Array:
 
     Parameters
     ----------
+    G, W : (2n, 2n) of the problem
     slope : (n,) of the branch that a pair slips on, >= 0: mu in Coulomb's law
+    state : (n,) codes with their branch
     """
     n = len(state)
     J = np.empty((2 * n, 2 * n), order="F")
@@ -112,6 +126,11 @@ def jacobian(G: Array, W: Array, slope: Array, state: IntArray) -> Array:
 
 def columns(G: Array, W: Array, slope: float, state: int, i: int) -> Array:
     """(2n, 2) columns of J that belong to pair i.
+
+    Parameters
+    ----------
+    G, W : (2n, 2n) of the problem
+    slope, state : of the pair, as of `jacobian`
 
     Examples
     --------
@@ -128,7 +147,13 @@ def columns(G: Array, W: Array, slope: float, state: int, i: int) -> Array:
 
 
 def constant(G: Array, W: Array, bound: FrictionBound, state: IntArray) -> Array:
-    """(2n,) What of ``G h(y) - W r(y)`` does not depend on y: the friction that slipping pairs carry at no pressure."""
+    """(2n,) What of ``G h(y) - W r(y)`` does not depend on y: the friction that slipping pairs carry at no pressure.
+
+    Parameters
+    ----------
+    G, W : (2n, 2n) of the problem
+    bound, state : of the friction, and (n,) codes with their branch
+    """
     n = len(state)
     given = bound.start(state)
     acting = np.flatnonzero(given)

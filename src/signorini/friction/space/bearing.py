@@ -25,9 +25,9 @@ OVERLOADED = (
     "shared"
 )
 
-_NEARLY = 0.1  # of the motions that the loads cause: a gap that bodies close by deforming a little more
-_CLOSE = 1e-3  # of the load that can be held: so near to it slip grows without bound, and nothing is gained
-_SPENT = 0.05  # of the friction of all pairs: what is left of it where bodies slide rather than tip
+_NEAR_GAP = 0.1  # of the motions that the loads cause: a gap that bodies close by deforming a little more
+_SHORT_OF_LIMIT = 1e-3  # of the load that can be held: so near to it slip grows without bound, and nothing is gained
+_SPENT_FRICTION = 0.05  # of the friction of all pairs: what is left of it where bodies slide rather than tip
 
 
 class Bearing:
@@ -51,7 +51,7 @@ class Bearing:
         problem, n = self.problem, self.problem.pairs
         if not problem.floating or not now.r.any():
             return 1.0
-        near = now.h[:n] <= _NEARLY * (problem.scale or 1.0)
+        near = now.h[:n] <= _NEAR_GAP * (problem.scale or 1.0)
         if not self._known(near):
             found = overload(replace(problem, b=now.b), now.r, self.b_end, near=near)
             self._near = near
@@ -59,7 +59,7 @@ class Bearing:
         ahead = self._found
         if ahead is not None and ahead.factor > self._crossed:
             self._least = ahead if self._least is None else min(self._least, ahead, key=lambda one: one.factor)
-        return 1.0 if self._least is None else (1.0 - _CLOSE) * self.limit
+        return 1.0 if self._least is None else (1.0 - _SHORT_OF_LIMIT) * self.limit
 
     def _known(self, near: BoolArray) -> bool:
         """Whether these pairs are known to hold as much; more of them hold no less."""
@@ -76,7 +76,7 @@ class Bearing:
     @property
     def beyond(self) -> float:
         """Part of the way a little beyond that."""
-        return min(1.0, (1.0 + _CLOSE) * self.limit)
+        return min(1.0, (1.0 + _SHORT_OF_LIMIT) * self.limit)
 
     def cross(self) -> None:
         """Take note that equilibrium goes on gradually beyond the reach."""
@@ -89,6 +89,7 @@ class Bearing:
         ----------
         now, factor : a state within reach of it
         pressed : (n,) pairs that carry load
+        proof : that equilibrium is lost, in words
         """
         assert self._least is not None
         problem, over = replace(self.problem, b=now.b), self._least
@@ -116,7 +117,9 @@ def sliding(problem: ContactProblem, ends: Sequence[Breakpoint], pressed: BoolAr
 
     Parameters
     ----------
+    problem : the problem
     ends : of the increment
+    pressed : (n,) pairs that press
     """
     one, two = ends
     if not problem.floating or not pressed.any() or not _spent(problem, two.r, pressed):
@@ -128,4 +131,4 @@ def sliding(problem: ContactProblem, ends: Sequence[Breakpoint], pressed: BoolAr
 def _spent(problem: ContactProblem, r: Array, pressed: BoolArray) -> bool:
     """Whether next to nothing is left of the friction of pressed pairs, all of them together."""
     most = problem.bound.at(np.maximum(r[: problem.pairs], 0.0))
-    return bool(problem.law.reserve(problem.by_pair(r))[pressed].sum() <= _SPENT * most[pressed].sum())
+    return bool(problem.law.reserve(problem.by_pair(r))[pressed].sum() <= _SPENT_FRICTION * most[pressed].sum())

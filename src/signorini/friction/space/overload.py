@@ -13,12 +13,17 @@ from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import GAIN, STRONGEST_FORCES, strongest_edges, unit_edges, work_of
 from signorini.law.section import FrictionSection
 
-_ROUNDS = 60
+_MAX_ROUNDS = 60
 _DIRECTIONS = 8  # of friction on every pair that the first linear programme knows
-_PIVOTS = 20_000  # of one linear programme, which takes some hundreds
-_SHARP = 1e-10  # of the loads: what a linear programme may lack
-_TILTED = 1e-3  # of unit motions: what sliding may lift or press, by normals that are not quite alike
-_LOOSE = 1e-2  # of the work of the loads that grow: what the largest forces may do against a motion by its rounding
+_MAX_PIVOTS = 20_000  # of one linear programme, which takes some hundreds
+_PROGRAM_TOL = 1e-10  # of the loads: what a linear programme may lack
+_PROGRAM = {
+    "primal_feasibility_tolerance": _PROGRAM_TOL,
+    "dual_feasibility_tolerance": _PROGRAM_TOL,
+    "maxiter": _MAX_PIVOTS,
+}
+_TILT_TOL = 1e-3  # of unit motions: what sliding may lift or press, by normals that are not quite alike
+_RESISTED_WORK = 1e-2  # of the work of the loads that grow: what the largest forces may do by a motion's rounding
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,7 +99,7 @@ def overload(problem: ContactProblem, held: Array, b_end: Array, *, near: BoolAr
     around = [cones.farthest(np.tile([[np.cos(turn)], [np.sin(turn)]], n)) for turn in turns]
     for share in (np.zeros((2, n)), *around):
         edges.append(work_of(unit_edges(share)[:, may], rows[:, may]))
-    for _ in range(_ROUNDS):
+    for _ in range(_MAX_ROUNDS):
         columns = np.concatenate(edges).T
         answer = linprog(
             np.append(-1.0, np.zeros(columns.shape[1])),
@@ -102,7 +107,7 @@ def overload(problem: ContactProblem, held: Array, b_end: Array, *, near: BoolAr
             b_eq=-load / unit,
             bounds=[(0.0, 1.0)] + [(0.0, None)] * columns.shape[1],
             method="highs",
-            options={"primal_feasibility_tolerance": _SHARP, "dual_feasibility_tolerance": _SHARP, "maxiter": _PIVOTS},
+            options=_PROGRAM,
         )
         if answer.status != 0 or answer.x[0] >= 1.0 - GAIN:
             return None
@@ -110,7 +115,7 @@ def overload(problem: ContactProblem, held: Array, b_end: Array, *, near: BoolAr
         rho = R @ a
         strongest = work_of(strongest_edges(cones, rho), rows)
         works = np.where(may, strongest @ a, 0.0)
-        resisted = STRONGEST_FORCES * works < -0.5 * _LOOSE  # the work of the loads that grow is 1
+        resisted = STRONGEST_FORCES * works < -0.5 * _RESISTED_WORK  # the work of the loads that grow is 1
         if not resisted.any():
             return _proved(float(answer.x[0]), a, rho, load / unit, growth / unit, float(works.min(initial=0.0)))
         edges.append(strongest[resisted])
@@ -126,7 +131,7 @@ def _proved(factor: float, a: Array, rho: Array, load: Array, growth: Array, wor
     works : the least work of forces of size 1 along the motion, below 0 by rounding
     """
     left, grows = float(a @ (load + factor * growth)) + STRONGEST_FORCES * works, float(a @ growth)
-    if grows <= 0.5 or left <= -_LOOSE:
+    if grows <= 0.5 or left <= -_RESISTED_WORK:
         return None
     end = load + growth
     share = (left + (1.0 - factor) * grows) / (float(np.linalg.norm(a) * np.linalg.norm(end)) or 1.0)
@@ -136,11 +141,11 @@ def _proved(factor: float, a: Array, rho: Array, load: Array, growth: Array, wor
 def along_contact(problem: ContactProblem, motion: Array, pressed: BoolArray) -> Array:
     """What of a rigid motion (3n,) neither presses nor lifts pressed pairs (n,), largest entry 1; all where nothing is.
 
-    A motion that proves an overload lifts as it slides; friction of Coulomb's law does not.
+    A motion that proves an overload lifts as it slides; friction of Coulomb's law does not. Of a problem.
     """
     R, n = problem.image.R, problem.pairs
     _, sizes, ways = np.linalg.svd(R[:n][pressed], full_matrices=True)
-    null = ways[np.count_nonzero(sizes > _TILTED) :]
+    null = ways[np.count_nonzero(sizes > _TILT_TOL) :]
     rho = R @ (null.T @ (null @ (R.T @ motion)))
     size = float(np.abs(rho).max(initial=0.0))
-    return rho / size if size > _TILTED * float(np.abs(motion).max(initial=0.0)) else motion
+    return rho / size if size > _TILT_TOL * float(np.abs(motion).max(initial=0.0)) else motion

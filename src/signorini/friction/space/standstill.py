@@ -10,9 +10,10 @@ import numpy as np
 from signorini.friction.history.plane.find_rates import NoRates
 from signorini.friction.history.segment import Breakpoint
 
-_STILL = 1e-5  # part of the way: increments that get on no farther stand still
-_FEW, _FAST = 4, 1e3  # increments in which pairs run away, and how much faster than the loads deform the bodies
-_MANY = 50  # increments that creep
+_STANDSTILL = 1e-5  # part of the way: increments that get on no farther stand still
+_RUNAWAY_INCREMENTS = 4  # in which pairs run away
+_RUNAWAY_SPEED = 1e3  # times as fast as the loads deform the bodies
+_CREEPING_INCREMENTS = 50  # increments that creep
 
 
 def standstill(pieces: Sequence[Breakpoint], scale: float) -> NoRates | None:
@@ -34,15 +35,15 @@ def standstill(pieces: Sequence[Breakpoint], scale: float) -> NoRates | None:
     >>> standstill(pieces[:5], 1.0), standstill(pieces, 1e-3).proved
     (None, True)
     """
-    load, moved = _got_on(pieces, _FEW)
-    if load <= _STILL and moved > _FAST * scale * load:
+    load, moved = _got_on(pieces, _RUNAWAY_INCREMENTS)
+    if load <= _STANDSTILL and moved > _RUNAWAY_SPEED * scale * load:
         fast = moved / (scale * load)
         words = f"within the last {load:.1e} of the way pairs move {fast:.1e} times as fast as the loads deform bodies"
         words = f"{words}: strong evidence, no proof"
         return NoRates(proof=f"the load has a limit here: {words}", proved=True)
-    load, _ = _got_on(pieces, _MANY)
-    if load <= _STILL:
-        return NoRates(proof=f"{_MANY} increments get on by {load:.1e} of the way", proved=False)
+    load, _ = _got_on(pieces, _CREEPING_INCREMENTS)
+    if load <= _STANDSTILL:
+        return NoRates(proof=f"{_CREEPING_INCREMENTS} increments get on by {load:.1e} of the way", proved=False)
     return None
 
 

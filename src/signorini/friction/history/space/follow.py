@@ -31,7 +31,7 @@ from signorini.friction.result import ContactAnswer
 from signorini.friction.solve import solve_contact
 from signorini.friction.space.bearing import OVERLOADED, Bearing, sliding
 from signorini.friction.space.standstill import standstill
-from signorini.law.bound import STEEP
+from signorini.law.bound import ADHESION_SLOPE
 from signorini.law.states import OPEN, SLIP, STICK
 from signorini.outcome import Outcome
 from signorini.settings import SolverSettings
@@ -416,7 +416,7 @@ class Walk(Way):
     def _grips(self, trial: _Trial) -> bool:
         """Whether a pair that holds friction without pressure closes in it, which sticks where it touches, or opens."""
         turns = (self.now.state == OPEN) != (trial.after.state == OPEN)
-        grips = turns & (self.problem.mu >= STEEP) & (trial.each < 1.0 - _LATE)
+        grips = turns & (self.problem.mu >= ADHESION_SLOPE) & (trial.each < 1.0 - _LATE)
         return bool(grips.any()) and not self.trusting
 
     def _room(self, trial: _Trial, state: IntArray) -> float:
