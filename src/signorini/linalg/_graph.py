@@ -9,7 +9,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, IntArray
 
 Int32Array = NDArray[np.int32]
 
@@ -127,49 +127,3 @@ def sort_lists(begin: IntArray, entry: Int32Array, vertices: int) -> None:
             entry[top[owner[p]]] = v
             top[owner[p]] += 1
             p += 1
-
-
-@njit(cache=True)
-def components(graph: Graph, inside: BoolArray) -> Int32Array:
-    """Number the connected parts of the vertices inside; -1 outside."""
-    indptr, indices = graph
-    part = np.full(len(inside), -1, np.int32)
-    stack = np.empty(len(inside), np.int32)
-    count = 0
-    for seed in range(len(inside)):
-        if not inside[seed] or part[seed] != -1:
-            continue
-        part[seed] = count
-        stack[0] = seed
-        top = 1
-        while top > 0:
-            top -= 1
-            v = stack[top]
-            for p in range(indptr[v], indptr[v + 1]):
-                w = indices[p]
-                if inside[w] and part[w] == -1:
-                    part[w] = count
-                    stack[top] = w
-                    top += 1
-        count += 1
-    return part
-
-
-@njit(cache=True)
-def absolute_energies(K: Rows, part: Int32Array, parts: int, x: Array) -> Array:
-    """Sum ``|x_i| |K_ij| |x_j|`` over every part.
-
-    Parameters
-    ----------
-    K : (n, n)
-    part, parts : (n,) the part of every unknown, -1 in none, and their number
-    x : (n,)
-    """
-    indptr, indices, data = K
-    energy = np.zeros(parts)
-    for i in range(len(part)):
-        if part[i] != -1:
-            for p in range(indptr[i], indptr[i + 1]):
-                if part[indices[p]] == part[i]:
-                    energy[part[i]] += abs(x[i] * data[p] * x[indices[p]])
-    return energy

@@ -16,9 +16,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from scipy.sparse.csgraph import connected_components
 
 from signorini.arrays import Array
-from signorini.linalg._graph import absolute_energies, components
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.linalg.system import System
 
@@ -49,9 +49,11 @@ def check_energy(system: System, solve: Callable[[Array], Array]) -> None:
     x = solve(load)
     if not np.isfinite(x).all():
         raise NotPositiveDefinite(int(np.argmin(np.isfinite(x))))
-    part = components(system.rows.graph, system.inside)
-    size = absolute_energies(system.rows, part, int(part.max()) + 1, x)
-    energy = np.bincount(part[system.inside], weights=(x * load)[system.inside])
+    inside = np.flatnonzero(system.inside)
+    K, y = system.matrix[inside][:, inside], x[inside]
+    _, body = connected_components(K, connection="strong")  # of a symmetric pattern: connected, and K is not transposed
+    size = np.bincount(body, weights=np.abs(y) * (abs(K) @ np.abs(y)))
+    energy = np.bincount(body, weights=y * load[inside])
     free = (energy <= ROUNDOFF * size) & (size > 0)
     if free.any():
-        raise NotPositiveDefinite(int(np.argmax(np.where(system.inside & free[part], np.abs(x), -1.0))))
+        raise NotPositiveDefinite(int(inside[np.argmax(np.where(free[body], np.abs(y), -1.0))]))
