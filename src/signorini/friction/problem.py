@@ -255,7 +255,8 @@ class ContactProblem:
             raise InputError(f"has {rows} rows; expected {2 * n} or {3 * n} for {n} pairs", where=("W",))
         data: list[tuple[str, Array, list[tuple[int, ...]]]] = [("b", self.b, [(rows,)])]
         if not isinstance(self.friction, Bound):
-            data.append(("friction", self.friction, [(n,), (rows // n - 1 if n else 1, n)]))
+            tangents = (rows // n - 1,) if n else (1, 2)  # without a pair nothing tells the plane from space
+            data.append(("friction", self.friction, [(n,), *((k, n) for k in tangents)]))
         for name, found, expected in data:
             if found.shape not in expected:
                 said = " or ".join(map(str, expected))
