@@ -299,15 +299,7 @@ RULES = {
 }
 
 PENDING = {
-    "condense": "signatures parameters",
-    #
-    "fem": "signatures parameters",
-    #
     "friction": "files nouns parameters classes constants",
-    #
-    "interface": "parameters",
-    #
-    "meshing": "parameters",
     #
 }
 """Rules that a room does not keep yet: what it keeps is taken out, and modules that move take their rules along."""

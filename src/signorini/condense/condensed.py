@@ -18,12 +18,11 @@ from signorini.condense.body_blocks import make_body_blocks
 from signorini.condense.operator import InterfaceOperator
 from signorini.condense.response import ByNodes, Response, keep_pairs
 from signorini.condense.ties import Ties, make_ties
+from signorini.interface.active import FreeBodies, active_pairs, with_supple
 from signorini.interface.interface import Interface
 from signorini.linalg.protocol import Factorisation, NotPositiveDefinite, Reduced
 from signorini.linalg.registry import factorise, takes_borders
 
-# of the size of a row of B: below it supports hold what the row sees
-_HELD = 1e-12
 _LOOSE_COMPLIANCE = 1e14  # of 1 / D: a compliance from which bodies held by contact alone are as good as free
 
 
@@ -109,7 +108,14 @@ class Condensed:
         return self.image.load(free, resultant)
 
     def displacement(self, reduced: Reduced, h: Array, r: Array, offset: Array) -> Array:
-        """Free displacements (z,) under a load and the solution h, r (d a,), in the units of the problem."""
+        """Free displacements (z,) under a load and the solution h, r (d a,), in the units of the problem.
+
+        Parameters
+        ----------
+        reduced : the load, see `reduce`
+        h, r : (d a,) relative displacements, length, and forces
+        offset : (d a,) h_0, see `right_hand_side`
+        """
         if not len(self.dofs):
             return reduced.expand(reduced.load)
 
@@ -168,11 +174,8 @@ class Condensed:
 
 
 def condense(
-    K: sp.csr_array,
-    B: sp.csr_array,
+    bodies: FreeBodies,
     interface: Interface,
-    nodes: IntArray,
-    points: Array,
     *,
     candidates: BoolArray,
     rigid: Array,
@@ -184,11 +187,8 @@ def condense(
 
     Parameters
     ----------
-    K : (z, z) stiffness of the free displacements
-    B : (d n, z) relative displacements of the pairs in terms of them
+    bodies : as they are
     interface : the pairs
-    nodes : (z,) node of each free displacement
-    points : (nodes, d) where the nodes are
     candidates : (n,) pairs that may touch; the nodes of the others are eliminated like any other
     rigid : (z, k) rigid motions that neither supports nor ties resist
     stiffness : of the size of the data, force per length: what pairs count with whose sides are both rigid
@@ -202,21 +202,18 @@ def condense(
     LinAlgError
         If contact hardly holds a body that nothing else holds.
     """
-    n = len(interface)
-    size = np.sqrt(np.asarray(B.multiply(B).sum(axis=1)).ravel())
-    B = sp.csr_array(sp.diags_array(np.where(size > _HELD, 1.0, 0.0)) @ B)
-    B.eliminate_zeros()
-    held = (size[:n] <= _HELD) & (interface.compliance[:n] == 0.0)
-    active = candidates & ~held & ~interface.tied
-    ties = make_ties(B, np.nonzero(interface.rows(interface.tied) & (size > _HELD))[0])
-    B = B[np.nonzero(interface.rows(active))[0]]
+    K, nodes, points = bodies.K, bodies.nodes, bodies.points
+    seen, moves, held, active = active_pairs(bodies.B, interface, candidates)
+    ties = make_ties(seen, np.nonzero(interface.rows(interface.tied) & moves)[0])
+    B = sp.csr_array(seen[np.nonzero(interface.rows(active))[0]])
     dofs = np.unique(np.concatenate([B.indices, ties.B.indices]))
     response: Response | None = None
     with clock.phase("factorisation"):
         if interface.directions == 3 and B.shape[0] and not len(ties.rows) and takes_borders(backend):
             at = points[interface.node[active]]
             with suppress(NotPositiveDefinite):  # the contact may still hold what moves
-                response = keep_pairs(K, B, nodes, points, at=at, rigid=rigid, stiffness=stiffness, backend=backend)
+                kept = bodies._replace(B=B)
+                response = keep_pairs(kept, at=at, rigid=rigid, stiffness=stiffness, backend=backend)
         if response is None:
             factorisation = factorise(K, dofs, nodes=nodes, points=points, backend=backend)
     with clock.phase("condensation"):
@@ -268,9 +265,7 @@ def _interface_stiffness(
     stiff = K_c.diagonal()
     gives = B_c.multiply(B_c)[: len(pairs)] @ np.divide(1.0, stiff, out=np.zeros_like(stiff), where=stiff > 0.0)
     felt = np.minimum(felt, np.divide(4.0, gives, out=np.full_like(gives, np.inf), where=gives > 0.0))
-    # supports hold both sides, and the interface alone gives way
-    supple = np.flatnonzero((felt == 0.0) & (interface.compliance[pairs] > 0.0))
-    felt[supple] = interface.areas[pairs[supple]] / interface.compliance[pairs[supple]]
+    felt = with_supple(felt, interface, pairs)
     felt[felt == 0.0] = stiffness  # both sides are rigid, and nothing gives way
     result = np.zeros(len(pairs))
     for contact in np.unique(interface.contact[pairs]):

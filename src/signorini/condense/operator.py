@@ -102,6 +102,10 @@ class InterfaceOperator:
     def of_compliance(cls, A: Array, motions: Array, R: Array) -> InterfaceOperator:
         """The interface of a given compliance A, (m, m), symmetric, with ``A R = 0``; nothing is copied.
 
+        Parameters
+        ----------
+        motions : (k, m) rigid motions as the pairs see them, scaled
+
         Raises
         ------
         LinAlgError

@@ -25,6 +25,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.condense.body_blocks import BodyBlocks
+from signorini.interface.active import FreeBodies
 from signorini.linalg.border import bordered
 from signorini.linalg.protocol import Factorisation, Reduced
 from signorini.linalg.registry import factorise
@@ -54,7 +55,14 @@ class Response(Protocol):
         """Relative displacements of the pairs per force, (d a, d a), symmetric to the last digit; a new array."""
 
     def displacement(self, reduced: Reduced, r: Array, travel: Travel) -> Array:
-        """Free displacements (z,) under a load, forces r (d a,) of the pairs and the rigid motion of `travel`."""
+        """Free displacements (z,) under a load, forces r (d a,) of the pairs and the rigid motion of `travel`.
+
+        Parameters
+        ----------
+        reduced : a load, see `reduce`
+        r : (d a,) forces of the pairs
+        travel : finds the rigid motion
+        """
 
     def among(self, rows: BoolArray) -> Self:
         """This response with some of the (d a,) rows alone."""
@@ -107,7 +115,12 @@ class ByNodes:
         return self.parts.compliance(self.B)
 
     def displacement(self, reduced: Reduced, r: Array, travel: Travel) -> Array:
-        """Free displacements (z,)."""
+        """Free displacements (z,).
+
+        Parameters
+        ----------
+        reduced, r, travel : see `Response`
+        """
         moved = self.parts.solve(reduced.load + self.B.T @ r)
         if self.rigid.shape[1]:
             moved += self.rigid @ travel(self.B @ moved)
@@ -167,7 +180,12 @@ class ByPairs:
         return -(condensed if len(self.rows) == len(condensed) else condensed[np.ix_(self.rows, self.rows)])
 
     def displacement(self, reduced: Reduced, r: Array, travel: Travel) -> Array:
-        """Free displacements (z,)."""
+        """Free displacements (z,).
+
+        Parameters
+        ----------
+        reduced, r, travel : see `Response`
+        """
         kept = np.zeros(self.factorisation.m)
         kept[self.rows] = -r
         z = reduced.expand(kept)
@@ -182,25 +200,12 @@ class ByPairs:
         return replace(self, rigid=self.rigid @ ways)
 
 
-def keep_pairs(
-    K: sp.csr_array,
-    B: sp.csr_array,
-    nodes: IntArray,
-    points: Array,
-    *,
-    at: Array,
-    rigid: Array,
-    stiffness: float,
-    backend: str,
-) -> ByPairs:
+def keep_pairs(bodies: FreeBodies, *, at: Array, rigid: Array, stiffness: float, backend: str) -> ByPairs:
     """Factorise bodies that are not tied.
 
     Parameters
     ----------
-    K : (z, z) stiffness of the free displacements
-    B : (d a, z) relative displacements of the pairs in terms of them
-    nodes : (z,) node of each free displacement
-    points : (nodes, d) where the nodes are
+    bodies : with the pairs that the law is asked of
     at : (a, d) where the pairs are
     rigid : (z, k) rigid motions that supports do not resist
     stiffness : of the size of the data, force per length, of the springs where nothing deforms
@@ -215,19 +220,13 @@ def keep_pairs(
     --------
     Two nodes on springs of stiffness 4 and 16, and the distance between them:
 
-    >>> kept = keep_pairs(
-    ...     sp.csr_array(np.diag([4.0, 16.0])),
-    ...     sp.csr_array(np.array([[1.0, -1.0]])),
-    ...     np.array([0, 1]),
-    ...     np.zeros((2, 1)),
-    ...     at=np.zeros((1, 1)),
-    ...     rigid=np.zeros((2, 0)),
-    ...     stiffness=1.0,
-    ...     backend="auto",
-    ... )
+    >>> K, B = sp.csr_array(np.diag([4.0, 16.0])), sp.csr_array(np.array([[1.0, -1.0]]))
+    >>> bodies = FreeBodies(K, B, nodes=np.array([0, 1]), points=np.zeros((2, 1)))
+    >>> kept = keep_pairs(bodies, at=np.zeros((1, 1)), rigid=np.zeros((2, 0)), stiffness=1.0, backend="auto")
     >>> kept.compliance().tolist(), kept.moved(kept.reduce(np.array([1.0, 0.0])).load).tolist()
     ([[0.3125]], [0.25])
     """
+    K, B, nodes, points = bodies
     m, n = B.shape
     pair = len(points) + np.tile(np.arange(len(at)), m // max(1, len(at)))
     factorisation = factorise(

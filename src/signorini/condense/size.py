@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import BoolArray
+from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface
 from signorini.linalg.plan import analyse
 from signorini.linalg.registry import takes_borders
@@ -16,27 +16,17 @@ _GENEROUS = 300.0, 1.0, 60.0, 4.0 / 3.0  # entries of the factor: at most 300 z 
 _SQUARE = 4, 6  # dense matrices of the size of the contact dofs, and of that of the pairs' rows, held at once
 
 
-def condensing_bytes(
-    K: sp.csr_array,
-    B: sp.csr_array,
-    interface: Interface,
-    nodes: IntArray,
-    points: Array,
-    *,
-    candidates: BoolArray,
-    plenty: float,
-) -> float:
+def condensing_bytes(bodies: FreeBodies, interface: Interface, *, candidates: BoolArray, plenty: float) -> float:
     """Bytes at the worst time of :func:`signorini.condense.condensed.condense` and of the law on its result.
 
     Parameters
     ----------
-    K : (z, z) stiffness of the free displacements
-    B : (d n, z) relative displacements of the pairs in terms of them
-    nodes : (z,) node of each free displacement
-    points : (nodes, d) where the nodes are
+    bodies : as they are
+    interface : the pairs
     candidates : (n,) pairs that may touch
     plenty : bytes; where a generous bound stays below, it is returned and the pattern of K is not analysed
     """
+    K, B, nodes, points = bodies
     chosen = interface.rows(candidates | interface.tied)
     dofs = np.unique(B[np.flatnonzero(chosen)].indices)
     dense = _SQUARE[1] * int(np.count_nonzero(chosen)) ** 2

@@ -56,7 +56,7 @@ def make_ties(B: sp.csr_array, rows: IntArray) -> Ties:
 
     Parameters
     ----------
-    B : (2 n, z) relative displacements of all pairs in terms of the free displacements
+    B : (d n, z) relative displacements of all pairs in terms of the free displacements
     rows : those of tied pairs that are not held by supports
     """
     own = sp.csr_array(B[rows])

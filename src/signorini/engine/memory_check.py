@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-import scipy.sparse as sp
-
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import BoolArray
 from signorini.condense.size import condensing_bytes
 from signorini.errors import InputError
+from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface
 from signorini.iterative.bodies import ITERATIVE
 from signorini.memory import available_memory
@@ -42,21 +41,12 @@ def refuse_unassembled(model: Model) -> None:
         )
 
 
-def iterates(
-    K: sp.csr_array,
-    B: sp.csr_array,
-    interface: Interface,
-    nodes: IntArray,
-    points: Array,
-    *,
-    candidates: BoolArray,
-    backend: str,
-) -> bool:
+def iterates(bodies: FreeBodies, interface: Interface, *, candidates: BoolArray, backend: str) -> bool:
     """Whether contact is solved on the bodies as they are: where that is asked for, or nothing else fits.
 
     Parameters
     ----------
-    K, B, interface, nodes, points, candidates : see :func:`signorini.condense.size.condensing_bytes`
+    bodies, interface, candidates : see :func:`signorini.condense.size.condensing_bytes`
     backend : as asked for
 
     Raises
@@ -64,6 +54,7 @@ def iterates(
     InputError
         Where what was asked for does not fit, or nothing does: with what it takes, what there is, and ways out.
     """
+    K = bodies.K
     if not K.nnz:  # nothing deforms, so there is nothing to iterate on
         return False
     room, iterated = available_memory(), _ITERATION * K.nnz
@@ -72,7 +63,7 @@ def iterates(
             return True
         needs, ways = f"{_size(iterated)} to iterate on", ""
     else:
-        condensed = condensing_bytes(K, B, interface, nodes, points, candidates=candidates, plenty=0.5 * room)
+        condensed = condensing_bytes(bodies, interface, candidates=candidates, plenty=0.5 * room)
         if condensed <= room:
             return False
         if backend == "auto" and iterated <= room:

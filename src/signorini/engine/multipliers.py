@@ -17,6 +17,7 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.engine.examine import Examined
 from signorini.engine.solver import Increment, IncrementAnswer
 from signorini.errors import InputError
+from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface
 from signorini.iterative.bodies import Bodies, make_bodies
 from signorini.iterative.solve import IncrementLoad, solve_iteratively
@@ -166,12 +167,9 @@ def make_multipliers(
             where=("contact", i),
         )
     bodies = make_bodies(
-        K,
-        B,
+        FreeBodies(K, B, examined.constraints.nodes, examined.space.mesh.points),
         interface,
-        examined.constraints.nodes,
         examined.constraints.leaders % d,
-        points=examined.space.mesh.points,
         rigid=sp.csr_array(T.T @ examined.motions),
         candidates=candidates,
     )

@@ -23,6 +23,7 @@ from signorini.errors import InputError, one_of
 from signorini.fem.rigid import free_motions
 from signorini.fem.stiffness import reduced_stiffness, stiffness
 from signorini.fem.supports import Constraints, make_constraints
+from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface, anisotropy_of, friction_of
 from signorini.interface.reach import candidates
 from signorini.iterative.bodies import ITERATIVE
@@ -280,17 +281,18 @@ def _made(
     examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, settings: SolverSettings, clock: Clock
 ) -> Prepared:
     """Factorise the bodies with the nodes of the candidates last and put the law on them, or leave them as they are."""
-    interface, T, nodes = examined.interface, examined.constraints.transform, examined.constraints.nodes
+    interface, T = examined.interface, examined.constraints.transform
     data = {field.name: getattr(examined, field.name) for field in fields(Examined)}
     softness = 0.0
     with clock.phase("assembly"):
         reduced, relative = reduced_stiffness(K, T), sp.csr_array(interface.B @ T)
-        whole = iterates(reduced, relative, interface, nodes, examined.space.places, candidates=near, backend=backend)
+        bodies = FreeBodies(reduced, relative, examined.constraints.nodes, examined.space.places)
+        whole = iterates(bodies, interface, candidates=near, backend=backend)
         solver: ContactSolver
         if whole:
             solver = make_multipliers(examined, reduced, relative, near, settings)
     if not whole:
-        condensed = _condensed(examined, reduced, relative, near, backend, clock)
+        condensed = _condensed(examined, bodies, near, backend, clock)
         softness = _softness(examined, condensed)
         data["scale"] = examined.scale.bent(softness)
         data["constraints"] = _with_ties(examined, condensed.ties)
@@ -318,18 +320,13 @@ def _softness(examined: Examined, condensed: Condensed) -> float:
     return max(found)
 
 
-def _condensed(
-    examined: Examined, K: sp.csr_array, B: sp.csr_array, near: BoolArray, backend: str, clock: Clock
-) -> Condensed:
+def _condensed(examined: Examined, bodies: FreeBodies, near: BoolArray, backend: str, clock: Clock) -> Condensed:
     """Factorise the bodies with the nodes of the candidates last."""
     rigid = (examined.motions @ examined.floating)[examined.constraints.leaders]
     try:
         return condense(
-            K,
-            B,
+            bodies,
             examined.interface,
-            examined.constraints.nodes,
-            examined.space.places,
             candidates=near,
             rigid=rigid,
             stiffness=examined.scale.force / examined.scale.compressed,

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -67,7 +69,13 @@ def _transposed(rows: IntArray, columns: Int32Array) -> Int32Array:
 
 @njit(cache=True)
 def unknown_pattern(rows: IntArray, columns: Int32Array, d: int) -> tuple[Int32Array, Int32Array]:
-    """Give every node d unknowns, ``d * node + component``."""
+    """Give every node d unknowns, ``d * node + component``.
+
+    Parameters
+    ----------
+    rows, columns : of the nodes, see :func:`node_pattern`
+    d : unknowns a node
+    """
     nodes = len(rows) - 1
     indptr = np.empty(nodes * d + 1, np.int32)
     indices = np.empty(len(columns) * d * d, np.int32)
@@ -83,35 +91,84 @@ def unknown_pattern(rows: IntArray, columns: Int32Array, d: int) -> tuple[Int32A
     return indptr, indices
 
 
+class Reference(NamedTuple):
+    """A reference element at the nq points of its quadrature.
+
+    Attributes
+    ----------
+    gradients : (nq, k, d) of the shape functions
+    values : (nq, k) the shape functions, where the body is axisymmetric: ``N_a / r`` joins the gradients as a further
+        component; otherwise (0, 0)
+    weights : (nq,)
+    pressures : (nq, p) functions that the dilatation of an element without modes is projected on; none with p = 0
+    """
+
+    gradients: Array
+    values: Array
+    weights: Array
+    pressures: Array
+
+
+class Elements(NamedTuple):
+    """Elements of one kind.
+
+    Attributes
+    ----------
+    nodes : (M, k)
+    measure : (M, nq) thickness or circumference, length
+    modes : (M, nq, k', e) gradients of k' internal modes, eliminated element by element
+    material : (M,) number of its law
+    """
+
+    nodes: Int32Array
+    measure: Array
+    modes: Array
+    material: IntArray
+
+
+class Laws(NamedTuple):
+    """Laws of materials: the term t adds ``values[m, t]`` times the product of two components of gradients.
+
+    Attributes
+    ----------
+    entries : (t, 3) directions r and s of the stiffness, as ``d r + s``, and the two components
+    values : (n, t) force / length^2
+    bulk : (n,) moduli for the projection on pressures
+    """
+
+    entries: IntArray
+    values: Array
+    bulk: Array
+
+
+class SparsityPattern(NamedTuple):
+    """The stiffness by rows of nodes, see :func:`node_pattern`, and its entries, which are added to."""
+
+    rows: IntArray
+    columns: Int32Array
+    data: Array
+
+
 @njit(cache=True)
 def add_block(
-    points: Array,
-    cells: Int32Array,
-    gradients: Array,
-    values: Array,
-    weights: Array,
-    measure: Array,
-    modes: Array,
-    entries: IntArray,
-    law: Array,
-    material: IntArray,
-    pressures: Array,
-    bulk: Array,
-    rows: IntArray,
-    columns: Int32Array,
-    data: Array,
+    points: Array, elements: Elements, reference: Reference, laws: Laws, pattern: SparsityPattern
 ) -> tuple[int, int]:
     """Add the stiffness of the elements of one kind; give (-1, 0), or the first bad element and what is wrong with it.
 
     The products ``C = sum_q w g g^T`` of all gradient components are summed first, which is one rank-one update per
-    point; the constitutive law then combines their entries once per element: the term t adds ``law[m, t]`` times the
-    product of the components ``entries[t, 1]`` and ``entries[t, 2]`` to the stiffness of the directions r and s,
-    ``entries[t, 0] = d r + s``. With `values`, (nq, k), the body is axisymmetric: ``N_a / r`` joins the
-    gradients as a further component. `modes`, (M, nq, k', e), are the gradients of k' internal modes, eliminated
-    element by element. `pressures`, (nq, p), are functions that the dilatation of an element without modes is projected
-    on, with `bulk` moduli of the materials; none with p = 0. Wrong may be: 1 the element is folded or has no volume, 2
-    it reaches over the axis.
+    point; the constitutive law then combines their entries once per element. Wrong may be: 1 the element is folded or
+    has no volume, 2 it reaches over the axis.
+
+    Parameters
+    ----------
+    points : (N, d) of all nodes, length
+    elements, reference, laws : of this kind
+    pattern : added to
     """
+    cells, measure, modes, material = elements
+    gradients, values, weights, pressures = reference
+    entries, law, bulk = laws
+    rows, columns, data = pattern
     nodes, d = cells.shape[1], points.shape[1]
     ring, inner = len(values) > 0, modes.shape[2]
     e = d + 1 if ring else d

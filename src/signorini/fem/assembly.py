@@ -5,7 +5,7 @@
 
 The unknown of node a and component r is ``d a + r``, which is the numbering of scikit-fem's `ElementVector`. Geometry
 and displacement share the shape functions (isoparametric elements); an element whose edges are straight has its
-higher nodes on them. Pattern and values are written once, in rows; no list of all element entries ever exists.
+higher nodes on them. SparsityPattern and values are written once, in rows; no list of all element entries ever exists.
 """
 
 from __future__ import annotations
@@ -106,22 +106,25 @@ def stiffness(points: Array, blocks: Cells | Sequence[Cells], *, axisymmetric: b
         entries = np.argwhere((law != 0.0).any(axis=0))
         points_per_cell = (len(cells), len(block.weights))
         modes = np.empty((*points_per_cell, 0, e)) if block.modes is None else block.modes
-        element, wrong = _kernels.add_block(
-            points,
+        elements = _kernels.Elements(
             cells,
+            np.ascontiguousarray(np.broadcast_to(block.measure, points_per_cell), dtype=np.float64),
+            np.ascontiguousarray(modes, dtype=np.float64),
+            np.ascontiguousarray(np.broadcast_to(block.material, len(cells)), dtype=np.int64),
+        )
+        reference = _kernels.Reference(
             np.ascontiguousarray(block.shape_gradients, dtype=np.float64),
             _values(block, number) if axisymmetric else np.empty((0, 0)),
             np.ascontiguousarray(block.weights, dtype=np.float64),
-            np.ascontiguousarray(np.broadcast_to(block.measure, points_per_cell), dtype=np.float64),
-            np.ascontiguousarray(modes, dtype=np.float64),
+            np.empty((len(block.weights), 0)) if block.pressures is None else block.pressures,
+        )
+        laws = _kernels.Laws(
             np.column_stack([entries[:, 0] * d + entries[:, 2], entries[:, 1], entries[:, 3]]).astype(np.uint32),
             np.ascontiguousarray(law[:, *entries.T]),
-            np.ascontiguousarray(np.broadcast_to(block.material, len(cells)), dtype=np.int64),
-            np.empty((len(block.weights), 0)) if block.pressures is None else block.pressures,
             np.empty(0) if block.bulk is None else block.bulk,
-            rows,
-            columns,
-            data,
+        )
+        element, wrong = _kernels.add_block(
+            points, elements, reference, laws, _kernels.SparsityPattern(rows, columns, data)
         )
         if wrong:
             raise InputError(_complaint(element, number, wrong, points[cells[element]]))

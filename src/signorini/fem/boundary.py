@@ -133,6 +133,12 @@ class Boundary:
 def boundary(space: Space, name: str, where: Where) -> Boundary:
     """A named boundary of the mesh with its outward normals.
 
+    Parameters
+    ----------
+    space : of the mesh
+    name : of the boundary
+    where : what errors call the place
+
     Raises
     ------
     InputError

@@ -126,6 +126,7 @@ def mean_in_cells(weights: Array, functions: Array, values: Array, there: Array)
     ----------
     weights : (m, q) volumes of the points
     functions, there : (q, n) and (r, n) at both points
+    values : at the quadrature points
     """
     mass = np.einsum("mq,qa,qb->mab", weights, functions, functions)
     share = np.einsum("mq,qa,mq->ma", weights, functions, values)
@@ -166,6 +167,11 @@ def kinematics(space: Space, model: Model, group: Group, *, best: bool = False) 
     """Gradients at the quadrature points of a group, or at the points where its stresses are best.
 
     The two are the same for linear quadrilaterals, which alone have internal modes.
+
+    Parameters
+    ----------
+    space : of the model
+    model : tells its kind
     """
     block, points = group.block, space.mesh.points[group.cells]
     values, reference = (block.stress_values, block.stress_gradients) if best else (block.values, block.gradients)
@@ -186,6 +192,11 @@ def mode_gradients(space: Space, model: Model, group: Group) -> Array:
 
     ``J_0^-T grad P det J_0 / det J`` with the Jacobian of the centre, less the mean over the cell: a constant stress
     does no work on the modes, so the patch test is passed. They have no hoop strain. Hexahedra have three.
+
+    Parameters
+    ----------
+    space, model : of the cells
+    group : cells of one kind and formulation
 
     References
     ----------

@@ -85,7 +85,14 @@ def make_links(space: Space, model: Model) -> Links:
 
 
 def place_dofs(space: Space, model: Model, on: Place | int, where: Where) -> IntArray:
-    """(k, c) dofs at a place: of a rigid body its one row of displacements and rotations, otherwise of its nodes."""
+    """(k, c) dofs at a place: of a rigid body its one row of displacements and rotations, otherwise of its nodes.
+
+    Parameters
+    ----------
+    space, model : where the place is
+    on : boundary, node set, coordinates, number of a node, or rigid body
+    where : what errors call the place
+    """
     names = [body.name for body in model.rigid_bodies]
     if isinstance(on, str) and on in names:
         dofs = space.obstacle_dofs(len(model.obstacles) + names.index(on))
@@ -125,6 +132,10 @@ def _equation(space: Space, model: Model, i: int, equation: Equation) -> tuple[I
 
 def rigid_nodes(space: Space, model: Model, j: int) -> IntArray:
     """Sorted nodes of the rigid body of number j.
+
+    Parameters
+    ----------
+    space, model : where the body is
 
     Raises
     ------

@@ -18,6 +18,7 @@ def measure(model: Model, points: Array, cells: IntArray) -> Array:
 
     Parameters
     ----------
+    model : tells the thickness, or that it is axisymmetric
     points : (m, q, d)
     cells : (m,) numbers of the cells that they are in
     """
@@ -31,6 +32,8 @@ def contact_measure(model: Model, points: Array, one: IntArray, other: IntArray)
 
     Parameters
     ----------
+    model : tells the thickness, or that it is axisymmetric
+    points : (m, q, d) where they touch, length
     one, other : (m,) numbers of the cells opposite each other
     """
     smaller: Array = np.minimum(measure(model, points, one), measure(model, points, other))

@@ -22,6 +22,7 @@ def carried(model: Model, points: Array, about: Array) -> Array:
 
     Parameters
     ----------
+    model : tells the dimension, and the arm of rotations
     points : (k, d)
     about : (d,) the point x_c about which it rotates
     """

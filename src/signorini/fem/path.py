@@ -57,6 +57,7 @@ def along(
 
     Parameters
     ----------
+    space, model : through which the path leads
     displacement : (nodes, d) length
     points : (n, d) coordinates in the undeformed body, length
     body : the stress is that of this body, also where it touches another

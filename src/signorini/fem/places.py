@@ -21,6 +21,9 @@ def nodes_at(space: Space, on: Place, where: Where, *, completed: bool = True) -
 
     Parameters
     ----------
+    space : of the mesh
+    on : boundary, node set, coordinates or number of a node
+    where : what errors call the place
     completed : of a boundary that names the corners of its facets only, also the nodes in the middle of them
 
     Raises

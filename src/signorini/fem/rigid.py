@@ -161,6 +161,7 @@ def free_motions(motions: sp.csr_array, constraints: Constraints, held: sp.csr_a
     Parameters
     ----------
     motions : (dofs, motions of all parts), see :func:`rigid_motions`
+    constraints : what supports hold, and elastic foundations
     held : (rows, dofs) sparse, further components that are held, of unit size
 
     Returns

@@ -58,6 +58,7 @@ def body_stresses(
 
     Parameters
     ----------
+    space : of the model
     displacement : (n, d), length
     factors : load factors by name, for the temperatures; a model without any needs none
     """
@@ -89,6 +90,7 @@ def point_stresses(
 
     Parameters
     ----------
+    space, model : of the bodies
     displacement, factors : as :func:`body_stresses`
     """
     temperature = temperatures(space, model, factors or {})

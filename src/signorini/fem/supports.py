@@ -105,6 +105,7 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
 
     Parameters
     ----------
+    space, model : of the supports
     without : names of supports that do not act
 
     Raises

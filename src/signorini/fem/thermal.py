@@ -20,7 +20,12 @@ from signorini.model.model import Model
 
 
 def temperatures(space: Space, model: Model, factors: Mapping[str, float]) -> Array | None:
-    """Temperatures of every body at load factors, (bodies, nodes), or None in a model without any."""
+    """Temperatures of every body at load factors, (bodies, nodes), or None in a model without any.
+
+    Parameters
+    ----------
+    space : of the model
+    """
     loads = [load for load in model.loads if load.temperature is not None]
     if not loads:
         return None
@@ -39,14 +44,26 @@ def _field(load: Load, points: Array) -> Array:
 
 
 def thermal_strain(model: Model, group: Group, points: Kinematics, temperature: Array) -> Array:
-    """Free thermal strain at points of a group, (m, q, 4), from temperatures (bodies, nodes)."""
+    """Free thermal strain at points of a group, (m, q, 4 or 6), from temperatures (bodies, nodes).
+
+    Parameters
+    ----------
+    model : tells its kind
+    temperature : above that without strain
+    """
     here = temperature[group.body[:, None], group.cells] @ points.values.T
     strain: Array = here[..., None] * expansions(model)[group.body][:, None]
     return strain
 
 
 def thermal_forces(space: Space, model: Model, load: Load) -> Array:
-    """Nodal forces of a temperature at factor 1, (dofs,)."""
+    """Nodal forces of a temperature at factor 1, (dofs,).
+
+    Parameters
+    ----------
+    space, model : of the bodies
+    load : of temperature
+    """
     forces = np.zeros((len(space.mesh.points), space.dimension))
     for group, points, _, stress in _held(space, model, load):
         if group.formulation == "mean dilatation":

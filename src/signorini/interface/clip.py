@@ -159,7 +159,14 @@ def _common(flat: Array, c: int, other: Array, o: int, polygon: Array, spare: Ar
 
 @njit(cache=True)
 def look(piece: Array, opposite: Array, normal: Array, sight: Sight) -> tuple[float, int]:
-    """Look from a piece along a normal at one of the other side: its area, and the corners of the common part."""
+    """Look from a piece along a normal at one of the other side: its area, and the corners of the common part.
+
+    Parameters
+    ----------
+    piece, opposite : (3 or 4, 3) corners of both pieces, length
+    normal : (3,) unit vector, out of the first
+    sight : written over
+    """
     whole = _plane(piece, normal, sight.axes, sight.centre, sight.flat)
     _flatten(opposite, sight.axes, sight.centre, sight.projected)
     return whole, _common(sight.flat, len(piece), sight.projected, len(opposite), sight.polygon, sight.spare)
@@ -211,7 +218,12 @@ def overlap_areas(first: Array, second: Array, normals: Array, i: IntArray, j: I
 def place_in(flat: Array, c: int, x: float, y: float, places: Array, found: Array) -> float:
     """Reference place of the point (x, y) of a piece whose corners are at ``flat``, and the area per reference area.
 
-    ``places`` are the reference coordinates of its corners: the piece is part of a larger face.
+    Parameters
+    ----------
+    flat, c : (4, 2) corners of the piece in its plane, and their number, 3 or 4
+    x, y : the point there
+    places : (c, 2) reference coordinates of its corners: the piece is part of a larger face
+    found : (2,) is written over
     """
     if c == 3:
         a_x, a_y = flat[1, 0] - flat[0, 0], flat[1, 1] - flat[0, 1]
@@ -252,7 +264,14 @@ def place_in(flat: Array, c: int, x: float, y: float, places: Array, found: Arra
 
 @njit(cache=True)
 def true_area(nodes: Array, place: Array, D: Array, normal: Array) -> float:
-    """Area of a face per reference area at a reference place; times its outward normal there, into ``normal``."""
+    """Area of a face per reference area at a reference place; times its outward normal there, into ``normal``.
+
+    Parameters
+    ----------
+    nodes : (c, 3) of the face
+    place : (2,) reference coordinates
+    D, normal : (2, 9) and (3,) are written over
+    """
     c = len(nodes)
     slopes(c, place[0], place[1], D)
     x, y = np.zeros(3), np.zeros(3)
@@ -265,7 +284,14 @@ def true_area(nodes: Array, place: Array, D: Array, normal: Array) -> float:
 
 @njit(cache=True)
 def point_at(nodes: Array, N: Array, point: Array) -> None:
-    """Where a face is that has shape functions N, into ``point``."""
+    """Where a face is that has shape functions N, into ``point``.
+
+    Parameters
+    ----------
+    nodes : (c, 3) of the face
+    N : (c,) values of its shape functions; more are ignored
+    point : (3,) is written over
+    """
     for e in range(3):
         point[e] = 0.0
         for a in range(len(nodes)):
@@ -274,7 +300,13 @@ def point_at(nodes: Array, N: Array, point: Array) -> None:
 
 @njit(cache=True)
 def turn(vector: Array, before: Array, after: Array) -> None:
-    """Turn a vector, in place, by what turns one unit vector into another; see `signorini.interface.tilt.turned`."""
+    """Turn a vector, in place, by what turns one unit vector into another; see `signorini.interface.tilt.turned`.
+
+    Parameters
+    ----------
+    vector : (3,) is written over
+    before, after : (3,) unit vectors
+    """
     both, same, own = 0.0, 1.0, 0.0
     for e in range(3):
         both += (before[e] + after[e]) * vector[e]

@@ -22,6 +22,11 @@ def in_symmetry_planes(space: Space, constraints: Constraints, coupling: Couplin
 
     The integral at the last node of a half model misses the other half: its component along the supported direction is
     what the mirror image takes away.
+
+    Parameters
+    ----------
+    space, constraints : tell where supports hold nodes
+    coupling : of the pairs
     """
     whole = coupling.normal_areas
     inside = np.where(_held(space, constraints, coupling.nodes), 0.0, whole)
@@ -39,6 +44,9 @@ def symmetric_partners(
 
     Parameters
     ----------
+    space, constraints : tell where supports hold nodes
+    nodes : (k,) of the pairs
+    normals : (k, d) of the pairs
     mortar : nodes of the mortar side
     """
     partner = np.full((len(nodes), space.dimension), -1)

@@ -66,6 +66,8 @@ def resolved(gap: Array, coupling: Coupling, one: Array) -> Array:
 
     Parameters
     ----------
+    gap : (k,) mean gaps, length
+    coupling : of the pairs, with gaps at points of facets
     one : (k,) what pairs see of a gap of length 1 along the normals of the nonmortar side, see :func:`normal_gap`
     """
     if coupling.facets is None:
@@ -85,6 +87,14 @@ def resolved(gap: Array, coupling: Coupling, one: Array) -> Array:
 
 def refuse_deep_overlap(gap: Array, numbers: IntArray, contact: Contact, element: float, where: Where) -> None:
     """An overlap of more than an element is no small displacement.
+
+    Parameters
+    ----------
+    gap : (k,) length
+    numbers : (k,) of the nodes, for messages
+    contact : as asked for
+    element : longest facet, length
+    where : what errors call the contact
 
     Raises
     ------

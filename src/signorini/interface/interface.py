@@ -152,6 +152,11 @@ class Interface:
 def make_interface(space: Space, model: Model, constraints: Constraints) -> Interface:
     """Pair the surfaces of all contacts.
 
+    Parameters
+    ----------
+    space, model : of the bodies and their contacts
+    constraints : what supports hold: planes of symmetry
+
     Raises
     ------
     InputError
@@ -265,6 +270,7 @@ def anisotropy_of(model: Model, axes: Array, contact: IntArray) -> Array:
 
     Parameters
     ----------
+    model : of the contacts
     axes : (n, d - 1, d) tangents of the pairs
     contact : (n,) contacts that they belong to
     """
@@ -277,7 +283,13 @@ def anisotropy_of(model: Model, axes: Array, contact: IntArray) -> Array:
 
 
 def pairs_of(model: Model, interface: Interface, labels: Collection[str]) -> BoolArray:
-    """(n,) The pairs of some contacts."""
+    """(n,) The pairs of some contacts.
+
+    Parameters
+    ----------
+    model, interface : of the contacts and their pairs
+    labels : of the contacts that are asked for
+    """
     own = [i for i, contact in enumerate(model.contacts) if contact.label in labels]
     return np.asarray(np.isin(interface.contact, own), dtype=np.bool_)
 
@@ -287,6 +299,7 @@ def friction_of(space: Space, model: Model, node: IntArray, contact: IntArray) -
 
     Parameters
     ----------
+    space, model : of the nodes and contacts
     node, contact : (n,) nonmortar nodes of the pairs, and the contacts that they belong to
 
     Raises

@@ -75,6 +75,12 @@ class Pairs:
 def make_pairs(space: Space, model: Model, constraints: Constraints, i: int) -> Pairs:
     """Pair the surfaces of contact ``i`` of a model.
 
+    Parameters
+    ----------
+    space, model : of the bodies and their contacts
+    constraints : what supports hold: planes of symmetry
+    i : number of the contact
+
     Raises
     ------
     InputError

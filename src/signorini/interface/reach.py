@@ -20,6 +20,7 @@ def candidates(interface: Interface, length: float, squeezed: float = 0.0) -> Bo
 
     Parameters
     ----------
+    interface : all pairs
     length : what loads, moving supports and overlaps displace, see :class:`signorini.solution.scale.Scale`; in space
         what is imposed
     squeezed : in space, loads over the smallest modulus, area; they close what they would on a bed of springs as deep

@@ -97,6 +97,7 @@ def bow(one: Smooth, i: int, two: Smooth, j: int, nodes: Array, point: Array, sh
 
     Parameters
     ----------
+    one, i, two, j : the surfaces of both sides, and the facets
     nodes : (k, d) of facet i
     point, shapes : (d,) on it, and the values of its shape functions there
     way : (2, d) is written over
@@ -126,7 +127,14 @@ def bow(one: Smooth, i: int, two: Smooth, j: int, nodes: Array, point: Array, sh
 
 @njit(cache=True)
 def rises(surface: Smooth, facets: IntArray, points: Array, shapes: Array, sights: Array) -> Array:
-    """:func:`rise` of facets (p,) at points (p, q, d) with shape functions (p, q, k), along (p, d); (p, q)."""
+    """:func:`rise` of facets (p,) at points (p, q, d) with shape functions (p, q, k), along (p, d); (p, q).
+
+    Parameters
+    ----------
+    surface, facets : the surfaces, and numbers (p,) of facets
+    points, shapes : (p, q, d) on them, and (p, q, k) values of their shape functions
+    sights : (p, d) unit vectors
+    """
     result, gradient = np.zeros(points.shape[:2]), np.empty(points.shape[2])
     for p in range(len(facets)):
         for q in range(points.shape[1]):
@@ -136,7 +144,14 @@ def rises(surface: Smooth, facets: IntArray, points: Array, shapes: Array, sight
 
 @njit(cache=True)
 def bows(one: Smooth, two: Smooth, i: IntArray, j: IntArray, nodes: Array, points: Array, shapes: Array) -> Array:
-    """:func:`bow` on facets i (p,) with nodes (m, k, d) at points (p, q, d) with shape functions (p, q, k); (p, q)."""
+    """:func:`bow` on facets i (p,) with nodes (m, k, d) at points (p, q, d) with shape functions (p, q, k); (p, q).
+
+    Parameters
+    ----------
+    one, two, i, j : the surfaces of both sides, and numbers (p,) of their facets
+    nodes : (m, k, d) of the first facets
+    points, shapes : (p, q, d) on them, and (p, q, k) values of their shape functions
+    """
     result, way = np.zeros(points.shape[:2]), np.empty((2, points.shape[2]))
     for p in range(len(i)):
         for q in range(points.shape[1]):
@@ -146,7 +161,13 @@ def bows(one: Smooth, two: Smooth, i: IntArray, j: IntArray, nodes: Array, point
 
 @njit(cache=True)
 def heights(surface: Smooth, facets: IntArray, points: Array) -> Array:
-    """Heights over points (p, d), and squared cosines between the normals of facet and surface there, (p, 2)."""
+    """Heights over points (p, d), and squared cosines between the normals of facet and surface there, (p, 2).
+
+    Parameters
+    ----------
+    surface, facets : the surfaces, and numbers (p,) of facets
+    points : (p, d) beside them, length
+    """
     result, gradient = np.empty((len(points), 2)), np.empty(points.shape[1])
     for p in range(len(points)):
         result[p, 0] = _height(surface, facets[p], points[p], gradient)

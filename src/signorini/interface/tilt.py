@@ -77,6 +77,11 @@ def turns(own: Array, at_nodes: Array) -> Array:
 def turned(vectors: Array, before: Array, after: Array) -> Array:
     """Vectors turned by what turns one unit vector into another, the shortest way; arrays (..., d).
 
+    Parameters
+    ----------
+    vectors : (..., d)
+    before, after : (..., d) unit vectors
+
     Examples
     --------
     >>> turned(np.array([[0.0, 2.0]]), np.array([[1.0, 0.0]]), np.array([[0.0, 1.0]])).tolist()

@@ -11,6 +11,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.interface.active import FreeBodies, active_pairs, with_supple
 from signorini.interface.interface import Interface
 from signorini.iterative.blocks import Blocks, make_blocks
 from signorini.iterative.direct import Direct
@@ -19,7 +20,6 @@ from signorini.iterative.multigrid import Multigrid
 ITERATIVE = "iterative"
 """The name of this way among the back ends."""
 
-_HELD_ROW = 1e-12  # of the size of a row of B: below it supports hold what the row sees
 _ENDLESS_PATIENCE = 10**6  # rounds
 _SPRING_RATIO = 4.0  # springs of closed pairs, of what their nodes feel: multipliers then converge by as much a round
 
@@ -116,42 +116,28 @@ class Bodies:
 
 
 def make_bodies(
-    K: sp.csr_array,
-    B: sp.csr_array,
-    interface: Interface,
-    nodes: IntArray,
-    axis: IntArray,
-    *,
-    points: Array,
-    rigid: sp.csr_array,
-    candidates: BoolArray,
+    free: FreeBodies, interface: Interface, axis: IntArray, *, rigid: sp.csr_array, candidates: BoolArray
 ) -> Bodies:
     """Put bodies and pairs into blocks.
 
     Parameters
     ----------
-    K : (z, z) stiffness of the free displacements
-    B : (d n, z) relative displacements of the pairs in terms of them
+    free : as they are; the points are those of the mesh, rigid obstacles have none
     interface : the pairs
-    nodes, axis : (z,) node and direction of each free displacement
-    points : (nodes, d) of the mesh; rigid obstacles have none
+    axis : (z,) direction of each free displacement
     rigid : (z, k) rigid motions of all parts
     candidates : (n,) pairs that may touch
     """
     n, d = len(interface), interface.directions
-    size = np.sqrt(np.asarray(B.multiply(B).sum(axis=1)).ravel())
-    held = (size[:n] <= _HELD_ROW) & (interface.compliance[:n] == 0.0)
-    moving = (size.reshape(d, n) > _HELD_ROW).any(axis=0)
-    active = candidates & ~held & ~interface.tied
-    pairs = np.flatnonzero(active | (interface.tied & moving))
+    K, B, nodes, points = free
+    seen, moves, held, active = active_pairs(B, interface, candidates)
+    pairs = np.flatnonzero(active | (interface.tied & moves.reshape(d, n).any(axis=0)))
     rows = np.concatenate([pairs + k * n for k in range(d)])
-    own = sp.csr_array(sp.diags_array(np.where(size > _HELD_ROW, 1.0, 0.0)) @ B)[rows]
-    own.eliminate_zeros()
+    own = sp.csr_array(seen[rows])
     blocks = make_blocks(nodes, axis, d)
     matrix = blocks.matrix(K)
     felt = np.asarray((own @ K).multiply(own).sum(axis=1)).ravel().reshape(d, -1).max(axis=0, initial=0.0)
-    supple = np.flatnonzero((felt == 0.0) & (interface.compliance[pairs] > 0.0))  # supports hold both sides
-    felt[supple] = interface.area[pairs[supple]] / interface.compliance[pairs[supple]]
+    felt = with_supple(felt, interface, pairs)
     near_null = blocks.spread(_near_null(points, nodes, axis, d))
     return Bodies(
         K=matrix,

@@ -83,7 +83,10 @@ def outer_faces(
 
     Parameters
     ----------
+    faces : of all cells, see :func:`make_faces`
     given : (m, k) nodes of the faces, by kinds; corners suffice
+    points : number of nodes of the mesh
+    name, where : what errors call the boundary, and the place
 
     Returns
     -------

@@ -44,7 +44,15 @@ def grid_steps(family: str) -> int:
 
 
 def mesh_of_grids(grids: list[Array], sides: Mapping[str, list[Array]], body: str, family: str) -> Mesh:
-    """One mesh from grids whose common points coincide; quadratic cells take two steps of a grid."""
+    """One mesh from grids whose common points coincide; quadratic cells take two steps of a grid.
+
+    Parameters
+    ----------
+    grids : (a, b, 2) points
+    sides : lines (n, 2) of their points by the names of boundaries
+    body : its name
+    family : of the cells
+    """
     lines = [line for parts in sides.values() for line in parts]
     every = np.vstack([grid.reshape(-1, 2) for grid in grids] + lines)
     unit = 1e-9 * np.ptp(every, axis=0).max()
@@ -104,7 +112,16 @@ def _counterclockwise(points: Array, cells: IntArray, family: str) -> IntArray:
 
 
 def growing_fractions(before: float, length: float, refine: int, *, growth: float, largest: float) -> Array:
-    """Fractions 0 .. 1 of a length in steps that grow from the step before them up to a largest; each refined."""
+    """Fractions 0 .. 1 of a length in steps that grow from the step before them up to a largest; each refined.
+
+    Parameters
+    ----------
+    before : the step before the first, length
+    length : to be divided
+    refine : steps that each is cut into
+    growth : from step to step
+    largest : step, length
+    """
     steps = [min(before * growth, largest)]
     while sum(steps) < length:
         steps.append(min(steps[-1] * growth, largest))
@@ -121,13 +138,25 @@ def straight(start: Array, end: Array, fractions: Array) -> Array:
 
 
 def ruled_grid(outer: Array, inner: Array, fractions: Array) -> Array:
-    """Straight lines from one curve to another, (layers, along, 2)."""
+    """Straight lines from one curve to another, (layers, along, 2).
+
+    Parameters
+    ----------
+    outer, inner : (n, 2) points of both curves
+    fractions : (m,) of the way, 0 to 1
+    """
     grid: Array = outer + (inner - outer) * fractions[:, None, None]
     return grid
 
 
 def coons_patch(bottom: Array, top: Array, left: Array, right: Array) -> Array:
-    """Coons patch between four curves, (up, along, 2), straight left and right allowed."""
+    """Coons patch between four curves, (up, along, 2), straight left and right allowed.
+
+    Parameters
+    ----------
+    bottom, top : (n, 2) points, from left to right
+    left, right : (m, 2) points, upwards
+    """
     s = np.linspace(0.0, 1.0, len(bottom))[None, :, None]
     t = (np.linalg.norm(left - left[0], axis=1) / np.linalg.norm(left[-1] - left[0]))[:, None, None]
     corners = (1 - s) * (1 - t) * bottom[0] + s * (1 - t) * bottom[-1] + (1 - s) * t * top[0] + s * t * top[-1]

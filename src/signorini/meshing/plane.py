@@ -121,6 +121,11 @@ def half_disk(
 
     Parameters as :func:`quarter_disk`; the contact length counts to either side.
 
+    Parameters
+    ----------
+    radius, contact_length, contact_spacing, refine, cells, order : see :func:`quarter_disk`; the contact length counts
+        to either side
+
     Examples
     --------
     >>> half_disk(radius=8.0, contact_length=4.0, contact_spacing=0.5)
