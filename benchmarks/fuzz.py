@@ -38,10 +38,10 @@ from signorini.cli.check_text import deck_text
 from signorini.deck import load_deck
 from signorini.engine.examine import examine
 from signorini.errors import InputError, SolveFailed
-from signorini.fem.profile import read_profile
-from signorini.fem.surface import read_surface
 from signorini.gallery.spheres import hollow_spheres
+from signorini.meshing.profile import read_profile
 from signorini.meshing.read import read_mesh
+from signorini.meshing.surface import read_surface
 from signorini.model.model import Model
 from signorini.output.archive import read_archive
 from signorini.output.checkpoint import read_checkpoint

@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from signorini.deck import read
     from signorini.engine import paper
     from signorini.errors import InputError, Interrupted, SignoriniError, SolveFailed
-    from signorini.fem.profile import mesh_profile, read_profile
-    from signorini.fem.surface import mesh_surface, read_surface
     from signorini.meshing.plane import annulus, half_disk, quarter_disk, rectangle
+    from signorini.meshing.profile import mesh_profile, read_profile
     from signorini.meshing.read import read_mesh
     from signorini.meshing.solid import box, extruded
+    from signorini.meshing.surface import mesh_surface, read_surface
     from signorini.model.body import Body
     from signorini.model.conditions import Foundation, Load, Support
     from signorini.model.contact import Contact
@@ -93,10 +93,10 @@ _HOMES = {
     "signorini.deck": ("read",),
     "signorini.errors": ("InputError", "Interrupted", "SignoriniError", "SolveFailed"),
     "signorini.meshing.plane": ("annulus", "half_disk", "quarter_disk", "rectangle"),
-    "signorini.fem.profile": ("mesh_profile", "read_profile"),
+    "signorini.meshing.profile": ("mesh_profile", "read_profile"),
     "signorini.meshing.read": ("read_mesh",),
     "signorini.meshing.solid": ("box", "extruded"),
-    "signorini.fem.surface": ("mesh_surface", "read_surface"),
+    "signorini.meshing.surface": ("mesh_surface", "read_surface"),
     "signorini.model.body": ("Body",),
     "signorini.model.conditions": ("Foundation", "Load", "Support"),
     "signorini.model.contact": ("Contact",),

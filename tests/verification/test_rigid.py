@@ -10,8 +10,8 @@ import pytest
 from signorini.deck import read
 from signorini.engine.solve import solve
 from signorini.errors import InputError
-from signorini.fem.profile import mesh_profile
 from signorini.meshing.plane import annulus, rectangle
+from signorini.meshing.profile import mesh_profile
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact

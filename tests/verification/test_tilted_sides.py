@@ -11,7 +11,7 @@ from signorini.fem.boundary import boundary
 from signorini.fem.space import make_space
 from signorini.gallery.spheres import equal_spheres
 from signorini.interface.mortar import mortar_coupling
-from signorini.interface.tilt import normals_between, turned
+from signorini.interface.tilt import normals_between, rotate_between
 from signorini.meshing.plane import quarter_disk, rectangle
 from signorini.meshing.solid import extruded
 from signorini.model.body import Body
@@ -131,8 +131,8 @@ def test_turning_keeps_lengths_and_angles():
     rng = np.random.default_rng(3)
     before, after = (v / np.linalg.norm(v, axis=1, keepdims=True) for v in rng.normal(size=(2, 20, 3)))
     vectors = rng.normal(size=(20, 3))
-    np.testing.assert_allclose(turned(before, before, after), after, atol=1e-12)
-    found = turned(vectors, before, after)
+    np.testing.assert_allclose(rotate_between(before, before, after), after, atol=1e-12)
+    found = rotate_between(vectors, before, after)
     np.testing.assert_allclose(np.linalg.norm(found, axis=1), np.linalg.norm(vectors, axis=1))
     np.testing.assert_allclose(np.sum(found * after, axis=1), np.sum(vectors * before, axis=1), atol=1e-12)
 

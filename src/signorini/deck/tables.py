@@ -206,8 +206,8 @@ def _shape(key: str, value: Any, where: Where, reach: Reach, mesh: Mesh) -> Obst
     entry = {"file": value} if key == "surface" and isinstance(value, str) else table(value, where)
     if key not in ("profile", "surface") or not {"file", "boundary"} & set(entry):
         return make(OBSTACLES[key], entry, where)
-    from signorini.fem.profile import mesh_profile, read_profile  # brings scikit-fem and meshio with it
-    from signorini.fem.surface import mesh_surface, read_surface
+    from signorini.meshing.profile import mesh_profile, read_profile  # brings meshio with it
+    from signorini.meshing.surface import mesh_surface, read_surface
 
     check_keys(entry, where, known=["file", "boundary", "flip", *(["fillet"] if key == "profile" else [])])
     given = dict(entry)

@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, IntArray
-from signorini.errors import InputError, Where
+from signorini.errors import Where
 from signorini.fem.facet_block import FacetBlock
 from signorini.fem.space import Space
+from signorini.meshing.edges import outer_edges
 from signorini.meshing.faces import outer_faces
 
 
@@ -154,58 +155,10 @@ def boundary(space: Space, name: str, where: Where) -> Boundary:
            [0., 1.],
            [0., 1.]])
     """
-    kinds = space.mesh.facets(name)
     points = space.mesh.points
-    if not len(kinds[0]):
-        raise InputError(f"'{name}' is empty; expected a boundary with edges or faces", where=where)
     if space.dimension == 3:
-        found = outer_faces(space.faces, kinds, len(points), name, where)
+        found = outer_faces(space.faces, space.mesh, name, where)
     else:
-        found = [_outer_edges(space, kinds[0], name, where)]
+        found = [outer_edges(space.edges, space.mesh, name, where)]
     blocks = (FacetBlock(facets=facets, points=points[facets], cells=cells) for facets, cells in found)
     return Boundary(points=points, blocks=tuple(blocks))
-
-
-def _outer_edges(space: Space, given: IntArray, name: str, where: Where) -> tuple[IntArray, IntArray]:
-    """Edges with the body on their left, (m, 2 or 3), and their cells, (m,)."""
-    points = space.mesh.points
-    empty = (points[given[:, 0]] == points[given[:, 1]]).all(axis=1)
-    if empty.any():
-        raise InputError(
-            f"'{name}' has an edge without length at node {space.mesh.labels[given[empty][0, 0]]}", where=where
-        )
-    edge = _edges(space, given[:, :2], name, where)
-    ends, middle = space.edges.ends[edge], space.edges.middle[edge]
-    if given.shape[1] == 3 and (given[:, 2] != middle).any():
-        wrong = int(np.nonzero(given[:, 2] != middle)[0][0])
-        a, b, c = space.mesh.labels[given[wrong]]
-        found = f"node {space.mesh.labels[middle[wrong]]}" if middle[wrong] >= 0 else "no node"
-        raise InputError(
-            f"'{name}' has node {c} between nodes {a} and {b}, where the cell has {found}",
-            where=where,
-        )
-    quadratic = middle >= 0
-    if quadratic.any() and not quadratic.all():
-        raise InputError(f"'{name}' belongs to linear and to quadratic cells; expected one order", where=where)
-    facets = np.column_stack([ends, middle]) if quadratic.any() else ends
-    return facets, space.edges.cell[edge]
-
-
-def _edges(space: Space, facets: IntArray, name: str, where: Where) -> IntArray:
-    """Indices of the edges that the facets are, (m,)."""
-    wanted = space.edges.key_of(facets)
-    left = np.searchsorted(space.edges.key, wanted, side="left")
-    found = np.searchsorted(space.edges.key, wanted, side="right") - left
-    if (found == 0).any():
-        a, b = space.mesh.labels[facets[np.nonzero(found == 0)[0][0]]]
-        raise InputError(f"'{name}' has an edge between nodes {a} and {b} that no cell has", where=where)
-    if (found > 1).any():
-        a, b = space.mesh.labels[facets[np.nonzero(found > 1)[0][0]]]
-        raise InputError(
-            f"'{name}' lies inside: the edge between nodes {a} and {b} belongs to two cells. Expected an outer "
-            "boundary; bodies that touch need nodes of their own on the interface",
-            where=where,
-        )
-    if len(np.unique(wanted)) != len(wanted):
-        raise InputError(f"'{name}' has an edge twice", where=where)
-    return left

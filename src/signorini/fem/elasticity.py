@@ -39,7 +39,7 @@ def elasticity(material: Material, kind: str) -> Array:
         D = isotropic(2.0 * shear * material.nu / (1.0 - 2.0 * material.nu), shear)
     else:
         stiff = np.asarray(np.linalg.inv(_compliance(material)), np.float64)
-        D = _turned(stiff, material.angle)
+        D = _rotated_stiffness(stiff, material.angle)
     if kind == "3d":
         return D
     D = D[:4, :4]
@@ -114,7 +114,7 @@ def _strain_turn(angle: float) -> Array:
     )
 
 
-def _turned(D: Array, angle: float) -> Array:
+def _rotated_stiffness(D: Array, angle: float) -> Array:
     """A law along axes turned by an angle, in x and y: energy does not care for axes."""
     turn = _strain_turn(angle)
     law: Array = turn.T @ D @ turn

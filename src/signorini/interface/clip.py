@@ -299,8 +299,8 @@ def point_at(nodes: Array, N: Array, point: Array) -> None:
 
 
 @njit(cache=True)
-def turn(vector: Array, before: Array, after: Array) -> None:
-    """Turn a vector, in place, by what turns one unit vector into another; see `signorini.interface.tilt.turned`.
+def rotate(vector: Array, before: Array, after: Array) -> None:
+    """Turn a vector, in place, by what turns one unit vector into another; see `interface.tilt.rotate_between`.
 
     Parameters
     ----------

@@ -12,7 +12,7 @@ from signorini.arrays import Array
 from signorini.fem.boundary import Boundary
 from signorini.fem.facet_block import FacetBlock
 from signorini.interface.common_parts import dual_functions
-from signorini.interface.coupling import Coupling
+from signorini.interface.coupling import Coupling, spread
 
 
 def corner_coupling(side: Boundary, areas: Sequence[Array], normals: Sequence[Array], count: int) -> Coupling:
@@ -43,5 +43,4 @@ def _of_block(block: FacetBlock, areas: Array, normals: Array, count: int) -> tu
     mass = np.einsum("mq,qa,qb->mab", areas, hats, hats)
     multiplier = np.einsum("mab,qb,mq,mqd->dmqa", dual_functions(mass), hats, areas, normals)
     values = np.einsum("dmqa,qj->dmaj", multiplier, block.shapes[0])
-    rows, columns = (np.broadcast_to(x, values.shape[1:]).ravel() for x in (corners[:, :, None], block.facets[:, None]))
-    return tuple(sp.csr_array((part.ravel(), (rows, columns)), shape=(count, count)) for part in values)
+    return spread(corners, block.facets, values, count)

@@ -134,3 +134,16 @@ def picked(nodes: IntArray, count: int) -> sp.csr_array:
     """One row a node, (k, count)."""
     k = len(nodes)
     return sp.csr_array((np.ones(k), (np.arange(k), nodes)), shape=(k, count))
+
+
+def spread(rows: IntArray, columns: IntArray, values: Array, n: int) -> tuple[sp.csr_array, ...]:
+    """Entries of facets, summed into d matrices (n, n).
+
+    Parameters
+    ----------
+    rows, columns : (k, a) and (k, b) nodes
+    values : (d, k, a, b)
+    n : nodes of the mesh
+    """
+    i, j = (np.broadcast_to(part, values.shape[1:]).ravel() for part in (rows[:, :, None], columns[:, None, :]))
+    return tuple(sp.csr_array((part.ravel(), (i, j)), shape=(n, n)) for part in values)

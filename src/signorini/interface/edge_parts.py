@@ -18,7 +18,7 @@ from signorini.interface.coupling import FacetGaps
 from signorini.interface.fitting import smooth_surfaces
 from signorini.interface.overlap import Overlaps, find_overlaps, interpolate, parameter
 from signorini.interface.smooth import Smooth, bows, rises
-from signorini.interface.tilt import turned
+from signorini.interface.tilt import rotate_between
 
 _POINTS = {2: 3, 3: 8}  # of Gauss on every piece, by nodes of the facets: exact for parabolas over linear facets
 
@@ -141,7 +141,7 @@ def _quadrature(side: FacetBlock, other: FacetBlock, overlaps: Overlaps, measure
     across = measure(interpolate(corners, s), side.cells[overlaps.first], other.cells[overlaps.second])
     weights = half * share / np.abs(np.einsum("pqa,pa->pq", slopes, overlaps.own)) * across
     outward = np.stack([along[..., 1], -along[..., 0]], axis=-1)
-    tilted = turned(outward, side.normals[overlaps.first][:, None], overlaps.outward[:, None])
+    tilted = rotate_between(outward, side.normals[overlaps.first][:, None], overlaps.outward[:, None])
     return at, weights[..., None] * tilted
 
 

@@ -23,8 +23,8 @@ from signorini.interface.clip import (
     middle_of,
     place_in,
     point_at,
+    rotate,
     true_area,
-    turn,
     upright_of,
 )
 from signorini.interface.projection import land
@@ -145,7 +145,7 @@ def _gather(pairs: PiecePairs, k: int, rule: Rule, sight: Sight, points: _Points
             place_in(projected, o, x, y, others, there)
             normal = points.normals[q]
             points.shares[q] = share * true_area(nodes, here, D, normal)
-            turn(normal, upright, axis)
+            rotate(normal, upright, axis)
             for e in range(3):
                 normal[e] *= share
             shapes(c, here[0], here[1], points.hats[q])

@@ -17,7 +17,7 @@ from signorini.interface.coupling import FacetGaps
 from signorini.interface.face_integrals import FacePieces, PiecePairs, Rule, Sums, integrate, spread_gaps
 from signorini.interface.facing import near_pairs, nearest_layers, piece_normals
 from signorini.interface.fitting import smooth_surfaces
-from signorini.interface.tilt import normals_between, turns
+from signorini.interface.tilt import normals_between, turning_angles
 
 _DEGREE = {3: 1, 4: 2, 6: 2, 8: 3, 9: 4}  # of the shape functions, by nodes of a face
 _GAP_POINTS = 3  # of Gauss a direction for gaps between surfaces: exact for hats times parabolas
@@ -65,7 +65,7 @@ def _kinds(side: Boundary) -> list[_Kind]:
     found = []
     for block, smooth in zip(side.blocks, smooth_surfaces(side.blocks), strict=True):
         corners, places = block.plane_pieces, facet_pieces(block.count)
-        turn = np.repeat(turns(block.normals, side.at_facets(block)), len(places))
+        turn = np.repeat(turning_angles(block.normals, side.at_facets(block)), len(places))
         found.append(_Kind(block, FacePieces(corners, block.points, places, smooth), piece_normals(corners), turn))
     return found
 

@@ -214,8 +214,8 @@ def _relative_rows(
     carrier = np.repeat([part.obstacle for part in parts], count).astype(int)
     rows = [_with_obstacles(space, model, carrier, closing)]
     for k in range(space.dimension - 1):
-        turned = _turned(sliding, normals, axes[:, k])
-        rows.append(sp.diags_array(np.where(still[:, k], 0.0, 1.0)) @ _with_obstacles(space, model, carrier, turned))
+        slid = _with_obstacles(space, model, carrier, _sliding_rows(sliding, normals, axes[:, k]))
+        rows.append(sp.diags_array(np.where(still[:, k], 0.0, 1.0)) @ slid)
     return sp.csr_array(sp.vstack(rows))
 
 
@@ -317,7 +317,7 @@ def friction_of(space: Space, model: Model, node: IntArray, contact: IntArray) -
     return friction
 
 
-def _turned(closing: tuple[sp.csr_array, ...], normals: Array, axes: Array) -> tuple[sp.csr_array, ...]:
+def _sliding_rows(closing: tuple[sp.csr_array, ...], normals: Array, axes: Array) -> tuple[sp.csr_array, ...]:
     """Rows of the sliding along one axis t of every pair: what turns n into t, ``t n^T - n t^T``, turns them too.
 
     In the plane that is the exact turn by a right angle: where the weights of the gap follow the normals along a curved

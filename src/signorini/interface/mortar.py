@@ -8,11 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary
 from signorini.interface.common_parts import CommonParts, dual_functions
-from signorini.interface.coupling import Coupling, joined_gaps
+from signorini.interface.coupling import Coupling, joined_gaps, spread
 from signorini.interface.edge_parts import Measure, edge_parts, unit
 from signorini.interface.face_parts import face_parts
 from signorini.interface.facing import search_distance
@@ -115,14 +115,8 @@ def _forces(part: CommonParts, dual: Array, n: int) -> Iterator[tuple[sp.csr_arr
     own = -np.einsum("mab,mbjd->dmaj", dual, part.own)
     if part.block.count == part.block.dimension:
         own = own.sum(axis=3, keepdims=True)
-        yield _spread(corners.reshape(-1, 1), corners.reshape(-1, 1), own.reshape(len(own), -1, 1, 1), n)
+        yield spread(corners.reshape(-1, 1), corners.reshape(-1, 1), own.reshape(len(own), -1, 1, 1), n)
     else:
-        yield _spread(corners, part.block.facets, own, n)
+        yield spread(corners, part.block.facets, own, n)
     for seen in part.opposite:
-        yield _spread(corners[seen.first], seen.nodes, np.einsum("kab,kbld->dkal", dual[seen.first], seen.other), n)
-
-
-def _spread(rows: IntArray, columns: IntArray, values: Array, n: int) -> tuple[sp.csr_array, ...]:
-    """Values (d, k, a, b) of rows (k, a) and columns (k, b), summed into d matrices (n, n)."""
-    i, j = (np.broadcast_to(part, values.shape[1:]).ravel() for part in (rows[:, :, None], columns[:, None, :]))
-    return tuple(sp.csr_array((part.ravel(), (i, j)), shape=(n, n)) for part in values)
+        yield spread(corners[seen.first], seen.nodes, np.einsum("kab,kbld->dkal", dual[seen.first], seen.other), n)

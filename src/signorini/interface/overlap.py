@@ -14,7 +14,7 @@ from signorini.fem.boundary import Boundary
 from signorini.fem.facet_block import FacetBlock
 from signorini.fem.facets import line_shapes
 from signorini.interface.facing import FACING, near, search_distance
-from signorini.interface.tilt import normals_between, turns
+from signorini.interface.tilt import normals_between, turning_angles
 
 _EMPTY = 1e-12  # of the length of a facet: a shorter piece is none
 
@@ -108,12 +108,12 @@ def _within(found: Overlaps, distance: Array, search: float, lengths: Array) -> 
 
 def _between(nonmortar: Boundary, mortar: Boundary, seen: Overlaps, share: float) -> Array:
     """(m, 2) Outward normals along which the facets of the nonmortar side see what is opposite."""
-    own, other = (turns(side.blocks[0].normals, side.at_facets(side.blocks[0])) for side in (nonmortar, mortar))
-    normals, others = nonmortar.blocks[0].normals, mortar.blocks[0].normals
-    np.maximum.at(own, seen.first, other[seen.second])
-    opposite = np.zeros_like(normals)
-    np.add.at(opposite, seen.first, (seen.high - seen.low)[:, None] * others[seen.second])
-    return normals_between(normals, opposite, own, share)
+    (one,), (two,) = nonmortar.blocks, mortar.blocks
+    turn = turning_angles(one.normals, nonmortar.at_facets(one))
+    np.maximum.at(turn, seen.first, turning_angles(two.normals, mortar.at_facets(two))[seen.second])
+    opposite = np.zeros_like(one.normals)
+    np.add.at(opposite, seen.first, (seen.high - seen.low)[:, None] * two.normals[seen.second])
+    return normals_between(one.normals, opposite, turn, share)
 
 
 def _near(nonmortar: FacetBlock, mortar: FacetBlock, search: float) -> tuple[IntArray, IntArray]:

@@ -113,7 +113,7 @@ def _on_obstacle(
     points = space.mesh.points
     distance, normals = obstacle.nearest(points[side.nodes])
     if (np.sum(side.nodal_normals * normals, axis=1) >= 0).all():
-        raise InputError(f"'{contact.nonmortar}' faces away from {_turned(obstacle)}", where=where)
+        raise InputError(f"'{contact.nonmortar}' faces away from {_faced_away(obstacle)}", where=where)
     if side.quadratic:
         there = [obstacle.nearest(b.at.reshape(-1, b.dimension))[1].reshape(b.at.shape) for b in side.blocks]
         coupling = corner_coupling(side, [facet_areas(model, block) for block in side.blocks], there, len(points))
@@ -148,7 +148,7 @@ def _nodal_gaps(block: FacetBlock, distance: Array) -> FacetGaps:
     )
 
 
-def _turned(obstacle: Obstacle) -> str:
+def _faced_away(obstacle: Obstacle) -> str:
     """What a side faces away from, and what is expected."""
     if isinstance(obstacle, Plane):
         return f"the plane; its normal {obstacle.normal} must point from the obstacle towards the body"

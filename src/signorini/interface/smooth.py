@@ -112,7 +112,8 @@ def bow(one: Smooth, i: int, two: Smooth, j: int, nodes: Array, point: Array, sh
                 way[0, e] = nodes[a, e] - point[e]
                 both += (one.normal[i, e] - two.normal[j, e]) * way[0, e] / same
                 own += 2.0 * one.normal[i, e] * way[0, e]
-            for e in range(d):  # turned as the other facet would have to be to lie against this one, see `tilt.turned`
+            # turned as the other facet would have to be to lie against this one, see `tilt.rotate_between`
+            for e in range(d):
                 way[1, e] = way[0, e] - both * (one.normal[i, e] - two.normal[j, e]) - own * two.normal[j, e]
             bend, other = 0.0, 0.0
             for e in range(d):

@@ -22,7 +22,7 @@ def normals_between(own: Array, opposite: Array, turn: Array, share: float) -> A
     ----------
     own : (m, d) outward unit normals of the facets
     opposite : (m, d) sums of outward normals opposite each facet, of any length; 0 where there is nothing
-    turn : (m,) largest angle from a facet to its neighbours, of it or of what is opposite, see :func:`turns`
+    turn : (m,) largest angle from a facet to its neighbours, of it or of what is opposite, see :func:`turning_angles`
     share : of the nonmortar side in the stiffness of both, 0 to 1
 
     Examples
@@ -58,10 +58,10 @@ def areas_between(areas: Array, own: Array, opposite: Array, share: float) -> Ar
     >>> areas_between(3.0 * up, down, np.array([[-0.6, 0.8]]), 0.0).round(12).tolist()
     [[-1.8, 2.4]]
     """
-    return turned(areas, own, normals_between(own, opposite, np.zeros(len(own)), share))
+    return rotate_between(areas, own, normals_between(own, opposite, np.zeros(len(own)), share))
 
 
-def turns(own: Array, at_nodes: Array) -> Array:
+def turning_angles(own: Array, at_nodes: Array) -> Array:
     """(m,) Angle by which a side turns from each of its facets to the next, corners of the body left out.
 
     Parameters
@@ -74,7 +74,7 @@ def turns(own: Array, at_nodes: Array) -> Array:
     return found
 
 
-def turned(vectors: Array, before: Array, after: Array) -> Array:
+def rotate_between(vectors: Array, before: Array, after: Array) -> Array:
     """Vectors turned by what turns one unit vector into another, the shortest way; arrays (..., d).
 
     Parameters
@@ -84,7 +84,7 @@ def turned(vectors: Array, before: Array, after: Array) -> Array:
 
     Examples
     --------
-    >>> turned(np.array([[0.0, 2.0]]), np.array([[1.0, 0.0]]), np.array([[0.0, 1.0]])).tolist()
+    >>> rotate_between(np.array([[0.0, 2.0]]), np.array([[1.0, 0.0]]), np.array([[0.0, 1.0]])).tolist()
     [[-2.0, 0.0]]
     """
     both = before + after

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.errors import InputError
+from signorini.errors import InputError, Where
 from signorini.model.mesh import CORNERS, Mesh
 
 
@@ -103,3 +103,62 @@ def _doubled_area(corners: Array) -> Array:
     x, y = corners[..., 0], corners[..., 1]
     area: Array = (x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y).sum(axis=1)
     return area
+
+
+def outer_edges(edges: Edges, mesh: Mesh, name: str, where: Where) -> tuple[IntArray, IntArray]:
+    """Edges of a named boundary with the body on their left, (m, 2 or 3), and their cells, (m,).
+
+    Parameters
+    ----------
+    edges : of all cells of the mesh
+    mesh : in the plane
+    name : of the boundary
+    where : what errors call the place
+
+    Raises
+    ------
+    InputError
+        If there are none, an edge belongs to no cell or to two, is given twice or has no length, or the edges belong to
+        linear and to quadratic cells.
+    """
+    points, given = mesh.points, mesh.facets(name)[0]
+    if not len(given):
+        raise InputError(f"'{name}' is empty; expected a boundary with edges or faces", where=where)
+    empty = (points[given[:, 0]] == points[given[:, 1]]).all(axis=1)
+    if empty.any():
+        raise InputError(f"'{name}' has an edge without length at node {mesh.labels[given[empty][0, 0]]}", where=where)
+    edge = _places(edges, mesh, given[:, :2], name, where)
+    ends, middle = edges.ends[edge], edges.middle[edge]
+    if given.shape[1] == 3 and (given[:, 2] != middle).any():
+        wrong = int(np.nonzero(given[:, 2] != middle)[0][0])
+        a, b, c = mesh.labels[given[wrong]]
+        found = f"node {mesh.labels[middle[wrong]]}" if middle[wrong] >= 0 else "no node"
+        raise InputError(
+            f"'{name}' has node {c} between nodes {a} and {b}, where the cell has {found}",
+            where=where,
+        )
+    quadratic = middle >= 0
+    if quadratic.any() and not quadratic.all():
+        raise InputError(f"'{name}' belongs to linear and to quadratic cells; expected one order", where=where)
+    facets = np.column_stack([ends, middle]) if quadratic.any() else ends
+    return facets, edges.cell[edge]
+
+
+def _places(edges: Edges, mesh: Mesh, facets: IntArray, name: str, where: Where) -> IntArray:
+    """Indices of the edges that the facets are, (m,)."""
+    wanted = edges.key_of(facets)
+    left = np.searchsorted(edges.key, wanted, side="left")
+    found = np.searchsorted(edges.key, wanted, side="right") - left
+    if (found == 0).any():
+        a, b = mesh.labels[facets[np.nonzero(found == 0)[0][0]]]
+        raise InputError(f"'{name}' has an edge between nodes {a} and {b} that no cell has", where=where)
+    if (found > 1).any():
+        a, b = mesh.labels[facets[np.nonzero(found > 1)[0][0]]]
+        raise InputError(
+            f"'{name}' lies inside: the edge between nodes {a} and {b} belongs to two cells. Expected an outer "
+            "boundary; bodies that touch need nodes of their own on the interface",
+            where=where,
+        )
+    if len(np.unique(wanted)) != len(wanted):
+        raise InputError(f"'{name}' has an edge twice", where=where)
+    return left

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -76,17 +76,15 @@ def face_key(faces: IntArray, points: int) -> IntArray:
     return key
 
 
-def outer_faces(
-    faces: Mapping[int, Faces], given: Sequence[IntArray], points: int, name: str, where: Where
-) -> list[tuple[IntArray, IntArray]]:
+def outer_faces(faces: Mapping[int, Faces], mesh: Mesh, name: str, where: Where) -> list[tuple[IntArray, IntArray]]:
     """The faces of a named boundary, (m, k), anticlockwise seen from outside, and the cells that have them, (m,).
 
     Parameters
     ----------
     faces : of all cells, see :func:`make_faces`
-    given : (m, k) nodes of the faces, by kinds; corners suffice
-    points : number of nodes of the mesh
-    name, where : what errors call the boundary, and the place
+    mesh : in space; corners of the faces suffice there
+    name : of the boundary
+    where : what errors call the place
 
     Returns
     -------
@@ -95,8 +93,12 @@ def outer_faces(
     Raises
     ------
     InputError
-        If a face belongs to no cell or to two, is given twice, or the faces belong to linear and to quadratic cells.
+        If there are none, a face belongs to no cell or to two, is given twice, or the faces belong to linear and to
+        quadratic cells.
     """
+    given, points = mesh.facets(name), len(mesh.points)
+    if not len(given[0]):
+        raise InputError(f"'{name}' is empty; expected a boundary with edges or faces", where=where)
     found: dict[int, list[tuple[IntArray, IntArray, IntArray]]] = {}
     for own in given:
         for kind in _outer(faces, own, points, name, where):

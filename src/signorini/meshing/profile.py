@@ -11,8 +11,7 @@ from scipy.sparse.csgraph import connected_components, depth_first_order
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, one_of
-from signorini.fem.boundary import boundary
-from signorini.fem.space import make_space
+from signorini.meshing.edges import make_edges, outer_edges
 from signorini.meshing.read import read_facets, read_mesh
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Profile
@@ -47,8 +46,8 @@ def mesh_profile(mesh: Mesh, name: str, *, fillet: float = 0.0, flip: bool = Fal
         (facets,) = mesh.facets(name)
     else:
         # the tool is on the left of its facets
-        (side,) = boundary(make_space(mesh), name, ("boundary",)).blocks
-        facets = np.column_stack([side.facets[:, 1], side.facets[:, 0], side.facets[:, 2:]])
+        edges, _ = outer_edges(make_edges(mesh), mesh, name, ("boundary",))
+        facets = np.column_stack([edges[:, 1], edges[:, 0], edges[:, 2:]])
     return _profile(mesh.points, facets, f"'{name}'", fillet, flip)
 
 

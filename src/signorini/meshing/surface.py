@@ -10,8 +10,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, one_of
-from signorini.fem.boundary import boundary
-from signorini.fem.space import make_space
+from signorini.meshing.faces import make_faces, outer_faces
 from signorini.meshing.read import read_facets, read_mesh
 from signorini.model.mesh import Mesh
 from signorini.model.triangulated import Surface
@@ -56,7 +55,7 @@ def mesh_surface(mesh: Mesh, name: str, *, flip: bool = False) -> Surface:
     if mesh.bounds_nothing(name):
         parts = mesh.facets(name)
     else:
-        parts = tuple(block.facets for block in boundary(make_space(mesh), name, ("boundary",)).blocks)
+        parts = tuple(faces for faces, _ in outer_faces(make_faces(mesh), mesh, name, ("boundary",)))
     return _surface(mesh.points, parts, flip)
 
 
