@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random models in space that loads carry away, tip, roll or let jump: what each ends in, and what it costs.
+"""Models in space that loads carry away, tip, roll or let jump, random ones and decks: what each ends in, and its cost.
 
     python -m benchmarks.overloaded [--number N] [--seed S] [--limit SECONDS] [--page]
 
 Boxes of hexahedra and tetrahedra, on planes, blocks and stacks of blocks, between walls, clamped and lifted; pressed,
 then pulled, tipped and turned by less or more than friction holds; on exact cones, ellipses and facets; one or several
-steps; matching or not; paths as they come, exact, in a few increments, jumps followed or not.
+steps; matching or not; paths as they come, exact, in a few increments, jumps followed or not. Then decks: the bolted
+bracket of the examples under several times what its friction holds, lifted, on other ways of stepping; decks of the
+tests under many times their loads; cubes of up to 289 pairs and some ten thousand unknowns that slide and turn.
 
 Every model ends certified, proved (no equilibrium), named (a jump or gross sliding, with its load), or in nothing. Its
 price is the work on the law of contact in factorisations: operations of Newton's systems, their iterations, sweeps,
@@ -22,9 +24,10 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 from types import FrameType
-from typing import Any
+from typing import Any, Literal
 from unittest.mock import patch
 
 import numpy as np
@@ -43,6 +46,7 @@ from signorini.linalg import multifrontal
 from signorini.meshing.solid import box
 from signorini.model.mesh import join
 
+ROOT = Path(__file__).parents[1]
 FAMILIES = ("block on plane", "block on block", "stack", "slab", "wedge", "tall block")
 SEED = 1993
 FRICTION = (0.05, 0.1, 0.3, 0.6, 1.0, 2.0, 4.0)
@@ -174,7 +178,8 @@ def counted() -> Iterator[Work]:
 
     with (
         wrapped(newton, "linear_system", lambda _a, _k, found: 2.0 / 3.0 * len(found.matrix) ** 3),
-        wrapped(krylov, "gmres", lambda a, _k, _f: 2.0 * 30 * 4.0 * len(a[2]) ** 2),
+        wrapped(krylov, "symmetric_product", lambda a, _k, _f: 2.0 * len(a[1]) ** 2),
+        wrapped(krylov, "softened", lambda a, _k, _f: 2.0 * len(a[1]) ** 2),
         wrapped(proximal, "gauss_seidel", lambda a, k, _f: 2.0 * k["count"] * (3 * a[0].pairs) ** 2),
         wrapped(sectors, "linprog", programme),
         wrapped(overload, "linprog", programme),
@@ -201,9 +206,78 @@ def at_most(seconds: float) -> Iterator[None]:
         signal.signal(signal.SIGPROF, before)
 
 
+def decks() -> Iterator[sg.Model]:
+    """Models of decks, under loads beyond what they hold."""
+    bracket = sg.read(ROOT / "examples" / "bolted_bracket.toml")
+
+    def loaded(cable: tuple[float, float, float], friction: float, title: str, **way: Any) -> sg.Model:
+        *first, last = bracket.steps
+        loads = [replace(load, force=cable) if load.name == "cable" else load for load in bracket.loads]
+        contacts = [replace(contact, friction=friction) for contact in bracket.contacts]
+        steps = [*first, replace(last, **way)]
+        return replace(bracket, loads=loads, contacts=contacts, steps=steps, title=f"bolted bracket, {title}")
+
+    pull = (1600.0, 0.0, 0.0)
+    yield loaded(pull, 0.12, "1.6 kN, friction 0.12")
+    yield loaded(pull, 0.12, "1.6 kN, friction 0.12, 10 increments", increments=10)
+    yield loaded(pull, 0.12, "1.6 kN, friction 0.12, jumps stop", jump="stop", increments="auto")
+    yield loaded(pull, 0.02, "1.6 kN, friction 0.02")
+    yield loaded((2400.0, 0.0, 0.0), 0.3, "2.4 kN, friction 0.3")
+    yield loaded((8000.0, 0.0, 0.0), 0.3, "8 kN, friction 0.3")
+    yield loaded((0.0, 0.0, 25e3), 0.3, "lifted by 25 kN")
+    yield loaded((800.0, 0.0, 12e3), 0.3, "lifted by 12 kN and pulled")
+    for name in ("deck/decks/space.toml", "deck/inp/decks/wedges.inp"):
+        deck = sg.read(ROOT / "tests" / name)
+        for factor in (10.0, 100.0):
+            steps = [replace(step, scale=_multiplied(deck, step, factor)) for step in deck.steps]
+            yield replace(deck, steps=steps, title=f"{name}, {factor:g} times its loads")
+    for n in (4, 10, 16):
+        for pull, turn, jump in ((0.2, 0.0, None), (0.5, 0.0, None), (0.25, 0.35, "follow")):
+            yield cube(n, pull=pull, turn=turn, jump=jump)
+
+
+def cube(n: int, *, pull: float, turn: float, jump: Literal["stop", "follow"] | None) -> sg.Model:
+    """A cube of n cells an edge that lies on a block under a force of 1, pulled and turned; friction is 0.3.
+
+    Parameters
+    ----------
+    pull : force along x at its top
+    turn : force along y at its right side, half the size of the cube beside its axis
+    jump : what to do at jumps
+    """
+    x, wide = np.linspace(0.0, 1.0, n + 1), np.linspace(-0.25, 1.25, n + 1)
+    return sg.Model(
+        join({"cube": box(x=x, y=x, z=x), "block": box(x=wide, y=wide, z=np.linspace(-0.75, 0.0, n // 2 + 1))}),
+        title=f"cube of {n}^3 cells, pulled by {pull:g}, turned by {turn:g}, jump {jump}",
+        bodies=[sg.Body(name, sg.Elastic(E=100.0, nu=0.3)) for name in ("cube", "block")],
+        supports=[sg.Support("block.bottom", u=(0.0, 0.0, 0.0))],
+        loads=[
+            sg.Load("cube.top", force=(0.0, 0.0, -1.0), name="press"),
+            sg.Load("cube.top", force=(pull, 0.0, 0.0), name="pull"),
+            sg.Load("cube.right", force=(0.0, turn, 0.0), name="turn"),
+        ],
+        contacts=[sg.Contact("cube.bottom", "block.top", friction=0.3, name="joint")],
+        steps=[
+            sg.Step(name="press", scale={"press": 1.0}),
+            sg.Step(name="pull", scale={"pull": 1.0, "turn": 1.0}, jump=jump),
+        ],
+    )
+
+
+def _multiplied(model: sg.Model, step: sg.Step, factor: float) -> dict[str, Any]:
+    """Load factors at the end of a step, those of loads times a factor."""
+    loads = {load.label for load in model.loads}
+    scale: dict[str, Any] = dict.fromkeys(model.scaled_names, 1.0) if step.scale is None else dict(step.scale)
+    return {name: np.multiply(value, factor).tolist() if name in loads else value for name, value in scale.items()}
+
+
 def solved(seed: int, number: int, limit: float) -> dict[str, Any]:
+    """A row of the table, of a random model."""
+    return row_of(random_model(seed, number), str(number), limit)
+
+
+def row_of(model: sg.Model, number: str, limit: float) -> dict[str, Any]:
     """A row of the table."""
-    model = random_model(seed, number)
     row: dict[str, Any] = {
         "number": number,
         "model": model.title,
@@ -246,17 +320,21 @@ def main() -> None:
     made = command.parser(__doc__)
     made.add_argument("--number", type=int, default=120, help="of models")
     made.add_argument("--first", type=int, default=0, help="number of the first")
+    made.add_argument("--only-decks", action="store_true", help="no random models")
     made.add_argument("--seed", type=int, default=SEED)
     made.add_argument("--limit", type=float, default=60.0, help="CPU seconds that a model may take")
     made.add_argument("--page", action="store_true", help="write how the models ended into docs/three_dimensions.md")
     options = made.parse_args()
+    numbers = range(options.first, options.first + options.number) if not options.only_decks else range(0)
+    models = [(str(number), random_model(options.seed, number)) for number in numbers]
+    models += [(f"d{k}", model) for k, model in enumerate(decks())]
     rows = []
     print("number | pairs | price | CPU s | ended | model")
-    for number in range(options.first, options.first + options.number):
-        row = solved(options.seed, number, options.limit)
+    for number, model in models:
+        row = row_of(model, number, options.limit)
         rows.append(row)
-        numbers = f"{number:4d} | {row['pairs']:4d} | {row['price']:8.1f} | {row['seconds']:7.2f}"
-        print(numbers, row["ended"], row["model"], row["message"].partition("\n")[0][:200], sep=" | ", flush=True)
+        figures = f"{number:>4} | {row['pairs']:4d} | {row['price']:8.1f} | {row['seconds']:7.2f}"
+        print(figures, row["ended"], row["model"], row["message"].partition("\n")[0][:200], sep=" | ", flush=True)
     ended = page.table(
         ["ended", "models", "median price", "largest price", "median CPU s", "largest CPU s"], summary(rows)
     )
