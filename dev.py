@@ -58,7 +58,7 @@ def quick() -> None:
     """What most mistakes do not survive, in two minutes on two cores once everything is compiled."""
     check()
     say("fast tests and doctests")
-    pytest("not slow")
+    pytest("not slow and not suite")
     with tempfile.TemporaryDirectory() as folder:
         run_deck(ROOT / "examples" / "zhu_cylinder.toml", folder)
     say("quick checks passed; python3 dev.py test runs the others")
