@@ -22,7 +22,7 @@ from signorini.friction.uniqueness import all_solutions, always_unique
 from signorini.gallery.hard import hard_set
 from signorini.law.bound import ADHESION_SLOPE, FrictionBound
 from signorini.law.states import OPEN
-from tests.helpers.coulomb_samples import HELD, answer, block_on_floor, for_all, random_problem
+from tests.helpers.contact_samples import HELD, block_on_floor, for_all, random_problem
 from tests.helpers.path_samples import EqualBodies, Springs, increments, loads_at_breakpoints, one_node, stiff
 
 SEEDS = st.integers(0, 10**6)
@@ -85,7 +85,7 @@ def test_every_method_finds_a_solution_and_indices_sum_to_one(seed, pairs):
     assert len(known) == 1 or not always_unique(problem)
     result = solve_contact(problem)
     assert result.solved
-    found = [answer(result)]
+    found = [result.y]
     for way in ("open", "press"):
         end = follow(problem, way, budget=200)
         assert end.end == "solution"
@@ -175,7 +175,7 @@ def test_a_limit_out_of_reach_is_none(seed, motions):
     one, two = (solve_contact(replace(problem, limit=limit)) for limit in (None, np.full(6, 1e12)))
     assert one.outcome == two.outcome
     if one.solved:
-        np.testing.assert_allclose(answer(two), answer(one), atol=1e-12)
+        np.testing.assert_allclose(two.y, one.y, atol=1e-12)
 
 
 def pulled(problem, load, most=4.0):

@@ -11,28 +11,52 @@ from signorini.friction.plane.covering import follow
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 from signorini.law.states import OPEN, STICK
-from tests.helpers.coulomb_samples import block_on_floor
+from tests.helpers.contact_samples import block_on_floor
 
 
-def test_pressed_block_carries_its_load():
-    result = solve_contact(block_on_floor(8, (-1.0, 0.2, 0.0)))
+@pytest.mark.parametrize(("pairs", "load"), [(8, (-1.0, 0.2, 0.0)), (9, (-1.0, 0.2, 0.1, 0.1, 0.0, 0.1))])
+def test_a_pressed_block_is_held_by_friction(pairs, load):
+    problem = block_on_floor(pairs, load)
+    result = solve_contact(problem)
     assert result.solved
-    np.testing.assert_allclose(result.normal_force.sum(), 1.0, atol=1e-12)
-    np.testing.assert_allclose(result.tangential_force.sum(), -0.2, atol=1e-12)
+    np.testing.assert_allclose(problem.motions.T @ result.r.ravel(), -np.array(load), atol=1e-10)
+    assert STICK in result.state
 
 
 @pytest.mark.parametrize(
-    ("load", "normal", "tangential"), [((1.0, 0.0, 0.0), 1, 0), ((-1.0, 0.4, 0.0), 0, 1), ((-1.0, -0.4, 0.0), 0, -1)]
+    ("pairs", "load"),
+    [
+        (8, (1.0, 0.0, 0.0)),
+        (8, (-1.0, 0.4, 0.0)),
+        (8, (-1.0, -0.4, 0.0)),
+        (9, (1.0, 0, 0, 0, 0, 0)),
+        (9, (-1.0, 0.3, 0.2, 0, 0, 0)),
+        (9, (-1.0, 0, 0, 1.2, 0, 0)),
+        (9, (-1.0, 0, 0, 0, 0, 0.5)),
+    ],
+    ids=["lifted", "dragged", "dragged back", "lifted in space", "dragged in space", "tilted", "turned"],
 )
-def test_loads_that_pull_the_block_away_are_proved_to(load, normal, tangential):
-    result = solve_contact(block_on_floor(8, load))
+def test_loads_that_pull_the_block_away_are_proved_to(pairs, load):
+    problem = block_on_floor(pairs, load)
+    result = solve_contact(problem)
     assert result.outcome == "no_equilibrium"
     assert "pull a body away" in result.message
     assert np.isnan(result.gap).all()
-    assert result.escape[8:].mean() * tangential >= 0
-    assert (result.escape[:8] >= 0.3 * np.abs(result.escape[8:]) - 1e-9).all()
-    if normal:
-        np.testing.assert_allclose(result.escape[:8], 1.0, atol=1e-9)
+    normal, *tangents = result.escape.reshape(-1, pairs)
+    assert (normal - 0.3 * np.linalg.norm(tangents, axis=0)).min() > -1e-8
+    assert result.escape.ravel() @ problem.b > 0
+    if load[0] > 0:
+        np.testing.assert_allclose(normal, 1.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("load", [(-1.0, 0.3, 0.2, 0, 0, 0), (-1.0, 0, 0, 0, 0, 0.5)], ids=["dragged", "turned"])
+def test_facets_resist_less_and_as_surely(load):
+    problem = block_on_floor(9, load, facets=8)
+    result = solve_contact(problem)
+    assert result.outcome == "no_equilibrium"
+    normal, *tangents = result.escape.reshape(3, 9)
+    assert (normal - 0.3 * np.cos(np.pi / 8) * np.linalg.norm(tangents, axis=0)).min() > -1e-8
+    assert result.escape.ravel() @ problem.b > 0
 
 
 def test_frictionless_block_free_along_the_floor_does_not_move():

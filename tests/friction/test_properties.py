@@ -11,74 +11,77 @@ from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 from signorini.friction.uniqueness import mu_low
 from signorini.law.states import SLIP_MINUS, SLIP_PLUS
-from tests.helpers.coulomb_samples import HELD, answer, for_all, random_problem
+from tests.helpers.contact_samples import HELD, for_all, random_problem
 
-seeds = st.integers(0, 10**6)
-pair_counts = st.integers(1, 10)
+SEEDS = st.integers(0, 10**6)
+PAIRS = st.integers(1, 10)
+DIRECTIONS = st.sampled_from([2, 3])
 
 
-def unique(seed, pairs):
+def unique(seed, pairs, directions):
     """A held problem with exactly one solution."""
-    problem = random_problem(seed, pairs, HELD, 1.0)
+    problem = random_problem(seed, pairs, HELD, 1.0, directions=directions)
     return dataclasses.replace(problem, friction=np.full(pairs, 0.9 * mu_low(problem)))
 
 
-@for_all(seed=seeds, pairs=pair_counts, factor=st.floats(1e-12, 1e12))
-def test_units(seed, pairs, factor):
-    problem = unique(seed, pairs)
+@for_all(examples=30, seed=SEEDS, pairs=PAIRS, directions=DIRECTIONS, factor=st.floats(1e-12, 1e12))
+def test_units(seed, pairs, directions, factor):
+    problem = unique(seed, pairs, directions)
     scaled = dataclasses.replace(problem, b=problem.b * factor, scale=problem.scale * factor)
-    np.testing.assert_allclose(
-        answer(solve_contact(scaled)) / factor, answer(solve_contact(problem)), rtol=1e-9, atol=1e-9
-    )
+    np.testing.assert_allclose(solve_contact(scaled).y / factor, solve_contact(problem).y, rtol=1e-9, atol=1e-9)
 
 
-@for_all(seed=seeds, pairs=pair_counts)
-def test_order_of_pairs(seed, pairs):
-    problem = unique(seed, pairs)
+@for_all(examples=30, seed=SEEDS, pairs=PAIRS, directions=DIRECTIONS)
+def test_order_of_pairs(seed, pairs, directions):
+    problem = unique(seed, pairs, directions)
     order = np.random.default_rng(seed).permutation(pairs)
-    both = np.append(order, pairs + order)
+    rows = np.concatenate([order + pairs * direction for direction in range(directions)])
     other = ContactProblem.of(
-        W=problem.W[np.ix_(both, both)],
-        b=problem.b[both],
+        W=problem.W[np.ix_(rows, rows)],
+        b=problem.b[rows],
         friction=problem.friction[order],
-        motions=problem.motions[both],
+        motions=problem.motions[rows],
         scale=1.0,
     )
-    np.testing.assert_allclose(answer(solve_contact(other)), answer(solve_contact(problem))[:, order], atol=1e-9)
+    np.testing.assert_allclose(solve_contact(other).y, solve_contact(problem).y[:, order], atol=1e-9)
 
 
-@for_all(seed=seeds, pairs=pair_counts)
-def test_mirror(seed, pairs):
-    problem = unique(seed, pairs)
-    sign = np.repeat([1.0, -1.0], pairs)
+@for_all(examples=30, seed=SEEDS, pairs=PAIRS, directions=DIRECTIONS)
+def test_mirror(seed, pairs, directions):
+    """The first tangent the other way round; what slips in the plane does so with the other friction."""
+    problem = unique(seed, pairs, directions)
+    sign = np.ones((directions, 1))
+    sign[1] = -1.0
+    rows = np.repeat(sign, pairs)
     other = ContactProblem.of(
-        W=sign[:, None] * problem.W * sign,
-        b=sign * problem.b,
+        W=rows[:, None] * problem.W * rows,
+        b=rows * problem.b,
         friction=problem.friction,
         motions=problem.motions,
         scale=1.0,
     )
     here, there = solve_contact(problem), solve_contact(other)
-    np.testing.assert_allclose(answer(there), [[1.0], [-1.0]] * answer(here), atol=1e-9)
-    swapped = np.where(here.state == SLIP_PLUS, SLIP_MINUS, np.where(here.state == SLIP_MINUS, SLIP_PLUS, here.state))
-    assert there.state.tolist() == swapped.tolist()
+    np.testing.assert_allclose(there.y, sign * here.y, atol=1e-9)
+    slips = {SLIP_PLUS: SLIP_MINUS, SLIP_MINUS: SLIP_PLUS} if directions == 2 else {}
+    assert there.state.tolist() == [slips.get(state, state) for state in here.state.tolist()]
 
 
-@for_all(seed=seeds, pairs=st.integers(2, 6))
-def test_basis_of_the_rigid_motions(seed, pairs):
-    problem = random_problem(seed, pairs, 2, 0.3)
-    image = InterfaceOperator.of_form(problem.W, problem.motions @ np.array([[2.0, 0.3], [-1.0, 0.1]]))
-    other = dataclasses.replace(problem, image=image)
+@for_all(examples=30, seed=SEEDS, pairs=st.integers(2, 6), directions=DIRECTIONS)
+def test_basis_of_the_rigid_motions(seed, pairs, directions):
+    problem = random_problem(seed, pairs, 2, 0.3, directions=directions)
+    form = InterfaceOperator.of_form(problem.W, problem.motions @ np.array([[2.0, 0.3], [-1.0, 0.1]]))
+    other = dataclasses.replace(problem, image=form)
     here, there = solve_contact(problem), solve_contact(other)
     assert here.outcome == there.outcome
     if here.solved and here.method == there.method == "newton":
-        np.testing.assert_allclose(answer(there), answer(here), atol=1e-7)
+        np.testing.assert_allclose(there.y, here.y, atol=1e-7)
 
 
-@for_all(seed=seeds, pairs=pair_counts)
-def test_a_solution_restarted_from_its_states_takes_one_step(seed, pairs):
-    problem = random_problem(seed, pairs)
+@for_all(examples=30, seed=SEEDS, pairs=PAIRS, directions=DIRECTIONS)
+def test_a_solution_restarted_from_itself_takes_one_step(seed, pairs, directions):
+    problem = random_problem(seed, pairs, friction=None if directions == 2 else 0.5, directions=directions)
     first = solve_contact(problem)
-    again = solve_contact(problem, first.state)
-    assert again.trace[-1].iterations == 1
-    np.testing.assert_allclose(answer(again), answer(first), atol=1e-9)
+    for start in (first.y, first.state)[: 2 if directions == 2 else 1]:
+        again = solve_contact(problem, start)
+        assert again.trace[-1].iterations == 1
+        np.testing.assert_allclose(again.y, first.y, atol=1e-9)

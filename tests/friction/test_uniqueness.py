@@ -9,7 +9,7 @@ import pytest
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 from signorini.friction.uniqueness import mu_low, search_solutions
-from tests.helpers.coulomb_samples import all_solutions
+from tests.helpers.contact_samples import all_solutions
 from tests.helpers.path_samples import stiff
 
 

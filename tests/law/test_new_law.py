@@ -20,7 +20,7 @@ from signorini.friction.pull_away import pulled_away
 from signorini.friction.solve import solve_contact
 from signorini.law.bound import Bound, FrictionBound
 from signorini.law.states import OPEN, STICK
-from tests.helpers.coulomb_samples import for_all
+from tests.helpers.contact_samples import for_all
 
 SEEDS = st.integers(0, 10**6)
 DIRECTIONS = st.sampled_from([2, 3])

@@ -5,7 +5,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 from signorini.law.section import nearest_point
-from tests.helpers.coulomb_samples import for_all
+from tests.helpers.contact_samples import for_all
 
 NUMBER = st.floats(-10, 10)
 AXIS = st.sampled_from([0.0, 0.01, 0.3, 0.5, 1.0, 7.0, 1e6])

@@ -13,9 +13,13 @@ from signorini.errors import InputError
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 from signorini.law.states import OPEN, SLIP, STICK
-from tests.helpers.coulomb_samples import random_problem as plane_problem
-from tests.helpers.spatial_samples import pressed_punch, random_problem
+from tests.helpers.contact_samples import HELD, pressed_punch, random_problem
 from tests.helpers.violations import violations
+
+
+def in_space(seed, pairs, friction, **law):
+    """A random problem of held bodies."""
+    return random_problem(seed, pairs, HELD, friction, directions=3, **law)
 
 
 def one_pair(b, friction, **more):
@@ -58,10 +62,10 @@ def test_slip_on_an_ellipse_is_normal_to_it_and_more_along_the_slippery_axis():
 
 
 def test_equal_axes_are_a_circle_and_exchanged_axes_exchange_the_answer():
-    circle = solve_contact(random_problem(3, 6, 0.4))
-    equal = solve_contact(random_problem(3, 6, [[0.4, 0.4]]))
+    circle = solve_contact(in_space(3, 6, 0.4))
+    equal = solve_contact(in_space(3, 6, np.full((2, 6), 0.4)))
     np.testing.assert_array_equal(circle.y, equal.y)
-    problem = random_problem(4, 6, [[0.2, 0.7]])
+    problem = in_space(4, 6, np.outer([0.2, 0.7], np.ones(6)))
     swap = np.concatenate([np.arange(6), np.arange(12, 18), np.arange(6, 12)])
     exchanged = ContactProblem.of(
         W=problem.W[np.ix_(swap, swap)], b=problem.b[swap], friction=problem.friction[::-1],
@@ -72,7 +76,7 @@ def test_equal_axes_are_a_circle_and_exchanged_axes_exchange_the_answer():
 
 @pytest.mark.parametrize("seed", range(5))
 def test_without_friction_the_normal_forces_are_those_of_an_lcp(seed):
-    problem = random_problem(seed, 8, 0.0)
+    problem = in_space(seed, 8, 0.0)
     result = solve_contact(problem)
     A, c = problem.image.A, problem.free_motion()
     z = lcp.solve(A[:8, :8], c[:8]).z
@@ -83,8 +87,8 @@ def test_without_friction_the_normal_forces_are_those_of_an_lcp(seed):
 
 @pytest.mark.parametrize("seed", range(5))
 def test_tresca_with_the_bounds_that_coulomb_found_gives_the_same(seed):
-    coulomb = solve_contact(random_problem(seed, 8, 0.4))
-    tresca = solve_contact(random_problem(seed, 8, 0.4 * coulomb.normal_force, tresca=np.ones(8, bool)))
+    coulomb = solve_contact(in_space(seed, 8, 0.4))
+    tresca = solve_contact(in_space(seed, 8, 0.4 * coulomb.normal_force, tresca=np.ones(8, bool)))
     assert tresca.solved
     np.testing.assert_allclose(tresca.y, coulomb.y, atol=1e-8)
 
@@ -117,7 +121,7 @@ def test_unlimited_friction_sticks_wherever_it_is_closed():
 @pytest.mark.parametrize("seed", range(12))
 def test_motion_in_a_plane_is_the_plane_problem(seed, guided):
     n, axis = 6, seed % 2
-    plane = plane_problem(seed, n, friction=0.5)
+    plane = random_problem(seed, n, friction=0.5)
     inside = np.concatenate([np.arange(n), (1 + axis) * n + np.arange(n)])
     W, b = (0.0 if guided else 0.5) * np.eye(3 * n), np.zeros(3 * n)
     W[np.ix_(inside, inside)], b[inside] = plane.W, plane.b
@@ -131,9 +135,9 @@ def test_motion_in_a_plane_is_the_plane_problem(seed, guided):
     assert not spatial.tangential_force[:, 1 - axis].any()
 
 
-@pytest.mark.parametrize("friction", [0.5, [[0.3, 0.6]]])
+@pytest.mark.parametrize("friction", [0.5, np.outer([0.3, 0.6], np.ones(4))])
 def test_a_pair_that_supports_drag_slips_as_it_is_dragged(friction):
-    problem = random_problem(1, 4, friction)
+    problem = in_space(1, 4, friction)
     W, b = problem.W.copy(), problem.b.copy()
     for row in (4, 8):
         W[row], W[:, row] = 0.0, 0.0
@@ -150,7 +154,7 @@ def test_a_pair_that_supports_drag_slips_as_it_is_dragged(friction):
 @pytest.mark.parametrize("push", [1e-3, 0.3, 3.0])
 @pytest.mark.parametrize("facets", [0, 8])
 def test_a_pair_that_supports_drag_along_one_tangent_turns_its_friction(push, facets):
-    problem = random_problem(1, 4, 0.5, facets=facets)
+    problem = in_space(1, 4, 0.5, facets=facets)
     W, b = problem.W.copy(), problem.b.copy()
     W[4], W[:, 4] = 0.0, 0.0
     b[[0, 4, 8]] = -2.0, push, 0.4

@@ -12,11 +12,10 @@ from signorini.condense.operator import InterfaceOperator
 from signorini.friction.linear import Equilibrium
 from signorini.friction.solve import solve_contact
 from signorini.friction.space.sweeps import gauss_seidel
-from signorini.law.states import SLIP, STICK
 from signorini.settings import SolverSettings
+from tests.helpers.contact_samples import block_on_floor, pressed_punch, random_problem
 from tests.helpers.faceted import decoded, faceted_lcp
 from tests.helpers.limit_load import limit_load
-from tests.helpers.spatial_samples import block_on_floor, pressed_punch, random_problem
 from tests.helpers.violations import violations
 
 
@@ -47,7 +46,7 @@ def test_random_hard_problems_are_all_solved(gap):
 
 @pytest.mark.parametrize("seed", range(4))
 def test_turning_the_tangents_turns_the_answer(seed):
-    problem = random_problem(seed, 10, 0.5)
+    problem = random_problem(seed, 10, friction=0.5, directions=3)
     angle = np.random.default_rng(seed).uniform(0, 2 * np.pi, 10)
     c, s, zero = np.diag(np.cos(angle)), np.diag(np.sin(angle)), np.zeros((10, 10))
     Q = np.block([[np.eye(10), zero, zero], [zero, c, s], [zero, -s, c]])
@@ -63,7 +62,7 @@ def test_sweeps_alone_go_to_the_same_forces():
 
 
 def test_a_proximal_layer_leaves_its_centre_where_that_is_the_solution():
-    problem = random_problem(2, 8, 0.5)
+    problem = random_problem(2, 8, friction=0.5, directions=3)
     result = solve_contact(problem)
     h, r = result.h, result.r
     layer = Equilibrium(problem=problem, alpha=0.7, beta=0.7, force=r, motion=np.zeros(0))
@@ -73,7 +72,9 @@ def test_a_proximal_layer_leaves_its_centre_where_that_is_the_solution():
 @pytest.mark.parametrize("facets", [4, 8, 16])
 @pytest.mark.parametrize("seed", range(3))
 def test_lemke_finds_the_forces_of_the_faceted_newton(seed, facets):
-    problem = random_problem(seed, 5, [[0.5, 0.5], [0.3, 0.6], [0.2, 0.2], [0.0, 0.0], [0.7, 0.1]], facets=facets)
+    problem = random_problem(
+        seed, 5, friction=np.array([[0.5, 0.3, 0.2, 0.0, 0.7], [0.5, 0.6, 0.2, 0.0, 0.1]]), directions=3, facets=facets
+    )
     M, q = faceted_lcp(problem)
     solution = lcp.solve(M, q, method="lemke", tolerance=1e-11)
     assert solution.solved
@@ -108,32 +109,9 @@ def test_the_error_of_facets_falls_with_their_number():
     assert errors[-1] < 0.2 * errors[0]
 
 
-def test_a_floating_block_is_held_by_friction():
-    problem, R = block_on_floor((-1.0, 0.2, 0.1, 0.1, 0.0, 0.1), 0.3)
-    result = solve_contact(problem)
-    assert result.solved
-    assert {STICK, SLIP} == set(result.state.tolist())
-    np.testing.assert_allclose(R.T @ result.r.ravel(), [1.0, -0.2, -0.1, -0.1, 0.0, -0.1], atol=1e-10)
-
-
-@pytest.mark.parametrize("facets", [0, 8])
-@pytest.mark.parametrize(
-    "load",
-    [(1.0, 0, 0, 0, 0, 0), (-1.0, 0.3, 0.2, 0, 0, 0), (-1.0, 0, 0, 1.2, 0, 0), (-1.0, 0, 0, 0, 0, 0.5)],
-    ids=["lifted", "dragged", "tilted", "turned"],
-)
-def test_loads_that_pull_the_block_away_are_proved_to(load, facets):
-    problem, _ = block_on_floor(load, 0.3, facets=facets)
-    result = solve_contact(problem)
-    assert result.outcome == "no_equilibrium"
-    rho = result.escape
-    assert (rho[:9] - 0.3 * np.hypot(rho[9:18], rho[18:]) * (0.92 if facets else 1.0)).min() > -1e-8
-    assert rho @ problem.b > 0
-
-
 def test_circular_friction_bears_a_diagonal_drag_up_to_mu_and_the_load_factor_says_so():
-    full, _ = block_on_floor((-1.0, 0.6 * 0.6, 0.6 * 0.8, 0, 0, 0), 0.3)
-    base, _ = block_on_floor((-1.0, 0, 0, 0, 0, 0), 0.3)
+    full = block_on_floor(9, (-1.0, 0.6 * 0.6, 0.6 * 0.8, 0, 0, 0))
+    base = block_on_floor(9, (-1.0, 0, 0, 0, 0, 0))
     limit = limit_load(full, base.b)
     assert 0.499 <= limit.factor <= 0.5 <= limit.beyond <= 0.501
     assert limit.closed == 9
@@ -142,8 +120,8 @@ def test_circular_friction_bears_a_diagonal_drag_up_to_mu_and_the_load_factor_sa
 
 def test_a_limit_load_below_what_statics_allow_names_the_motion():
     # tilted and dragged: forces in the cones could balance the load, but not those that the block takes
-    problem, R = block_on_floor((-1.0, 0.177, -0.23, -0.169, 0.397, 0.126), 0.3, side=5)
-    base, _ = block_on_floor((-1.0, 0, 0, 0, 0, 0), 0.3, side=5)
+    problem = block_on_floor(25, (-1.0, 0.177, -0.23, -0.169, 0.397, 0.126))
+    base = block_on_floor(25, (-1.0, 0, 0, 0, 0, 0))
     few = SolverSettings(swept_rounds=2, proximal_rounds=2)
     limit = limit_load(problem, base.b, settings=few)
     assert 0.9 < limit.factor < limit.beyond < 0.95
@@ -152,12 +130,13 @@ def test_a_limit_load_below_what_statics_allow_names_the_motion():
     assert result.outcome == "not_found"
     assert "run away" in result.message
     rho = result.escape
+    R = problem.motions
     np.testing.assert_allclose(R @ np.linalg.lstsq(R, rho)[0], rho, atol=1e-5)
     assert rho @ problem.b > 0
 
 
 def test_a_load_that_has_a_solution_is_reached_as_a_whole():
-    full, base = random_problem(5, 6, 0.4), random_problem(6, 6, 0.4)
+    full, base = random_problem(5, 6, friction=0.4, directions=3), random_problem(6, 6, friction=0.4, directions=3)
     limit = limit_load(full, base.b)
     assert replace(full, b=base.b).image is full.image
     assert limit.factor == 1.0

@@ -9,7 +9,7 @@ from signorini.friction.history.plane.responses import Responses
 from signorini.friction.history.plane.state_inverse import SingularState
 from signorini.friction.newton import in_states, y_in_states
 from signorini.law.states import OPEN, STICK
-from tests.helpers.coulomb_samples import block_on_floor, for_all, random_problem
+from tests.helpers.contact_samples import block_on_floor, for_all, random_problem
 
 
 def answer(responses, state, b):

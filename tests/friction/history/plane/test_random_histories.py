@@ -11,7 +11,7 @@ from signorini.friction.certificate import certify
 from signorini.friction.history.plane import initial_state
 from signorini.friction.uniqueness import mu_low
 from signorini.law.states import SLIP_MINUS, SLIP_PLUS
-from tests.helpers.coulomb_samples import for_all
+from tests.helpers.contact_samples import for_all
 from tests.helpers.path_samples import Springs, increments, loads_at_breakpoints, stiff
 
 SEEDS = st.integers(0, 10**6)

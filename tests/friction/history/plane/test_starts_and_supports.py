@@ -11,7 +11,7 @@ from signorini.errors import InputError
 from signorini.friction.history.plane import follow, initial_state
 from signorini.friction.problem import ContactProblem
 from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS
-from tests.helpers.coulomb_samples import block_on_floor, for_all
+from tests.helpers.contact_samples import block_on_floor, for_all
 from tests.helpers.path_samples import Springs, increments, loads_at_breakpoints, one_node, stiff
 
 

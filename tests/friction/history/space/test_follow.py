@@ -11,7 +11,7 @@ from signorini.friction.history.plane import follow, initial_state
 from signorini.friction.history.space import StopSettings, at_rest, follow_stopping
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
-from tests.helpers.spatial_samples import block_on_floor
+from tests.helpers.contact_samples import block_on_floor
 
 
 def random_history(seed, pairs, rows, segments=3):
@@ -151,8 +151,8 @@ def test_short_increments_are_not_asked_for_more_often_than_said():
 
 @pytest.mark.parametrize("facets", [4, 8])
 def test_a_block_pulled_along_a_corner_slides_at_the_friction_of_its_weight(facets):
-    pressed, R = block_on_floor((-1.0, 0, 0, 0, 0, 0), 0.3, facets=facets)
-    pulled, _ = block_on_floor((-1.0, 0.5, 0, 0, 0, 0), 0.3, facets=facets)
+    pressed = block_on_floor(9, (-1.0, 0, 0, 0, 0, 0), facets=facets)
+    pulled = block_on_floor(9, (-1.0, 0.5, 0, 0, 0, 0), facets=facets)
     none = np.zeros_like(pressed.b)
     first = follow_stopping(pressed, at_rest(pressed, none, motion=none), pressed.b)
     second = follow_stopping(pressed, first.end, pulled.b)
@@ -162,12 +162,12 @@ def test_a_block_pulled_along_a_corner_slides_at_the_friction_of_its_weight(face
     # of the load (-1, 0.5) friction 0.3 leaves 0.5 - 0.3 along (0.3, 1); across a corner the octagon leaves less
     most = (0.5 - 0.3) / np.sqrt((1 + 0.25) * (1 + 0.09))
     assert 0.9 * most < second.jump.margin < (1 + 1e-9) * most
-    Q = R.T @ second.end.r
+    Q = pressed.motions.T @ second.end.r
     assert Q[1] == pytest.approx(-0.3 * Q[0], abs=1e-9)
 
 
 def test_a_block_that_is_lifted_leaves_and_says_how_sure_that_is():
-    pressed, _ = block_on_floor((-1.0, 0, 0, 0, 0, 0), 0.3, facets=8)
+    pressed = block_on_floor(9, (-1.0, 0, 0, 0, 0, 0), facets=8)
     first = follow_stopping(
         pressed, at_rest(pressed, np.zeros_like(pressed.b), motion=np.zeros_like(pressed.b)), pressed.b
     )
