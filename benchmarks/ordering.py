@@ -24,7 +24,7 @@ from signorini.gallery.cylinder import zhu_cylinder
 from signorini.linalg.multifrontal import factorise
 from signorini.linalg.ordering import nested_dissection
 from signorini.linalg.plan import analyse
-from signorini.linalg.system import System, check, node_graph
+from signorini.linalg.system import System, checked_system, node_graph
 
 HEAD = ("mesh", "unknowns", "Gflop: METIS", "cuts", "order s: METIS", "cuts", "factorisation s: METIS", "cuts")
 REPEATS = 3
@@ -89,7 +89,9 @@ def system(mesh: Any, element: Any) -> System:
     points, cells = cells_of(mesh, element)
     d = points.shape[1]
     free = np.flatnonzero(np.repeat(points[:, -1] < points[:, -1].max() - 1e-9, d))
-    return check(stiffness(points, cells)[free][:, free], [], np.repeat(np.arange(len(points)), d)[free], points)
+    return checked_system(
+        stiffness(points, cells)[free][:, free], [], np.repeat(np.arange(len(points)), d)[free], points
+    )
 
 
 def least(function: Callable[[], Any]) -> float:

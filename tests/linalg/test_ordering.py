@@ -13,7 +13,7 @@ from signorini.errors import InputError
 from signorini.linalg import factorise
 from signorini.linalg.ordering import nested_dissection
 from signorini.linalg.plan import analyse
-from signorini.linalg.system import check, node_graph
+from signorini.linalg.system import checked_system, node_graph
 from tests.helpers.lattices import lattice
 
 few = settings(max_examples=25, deadline=None)
@@ -41,7 +41,7 @@ def test_any_places_give_an_order_and_the_same_condensed_matrix(shape, seed, kin
         points[:] = 1.0
     elif kind == "one line":
         points[:, 1:] = 0.0
-    graph = node_graph(check(body.K, body.interface, body.nodes, points))
+    graph = node_graph(checked_system(body.K, body.interface, body.nodes, points))
     assert np.array_equal(np.sort(nested_dissection(graph)), np.arange(graph.interior))
     S = factorise(body.K, body.interface, nodes=body.nodes, points=points).schur()
     T = factorise(body.K, body.interface, nodes=body.nodes).schur()
@@ -56,7 +56,7 @@ def test_work_beside_metis(shape, degrees, most):
     points = places(body)
     c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
     points[:, :2] = points[:, :2] @ np.array([[c, s], [-s, c]])
-    system = check(body.K, body.interface, body.nodes, points)
+    system = checked_system(body.K, body.interface, body.nodes, points)
     assert analyse(system).flops <= most * analyse(replace(system, points=None)).flops
 
 

@@ -10,7 +10,7 @@ from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface
 from signorini.linalg.plan import analyse
 from signorini.linalg.registry import takes_borders
-from signorini.linalg.system import check
+from signorini.linalg.system import checked_system
 
 _GENEROUS = 300.0, 1.0, 60.0, 4.0 / 3.0  # entries of the factor: at most 300 z in the plane, 60 z^(4/3) in space
 _SQUARE = 4, 6  # dense matrices of the size of the contact dofs, and of that of the pairs' rows, held at once
@@ -34,4 +34,4 @@ def condensing_bytes(bodies: FreeBodies, interface: Interface, *, candidates: Bo
         dense += _SQUARE[0] * len(dofs) ** 2  # where contact nodes are kept; else nothing is dense but pairs
     factor, power = _GENEROUS[:2] if interface.directions == 2 else _GENEROUS[2:]
     bound = 8.0 * (factor * K.shape[0] ** power + dense)
-    return bound if bound <= plenty else analyse(check(K, dofs, nodes, points)).peak_bytes + 8.0 * dense
+    return bound if bound <= plenty else analyse(checked_system(K, dofs, nodes, points)).peak_bytes + 8.0 * dense

@@ -13,7 +13,7 @@ INCONSISTENCY = 1e-6  # of the largest unknown: what may remain of q where the b
 
 
 @njit(cache=True)
-def eliminate(block: Array, size: int, order: IntArray) -> int:
+def eliminate_pivoting(block: Array, size: int, order: IntArray) -> int:
     """Gauss elimination of ``block[:size, :size + 1]`` with complete pivoting; returns the rank.
 
     The rank counts the pivots above ``ZERO_PIVOT`` times the first. The last column is the right-hand side; ``order``
@@ -49,7 +49,7 @@ def eliminate(block: Array, size: int, order: IntArray) -> int:
 
 @njit(cache=True)
 def substitute_back(block: Array, size: int, rank: int) -> float:
-    """Solve for the first ``rank`` unknowns after ``eliminate``; returns the largest of them with the others 0, or 1.
+    """Solve for the first ``rank`` unknowns after elimination; returns the largest of them with the others 0, or 1.
 
     Row k then reads ``x_k = block[k, size] - sum_j block[k, j] x_j`` over the free unknowns ``rank <= j < size``.
     """
@@ -83,7 +83,7 @@ def lack_of(A: Array, q: Array, support: IntArray, size: int, tolerance: float, 
         for j in range(size):
             block[i, j] = A[support[i], support[j]]
         block[i, size] = -q[support[i]]
-    rank = eliminate(block, size, order)
+    rank = eliminate_pivoting(block, size, order)
     condition = abs(block[0, 0] / block[rank - 1, rank - 1]) if rank > 0 else 1.0
     if condition * TRUSTED_PIVOT >= 1.0:
         return 0.0

@@ -10,7 +10,7 @@ from signorini.linalg.system import Int32Array
 
 
 @njit(cache=True)
-def forward(indptr: Int32Array, indices: Int32Array, data: Array, y: Array) -> None:
+def solve_lower(indptr: Int32Array, indices: Int32Array, data: Array, y: Array) -> None:
     """Overwrite y, (n, k), by ``L^-1 y``; rows without a column of their own only gather.
 
     Parameters
@@ -25,12 +25,12 @@ def forward(indptr: Int32Array, indices: Int32Array, data: Array, y: Array) -> N
 
 
 @njit(cache=True)
-def backward(indptr: Int32Array, indices: Int32Array, data: Array, y: Array) -> None:
+def solve_lower_transposed(indptr: Int32Array, indices: Int32Array, data: Array, y: Array) -> None:
     """Overwrite the rows of y that have a column in L by ``L^-T y``.
 
     Parameters
     ----------
-    indptr, indices, data, y : see `forward`
+    indptr, indices, data, y : see `solve_lower`
     """
     for j in range(len(indptr) - 2, -1, -1):
         for p in range(indptr[j], indptr[j + 1]):

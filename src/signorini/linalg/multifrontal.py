@@ -25,7 +25,7 @@ from signorini.linalg._graph import Elimination
 from signorini.linalg.definite import SUSPICIOUS_PIVOT, check_energy
 from signorini.linalg.plan import Plan, analyse
 from signorini.linalg.protocol import NotPositiveDefinite, Reduced
-from signorini.linalg.system import Int32Array, System, columns, like
+from signorini.linalg.system import Int32Array, System, as_columns, like
 from signorini.linalg.threads import one_thread
 
 
@@ -65,14 +65,14 @@ class MultifrontalFactorisation:
 
     def reduce(self, f: Array) -> Reduced:
         """Eliminate the interior of a load."""
-        y = np.ascontiguousarray(columns(f, self.n).T[:, self.plan.order])
+        y = np.ascontiguousarray(as_columns(f, self.n).T[:, self.plan.order])
         self._solve(_fronts.forward, y)
         g = np.empty((self.m, len(y)))
         g[self.slots] = y[:, self.n - self.m :].T
         return Reduced(like(f, g), lambda u_c: self._expand(f, y.copy(), u_c))
 
     def _expand(self, f: Array, y: Array, u_c: Array) -> Array:
-        y[:, self.n - self.m :] = columns(u_c, self.m)[self.slots].T
+        y[:, self.n - self.m :] = as_columns(u_c, self.m)[self.slots].T
         self._solve(_fronts.backward, y)
         u = np.empty((self.n, len(y)))
         u[self.plan.order] = y.T

@@ -29,7 +29,7 @@ from signorini.errors import InputError
 from signorini.linalg import multifrontal
 from signorini.linalg.definite import check_energy
 from signorini.linalg.protocol import Factorisation, NotPositiveDefinite, Reduced
-from signorini.linalg.system import System, columns, interface_lift, like
+from signorini.linalg.system import System, as_columns, interface_lift, like
 
 SYMMETRIC_POSITIVE_DEFINITE = 2
 SETTINGS = {1: 1, 2: 2, 18: -1, 21: 0, 24: 0}
@@ -70,13 +70,13 @@ class PardisoFactorisation:
 
     def reduce(self, f: Array) -> Reduced:
         """Eliminate the interior of a load."""
-        y = self._half(FORWARD, columns(f, self.n))
+        y = self._half(FORWARD, as_columns(f, self.n))
         return Reduced(like(f, y[self.interface]), lambda u_c: self._expand(f, y.copy(), u_c))
 
     def _expand(self, f: Array, y: Array, u_c: Array) -> Array:
-        y[self.interface] = columns(u_c, self.m)
+        y[self.interface] = as_columns(u_c, self.m)
         u = self._half(BACKWARD, y)
-        u[self.interface] = columns(u_c, self.m)
+        u[self.interface] = as_columns(u_c, self.m)
         return like(f, u)
 
     def _half(self, phase: int, y: Array) -> Array:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from signorini.errors import InputError, one_of
 from signorini.linalg import multifrontal, pardiso, superlu
 from signorini.linalg.protocol import Factorisation
-from signorini.linalg.system import System, check
+from signorini.linalg.system import System, checked_system
 
 BACKENDS: dict[str, Callable[[System], Factorisation]] = {
     "multifrontal": multifrontal.factorise,
@@ -82,4 +82,4 @@ def factorise(
     name = AUTOMATIC if backend == "auto" else backend
     if name not in BACKENDS:
         raise InputError(one_of(backend, ["auto", *BACKENDS], "back end"))
-    return BACKENDS[name](check(K, interface, nodes, points))
+    return BACKENDS[name](checked_system(K, interface, nodes, points))

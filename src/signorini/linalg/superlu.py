@@ -18,11 +18,11 @@ from scipy import sparse
 from scipy.sparse.linalg import SuperLU, splu
 
 from signorini.arrays import Array
-from signorini.linalg._triangular import backward, forward
+from signorini.linalg._triangular import solve_lower, solve_lower_transposed
 from signorini.linalg.definite import SUSPICIOUS_PIVOT, check_energy
 from signorini.linalg.ordering import elimination_order
 from signorini.linalg.protocol import NotPositiveDefinite, Reduced
-from signorini.linalg.system import Int32Array, System, columns, interface_lift, like, node_graph
+from signorini.linalg.system import Int32Array, System, as_columns, interface_lift, like, node_graph
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,15 +55,15 @@ class SuperLUFactorisation:
 
     def reduce(self, f: Array) -> Reduced:
         """Eliminate the interior of a load."""
-        y = columns(f, self.n)[self.order]
-        forward(self.lower.indptr, self.lower.indices, self.lower.data, y)
+        y = as_columns(f, self.n)[self.order]
+        solve_lower(self.lower.indptr, self.lower.indices, self.lower.data, y)
         return Reduced(like(f, y[self.n - self.m :]), lambda u_c: self._expand(f, y.copy(), u_c))
 
     def _expand(self, f: Array, y: Array, u_c: Array) -> Array:
         inside = self.n - self.m
         y[:inside] /= self.pivot[:, None]
-        y[inside:] = columns(u_c, self.m)
-        backward(self.lower.indptr, self.lower.indices, self.lower.data, y)
+        y[inside:] = as_columns(u_c, self.m)
+        solve_lower_transposed(self.lower.indptr, self.lower.indices, self.lower.data, y)
         u = np.empty_like(y)
         u[self.order] = y
         return like(f, u)

@@ -75,7 +75,7 @@ class NodeGraph:
     points: Array | None = None
 
 
-def check(K: Any, interface: ArrayLike, nodes: ArrayLike | None, points: ArrayLike | None = None) -> System:
+def checked_system(K: Any, interface: ArrayLike, nodes: ArrayLike | None, points: ArrayLike | None = None) -> System:
     """Check the arguments of `factorise`.
 
     Raises
@@ -134,7 +134,7 @@ def interface_lift(system: System) -> Array:
     return np.where(system.inside, 0.0, np.maximum(diagonal, floor))
 
 
-def columns(values: ArrayLike, rows: int) -> Array:
+def as_columns(values: ArrayLike, rows: int) -> Array:
     """Read a vector as one column.
 
     Raises
