@@ -335,12 +335,14 @@ def main() -> None:
         rows.append(row)
         figures = f"{number:>4} | {row['pairs']:4d} | {row['price']:8.1f} | {row['seconds']:7.2f}"
         print(figures, row["ended"], row["model"], row["message"].partition("\n")[0][:200], sep=" | ", flush=True)
-    ended = page.table(
-        ["ended", "models", "median price", "largest price", "median CPU s", "largest CPU s"], summary(rows)
-    )
-    print(f"\n{ended}")
-    if options.page:
-        page.write("overloaded", ended, page.PAGE.parent / "three_dimensions.md")
+    kinds = {"random": [row for row in rows if row["number"].isdigit()]}
+    kinds["decks"] = [row for row in rows if not row["number"].isdigit()]
+    heads = ["ended", "models", "median price", "largest price", "median CPU s", "largest CPU s"]
+    tables = {kind: page.table(heads, summary(own)) for kind, own in kinds.items() if own}
+    for kind, table in tables.items():
+        print(f"\n{kind}\n\n{table}")
+    if options.page and "random" in tables:
+        page.write("overloaded", tables["random"], page.PAGE.parent / "three_dimensions.md")
 
 
 def summary(rows: list[dict[str, Any]]) -> list[list[str]]:
