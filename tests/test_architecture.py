@@ -298,12 +298,6 @@ RULES = {
     "constants": constants_without_meaning,
 }
 
-PENDING = {
-    "friction": "files nouns parameters classes constants",
-    #
-}
-"""Rules that a room does not keep yet: what it keeps is taken out, and modules that move take their rules along."""
-
 
 @functools.cache
 def broken(rule):
@@ -316,11 +310,8 @@ def broken(rule):
 
 @pytest.mark.parametrize("rule", RULES)
 def test_rooms_keep_the_rules(rule):
-    pending = {name for name, rules in PENDING.items() if rule in rules.split()}
-    wrong = [line for name, lines in broken(rule).items() if name not in pending for line in lines]
+    wrong = [line for lines in broken(rule).values() for line in lines]
     assert not wrong, "\n" + "\n".join(wrong)
-    kept = sorted(name for name in pending if not broken(rule)[name])
-    assert not kept, f"{kept} keep the rule of {rule} now: take it out of PENDING there"
 
 
 def test_files_are_licensed_and_functions_short():

@@ -16,7 +16,7 @@ from signorini.friction.history.plane.responses import Responses
 from signorini.friction.history.plane.state_inverse import SingularState
 from signorini.law.states import OPEN, STICK
 
-WRONG = 1e-9
+WRONG_RATE_TOL = 1e-9
 """Violation of the law, relative to the largest rate, above which rates are none."""
 
 
@@ -60,7 +60,7 @@ def drive(responses: Responses, law: RateLaw, load: Array, before: Rates, acting
         which, pair = divmod(int(np.argmin(steps)), n)
         step = float(steps[which, pair])
         if way < 0 and step >= theta:
-            return _refined(responses, load, found) if target.min() >= -WRONG * found.size else None
+            return _refined(responses, load, found) if target.min() >= -WRONG_RATE_TOL * found.size else None
         if not np.isfinite(step):
             return None
         theta, last, state = theta + way * step, pair, state.copy()

@@ -23,7 +23,7 @@ COMBINATIONS = 4096
 MARGIN = 1e-6
 """Of the data: what every state must lack for a proof that there are no rates; rates that are accepted lack 1e-9."""
 
-FAR = 1e6
+RUNAWAY_RATE = 1e6
 """Of the load: rates larger than that are none that equilibrium goes on with."""
 
 RAY = "ray termination"
@@ -78,7 +78,13 @@ def find_rates(
 
 
 def certified(responses: Responses, law: RateLaw, load: Array, state: IntArray) -> Rates | None:
-    """The rates of a state where they obey the law, else None."""
+    """The rates of a state, (n,) codes, under a load rate, (2n,), where they obey the law; else None.
+
+    Parameters
+    ----------
+    responses, law : of the bodies, and of the rates of their pairs
+    load, state : (2n,) rate of the load, and (n,) codes
+    """
     try:
         rates = responding(responses, state, load)
     except SingularState:
@@ -87,7 +93,13 @@ def certified(responses: Responses, law: RateLaw, load: Array, state: IntArray) 
 
 
 def responding(responses: Responses, state: IntArray, load: Array) -> Rates:
-    """The rates of a state, refined; raises SingularState."""
+    """The rates of a state, refined; raises SingularState.
+
+    Parameters
+    ----------
+    responses : of the bodies
+    state, load : (n,) codes, and (2n,) rate of the load
+    """
     h, r = responses.balanced(state, load, *responses.respond(state, responses.free(load)))
     return Rates(state=state, h=h, r=r)
 
@@ -205,7 +217,7 @@ def _lacking(responses: Responses, law: RateLaw, load: Array, state: IntArray, l
     """Rates of a state that obey the law, or what they lack of it, relative to them.
 
     Rates that are not unique, or so large that rounding has a part in them, are asked for by a linear program: the
-    least that is lacking, of the load, up to `FAR` times the load. Not where nothing is left to prove.
+    least that is lacking, of the load, up to `RUNAWAY_RATE` times the load. Not where nothing is left to prove.
     """
     try:
         rates = responding(responses, state, load)
@@ -215,7 +227,7 @@ def _lacking(responses: Responses, law: RateLaw, load: Array, state: IntArray, l
         lacking = law.violation(rates)
         if lacking <= 10.0 * RATE:
             return rates
-        if rates.size <= FAR * np.abs(load).max(initial=0.0):
+        if rates.size <= RUNAWAY_RATE * np.abs(load).max(initial=0.0):
             return lacking
     return _by_program(responses, law, load, state) if least > MARGIN else 0.0
 
@@ -243,7 +255,7 @@ def _by_program(responses: Responses, law: RateLaw, load: Array, state: IntArray
         np.append(np.zeros(4 * n), 1.0),
         A_ub=np.hstack([rows, -np.ones((len(rows), 1))]),
         b_ub=right,
-        bounds=[(-FAR, FAR)] * (4 * n) + [(0.0, None)],
+        bounds=[(-RUNAWAY_RATE, RUNAWAY_RATE)] * (4 * n) + [(0.0, None)],
         method="highs",
         options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
     )

@@ -20,18 +20,18 @@ from signorini.friction.history.plane.driven_pivots import drive
 from signorini.friction.history.plane.find_rates import MARGIN, NoRates, find_rates
 from signorini.friction.history.plane.jump import explain
 from signorini.friction.history.plane.rate_law import CORNER, RateLaw, Rates, weight
-from signorini.friction.history.plane.responses import ROUNDING, Responses
+from signorini.friction.history.plane.responses import MISFIT_ROUNDING, Responses
 from signorini.friction.history.plane.state_inverse import SingularState
+from signorini.friction.history.recorder import PathRecorder, check_loads
 from signorini.friction.history.segment import Breakpoint, Segment
 from signorini.friction.history.state import PathState
-from signorini.friction.history.way import Way, check_loads
 from signorini.friction.problem import ContactProblem
 from signorini.law.bound import SIGN, plain
 from signorini.law.states import OPEN, SLIP_PLUS, STICK, UNDECIDED
 from signorini.outcome import Outcome
 
-_APART = 1e-2  # of the first kink of a bound: what counts as zero beside it
-_ROUNDING = 1e-14  # of the data
+_KINK_WIDTH = 1e-2  # of the first kink of a bound: what counts as zero beside it
+_DATA_ROUNDING = 1e-14  # of the data
 
 LET_GO = "a pair of infinite friction holds back a tangential force until it loses its pressure, and lets go at once"
 """A jump that the law itself makes."""
@@ -100,7 +100,7 @@ def follow(problem: ContactProblem, start: PathState, b_end: Array, *, settings:
     >>> [(round(4.0 * event.factor, 9), event.what) for event in pulled.events], pulled.end.h.round(6).tolist()
     ([(1.0, 'slips'), (2.0, 'opens')], [0.666667, 2.333333])
     """
-    walk = Walk(problem, start, b_end, settings or PathSettings())
+    walk = PlaneFollower(problem, start, b_end, settings or PathSettings())
     while walk.factor < 1.0:
         failure = walk.turn() or walk.advance()
         if failure is not None:
@@ -108,7 +108,7 @@ def follow(problem: ContactProblem, start: PathState, b_end: Array, *, settings:
     return walk.segment(Outcome.FOLLOWED, None, f"followed through {len(walk.events)} events")
 
 
-class Walk(Way):
+class PlaneFollower(PathRecorder):
     """One straight way of the load from a state in the plane, gone from event to event.
 
     Parameters
@@ -134,7 +134,9 @@ class Walk(Way):
         self.forced = np.where(self.unbounded, STICK, self.problem.law.closed)
         unit = problem.scale or 1.0
         # a kink at small pressures is told from the corner
-        self.width = np.minimum(settings.width * unit, np.maximum(_APART * self.bound.kinks[1], _ROUNDING * unit))
+        self.width = np.minimum(
+            settings.width * unit, np.maximum(_KINK_WIDTH * self.bound.kinks[1], _DATA_ROUNDING * unit)
+        )
         super().__init__(self._entered(start))
         self.acting: IntArray = np.zeros(0, dtype=np.int64)
         self.rates: Rates | None = None
@@ -297,7 +299,7 @@ class Walk(Way):
         after = self._lawful(b, h, r)
         residual = self._certificate(after)
         size = max(np.abs(part).max(initial=0.0) for part in (b, h, r))
-        if residual * (self.problem.scale or 1.0) > ROUNDING * size:
+        if residual * (self.problem.scale or 1.0) > MISFIT_ROUNDING * size:
             after = self._lawful(b, *self._afresh(b))
             residual = self._certificate(after)
         return after, residual

@@ -15,7 +15,7 @@ from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import pulled_away
 
-BEYOND = 1e-4
+STEP_BEYOND = 1e-4
 """Part of what is left of the segment, past the jump, at which the loads are asked whether they pull bodies away."""
 
 LEAVING = "a rigid motion of the bodies shows that more load has no equilibrium"
@@ -40,7 +40,7 @@ def explain(
     """
     n = now.pairs
     spent = (problem.bound.at(now.r[:n]) - np.abs(now.r[n:])) / weight(problem.mu) <= width
-    beyond = now.b + BEYOND * (b_end - now.b)
+    beyond = now.b + STEP_BEYOND * (b_end - now.b)
     further = replace(problem, b=frozen(beyond))
     pull = pulled_away(further) if problem.floating else None
     leaves = pull is not None
@@ -52,7 +52,7 @@ def explain(
     reason = (SLIDING if slides else LEAVING) if leaves else LIMITED if limit is not None else ""
     shown = limit if pull is None else pull
     if shown is not None:
-        reason += f": {BEYOND:g} of the way further nothing takes {shown.share:.2g} of the load on the bodies"
+        reason += f": {STEP_BEYOND:g} of the way further nothing takes {shown.share:.2g} of the load on the bodies"
     return Jump(
         factor=factor,
         pairs=tuple(int(k) for k in pairs),

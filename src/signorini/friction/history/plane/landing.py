@@ -17,7 +17,7 @@ import numpy as np
 
 from signorini.arrays import BoolArray, IntArray
 from signorini.friction.history.plane.find_rates import find_rates
-from signorini.friction.history.plane.follow import PathSettings, Walk
+from signorini.friction.history.plane.follow import PathSettings, PlaneFollower
 from signorini.friction.history.plane.rate_law import CORNER, INSIDE, RateLaw, Rates
 from signorini.friction.history.segment import Segment
 from signorini.friction.history.state import PathState
@@ -78,32 +78,32 @@ def land(
         return None
     settings = settings or PathSettings()
     limit = segment.end
-    back = Walk(problem, limit, start.b, settings)
+    back = PlaneFollower(problem, limit, start.b, settings)
     back.acting = np.array(jump.pairs, dtype=np.int64)
     lowest, events = jump.factor, 0
     for _ in range(TURNS * (problem.pairs + 1)):
         if not _depart(back) or back.advance() is not None or back.factor >= 1.0:
             return None
         lowest, events = min(lowest, jump.factor * left(back.now, limit, start)), events + 1
-        ahead = Walk(problem, back.now, limit.b, settings)
+        ahead = PlaneFollower(problem, back.now, limit.b, settings)
         ahead.acting = back.acting
         while ahead.factor < 1.0 and (ahead.turn() or ahead.advance()) is None:
             pass
         events += len(ahead.events)
         if ahead.factor >= 1.0:
             return Landing(state=ahead.now, lowest=lowest, events=events)
-        back = Walk(problem, ahead.now, start.b, settings)
+        back = PlaneFollower(problem, ahead.now, start.b, settings)
         back.acting = ahead.acting
     return None
 
 
 def left(now: PathState, limit: PathState, start: PathState) -> float:
-    """Part of the way from the start of the segment to the limit load that is left."""
+    """Part of the way from the start of the segment to the limit load that is left now: three states of a history."""
     way = limit.b - start.b
     return float(way @ (now.b - start.b)) / (float(way @ way) or 1.0)
 
 
-def _depart(walk: Walk) -> bool:
+def _depart(walk: PlaneFollower) -> bool:
     """Take the rates in which the acting pairs are in a next state, not those of the way that led here."""
     law = walk.law()
     acts = np.zeros(len(law.kind), dtype=np.bool_)

@@ -94,7 +94,16 @@ class RateLaw:
         width: Array,
         closing: Array | None = None,
     ) -> RateLaw:
-        """The law at given motions and forces; ``width`` (n,) tells zero; pairs ``closing`` are at a corner anyway."""
+        """The law at motions h and forces r, (2n,) each.
+
+        Parameters
+        ----------
+        bound : of the friction
+        forced, state : (n,) codes: of each pair where it is closed, UNDECIDED where it decides, and at present
+        h, r : (2n,) motions and forces
+        width : (n,) of zero
+        closing : (n,) pairs that are at a corner anyway
+        """
         n = len(state)
         gap, p, q = h[:n], r[:n], r[n:]
         corner = np.where(state == OPEN, gap <= width, p <= width)
@@ -133,7 +142,7 @@ class RateLaw:
         return np.abs(self.bound.slope(np.where(self.kind > CORNER, self.kind, SLIP_PLUS)))
 
     def conditions(self, state: IntArray, h: Array, r: Array) -> Array:
-        """(3, n) What must not be negative in a state at rates (2n,); linear in them, inf where nothing is asked."""
+        """(3, n) What must not be negative in a state at rates h, r (2n,); linear in them, inf where nothing is."""
         n, (corner, plus, minus, rubs, weights) = len(state), self._asked
         gap, t, p, q = h[:n], h[n:], r[:n], r[n:]
         stick, slips, most = state == STICK, state > STICK, self.mu * p

@@ -16,7 +16,7 @@ from signorini.arrays import Array, IntArray
 from signorini.friction.history.plane.state_inverse import StateInverse
 from signorini.friction.problem import ContactProblem
 
-ROUNDING = 2e-15
+MISFIT_ROUNDING = 2e-15
 """Error of a response, relative to its largest entry, that is not refined."""
 
 
@@ -87,10 +87,16 @@ class Responses:
         return seen[: 2 * n], r
 
     def balanced(self, state: IntArray, b: Array, h: Array, r: Array) -> tuple[Array, Array]:
-        """A response to b with one step of refinement, where equilibrium lacks more than rounding."""
+        """A response to b with one step of refinement, where equilibrium lacks more than rounding.
+
+        Parameters
+        ----------
+        state : (n,) codes
+        b, h, r : (2n,) load, and the motions and forces that respond to it
+        """
         error = self.problem.misfit(h, r, b)
         size = max(np.abs(part).max(initial=0.0) for part in (b, h, r))
-        if np.abs(error).max(initial=0.0) > ROUNDING * size:
+        if np.abs(error).max(initial=0.0) > MISFIT_ROUNDING * size:
             dh, dr = self.respond(state, self.free(error))
             return h + dh, r + dr
         return h, r

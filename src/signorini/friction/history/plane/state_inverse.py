@@ -18,7 +18,7 @@ from signorini.law.states import OPEN, STICK
 SINGULAR = 1e-13
 """Reciprocal condition below which a state counts as singular."""
 
-SMALL = 1e-9
+PIVOT_TOL = 1e-9
 """Pivot, relative to what cancels in it, below which the system is inverted afresh."""
 
 REFRESH = 400
@@ -249,7 +249,7 @@ def _inverse(matrix: Array) -> Array:
 
 
 def _inverse_of_compliance(matrix: Array) -> Array:
-    """The same where all that is closed sticks, for half the operations: symmetric and positive definite."""
+    """The inverse where all that is closed sticks, for half the operations: symmetric and positive definite."""
     norm = float(np.abs(matrix).sum(axis=0).max())
     factor, failed = lapack.dpotrf(matrix, lower=1, overwrite_a=1)
     if failed or lapack.dpocon(factor, norm, uplo="L")[0] < SINGULAR:
@@ -260,9 +260,9 @@ def _inverse_of_compliance(matrix: Array) -> Array:
 def _inverted(block: Array, size: float) -> Array | None:
     """Inverse of a block that pivots, None where it is next to singular beside what cancels in it, of a size."""
     if len(block) == 1:
-        return None if abs(block[0, 0]) < SMALL * size else 1.0 / block
+        return None if abs(block[0, 0]) < PIVOT_TOL * size else 1.0 / block
     lu, order, failed = lapack.dgetrf(block)
-    if failed or np.abs(np.diag(lu)).min() < SMALL * size:
+    if failed or np.abs(np.diag(lu)).min() < PIVOT_TOL * size:
         return None
     return _from_factors(lu, order)
 

@@ -24,9 +24,9 @@ ENUMERATED = 16
 """Most complementary numbers of which every combination is tried."""
 
 _DEPARTURES = 64  # most combinations of next states of the acting pairs
-_NONE = 1e-9  # of the largest rate: a rate that is none
+_RATE_TOL = 1e-9  # of the largest rate: a rate that is none
 
-Way = tuple[tuple[int, bool], ...] | Literal["opens", "closes", "stays"]
+Departure = tuple[tuple[int, bool], ...] | Literal["opens", "closes", "stays"]
 """How a pair leaves its state: some of its complementary numbers move, or do not; or it opens, closes, or stays."""
 
 _OPENS: Literal["opens"] = "opens"
@@ -121,12 +121,17 @@ def departures(problem: ContactProblem, now: PathState, width: float) -> Iterato
 
 
 def acting_pairs(problem: ContactProblem, now: PathState, width: float) -> IntArray:
-    """Pairs that may not go on as they are, see `Choice`; none where that is not known."""
+    """Pairs that may not go on as they are, see `Choice`; none where that is not known.
+
+    Parameters
+    ----------
+    problem, now, width : see `find_rates`
+    """
     choice = Choice.at(problem, now, width)
     return np.array([] if isinstance(choice, str) else choice.acting, dtype=np.int64)
 
 
-def _ways(choice: Choice, k: int, state: int) -> list[Way]:
+def _ways(choice: Choice, k: int, state: int) -> list[Departure]:
     """How an acting pair may leave its state; the last: not at all."""
     numbers = choice.numbers(k)
     kind = choice.kind[numbers]
@@ -171,14 +176,14 @@ def _solved(
     z[free], z[given] = found, -(answer[:, :-1] @ found + answer[:, -1])
     one = choice.kind != CONE
     w = M @ z + q
-    rounding = _NONE * np.maximum(np.abs(M) @ np.abs(z) + np.abs(q), np.abs(q).max(initial=0.0))
+    rounding = _RATE_TOL * np.maximum(np.abs(M) @ np.abs(z) + np.abs(q), np.abs(q).max(initial=0.0))
     h, r = choice.rates(z)
     size = max(np.abs(h).max(initial=0.0), np.abs(r).max(initial=0.0))
     off = np.abs(choice.held.problem.misfit(h, r)).max(initial=0.0)
-    none = _NONE * np.abs(z).max(initial=0.0)
-    if (w < -rounding)[one].any() or z[one].min(initial=0.0) < -none or off > _NONE * size:
+    none = _RATE_TOL * np.abs(z).max(initial=0.0)
+    if (w < -rounding)[one].any() or z[one].min(initial=0.0) < -none or off > _RATE_TOL * size:
         return NoRates(proof="the rates found do not obey the law", proved=False)
-    return SpatialRates(state=_states(choice, h, r, _NONE * size), h=h, r=r)
+    return SpatialRates(state=_states(choice, h, r, _RATE_TOL * size), h=h, r=r)
 
 
 def _with_cones(problem: ConeProblem, size: float) -> Array | NoRates:

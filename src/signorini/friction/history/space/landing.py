@@ -12,7 +12,8 @@ from signorini.friction.history.plane.find_rates import NoRates
 from signorini.friction.history.plane.landing import TURNS, Landing, left
 from signorini.friction.history.segment import Segment
 from signorini.friction.history.space.find_rates import departures, find_rates
-from signorini.friction.history.space.follow import StopSettings, Walk
+from signorini.friction.history.space.follower import SpaceFollower
+from signorini.friction.history.space.increment import StopSettings
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
 
@@ -56,14 +57,14 @@ def land_spatial(
     limit = now = before = segment.end
     lowest, events = jump.factor, 0
     for _ in range(TURNS * (problem.pairs + 1)):
-        back = Walk(problem, now, start.b, settings)
+        back = SpaceFollower(problem, now, start.b, settings)
         if _departed(back):
             if back.factor >= 1.0:
                 return None
             lowest, events, before = min(lowest, jump.factor * left(back.now, limit, start)), events + 1, now
-            ahead = Walk(problem, back.now, limit.b, settings)
+            ahead = SpaceFollower(problem, back.now, limit.b, settings)
         else:
-            ahead = Walk(problem, now, limit.b, settings)
+            ahead = SpaceFollower(problem, now, limit.b, settings)
             if not ahead.cross(before):
                 return None
         while ahead.factor < 1.0 and not _stuck(ahead):
@@ -76,12 +77,12 @@ def land_spatial(
     return None
 
 
-def _departed(walk: Walk) -> bool:
+def _departed(walk: SpaceFollower) -> bool:
     """Go on in rates in which acting pairs are in a next state, not in those of the way that led here."""
     return any(walk.along(rates) for rates in departures(walk.rate_problem, walk.now, walk.near))
 
 
-def _stuck(walk: Walk) -> bool:
+def _stuck(walk: SpaceFollower) -> bool:
     """Whether it is known that no rates lead on."""
     found = find_rates(walk.rate_problem, walk.now, walk.near)
     return isinstance(found, NoRates) and found.proved

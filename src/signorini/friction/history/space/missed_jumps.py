@@ -21,8 +21,8 @@ from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
 from signorini.law.states import OPEN
 
-_UNEVEN = 1.0  # of what increments would miss whose every pair acts; smooth ways of few pairs come up to it
-_ROUNDING = 1e-12  # of the energies compared
+_MISSED_ENERGY = 1.0  # of what increments would miss whose every pair acts; smooth ways of few pairs come up to it
+_ENERGY_ROUNDING = 1e-12  # of the energies compared
 
 
 def passed_over(problem: ContactProblem, start: PathState, pieces: Sequence[Breakpoint], since: float) -> int | None:
@@ -60,8 +60,8 @@ def passed_over(problem: ContactProblem, start: PathState, pieces: Sequence[Brea
     change = 0.5 * float((_sizes(end.r - start.r) * _sizes(end.h - start.h)).sum()) / reached**2
     for k, (one, two) in enumerate(pairwise(states), start=1):
         moved, missing = two.h - one.h, _missing(problem, one, two)
-        rounding = _ROUNDING * float(np.abs(one.r) @ np.abs(moved) + two.dissipation.sum())
-        allowed = _UNEVEN * change * max(float(factors[k] - factors[k - 1]) ** 2, _ROUNDING) + rounding
+        rounding = _ENERGY_ROUNDING * float(np.abs(one.r) @ np.abs(moved) + two.dissipation.sum())
+        allowed = _MISSED_ENERGY * change * max(float(factors[k] - factors[k - 1]) ** 2, _ENERGY_ROUNDING) + rounding
         if factors[k] > since and missing > allowed:
             return k
     return None

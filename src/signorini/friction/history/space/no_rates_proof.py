@@ -20,10 +20,10 @@ from signorini.arrays import Array
 from signorini.friction.history.plane.find_rates import MARGIN
 from signorini.friction.history.space.smooth_cones import ConeProblem
 
-_MOST = 400  # linear programmes
+_MAX_PROGRAMMES = 400  # linear programmes
 _WORK, _FACTORISATIONS = 2e9, 20.0  # operations, and factorisations of a system as large: the more of both is the most
-_FAR = 1e6  # of the data: motions larger than that are none that equilibrium goes on with
-_SHARP = 1e-10  # of the data, that linear programmes are solved to
+_RUNAWAY_RATE = 1e6  # of the data: motions larger than that are none that equilibrium goes on with
+_PROGRAM_TOL = 1e-10  # of the data, that linear programmes are solved to
 _SLACK = 1e-8  # of the data: what an answer may lack to be looked at further
 _PIVOTS = 10  # of a linear programme, per row and column; a half is usual
 _TANGENTS = 8
@@ -81,7 +81,7 @@ def search(problem: ConeProblem) -> Array | Exhausted:
     tangents = [[2.0 * np.pi * j / _TANGENTS for j in range(_TANGENTS)] for _ in range(m)]
     count, margin, untold = 0, np.inf, False
     work = max(_WORK, _FACTORISATIONS * 2.0 / 3.0 * len(posed.q) ** 3)
-    while nodes and count < _MOST and work > 0.0:
+    while nodes and count < _MAX_PROGRAMMES and work > 0.0:
         node = nodes.pop()
         count += 1
         lacks, x, took = _relaxed(posed, node, tangents, work)
@@ -143,7 +143,7 @@ class _Programme:
     def __init__(self, size: int) -> None:
         self.above: list[tuple[Array, float]] = []
         self.equal: list[tuple[Array, float]] = []
-        self.low, self.high = np.full(size, -_FAR), np.full(size, _FAR)
+        self.low, self.high = np.full(size, -_RUNAWAY_RATE), np.full(size, _RUNAWAY_RATE)
 
     def solve(self, work: float) -> tuple[float, Array, float]:
         """The least t, its x, and the operations that it took; NaN where these were not enough to solve it."""
@@ -160,8 +160,8 @@ class _Programme:
             bounds=np.column_stack([np.append(self.low, 0.0), np.append(self.high, np.inf)]),
             method="highs",
             options={
-                "primal_feasibility_tolerance": _SHARP,
-                "dual_feasibility_tolerance": _SHARP,
+                "primal_feasibility_tolerance": _PROGRAM_TOL,
+                "dual_feasibility_tolerance": _PROGRAM_TOL,
                 "maxiter": max(1, min(_PIVOTS * (len(rows) + size), int(work / pivot))),
             },
         )
@@ -197,7 +197,7 @@ def _pair(problem: ConeProblem, k: int, region: Region, tangents: list[float], p
     N, m = problem.numbers, len(problem.closed)
     at = N + k + m * np.arange(3)
     closed = problem.closed[k] or region not in (None, "open")
-    programme.low[at[0]], programme.high[at[0]] = 0.0, 0.0 if closed else _FAR
+    programme.low[at[0]], programme.high[at[0]] = 0.0, 0.0 if closed else _RUNAWAY_RATE
     normal, along = _rows(problem, k, problem.M)
     start = problem.q[at[1:]] / problem.friction[:, k]
     if region == "open":

@@ -48,7 +48,13 @@ class Held:
 
     @classmethod
     def of(cls, problem: ContactProblem, closed: BoolArray, rubs: BoolArray) -> Held | None:
-        """The interface with pairs that are closed, (n,), and rub, (n,); None where that leaves forces undetermined."""
+        """The interface of a problem whose closed pairs, (n,), hold; None where that leaves forces undetermined.
+
+        Parameters
+        ----------
+        problem : the problem, its b included
+        closed, rubs : (n,) pairs that are closed, and those of them with friction
+        """
         W, b, n = problem.W, problem.b, problem.pairs
         tangents = (rubs & ~problem.locked & (problem.section.axes > 0)).ravel()
         holds = np.concatenate([closed, tangents])

@@ -21,8 +21,8 @@ from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
 from signorini.law.states import OPEN, STICK
 
-_NONE = 1e-9  # of the largest rate: a rate that is none
-_ROUNDING = 1e-12  # of the values that a rate is the difference of
+_RATE_TOL = 1e-9  # of the largest rate: a rate that is none
+_VALUE_ROUNDING = 1e-12  # of the values that a rate is the difference of
 
 
 def tangents(rows: Array) -> Array:
@@ -35,6 +35,7 @@ def held_until(problem: ContactProblem, start: PathState, h: Array, r: Array, sl
 
     Parameters
     ----------
+    problem : at the load of its end
     start : at its beginning
     h, r : (3n,) at its end, where the law holds for the slip increment (2, n)
     width : of zero for a gap and a force
@@ -65,7 +66,7 @@ def turned(problem: ContactProblem, start: PathState, r: Array, slip: Array, wid
 
     Parameters
     ----------
-    start, r, slip, width : see `held_until`
+    problem, start, r, slip, width : see `held_until`
     """
     n = problem.pairs
     one, two = tangents(start.r[n:]), tangents(r[n:])
@@ -84,13 +85,14 @@ def lasts(problem: ContactProblem, start: PathState, end: PathState, width: floa
 
     Parameters
     ----------
+    problem : the problem; its b does not matter
     start, end : of the piece, in which the law holds; the states of the end are those inside it
     width : of zero for a force
     """
     n, h, r = problem.pairs, end.h, end.r
     dh, dr = h - start.h, r - start.r
     size = max(np.abs(dh).max(initial=0.0), np.abs(dr).max(initial=0.0))
-    least = _NONE * size + _ROUNDING * max(np.abs(h).max(initial=0.0), np.abs(r).max(initial=0.0))
+    least = _RATE_TOL * size + _VALUE_ROUNDING * max(np.abs(h).max(initial=0.0), np.abs(r).max(initial=0.0))
     times = [np.inf]
 
     def vanish(which: BoolArray, value: Array, rate: Array) -> None:

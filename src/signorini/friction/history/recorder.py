@@ -14,7 +14,7 @@ from signorini.friction.history.state import PathState
 from signorini.outcome import Outcome
 
 
-class Way:
+class PathRecorder:
     """A straight way of the load from a state, gone piece by piece, in the plane or in space.
 
     Attributes
@@ -41,7 +41,7 @@ class Way:
         raise NotImplementedError
 
     def segment(self, outcome: Outcome, jump: Jump | None, message: str) -> Segment:
-        """All that is known now."""
+        """All that is known now, with the outcome, the jump where there is one, and a message in words."""
         pivots, factorisations, updates = self.effort
         return Segment(
             end=self.now,

@@ -1,0 +1,399 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Follow a straight segment of the load history in space in increments that end where something happens.
+
+Between two events (a pair opens, closes, starts to slip, or its friction reaches the end of an edge of its section)
+motions and forces are linear in the load where sections are polygons: an increment that ends at every event is exact.
+On smooth sections friction turns while a pair slips; there increments are short enough for a small turn of it.
+
+A short increment shows the rates behind an event; extended in a straight line they tell the next event; the increment
+up to there is solved for afresh and certified.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray, frozen
+from signorini.friction.history.plane.find_rates import NoRates
+from signorini.friction.history.recorder import PathRecorder, check_loads
+from signorini.friction.history.segment import Breakpoint, Jump, Segment
+from signorini.friction.history.space.find_rates import SpatialRates, acting_pairs, find_rates
+from signorini.friction.history.space.increment import SolvedIncrement, StopSettings
+from signorini.friction.history.space.missed_jumps import passed_over
+from signorini.friction.history.space.straight import held_until, lasts, tangents, turned
+from signorini.friction.history.state import PathState
+from signorini.friction.problem import ContactProblem
+from signorini.friction.pull_away import pulled_away
+from signorini.friction.result import ContactAnswer
+from signorini.friction.solve import solve_contact
+from signorini.friction.space.bearing import OVERLOADED, Bearing, sliding
+from signorini.friction.space.standstill import standstill
+from signorini.law.bound import ADHESION_SLOPE
+from signorini.law.states import OPEN, SLIP, STICK
+from signorini.outcome import Outcome
+
+LEAST_STEP = 1e-12
+"""Part of the segment below which an increment counts as none."""
+
+_FIRST = 2.0**-6  # part of the segment that is tried first
+_PROBE = 2.0**-4  # part of the last increment that shows the rates behind an event
+_LEAST_PROBE = 2.0**-10  # part of the segment that shows the rates behind an event
+_EARLY_GROWTH = 0.5  # of what is behind: what increments at the beginning may be,
+_EARLY_SHARE = 2.0**-4  # and of the shortest
+_SHRINK = 0.9  # of the estimated part up to an event: short of it
+_EVENT_TOL = 1e-12  # part of an increment by which it may miss an event,
+_LATE_EVENT_TOL = 1e-3  # and after some tries
+_LOOSER = 2.0  # times at every further try: by how much longer an increment must become to be worth it
+_REFUSED = 0.25  # part of an increment, beyond which none was found: not looked into, the next one begins nearer to it
+_LONGER_TURN = 4.0  # times what friction may turn elsewhere: where one longer increment is gone again event by event
+_FOLD_REACH = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)  # times the last increment: where to look for the other side of a fold
+_FOLD, _TURNED = 1e-9, 0.3  # part of the way in which it is looked for, and what friction may turn in it
+_PATIENCE = 4  # tries
+_END_ROUNDING = 1e-9  # part of an increment: what comes so late does not happen in it
+_LOST = 1e-7  # part of the segment: where not even that has a solution nothing goes on gradually
+_TRIES = 60  # at one increment
+_IDLE = 1e-12  # of the data: a normal force that rounding leaves, under which nothing slips
+_EVENT_WIDTH = 1e-6  # of the data: width of zero at an event that smooth sections make uncertain
+_QUICK_STEPS = 12  # of Newton's method, in an increment that may be shorter
+
+
+class SpaceFollower(PathRecorder):
+    """One straight way of the load from a state in space, gone increment by increment.
+
+    Parameters
+    ----------
+    problem, start, b_end, settings : see `follow_stopping`
+    """
+
+    def __init__(self, problem: ContactProblem, start: PathState, b_end: Array, settings: StopSettings) -> None:
+        check_loads(3 * problem.pairs, start=start.b, b_end=b_end)
+        super().__init__(start)
+        self.problem, self.start, self.b_end, self.settings = problem, start, b_end, settings
+        self.width = settings.width * (problem.scale or 1.0)
+        self._quick = replace(
+            settings.solver, searched_steps=_QUICK_STEPS, swept_rounds=1, proximal_rounds=0, springs=()
+        )
+        self.last, self.tried = _FIRST / _PROBE, 0
+        # up to where every event ends an increment; whether that failed; up to where no energy is missing
+        self.careful, self.trusting, self.balanced = 0.0, False, 0.0
+        self.smooth = bool((problem.law.rubs & (problem.section.sides == 0)).any())
+        self.refused: ContactAnswer | None = None
+        self.limited = False  # whether the load has a limit where motions run away
+        self._searched = False  # long, once in vain: shorter increments are near where they begin, or there are none
+        self._rate: Array | None = None  # of r - h in the last increment that was found, per part of the segment
+        self._overloaded = False  # whether the pairs that are near hold the bodies no more
+        self.bearing = Bearing(problem, self.b_end)
+        # the load as rates see it; what smooth sections know of an event is less sharp
+        self.rate_problem = replace(problem, b=frozen(b_end - start.b))
+        self.near, self._astray = (_EVENT_WIDTH * (problem.scale or 1.0), 0.5) if self.smooth else (self.width, 1e-6)
+
+    def go_on(self) -> NoRates | None:
+        """One increment, found as it comes or by the rates; why there is none, or None."""
+        if self.factor >= self.reach and not self._crosses():
+            self._overloaded = True
+            self._to_the_brink()
+            return NoRates(proof=OVERLOADED, proved=True)
+        stop = standstill(self.pieces, self.problem.scale or 1.0)
+        if stop is not None and (stop.proved or self.settings.shortest):  # events may be as many as they like
+            self.limited = stop.proved
+            return stop
+        words = self.advance(patience=_PATIENCE)
+        if not words:
+            return None
+        if self._leaves:
+            return NoRates(proof=words, proved=True)
+        found = find_rates(self.rate_problem, self.now, self.near)
+        if isinstance(found, SpatialRates):
+            return None if self.along(found) else NoRates(proof=f"{words}, though there are rates", proved=False)
+        if found.proved:
+            return replace(found, proof=f"{words}; {found.proof}")
+        words = self.advance(patience=_TRIES)
+        if words and self.careful > self.factor:
+            self.careful, self.trusting = 0.0, True
+            return self.go_on()
+        return NoRates(proof=f"{words}; {found.proof}", proved=False) if words else None
+
+    def again(self) -> bool:
+        """Whether an increment has passed over something: back to its beginning, to go through it event by event."""
+        k = passed_over(self.problem, self.start, self.pieces, self.balanced) if self.settings.shortest else None
+        if k is None:
+            return False
+        self.careful = self.balanced = self.pieces[k].factor
+        self.trusting, self.refused, self._overloaded, self._rate = False, None, False, None
+        self.pieces = self.pieces[:k]
+        self.now, self.factor = self.pieces[-1].state or self.start, self.pieces[-1].factor
+        self.last = self.careful - self.factor
+        self.events = [event for event in self.events if event.factor < self.factor]
+        return True
+
+    @property
+    def reach(self) -> float:
+        """Part of the way that increments do not go beyond, see `Bearing`."""
+        return self.bearing.reach(self.now, self.factor)
+
+    def _crosses(self) -> bool:
+        """Whether equilibrium goes on gradually beyond the reach: other pairs close as the bodies deform."""
+        gradually = self._near_by(self._trial(self.bearing.beyond - self.factor, 0.0)) is not None
+        if gradually:
+            self.bearing.cross()
+        return gradually
+
+    def _to_the_brink(self) -> None:
+        """The last increment, to the very load that can be held, where equilibrium at it is near by."""
+        trial = self._near_by(self._trial(self.bearing.limit - self.factor, 0.0))
+        if trial is not None and trial.until >= 1.0 - _LATE_EVENT_TOL:
+            self._enter(trial, self._settled(trial, trial.after.state), 1)
+
+    def _near_by(self, trial: SolvedIncrement | ContactAnswer) -> SolvedIncrement | None:
+        """An increment that moves no pair farther than the loads of the whole history deform the bodies."""
+        if isinstance(trial, ContactAnswer) or np.abs(trial.after.h - self.now.h).max() > (self.problem.scale or 1.0):
+            return None
+        return trial
+
+    @property
+    def _leaves(self) -> bool:
+        """Whether an increment was refused with the proof that loads pull bodies away."""
+        return self.refused is not None and self.refused.outcome == "no_equilibrium"
+
+    def along(self, rates: SpatialRates) -> bool:
+        """One increment in the direction of rates, up to the next event; whether there is one."""
+        now, tried, n = self.now, self.tried, self.problem.pairs
+        short = 0.5 * self._pressed_for(rates)
+        piece = replace(now, h=now.h + short * rates.h, r=now.r + short * rates.r, state=rates.state)
+        step = min(short * lasts(self.problem, now, piece, self.width), self.reach - self.factor)
+        for _ in range(_TRIES):
+            if step < LEAST_STEP:
+                return False
+            h, r = step * rates.h, now.r + step * rates.r
+            # the law of the whole piece is that in its middle
+            trial = self._trial(step, step, 0.5 * (now.r + r - h) - np.concatenate([now.h[:n], np.zeros(2 * n)]))
+            if isinstance(trial, ContactAnswer):
+                step /= 16.0
+                continue
+            off = np.abs(trial.after.h - now.h - h).max() + np.abs(trial.after.r - r).max()
+            if off > self._astray * step * (np.abs(rates.h).max() + np.abs(rates.r).max()) + self.width:
+                step /= 2.0
+            elif trial.turn > self._turn:
+                step *= _SHRINK * self._turn / trial.turn
+            else:
+                self._enter(trial, self._settled(trial, rates.state), self.tried - tried)
+                return True
+        return False
+
+    def cross(self, before: PathState) -> bool:
+        """One increment across a fold of the curve of equilibria that led here from ``before``; whether there is one.
+
+        On a smooth section friction turns until the load that goes back can go no farther: on with the same slip.
+        """
+        now, n = self.now, self.problem.pairs
+        h, r = now.h - before.h, now.r - before.r
+        for times in _FOLD_REACH:
+            y = now.r + times * (r - h) - np.concatenate([now.h[:n], np.zeros(2 * n)])
+            trial = self._trial(_FOLD, _FOLD, y)
+            if isinstance(trial, ContactAnswer) or trial.turn > _TURNED:
+                continue
+            moved = trial.after.h - now.h
+            if moved @ h > 0.5 * float(h @ h):
+                self._enter(trial, self._settled(trial, trial.after.state), 1)
+                return True
+        return False
+
+    def _pressed_for(self, rates: SpatialRates) -> float:
+        """How long no normal force vanishes or comes to a kink of the bound on friction, within the segment."""
+        p, rate = self.now.r[: self.problem.pairs], rates.r[: self.problem.pairs]
+        times = [self.reach - self.factor]
+        for kink in self.problem.pieces.kinks[:-1]:
+            away = np.where(np.isfinite(kink), kink, np.inf) - p
+            comes = (away * rate > 0.0) & (np.abs(away) > self.width)
+            times.append(float((away[comes] / rate[comes]).min(initial=np.inf)))
+        return min(times)
+
+    def advance(self, *, patience: int) -> str:
+        """One increment; why there is none, or nothing. Given up where so many were tried, and pairs act in all."""
+        if len(self.pieces) > self.settings.solver.path_increments:
+            return f"{self.settings.solver.path_increments} increments end at factor {self.factor:.12g}"
+        self.refused = None
+        shortest = self._shortest
+        left = self.reach - self.factor
+        step = min(max(_PROBE * self.last, _LEAST_PROBE, shortest), left)
+        tried, best = self.tried, None
+        inner: SolvedIncrement | None = None
+        words, longest = "", left
+        for number in range(_TRIES):
+            late = _LATE_EVENT_TOL if self.smooth and number >= _PATIENCE else _EVENT_TOL
+            longer = late * (_LOOSER ** (number - _PATIENCE) if late == _LATE_EVENT_TOL else 1.0)
+            ahead = None if self._rate is None or not self.now.r.any() else self._here + step * self._rate
+            trial = self._trial(step, shortest, ahead)
+            if isinstance(trial, ContactAnswer):
+                words, longest = trial.message, step
+                if not self._leaves:
+                    self.refused = trial
+                if step <= _LOST or (best is not None and step <= best.step * (1.0 + _REFUSED)):
+                    break
+                step = step / 16.0 if best is None else 0.5 * (best.step + step)
+            elif trial.until >= 1.0 - late and trial.turn <= self._turn:
+                best, inner = trial, inner or trial
+                step = trial.step * self._room(trial, inner.after.state)
+                step = step if step < longest or longest >= left else 0.5 * (trial.step + longest)
+                if min(step, left) <= trial.step * (1.0 + longer):
+                    break
+                step = min(step, left)
+            elif trial.step <= shortest and not self._grips(trial):
+                best = inner = trial
+                break
+            else:
+                if trial.step <= shortest:  # event by event
+                    self.careful, shortest = self.factor + trial.step, 0.0
+                words, longest = f"pairs {np.flatnonzero(trial.each <= trial.until).tolist()} act", step
+                if best is None and number >= patience:
+                    break
+                step = self._nearer(trial, shortest, best)
+                if best is not None and step <= best.step * (1.0 + longer):
+                    break
+            if step < LEAST_STEP:
+                break
+        if best is None or inner is None:
+            return f"at factor {self.factor:.12g}: no increment, however short, goes on gradually ({words})"
+        exact = best.until >= 1.0 - _END_ROUNDING
+        after = self._settled(best, inner.after.state if exact else best.after.state)
+        self._enter(best, after, self.tried - tried)
+        return ""
+
+    def _nearer(self, trial: SolvedIncrement, shortest: float, best: SolvedIncrement | None) -> float:
+        """The part to try after one in which something has happened, or friction has turned too far."""
+        limit = self._turn
+        aim = _SHRINK * limit / trial.turn if trial.turn > limit else 1.0
+        if trial.until < 1.0:
+            aim = min(aim, trial.until * (_SHRINK if best is None else 1.0))
+        return max(aim * trial.step, shortest if best is None else best.step)
+
+    def _settled(self, trial: SolvedIncrement, state: IntArray) -> PathState:
+        """The end of a piece, where pairs may be on the verge of another state, in the states inside it.
+
+        What slips from an event in the piece on does so under the friction at its end.
+        """
+        now, end, n = self.now, trial.after, self.problem.pairs
+        closed, sticks = state != OPEN, np.tile(state == STICK, 2)
+        h = np.concatenate([np.where(closed, 0.0, end.h[:n]), np.where(sticks, now.h[n:], end.h[n:])])
+        r = np.where(np.tile(closed, 3), end.r, 0.0)
+        pressed = closed & (np.maximum(r[:n], now.r[:n]) > _IDLE * (self.problem.scale or 1.0))
+        moved = np.where(np.tile(pressed, 2), h[n:] - now.h[n:], 0.0)
+        late = (trial.each < 1.0 - _END_ROUNDING) & (now.state != OPEN)
+        rubbing = np.where(np.tile(late, 2), r[n:], 0.5 * (r[n:] + now.r[n:]))
+        lost = -(tangents(rubbing) * tangents(moved)).sum(axis=0)
+        return replace(
+            end, h=h, r=r, state=state, anchor=h[n:], slip=now.slip + moved, dissipation=now.dissipation + lost
+        )
+
+    def _grips(self, trial: SolvedIncrement) -> bool:
+        """Whether a pair that holds friction without pressure closes in it, which sticks where it touches, or opens."""
+        turns = (self.now.state == OPEN) != (trial.after.state == OPEN)
+        grips = turns & (self.problem.mu >= ADHESION_SLOPE) & (trial.each < 1.0 - _LATE_EVENT_TOL)
+        return bool(grips.any()) and not self.trusting
+
+    def _room(self, trial: SolvedIncrement, state: IntArray) -> float:
+        """How much longer than the trial the increment may be: up to the next event, and to the turn allowed."""
+        times = max(1.0, lasts(self.problem, self.now, replace(trial.after, state=state), self.width))
+        if trial.turn > 0.0:
+            times = min(times, max(1.0, _SHRINK * self._turn / trial.turn))
+        return max(times, self._shortest / trial.step)
+
+    @property
+    def _turn(self) -> float:
+        """What friction may turn here: more of it where increments are short to find what happens, not to be sharp."""
+        return self.settings.turn * (_LONGER_TURN if self.factor < self.careful and self.settings.shortest else 1.0)
+
+    @property
+    def _shortest(self) -> float:
+        """What an increment need not undercut here: little at the beginning, where contact grows and friction turns."""
+        whole = 0.0 if self.factor < self.careful else self.settings.shortest
+        return min(whole, max(_EARLY_GROWTH * self.factor, _EARLY_SHARE * whole), self.reach - self.factor)
+
+    @property
+    def _here(self) -> Array:
+        """(3n,) r - h of no increment."""
+        n = self.problem.pairs
+        return self.now.r - np.concatenate([self.now.h[:n], np.zeros(2 * n)])
+
+    def _trial(self, step: float, shortest: float, ahead: Array | None = None) -> SolvedIncrement | ContactAnswer:
+        """The increment of a part of the segment, sought from its beginning or ahead; or why it has none."""
+        now, n, problem = self.now, self.problem.pairs, self.problem
+        factor = self.factor + step
+        if factor >= 1.0 - LEAST_STEP:
+            factor, step = 1.0, 1.0 - self.factor
+        b = self.b_end if factor == 1.0 else (1.0 - factor) * self.start.b + factor * self.b_end
+        origin = np.concatenate([np.zeros(n), now.h[n:]])
+        increment = replace(problem, b=frozen(problem.misfit(origin, np.zeros(3 * n), b)))
+        self.tried += 1
+        if ahead is None and now.r.any():
+            ahead = self._here
+        start = None if ahead is None else problem.by_pair(ahead)
+        long = step <= shortest and not self._searched
+        result = solve_contact(increment, start, settings=self.settings.solver if long else self._quick)
+        if not result.solved:
+            self._searched |= long
+            return result
+        h, r, slip = result.h.ravel(), result.r.ravel(), result.h[1:]
+        self._rate = (r - now.r - (h + origin - now.h)) / step
+        until = held_until(increment, now, h, r, slip, self.width)
+        least = float(until.min(initial=1.0))
+        return SolvedIncrement(
+            step=step,
+            after=replace(now, b=b, h=h + origin, r=r, state=result.state),
+            result=result,
+            until=least,
+            each=until,
+            turn=turned(increment, now, r, slip, self.width),
+        )
+
+    def _enter(self, trial: SolvedIncrement, after: PathState, tried: int) -> None:
+        """Go on from the end of an increment; what is in another state than before changed at its beginning."""
+        old, new = self.now.state, after.state
+        self.happens(
+            {
+                "opens": (old != OPEN) & (new == OPEN),
+                "closes": (old == OPEN) & (new != OPEN),
+                "sticks": (old == SLIP) & (new == STICK),
+                "slips": (old == STICK) & (new == SLIP),
+            },
+            replace(self.now, state=new),
+        )
+        self.factor = 1.0 if self.factor + trial.step >= 1.0 - LEAST_STEP else self.factor + trial.step
+        self.now, self.last = after, trial.step
+        self.pieces.append(Breakpoint(factor=self.factor, h=after.h, r=after.r, state=after, tried=tried))
+        self.residual = max(self.residual, trial.result.residual)
+
+    def ended(self, lost: NoRates) -> Segment:
+        """The segment up to a jump, or to where nothing was found."""
+        if not lost.proved:
+            return self.segment(Outcome.NOT_FOUND, None, lost.proof)
+        n, r = self.problem.pairs, self.now.r
+        pressed = r[:n] > self.width
+        spent = pressed & (self.problem.law.reserve(self.problem.by_pair(r)) <= self.near)
+        leaves, refused = self._leaves, self.refused
+        acting = np.flatnonzero(spent) if leaves else acting_pairs(self.rate_problem, self.now, self.near)
+        if self._overloaded:
+            return self.segment(Outcome.JUMP, self.bearing.jump(self.now, self.factor, pressed, lost.proof), lost.proof)
+        slide = sliding(self.problem, self.pieces[-2:], pressed) if self.limited else None
+        jump = Jump(
+            factor=self.factor,
+            pairs=tuple(int(k) for k in (acting if len(acting) else np.flatnonzero(spent))),
+            proof=refused.message if refused is not None and leaves else lost.proof,
+            margin=_share(self.problem, self.b_end) if leaves else lost.margin,
+            gross_sliding=bool(leaves and pressed.any() and spent[pressed].all()) or slide is not None,
+            escape=slide,
+        )
+        return self.segment(Outcome.JUMP, jump, lost.proof)
+
+    @property
+    def effort(self) -> tuple[int, int, int]:
+        """Increments tried; nothing dense is kept between them."""
+        return self.tried, 0, 0
+
+
+def _share(problem: ContactProblem, b: Array) -> float:
+    """What of a load (3n,) on rigid motions no forces of the pairs take; 0 where they take all."""
+    pull = pulled_away(replace(problem, b=frozen(b)))
+    return 0.0 if pull is None else pull.share
