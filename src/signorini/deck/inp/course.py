@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -21,8 +21,18 @@ _SAME_VECTOR_TOL = 1e-9  # of an axis or a direction, as written with ten digits
 
 Hold = Literal["", "value", "place"]
 """What a slot is held at in a step: nothing, a value, or the place where the step finds it."""
-_NO_VALUE: tuple[float, int, Hold] = (0.0, 0, "")  # magnitude, amplitude, hold of a slot without a value
-_UNSET: tuple[float, int, int, Hold] = (0.0, 0, -1, "")  # the same with the source
+
+
+class _Value(NamedTuple):
+    """What a slot has: a magnitude, the index of its amplitude, that of its source, and what it is held at."""
+
+    magnitude: float = 0.0
+    amplitude: int = 0
+    source: int = -1
+    hold: Hold = ""
+
+
+_UNSET = _Value()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -77,12 +87,12 @@ class Course:
     """Values of slots (a node and a direction, an edge) step by step: they stay until they are changed or removed."""
 
     def __init__(self) -> None:
-        self._now: dict[int, tuple[float, int, int, Hold]] = {}  # slot to magnitude, amplitude, source, hold
+        self._now: dict[int, _Value] = {}
         self._before: set[int] = set()  # slots set in an earlier step, which a new value replaces
         self._amplitudes: list[Amplitude | None] = [None]
         self._sources: list[tuple[str, Card]] = []
         self._first: dict[int, int] = {}  # slot to the source that set it first
-        self._ends: list[dict[int, tuple[float, int, Hold]]] = []  # by step: slot to magnitude, amplitude, hold
+        self._ends: list[dict[int, _Value]] = []  # by step
         self._reached: dict[int, float] = {}  # values at the end of the last step
 
     def put(
@@ -111,7 +121,8 @@ class Course:
             base, other, earlier, _ = now.get(slot, _UNSET) if slot not in before else _UNSET
             if base and value and other != index:
                 self._refuse_two_amplitudes(index, other, self._sources[earlier][1], card)
-            now[slot] = (base + value if adds else value, other if adds and not value else index, source, "value")
+            followed = other if adds and not value else index
+            now[slot] = _Value(base + value if adds else value, followed, source, "value")
             before.discard(slot)
             self._first.setdefault(slot, source)
 
@@ -127,7 +138,7 @@ class Course:
         source = self._source(label, card)
         for slot in slots.tolist():
             known = not self._ends or slot in self._reached
-            self._now[slot] = (self._reached.get(slot, 0.0), 0, source, "value" if known else "place")
+            self._now[slot] = _Value(self._reached.get(slot, 0.0), 0, source, "value" if known else "place")
             self._before.discard(slot)
             self._first.setdefault(slot, source)
 
@@ -141,12 +152,12 @@ class Course:
 
     def set_by(self, slot: int) -> Card | None:
         """The keyword whose value a slot has, None where it has none."""
-        return self._sources[self._now[slot][2]][1] if slot in self._now else None
+        return self._sources[self._now[slot].source][1] if slot in self._now else None
 
     @property
     def keywords(self) -> set[str]:
         """Keywords that have set the present values."""
-        return {self._sources[source][1].keyword for source in {now[2] for now in self._now.values()}}
+        return {self._sources[source][1].keyword for source in {now.source for now in self._now.values()}}
 
     @property
     def kept_slots(self) -> set[int]:
@@ -161,21 +172,22 @@ class Course:
     @property
     def sets_constants(self) -> bool:
         """Whether this step gives any value but 0 that follows no amplitude."""
-        return any(self._now[slot][0] and not self._now[slot][1] for slot in self.new_slots)
+        return any(self._now[slot].magnitude and not self._now[slot].amplitude for slot in self.new_slots)
 
     def end_step(self, step: DeckStep) -> None:
         """Note what there is at the end of a step; what follows an amplitude of the step's time stays as it ends."""
-        self._ends.append({slot: (magnitude, index, hold) for slot, (magnitude, index, _, hold) in self._now.items()})
+        self._ends.append(dict(self._now))
         ends = [
             1.0 if amplitude is None else amplitude.at(step.end if amplitude.total else step.period)
             for amplitude in self._amplitudes
         ]
-        valued = [(slot, now) for slot, now in self._now.items() if now[3] == "value"]
-        self._reached = {slot: magnitude * ends[index] for slot, (magnitude, index, _, _) in valued}
+        self._reached = {
+            slot: now.magnitude * ends[now.amplitude] for slot, now in self._now.items() if now.hold == "value"
+        }
         over = {index for index, amplitude in enumerate(self._amplitudes) if amplitude and not amplitude.total}
         for slot, (magnitude, index, source, hold) in self._now.items():
             if index in over:
-                self._now[slot] = (magnitude * ends[index], 0, source, hold)
+                self._now[slot] = _Value(magnitude * ends[index], 0, source, hold)
 
     def _refuse_two_amplitudes(self, index: int, other: int, earlier: Card, card: Card) -> None:
         mine, its = (
@@ -192,11 +204,11 @@ class Course:
         groups: dict[tuple[int, tuple[float, ...], tuple[int, ...], tuple[Hold, ...]], list[tuple[int, float]]] = {}
         labels: dict[str, int] = {}
         for slot, source in self._first.items():
-            history = [ends.get(slot, _NO_VALUE) for ends in self._ends]
-            size = max((value for value, _, _ in history), key=abs, default=0.0)
-            shares = tuple(round(value / size, 12) if size else 0.0 for value, _, _ in history)
+            history = [ends.get(slot, _UNSET) for ends in self._ends]
+            size = max((now.magnitude for now in history), key=abs, default=0.0)
+            shares = tuple(round(now.magnitude / size, 12) if size else 0.0 for now in history)
             named = labels.setdefault(self._sources[source][0], source)
-            key = (named, shares, tuple(index for _, index, _ in history), tuple(hold for _, _, hold in history))
+            key = (named, shares, tuple(now.amplitude for now in history), tuple(now.hold for now in history))
             groups.setdefault(key, []).append((slot, size))
         for (source, shares, indices, holds), members in groups.items():
             label, card = self._sources[source]
