@@ -183,7 +183,7 @@ def counted() -> Iterator[Work]:
         wrapped(proximal, "gauss_seidel", lambda a, k, _f: 2.0 * k["count"] * (3 * a[0].pairs) ** 2),
         wrapped(sectors, "linprog", programme),
         wrapped(overload, "linprog", programme),
-        wrapped(held.Held, "of", held_form),
+        wrapped(held.StickingResponse, "of", held_form),
         wrapped(rates, "_complementary", lambda a, _k, _f: 2.0 / 3.0 * len(a[1]) ** 3),
         wrapped(multifrontal, "analyse", planned),
     ):

@@ -14,7 +14,7 @@ from signorini import lcp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.friction.history.plane.find_rates import NoRates, evidence, refused
 from signorini.friction.history.space.no_rates_proof import Exhausted, search
-from signorini.friction.history.space.rate_problem import CONE, FACET, GAP, KINK, Choice
+from signorini.friction.history.space.rate_problem import CONE, FACET, GAP, KINK, RateProblem
 from signorini.friction.history.space.smooth_cones import ConeProblem
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
@@ -81,7 +81,7 @@ def find_rates(problem: ContactProblem, now: PathState, width: float) -> Spatial
     >>> [(each.state.tolist(), (each.h.round(12) + 0.0).tolist()) for each in rates]
     [([2], [0.0, 2.0, 0.0]), ([1], [0.0, 0.0, 0.0])]
     """
-    choice = Choice.at(problem, now, width)
+    choice = RateProblem.at(problem, now, width)
     return NoRates(proof=choice, proved=False) if isinstance(choice, str) else _solved(choice)
 
 
@@ -94,7 +94,7 @@ def departures(problem: ContactProblem, now: PathState, width: float) -> Iterato
     ----------
     problem, now, width : see `find_rates`
     """
-    whole = Choice.at(problem, now, width)
+    whole = RateProblem.at(problem, now, width)
     if isinstance(whole, str):
         return
     slide = np.isin(np.arange(problem.pairs), whole.acting, invert=True) & (now.state == SLIP)
@@ -102,7 +102,7 @@ def departures(problem: ContactProblem, now: PathState, width: float) -> Iterato
     for taken in islice(product(*ways), _DEPARTURES):
         opened = np.zeros(problem.pairs, dtype=np.bool_)
         opened[[k for k, way in zip(whole.acting, taken, strict=True) if way == _OPENS]] = True
-        choice = Choice.at(problem, now, width, opened=opened) if opened.any() else whole
+        choice = RateProblem.at(problem, now, width, opened=opened) if opened.any() else whole
         if isinstance(choice, str):
             continue
         moves = {
@@ -121,17 +121,17 @@ def departures(problem: ContactProblem, now: PathState, width: float) -> Iterato
 
 
 def acting_pairs(problem: ContactProblem, now: PathState, width: float) -> IntArray:
-    """Pairs that may not go on as they are, see `Choice`; none where that is not known.
+    """Pairs that may not go on as they are, see `RateProblem`; none where that is not known.
 
     Parameters
     ----------
     problem, now, width : see `find_rates`
     """
-    choice = Choice.at(problem, now, width)
+    choice = RateProblem.at(problem, now, width)
     return np.array([] if isinstance(choice, str) else choice.acting, dtype=np.int64)
 
 
-def _ways(choice: Choice, k: int, state: int) -> list[Departure]:
+def _ways(choice: RateProblem, k: int, state: int) -> list[Departure]:
     """How an acting pair may leave its state; the last: not at all."""
     numbers = choice.numbers(k)
     kind = choice.kind[numbers]
@@ -152,7 +152,7 @@ def _some(facets: list[int]) -> list[tuple[int, ...]]:
 
 
 def _solved(
-    choice: Choice, moves: Mapping[int, bool] | None = None, closed: BoolArray | None = None
+    choice: RateProblem, moves: Mapping[int, bool] | None = None, closed: BoolArray | None = None
 ) -> SpatialRates | NoRates:
     """Rates of a choice in which some numbers move and some do not, whatever they would do; ``closed`` pairs stay."""
     moves, M, q = moves or {}, choice.M, choice.q
@@ -230,7 +230,7 @@ def _margin(answer: Exhausted, unit: float, size: float) -> float:
     return answer.margin * min(1.0, unit / (size or unit))
 
 
-def _states(choice: Choice, h: Array, r: Array, none: float) -> IntArray:
+def _states(choice: RateProblem, h: Array, r: Array, none: float) -> IntArray:
     """(n,) States in which pairs have these rates."""
     n, standing = len(h) // 3, choice.standing
     moves = (np.abs(h[n:]).reshape(2, n) > none).any(axis=0) | ~standing.rubs

@@ -21,8 +21,8 @@ from signorini.friction.history.recorder import PathRecorder, check_loads
 from signorini.friction.history.segment import Breakpoint, Jump, Segment
 from signorini.friction.history.space.find_rates import SpatialRates, acting_pairs, find_rates
 from signorini.friction.history.space.increment import SolvedIncrement, StopSettings
-from signorini.friction.history.space.missed_jumps import passed_over
-from signorini.friction.history.space.straight import held_until, lasts, tangents, turned
+from signorini.friction.history.space.missed_jumps import first_missed_jump
+from signorini.friction.history.space.straight import extrapolated_length, friction_turn, held_until, tangents
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import pulled_away
@@ -117,7 +117,7 @@ class SpaceFollower(PathRecorder):
 
     def again(self) -> bool:
         """Whether an increment has passed over something: back to its beginning, to go through it event by event."""
-        k = passed_over(self.problem, self.start, self.pieces, self.balanced) if self.settings.shortest else None
+        k = first_missed_jump(self.problem, self.start, self.pieces, self.balanced) if self.settings.shortest else None
         if k is None:
             return False
         self.careful = self.balanced = self.pieces[k].factor
@@ -162,7 +162,7 @@ class SpaceFollower(PathRecorder):
         now, tried, n = self.now, self.tried, self.problem.pairs
         short = 0.5 * self._pressed_for(rates)
         piece = replace(now, h=now.h + short * rates.h, r=now.r + short * rates.r, state=rates.state)
-        step = min(short * lasts(self.problem, now, piece, self.width), self.reach - self.factor)
+        step = min(short * extrapolated_length(self.problem, now, piece, self.width), self.reach - self.factor)
         for _ in range(_TRIES):
             if step < LEAST_STEP:
                 return False
@@ -295,7 +295,7 @@ class SpaceFollower(PathRecorder):
 
     def _room(self, trial: SolvedIncrement, state: IntArray) -> float:
         """How much longer than the trial the increment may be: up to the next event, and to the turn allowed."""
-        times = max(1.0, lasts(self.problem, self.now, replace(trial.after, state=state), self.width))
+        times = max(1.0, extrapolated_length(self.problem, self.now, replace(trial.after, state=state), self.width))
         if trial.turn > 0.0:
             times = min(times, max(1.0, _SHRINK * self._turn / trial.turn))
         return max(times, self._shortest / trial.step)
@@ -345,7 +345,7 @@ class SpaceFollower(PathRecorder):
             result=result,
             until=least,
             each=until,
-            turn=turned(increment, now, r, slip, self.width),
+            turn=friction_turn(increment, now, r, slip, self.width),
         )
 
     def _enter(self, trial: SolvedIncrement, after: PathState, tried: int) -> None:

@@ -25,7 +25,9 @@ _MISSED_ENERGY = 1.0  # of what increments would miss whose every pair acts; smo
 _ENERGY_ROUNDING = 1e-12  # of the energies compared
 
 
-def passed_over(problem: ContactProblem, start: PathState, pieces: Sequence[Breakpoint], since: float) -> int | None:
+def first_missed_jump(
+    problem: ContactProblem, start: PathState, pieces: Sequence[Breakpoint], since: float
+) -> int | None:
     """The first increment that misses more energy than smooth ones of its length do, if any.
 
     Parameters
@@ -49,7 +51,7 @@ def passed_over(problem: ContactProblem, start: PathState, pieces: Sequence[Brea
     ...     return PathState(b=h, h=h, r=r, state=state, anchor=none, slip=slip, dissipation=np.array([lost]))
     >>> states = [at([0, 0, 0], [1, -1, 0], 0), at([0, 1, 0], [1, -1, 0], 1), at([1, 2, 0], [0, 0, 0], 1)]
     >>> pieces = [Breakpoint(factor=s, h=now.h, r=now.r, state=now) for s, now in zip([0, 0.9, 1], states)]
-    >>> passed_over(problem, states[0], pieces, 0.0), passed_over(problem, states[0], pieces, 1.0)
+    >>> first_missed_jump(problem, states[0], pieces, 0.0), first_missed_jump(problem, states[0], pieces, 1.0)
     (2, None)
     """
     states = [start, *(piece.state or start for piece in pieces[1:])]

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.friction.history.space.sticking_response import Held
+from signorini.friction.history.space.sticking_response import StickingResponse
 from signorini.friction.history.space.straight import tangents
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
@@ -95,7 +95,7 @@ class PairSituation:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Choice:
+class RateProblem:
     """``0 <= z  _|_  M z + q >= 0`` for the motions z of pairs that are not inside their state, Coulomb's law for some.
 
     Attributes
@@ -113,7 +113,7 @@ class Choice:
         of their section or into a kink
     """
 
-    held: Held
+    held: StickingResponse
     standing: PairSituation
     kind: IntArray
     pair: IntArray
@@ -128,7 +128,7 @@ class Choice:
     @classmethod
     def at(
         cls, problem: ContactProblem, now: PathState, width: float, *, opened: BoolArray | None = None
-    ) -> Choice | str:
+    ) -> RateProblem | str:
         """The choice at a state under a load rate, the b of the problem; why there is none, in words.
 
         Parameters
@@ -142,7 +142,7 @@ class Choice:
         standing = PairSituation.at(problem, now, width, np.zeros(n, dtype=np.bool_) if opened is None else opened)
         if standing.lawless.any():
             return f"the rates of pairs {np.flatnonzero(standing.lawless).tolist()} obey no law that is known here"
-        held = Held.of(problem, standing.closed, standing.rubs)
+        held = StickingResponse.of(problem, standing.closed, standing.rubs)
         if held is None:
             return "the state in which all pairs hold is singular"
         pair, normal, reach = _facets(problem, standing, now)
@@ -208,7 +208,7 @@ def _facets(problem: ContactProblem, standing: PairSituation, now: PathState) ->
     return pair, normals[side, :, pair].T, reach[side, pair]
 
 
-def _rows(held: Held, kind: IntArray, pair: IntArray, normals: Array, share: Array) -> tuple[Array, Array]:
+def _rows(held: StickingResponse, kind: IntArray, pair: IntArray, normals: Array, share: Array) -> tuple[Array, Array]:
     """Motions of the held rows (c, N) of a unit of each number, and what its complement asks of their forces (N, c)."""
     n, rows = held.problem.pairs, len(held.rows)
     motion, asked = np.zeros((rows, len(kind))), np.zeros((len(kind), rows))

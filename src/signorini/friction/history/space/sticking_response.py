@@ -13,7 +13,7 @@ from signorini.friction.problem import ContactProblem
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Held:
+class StickingResponse:
     """The interface with rows that hold; all others are free of force, and move as they must.
 
     With x = h + r the held rows c and the free ones o obey::
@@ -32,7 +32,7 @@ class Held:
     >>> problem = ContactProblem.of(
     ...     W=0.5 * np.eye(3), b=np.array([-1.0, 0.5, 0.0]), friction=[0.3], motions=np.zeros((3, 0)), scale=1.0
     ... )
-    >>> held = Held.of(problem, np.array([True]), np.array([True]))
+    >>> held = StickingResponse.of(problem, np.array([True]), np.array([True]))
     >>> (held.force.round(12) + 0.0).tolist(), held.forces(np.array([0.0, 0.1, 0.0])).round(12).tolist()
     ([2.0, -1.0, 0.0], [0.0, 0.1, 0.0])
     """
@@ -47,7 +47,7 @@ class Held:
     _factor: tuple[Array, bool]
 
     @classmethod
-    def of(cls, problem: ContactProblem, closed: BoolArray, rubs: BoolArray) -> Held | None:
+    def of(cls, problem: ContactProblem, closed: BoolArray, rubs: BoolArray) -> StickingResponse | None:
         """The interface of a problem whose closed pairs, (n,), hold; None where that leaves forces undetermined.
 
         Parameters

@@ -50,7 +50,7 @@ def held_until(problem: ContactProblem, start: PathState, h: Array, r: Array, sl
     slips = (r[:n] > 0) & (size > width) & ~closes
     most = problem.bound.at(p) * problem.section.farthest(slip)
     lacking = ((most + tangents(start.r[n:])) * slip).sum(axis=0) / np.where(slips, size, 1.0)
-    # on a smooth section the force turns with the slip; how far is another question, see `turned`
+    # on a smooth section the force turns with the slip; how far is another question, see `friction_turn`
     inside = (problem.section.sides > 0) | (problem.law.reserve(problem.by_pair(start.r)) > width)
     starts = slips & inside & (lacking > width)
     until[starts] = lacking[starts] / (lacking + size)[starts]
@@ -61,7 +61,7 @@ def held_until(problem: ContactProblem, start: PathState, h: Array, r: Array, sl
     return until
 
 
-def turned(problem: ContactProblem, start: PathState, r: Array, slip: Array, width: float) -> float:
+def friction_turn(problem: ContactProblem, start: PathState, r: Array, slip: Array, width: float) -> float:
     """Largest angle by which friction turns on smooth sections, of pairs that slip on their limit all the way.
 
     Parameters
@@ -80,7 +80,7 @@ def turned(problem: ContactProblem, start: PathState, r: Array, slip: Array, wid
     return float(np.abs(np.arctan2(cross, (one[:, which] * two[:, which]).sum(axis=0))).max())
 
 
-def lasts(problem: ContactProblem, start: PathState, end: PathState, width: float) -> float:
+def extrapolated_length(problem: ContactProblem, start: PathState, end: PathState, width: float) -> float:
     """At how many times its length a piece must end since a gap, a normal force or friction to spare vanishes.
 
     Parameters
