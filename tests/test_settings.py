@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import signorini as sg
-from signorini.deck import DeckError, load
+from signorini.deck import DeckError, load_deck
 from signorini.gallery.cylinder import zhu_cylinder
 
 DECK = Path(__file__).parents[1] / "examples" / "zhu_cylinder.toml"
@@ -43,9 +43,9 @@ def test_a_limit_of_multipliers_is_felt():
 
 
 def test_a_deck_says_them(tmp_path):
-    found = load(deck(tmp_path, "newton_steps = 40\npivots_per_pair = [5]")).settings
+    found = load_deck(deck(tmp_path, "newton_steps = 40\npivots_per_pair = [5]")).settings
     assert found == sg.SolverSettings(newton_steps=40, pivots_per_pair=(5,))
-    assert load(DECK).settings == sg.SolverSettings()
+    assert load_deck(DECK).settings == sg.SolverSettings()
 
 
 @pytest.mark.parametrize(
@@ -62,5 +62,5 @@ def test_wrong_limits_are_named_with_their_line(tmp_path, table, words):
     path = deck(tmp_path, table)
     line = path.read_text(encoding="utf-8").splitlines().index(table) + 1
     with pytest.raises(DeckError) as caught:
-        load(path)
+        load_deck(path)
     assert str(caught.value).startswith(f"{path}:{line}: {words}")
