@@ -251,12 +251,13 @@ def measured(prepared: Prepared, state: State, before: Array | None = None) -> C
     state : to be measured
     before : ((d - 1) n,) tangential displacement at which its slip increment began; its own where not given
     """
+    paths = prepared.solver.paths
     return certify(
         prepared,
         state,
         loads=applied(prepared, state.point)[0],
         before=state.tangential if before is None else before,
-        yielding=prepared.solver.softness,
+        yielding=None if paths is None else paths.condensed.on_springs,
     )
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray
 from signorini.engine.examine import Examined
 from signorini.engine.solver import Increment, IncrementAnswer
 from signorini.errors import InputError
@@ -65,16 +65,8 @@ class MultiplierSolver:
         return self.bodies.settled
 
     @property
-    def ties(self) -> None:
-        """None: tied pairs have multipliers as others do."""
-
-    @property
     def paths(self) -> None:
         """None: nothing is condensed."""
-
-    @property
-    def softness(self) -> None:
-        """None: that is not known."""
 
     def under(self, interface: Interface, scale: Scale, absent: BoolArray) -> MultiplierSolver:  # noqa: ARG002
         """Bodies without pairs that are switched off; the law is asked for in every increment.
@@ -85,16 +77,6 @@ class MultiplierSolver:
         absent : (n,) pairs that are switched off
         """
         return replace(self, bodies=self.bodies.among(~absent)) if absent.any() else self
-
-    def factored(self, nodes: IntArray, points: Array, *, patience: int) -> MultiplierSolver:
-        """Iterate with factors in place of multigrid, see `Bodies.factored`.
-
-        Parameters
-        ----------
-        nodes, points : (z,) node of each free displacement, and (nodes, d) where they are
-        patience : rounds without progress after which an increment is given up
-        """
-        return replace(self, bodies=self.bodies.factored(nodes, points, patience=patience))
 
     def solve(self, increment: Increment) -> IncrementAnswer:
         """Solve one increment, from as far ahead of the state as the last increment led."""

@@ -141,10 +141,9 @@ class Prepared(Examined, DiscreteModel):
         """The solver of `with_multipliers`; ``patience`` as there."""
         T, nodes = self.constraints.transform, self.constraints.nodes
         K, B = reduced_stiffness(self.K, T), sp.csr_array(self.interface.B @ T)
-        solver = make_multipliers(self, K, B, self.solver.active, self.settings).under(
-            self.interface, self.scale, self.absent
-        )
-        return solver.factored(nodes, self.space.places, patience=patience)
+        solver = make_multipliers(self, K, B, self.solver.active, self.settings)
+        bodies = solver.under(self.interface, self.scale, self.absent).bodies
+        return replace(solver, bodies=bodies.factored(nodes, self.space.places, patience=patience))
 
     @property
     def has_multipliers(self) -> bool:

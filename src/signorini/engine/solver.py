@@ -17,7 +17,6 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import MethodRun
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed
-from signorini.condense.ties import Ties
 from signorini.friction.history.plane import Landing, PathState, Segment, follow, initial_state, land
 from signorini.friction.history.space import StopSettings, at_rest, follow_stopping, land_spatial
 from signorini.friction.problem import ContactProblem
@@ -111,16 +110,8 @@ class ContactSolver(Protocol):
         """(n,) Pairs that the law need not be asked of, because supports or ties hold them."""
 
     @property
-    def ties(self) -> Ties | None:
-        """Tied pairs, where they are no unknowns of the law."""
-
-    @property
     def paths(self) -> CondensedSolver | None:
         """What follows paths from event to event; None where nothing is condensed."""
-
-    @property
-    def softness(self) -> Callable[[Array], Array] | None:
-        """Displacements (z,) under forces (z,) where springs hold every pair, length; None where that is not known."""
 
     def under(self, interface: Interface, scale: Scale, absent: BoolArray) -> Self:
         """Bodies as they are under another law, without pairs that are switched off; nothing is factorised again.
@@ -194,19 +185,9 @@ class CondensedSolver:
         return self.condensed.settled
 
     @property
-    def ties(self) -> Ties:
-        """Tied pairs, which are no unknowns of the law."""
-        return self.condensed.ties
-
-    @property
     def paths(self) -> CondensedSolver:
         """Itself."""
         return self
-
-    @property
-    def softness(self) -> Callable[[Array], Array]:
-        """Displacements under forces where springs hold every pair, see `Condensed.on_springs`."""
-        return self.condensed.on_springs
 
     def under(self, interface: Interface, scale: Scale, absent: BoolArray) -> CondensedSolver:
         """Bodies under another law, see `ContactSolver.under`; the law shares what it has computed.

@@ -107,8 +107,9 @@ def _completed(prepared: Prepared, offset: Array) -> Array:
     """Offsets of held dofs, and with them what equations and ties make of them."""
     constraints = prepared.constraints
     completed = constraints.completed(offset)
-    ties = prepared.solver.ties
-    if ties is None or not len(ties.rows):
+    paths = prepared.solver.paths
+    if paths is None or not len(paths.condensed.ties.rows):
         return completed
+    ties = paths.condensed.ties
     result: Array = completed + constraints.transform @ ties.closing(prepared.interface.B[ties.rows] @ completed)
     return result
