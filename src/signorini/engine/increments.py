@@ -100,11 +100,9 @@ def advance(
     SolveFailed
         If there is no certified solution.
     """
-    constraints, interface = prepared.constraints, prepared.interface
-    n, active = len(interface), prepared.solver.active
-    loads, imposed = applied(prepared, point)
+    _, imposed = applied(prepared, point)
     offset = np.concatenate([point.gap, -state.tangential]) + moved_by_supports(prepared, imposed)
-    refuse_overlap(prepared, offset[:n], where)
+    refuse_overlap(prepared, offset[: len(prepared.interface)], where)
     increment = Increment(
         system=prepared,
         f=free_load(prepared, point),
@@ -118,22 +116,33 @@ def advance(
     answer = prepared.solver.solve(increment)
     if not answer.solved:
         raise _failure(prepared, answer, where)
-    if answer.lost > 0.0 and prepared.has_multipliers:
-        sizes = (constraints.transform @ answer.free + imposed, imposed, state.displacement, point.gap)
-        farthest = max(float(np.abs(size).max(initial=0.0)) for size in sizes)
-        if answer.lost > _LOST_DIGITS * farthest:
-            answer = _polished(prepared, increment, answer, min(prepared.scale.length, farthest)) or answer
+    new = _recovered(prepared, increment, answer, point)
+    sizes = (new.displacement, imposed, state.displacement, point.gap)
+    farthest = max(float(np.abs(size).max(initial=0.0)) for size in sizes)
+    certificate = measured(prepared, new, state.tangential)
+    if certificate.passed and answer.lost <= _LOST_DIGITS * farthest:
+        return new, certificate, answer.trace
+    if prepared.has_multipliers:
+        polished = _polished(prepared, increment, answer, min(prepared.scale.length, farthest))
+        new = new if polished is None else _recovered(prepared, increment, polished, point)
+    return new, certified(prepared, new, state.tangential, where), answer.trace
+
+
+def _recovered(prepared: Prepared, increment: Increment, answer: IncrementAnswer, point: LoadPoint) -> State:
+    """The state at the end of an increment."""
+    constraints, interface, n = prepared.constraints, prepared.interface, len(prepared.interface)
+    active, (loads, imposed) = prepared.solver.active, applied(prepared, point)
     with prepared.clock.phase("recovery"):
         displacement = constraints.transform @ answer.free + imposed
         outside, moved = np.nonzero(~interface.rows(active))[0], answer.moved
-        moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
+        moved[outside] = (increment.offset + interface.B @ (displacement - imposed))[outside]
         status = np.full(n, OPEN)
         status[active] = answer.status
         status[interface.tied] = STICK
         forces, status = settled(prepared, answer.forces, status)
-        new = next_state(
+        return next_state(
             prepared,
-            state,
+            increment.state,
             point=point,
             loads=loads,
             displacement=displacement,
@@ -141,13 +150,14 @@ def advance(
             moved=moved,
             status=status,
         )
-    return new, certified(prepared, new, state.tangential, where), answer.trace
 
 
 def _polished(
     prepared: Prepared, increment: Increment, answer: IncrementAnswer, length: float
 ) -> IncrementAnswer | None:
     """An answer with the digits that the condensed interface has lost; None where that does not settle.
+
+    Lost are those by which pairs and bodies move apart, and those that a certificate misses.
 
     Rounding of forces moves slender bodies by many roundings of their displacements. Equilibrium between both has
     digits to spare, so the motions of the pairs are made right and it takes what that changes.
