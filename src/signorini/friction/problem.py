@@ -158,7 +158,7 @@ class ContactProblem:
         """(n,) Pairs without any bound on their friction: they stick wherever they are closed."""
         if isinstance(self.friction, Bound):
             return np.zeros(self.pairs, dtype=np.bool_)
-        endless = np.isinf(self.friction).reshape(-1, self.pairs).any(axis=0)
+        endless = np.atleast_2d(np.isinf(self.friction)).any(axis=0)
         return np.asarray(endless if self.limit is None else endless & np.isinf(self.limit), dtype=np.bool_)
 
     @cached_property
