@@ -105,15 +105,16 @@ class SpaceFollower(PathRecorder):
         if self._leaves:
             return NoRates(proof=words, proved=True)
         found = find_rates(self.rate_problem, self.now, self.near)
-        if isinstance(found, SpatialRates):
-            return None if self.along(found) else NoRates(proof=f"{words}, though there are rates", proved=False)
-        if found.proved:
+        if isinstance(found, SpatialRates) and self.along(found):
+            return None
+        if isinstance(found, NoRates) and found.proved:
             return replace(found, proof=f"{words}; {found.proof}")
-        words = self.advance(patience=_TRIES)
+        words = self.advance(patience=_TRIES)  # also where increments do not go along the rates, one of several
         if words and self.careful > self.factor:
             self.careful, self.trusting = 0.0, True
             return self.go_on()
-        return NoRates(proof=f"{words}; {found.proof}", proved=False) if words else None
+        rest = f"; {found.proof}" if isinstance(found, NoRates) else ", though there are rates"
+        return NoRates(proof=f"{words}{rest}", proved=False) if words else None
 
     def again(self) -> bool:
         """Whether an increment has passed over something: back to its beginning, to go through it event by event."""
