@@ -62,8 +62,8 @@ MISTAKES = {
     "unknown table": (
         "[[step]]",
         "[[stepp]]",
-        ":31: stepp: unknown key; did you mean 'step'? Known: title, kind, thickness, units, mesh, material, body, "
-        "support, foundation, load, contact, obstacle, rigid_body, equation, step",
+        ":31: stepp: unknown key; did you mean 'step'? Known: title, kind, thickness, units, mesh, material, "
+        "solver, body, support, foundation, load, contact, obstacle, rigid_body, equation, step",
     ),
     "unknown boundary": (
         'on = "axis"',
