@@ -71,6 +71,7 @@ def test_another_load_shares_the_factorisation():
         ({"friction": [-0.1]}, "friction: has negative entries"),
         ({"W": np.array([[0.5, 0.1], [0.2, 0.5]])}, "W: is not symmetric"),
         ({"scale": np.nan}, "scale: is nan; expected"),
+        ({"facets": 8}, "facets: is not 0; in the plane"),
         ({"W": np.diag([0.5, 0]), "friction": [np.inf]}, "friction: is infinite at a pair whose supports drag it"),
     ],
 )

@@ -268,6 +268,8 @@ class ContactProblem:
             raise InputError(
                 f"is {self.facets}; expected 0 or a multiple of 4, or one for each pair", where=("facets",)
             )
+        if n and self.directions == 2 and facets.any():
+            raise InputError("is not 0; in the plane the section of the cone is an interval", where=("facets",))
 
     def _check_friction(self) -> None:
         """Refuse friction that is none, and pairs without bound on it that supports pull along."""
