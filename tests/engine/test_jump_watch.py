@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Equal increments in space never step over a slide in silence."""
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import signorini as sg
+from signorini import deck
 from signorini.meshing.solid import box
 from signorini.model.mesh import join
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
 
 SLIDES = "step 'pull' at 50.000000%: gross sliding: body 'top' can move along x: no equilibrium continues the history"
 
@@ -60,3 +66,17 @@ def test_where_no_increment_goes_on_the_slide_is_named():
 def test_what_friction_holds_says_nothing(increments):
     solution = sg.solve(block(pull=0.28, increments=increments))
     assert not [note for note in solution.steps[-1].notes if "gross sliding" in note]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("increments", [4, 10])
+def test_a_joint_that_slides_until_its_bend_bears_is_told_once_from_wherever_increments_begin(increments):
+    """One increment after the other it slides between 75.006 and 75.009 % of the pull, by 0.2 mm."""
+    model = deck.read(EXAMPLES / "bolted_bracket.toml")
+    loads = tuple(replace(load, force=(1600.0, 0.0, 0.0)) if load.name == "cable" else load for load in model.loads)
+    contacts = tuple(replace(contact, friction=0.12) for contact in model.contacts)
+    steps = (model.steps[0], replace(model.steps[1], increments=increments))
+    solution = sg.solve(replace(model, loads=loads, contacts=contacts, steps=steps))
+    notes = [note for note in solution.steps[-1].notes if "gross sliding: body 'bracket' can move along x" in note]
+    assert len(notes) == 1
+    assert notes[0].startswith("step 'pull' at 75.0")

@@ -81,20 +81,22 @@ def follow_exactly(part: StepPart, *, jumps: bool = False) -> FollowedPart:
     return _beyond_jumps(part, "event by event", jumps=jumps)
 
 
-def follow_to_events(part: StepPart, number: int, *, jumps: bool = False) -> FollowedPart:
+def follow_to_events(part: StepPart, number: int, *, jumps: bool = False, behind: float = 0.0) -> FollowedPart:
     """Follow a straight part of a step in space in increments that end at events.
 
     Parameters
     ----------
     number : an increment need not be shorter than 1 / number of the part, whatever happens in it
     jumps : see `follow_exactly`
+    behind : of a longer straight way that the part ends, in lengths of the part, see `Bearing`
 
     Raises
     ------
     SolveFailed
         As `follow_exactly` does.
     """
-    stops = StopSettings(shortest=1.0 / number, turn=_TURN / number**0.5, solver=part.prepared.settings)
+    solver = part.prepared.settings
+    stops = StopSettings(shortest=1.0 / number, turn=_TURN / number**0.5, solver=solver, behind=behind)
     return _beyond_jumps(part, "increments to events", jumps=jumps, stops=stops)
 
 

@@ -48,7 +48,7 @@ def follow_watchfully(part: StepPart, number: int, *, stops: bool = False) -> Fo
         if jump is None:
             raise
         raise keep(jump, [] if found is None else [found]) from lost
-    notes, before = [], part.before
+    notes, before, told_at = [], part.before, -1
     for k, shot in enumerate(followed.snapshots, start=1):
         if _far(part, before, shot.state):
             jump = _jump(part, before, (k - 1) / number, min(1.0, (k + 1) / number))
@@ -56,8 +56,10 @@ def follow_watchfully(part: StepPart, number: int, *, stops: bool = False) -> Fo
             if jump is not None and (here is None or here.snapshots[-1].load_factor <= shot.load_factor + _SAME_LOAD):
                 if stops:
                     raise keep(jump, [_up_to(followed, k - 1)] if k > 1 else [])
-                words = f"{number} increment{'s' if number > 1 else ''}"
-                notes.append(f"{jump.sentence}; followed in {words} to what is a candidate")
+                if here is not None or told_at != k - 1:  # else seen already, just before the end of the last one
+                    words = f"{number} increment{'s' if number > 1 else ''}"
+                    notes.append(f"{jump.sentence}; followed in {words} to what is a candidate")
+                    told_at = k
         before = shot.state
     return replace(followed, notes=(*followed.notes, *notes))
 
@@ -125,7 +127,7 @@ def _jump(part: StepPart, state: State, low: float, high: float) -> SolveFailed 
     if part.prepared.interface.directions == 2 or part.prepared.solver.paths is None:
         return None
     try:
-        follow_to_events(_between(part, state, low, high), 1)
+        follow_to_events(_between(part, state, low, high), 1, behind=low / (high - low))
     except SolveFailed as failure:
         return failure if failure.status == Outcome.JUMP else None
     return None

@@ -14,10 +14,12 @@ from signorini import deck
 from signorini.api import solve
 from signorini.arrays import frozen
 from signorini.clock import Clock
+from signorini.friction.history.space import at_rest
 from signorini.friction.history.space.no_rates_proof import Exhausted, search
 from signorini.friction.history.space.smooth_cones import ConeProblem
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import GAIN, pulled_away
+from signorini.friction.space.bearing import Bearing
 from signorini.friction.space.overload import overload
 
 HERE, EXAMPLES = Path(__file__).parent, Path(__file__).parents[3] / "examples"
@@ -63,6 +65,24 @@ def test_beyond_an_overload_a_rigid_motion_proves_that_nothing_holds_and_none_do
     edge, beyond = (overload(problem, -problem.b, at(found.factor * (1.0 + part)).b) for part in (1e-11, 1e-2))
     assert edge is None or edge.share <= GAIN
     assert beyond.share > GAIN
+
+
+@pytest.mark.parametrize("behind", [0.25, 0.5, 0.7])
+def test_a_limit_is_looked_at_from_as_near_wherever_on_the_way_the_look_begins(behind):
+    rng = np.random.default_rng(5)
+    problem = floating(rng, 6, 0.4)
+    growth = rng.normal(size=18)
+    way = growth * 100.0 * overload(problem, -problem.b, problem.b + 100.0 * growth).factor / 0.75  # it ends at 75 %
+
+    def seen(since, before):
+        b = problem.b + since * way
+        now = replace(at_rest(problem, np.zeros(18), motion=np.zeros(18)), b=b, r=-problem.b)
+        look = Bearing(problem, problem.b + way, before)
+        return [since + (1.0 - since) * part for part in (look.reach(now, 0.0), look.limit, look.beyond)]
+
+    whole = seen(0.0, 0.0)
+    assert np.allclose(whole, [0.74925, 0.75, 0.75075], rtol=1e-6)
+    assert np.allclose(seen(behind, behind / (1.0 - behind)), whole, rtol=1e-6)
 
 
 def test_linear_programmes_end_where_bodies_nearly_roll():

@@ -37,10 +37,12 @@ class Bearing:
     ----------
     problem : its b is not used
     b_end : (3n,) load at the end of the way
+    behind : of a longer straight way that this one ends, in lengths of this one: what is near a limit, is near it alike
+        wherever on that way the look begins
     """
 
-    def __init__(self, problem: ContactProblem, b_end: Array) -> None:
-        self.problem, self.b_end = problem, b_end
+    def __init__(self, problem: ContactProblem, b_end: Array, behind: float = 0.0) -> None:
+        self.problem, self.b_end, self.behind = problem, b_end, behind
         self._near: BoolArray = np.zeros(0, dtype=np.bool_)
         self._found: Overload | None = None  # with the pairs that are near
         self._least: Overload | None = None  # with those of any state since equilibrium was seen to go on beyond one
@@ -59,7 +61,7 @@ class Bearing:
         ahead = self._found
         if ahead is not None and ahead.factor > self._crossed:
             self._least = ahead if self._least is None else min(self._least, ahead, key=lambda one: one.factor)
-        return 1.0 if self._least is None else (1.0 - _SHORT_OF_LIMIT) * self.limit
+        return 1.0 if self._least is None else (1.0 - _SHORT_OF_LIMIT) * self.limit - _SHORT_OF_LIMIT * self.behind
 
     def _known(self, near: BoolArray) -> bool:
         """Whether these pairs are known to hold as much; more of them hold no less."""
@@ -76,7 +78,7 @@ class Bearing:
     @property
     def beyond(self) -> float:
         """Part of the way a little beyond that."""
-        return min(1.0, (1.0 + _SHORT_OF_LIMIT) * self.limit)
+        return min(1.0, (1.0 + _SHORT_OF_LIMIT) * self.limit + _SHORT_OF_LIMIT * self.behind)
 
     def cross(self) -> None:
         """Take note that equilibrium goes on gradually beyond the reach."""

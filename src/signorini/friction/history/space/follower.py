@@ -84,7 +84,7 @@ class SpaceFollower(PathRecorder):
         self._searched = False  # long, once in vain: shorter increments are near where they begin, or there are none
         self._rate: Array | None = None  # of r - h in the last increment that was found, per part of the segment
         self._overloaded = False  # whether the pairs that are near hold the bodies no more
-        self.bearing = Bearing(problem, self.b_end)
+        self.bearing = Bearing(problem, self.b_end, settings.behind)
         # the load as rates see it; what smooth sections know of an event is less sharp
         self.rate_problem = replace(problem, b=frozen(b_end - start.b))
         self.near, self._astray = (_EVENT_WIDTH * (problem.scale or 1.0), 0.5) if self.smooth else (self.width, 1e-6)

@@ -22,12 +22,14 @@ class StopSettings:
     turn : largest angle by which friction on a smooth section turns in an increment longer than that
     width : of zero for a gap, a force or the friction to spare, relative to the data
     solver : limits of the methods, the number of increments among them
+    behind : of a longer straight way that the segment ends, in lengths of the segment, see `Bearing`
     """
 
     shortest: float = 0.0
     turn: float = 0.05
     width: float = 1e-10
     solver: SolverSettings = field(default_factory=SolverSettings)
+    behind: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
