@@ -9,6 +9,7 @@ import pytest
 
 import signorini as sg
 from signorini import deck
+from signorini.engine.jump_watch import UNWATCHED
 from signorini.meshing.solid import box
 from signorini.model.mesh import join
 
@@ -66,6 +67,13 @@ def test_where_no_increment_goes_on_the_slide_is_named():
 def test_what_friction_holds_says_nothing(increments):
     solution = sg.solve(block(pull=0.28, increments=increments))
     assert not [note for note in solution.steps[-1].notes if "gross sliding" in note]
+
+
+def test_where_contact_is_iterated_a_note_says_that_slides_are_not_looked_for():
+    said = [
+        sg.solve(block(pull=0.28, increments=1), backend=backend).steps[-1].notes for backend in ("auto", "iterative")
+    ]
+    assert [notes.count(UNWATCHED) for notes in said] == [0, 1]
 
 
 @pytest.mark.slow

@@ -20,6 +20,8 @@ from signorini.errors import SolveFailed, told
 from signorini.outcome import Outcome
 from signorini.solution.state import State
 
+UNWATCHED = "contact alone holds bodies and is iterated with multipliers: slides of them are not looked for"
+
 _ZOOMS, _WATCH_INCREMENTS = 3, 16  # times that the largest change is looked at in as many increments
 _SUDDEN = 0.5  # of that change, in one of them each time: no increments resolve it
 _SAME_LOAD = 1e-9  # part of a step: how far behind the end of an increment a jump at its very end may be seen
@@ -61,7 +63,21 @@ def follow_watchfully(part: StepPart, number: int, *, stops: bool = False) -> Fo
                     notes.append(f"{jump.sentence}; followed in {words} to what is a candidate")
                     told_at = k
         before = shot.state
-    return replace(followed, notes=(*followed.notes, *notes))
+    return unwatched(part, replace(followed, notes=(*followed.notes, *notes)))
+
+
+def unwatched(part: StepPart, followed: FollowedPart) -> FollowedPart:
+    """A part of a step, with a note where bodies may slide on their friction and nobody looks for it.
+
+    Parameters
+    ----------
+    followed : the part, as it was followed in increments
+    """
+    prepared, interface = part.prepared, part.prepared.interface
+    rubbing = bool((interface.rubs & ~interface.sticks & ~prepared.absent).any())
+    if interface.directions == 2 or prepared.solver.paths is not None or not prepared.floating.shape[1] or not rubbing:
+        return followed
+    return replace(followed, notes=(*followed.notes, UNWATCHED)) if followed.after.forces.any() else followed
 
 
 def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
