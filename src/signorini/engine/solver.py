@@ -17,6 +17,7 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import MethodRun
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed
+from signorini.fem.internal_forces import internal_forces
 from signorini.friction.history.plane import Landing, PathState, Segment, follow, initial_state, land
 from signorini.friction.history.space import StopSettings, at_rest, follow_stopping, land_spatial
 from signorini.friction.problem import ContactProblem
@@ -218,7 +219,7 @@ class CondensedSolver:
         What equilibrium and the motions of the pairs lack in the end, on the problem as posed, is added to the
         condensed problem, and what that changes to the displacements: it was condensed with rounding, which gaps far
         larger than what the loads move (an arc that leaves its foundation) and thin bodies magnify, whose loads alone
-        would bend them far.
+        would bend them far. Their forces are then those of all digits of the displacements.
         """
         condensed, law, system, f = self.condensed, self.law, increment.system, increment.f
         offset, interface, scale = increment.offset, system.interface, system.scale
@@ -227,7 +228,7 @@ class CondensedSolver:
         residual, misfit, b, lost = f, offset[rows], np.zeros(len(rows)), 0.0
         guided = np.concatenate([np.zeros(law.pairs, dtype=np.bool_), law.locked.ravel()])
         start = self._start(increment.state) if increment.start is None else increment.start
-        for _ in range(_REFINEMENTS + 1):
+        for step in range(_REFINEMENTS + 1):
             with increment.clock.phase("complementarity"):
                 reduced = condensed.reduce(residual)
                 b = b + condensed.right_hand_side(reduced.load, misfit)
@@ -241,7 +242,8 @@ class CondensedSolver:
                 free = free + condensed.displacement(reduced, moved[rows] - before[0], forces[rows] - before[1], misfit)
                 u = T @ free
                 forces[ties.rows] = 0.0
-                residual = f + T.T @ (interface.B.T @ forces - system.K @ u)
+                internal = internal_forces(system.K, u) if step else system.K @ u
+                residual = f + T.T @ (interface.B.T @ forces - internal)
                 forces[ties.rows] = ties.forces(residual)
                 residual += ties.B.T @ forces[ties.rows]
                 misfit = (offset + interface.B @ u - moved)[rows] + condensed.compliance * forces[rows]
