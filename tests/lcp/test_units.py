@@ -45,6 +45,47 @@ def eliminated(entries, right, basis):
     return [row[-1] for row in rows]
 
 
+def reaches(M, q):
+    """Whether there is a solution, in rational numbers: shares, none negative, of independent columns make q up."""
+    n = len(q)
+    entries, right = [[Fraction(x) for x in row] for row in M.tolist()], [Fraction(x) for x in q.tolist()]
+    for kinds in itertools.product("-wz", repeat=n):
+        columns = [[Fraction(i == j) for i in range(n)] if kind == "w" else [-row[j] for row in entries]
+                   for j, kind in enumerate(kinds) if kind != "-"]  # fmt: skip
+        shares = combined(columns, right)
+        if shares is not None and min(shares, default=0) >= 0:
+            return True
+    return False
+
+
+def combined(columns, right):
+    """What of each column adds up to a right-hand side; None where they do not, or depend on each other."""
+    rows = [[column[i] for column in columns] + [value] for i, value in enumerate(right)]
+    for c, _ in enumerate(columns):
+        p = next((r for r in range(c, len(rows)) if rows[r][c] != 0), None)
+        if p is None:
+            return None
+        rows[c], rows[p] = rows[p], rows[c]
+        rows[c] = [value / rows[c][c] for value in rows[c]]
+        for r in range(len(rows)):
+            if r != c and rows[r][c] != 0:
+                rows[r] = [a - rows[r][c] * b for a, b in zip(rows[r], rows[c], strict=True)]
+    return None if any(row[-1] != 0 for row in rows[len(columns) :]) else [row[-1] for row in rows[: len(columns)]]
+
+
+def singular(seed):
+    """A singular M of small whole numbers, and a q that it reaches but for 0.1 to 1e-13."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(2, 6))
+    rank = int(rng.integers(1, n))
+    A, S = rng.integers(-3, 4, (n, rank)).astype(float), rng.integers(-2, 3, (rank, rank))
+    other = rng.integers(-3, 4, (rank, n)).astype(float)
+    M = [A @ A.T, A @ (np.eye(rank) + S - S.T) @ A.T, A @ other][rng.integers(3)]
+    z = rng.integers(0, 4, n) * (rng.random(n) < 0.7)
+    w = rng.integers(0, 3, n) * (z == 0) * (rng.random(n) < 0.5)
+    return M, w - M @ z + 10.0 ** -rng.uniform(1, 13) * rng.normal(size=n) * (rng.random(n) < 0.7)
+
+
 def scattered(seed):
     """A diagonally dominant problem, coupled weakly or not at all, in units over up to 30 decades."""
     rng = np.random.default_rng(seed)
@@ -74,6 +115,26 @@ def test_what_is_solved_is_so_in_every_row(seed):
         if solution.solved:
             w, share = solution.w / size, solution.z / np.where(z > 0, z, alone)
             assert max((-w).max(), (-share).max(), np.minimum(w, share).max()) < 1e-6
+
+
+def test_a_large_z_hides_no_row_that_misses():
+    """The rows add up to ``w_1 + w_2 = -5e-6``, whatever z: 500000 times as large as q, it hides that in its terms."""
+    assert not lcp.solve([[1.0, -1.0], [-1.0, 1.0]], [-1.0, 1.0 - 5e-6]).solved
+
+
+@pytest.mark.parametrize("first", range(0, 600, 50))
+def test_singular_problems_nearly_without_solution(first):
+    """What is solved misses no row by 1e-6 of q, exactly; what is not has no solution."""
+    for seed in range(first, first + 50):
+        M, q = singular(seed)
+        solution = lcp.solve(M, q)
+        if not solution.solved:
+            assert not reaches(M, q), seed
+            continue
+        z = [Fraction(x) for x in solution.z.tolist()]
+        w = [sum(Fraction(a) * b for a, b in zip(row, z, strict=True)) for row in M.tolist()]
+        missed = [abs(min(a + Fraction(b), c)) for a, b, c in zip(w, q.tolist(), z, strict=True)]
+        assert max(missed) <= 1e-6 * np.abs(q).max(), seed
 
 
 @pytest.mark.parametrize("method", METHODS)

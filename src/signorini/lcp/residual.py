@@ -27,7 +27,10 @@ BLUR = 1e-5
 SWEEPS = 12
 """Of balancing rows and columns in turn: sizes are settled to a factor of 1.4 after two or three."""
 
-LARGEST_GROWTH = 1e4
+EXCUSE = 1e-5
+"""Of the terms of a row, beyond the data of its part: they excuse rounding, 1e-14 of them within 1e-9, and no more."""
+
+LARGEST_GROWTH = 1e2
 """Of the largest of the data in its part: the size beyond which the terms of a row excuse no error any more."""
 
 
@@ -55,9 +58,10 @@ def natural_residual(M: Matrix, q: Array, z: Array) -> Residual:
     (``lcp.parts``), in balanced units: parts have no units in common.
 
     Where all terms of a row are what rounding left of 0 (an open contact: ``0 = 2 mu 0 - 0``), s_i would be noise too:
-    every z_j other than 0 counts with ``1e-5 columns_j max_k(s_k / rows_k)`` more. Where z is enormous, rounding in M z
-    would balance any q, also in a problem without solution: s_i is never more than ``1e4 rows_i max_k(d_k / rows_k)``
-    with the data ``d_k = |q_k|`` and what other parts bring into row k.
+    every z_j other than 0 counts with ``1e-5 columns_j max_k(s_k / rows_k)`` more. Where z is large, terms that cancel
+    would hide that a singular M does not reach q: with ``D_i = rows_i max_k(d_k / rows_k)`` of the data ``d_k = |q_k|``
+    and what other parts bring into row k, s_i is never more than ``D_i + 1e-5 s_i``, which leaves room for rounding
+    alone, nor more than ``100 D_i``, beyond which rounding would balance any q.
 
     Parameters
     ----------
@@ -166,7 +170,8 @@ class Yardstick:
         parts = self.parts
         data = parts.largest((q if parts.across is None else q + parts.across @ z) / self.rows)
         size = (q + self.magnitude @ z) / self.rows
-        size = np.where(data > 0, np.minimum(size, LARGEST_GROWTH * data), size)
+        most = np.minimum(data + EXCUSE * size, LARGEST_GROWTH * data)
+        size = np.where(data > 0, np.minimum(size, most), size)
         blur = np.where(z > 0, BLUR * self.columns * parts.largest(size), 0.0)
         return self.rows * size, self.magnitude @ blur
 
