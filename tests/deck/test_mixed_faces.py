@@ -9,7 +9,7 @@ import signorini as sg
 from signorini.cli import main
 from signorini.deck import load_deck
 from signorini.meshing.read import read_mesh
-from signorini.model.mesh import FACES
+from signorini.model.mesh import FACETS
 
 TYPES = {"hexahedron": "C3D8", "wedge": "C3D6", "hexahedron20": "C3D20", "wedge15": "C3D15"}
 SURFACES = ("foot", "low.top", "up.bottom", "load")
@@ -109,7 +109,7 @@ def keywords(mesh, *, nodal=False):
             number += 1
             words = [str(number), *map(str, cell + 1)]
             lines += [", ".join(words[:10]) + "," * (len(words) > 10), *([", ".join(words[10:])] if words[10:] else [])]
-            for k, face in enumerate(FACES[family]):
+            for k, face in enumerate(FACETS[family]):
                 faces[frozenset(cell[list(face)].tolist())] = f"{number}, S{k + 1}"
     for name, cells in mesh.bodies.items():
         lines += [f"*ELSET, ELSET={name}", *map(str, cells + 1)]

@@ -8,10 +8,10 @@ from signorini.errors import InputError
 from signorini.fem.boundary import Boundary
 from signorini.fem.facets import facet_nodes, facet_pieces, facet_shapes
 from signorini.interface.frames import frames
-from signorini.meshing.faces import CORNERS
+from signorini.meshing.facets import FACE_CORNERS
 from tests.helpers.face_samples import grid, rotation, turned
 
-KINDS = tuple(CORNERS)
+KINDS = tuple(FACE_CORNERS)
 
 
 @pytest.mark.parametrize("count", KINDS)
@@ -39,7 +39,7 @@ def test_pieces_tile_the_reference_face(count):
     a, b = corners[:, 2] - corners[:, 0], corners[:, -1] - corners[:, 1]
     areas = 0.5 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
     assert (areas > 0).all()
-    np.testing.assert_allclose(areas.sum(), 0.5 if CORNERS[count] == 3 else 4.0)
+    np.testing.assert_allclose(areas.sum(), 0.5 if FACE_CORNERS[count] == 3 else 4.0)
 
 
 @pytest.mark.parametrize("count", KINDS)

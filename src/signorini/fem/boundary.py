@@ -14,8 +14,7 @@ from signorini.arrays import Array, IntArray
 from signorini.errors import Where
 from signorini.fem.facet_block import FacetBlock
 from signorini.fem.space import Space
-from signorini.meshing.edges import outer_edges
-from signorini.meshing.faces import outer_faces
+from signorini.meshing.facets import outer_facets
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -156,9 +155,6 @@ def boundary(space: Space, name: str, where: Where) -> Boundary:
            [0., 1.]])
     """
     points = space.mesh.points
-    if space.dimension == 3:
-        found = outer_faces(space.faces, space.mesh, name, where)
-    else:
-        found = [outer_edges(space.edges, space.mesh, name, where)]
+    found = outer_facets(space.facets, space.mesh, name, where)
     blocks = (FacetBlock(facets=facets, points=points[facets], cells=cells) for facets, cells in found)
     return Boundary(points=points, blocks=tuple(blocks))

@@ -10,7 +10,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.fem.facets import facet_nodes, facet_pieces, facet_rule, facet_shapes
-from signorini.meshing.faces import CORNERS
+from signorini.meshing.facets import facet_corners
 
 _PARALLEL_TOL = 1e-10  # of the largest face: rounding of coordinates is below it
 
@@ -49,7 +49,7 @@ class FacetBlock:
     @property
     def corners(self) -> int:
         """Corners of a facet; its other nodes are in the middle of an edge, or of the facet."""
-        return 2 if self.dimension == 2 else CORNERS[self.count]
+        return facet_corners(self.dimension, self.count)
 
     @property
     def corner_nodes(self) -> IntArray:

@@ -14,7 +14,7 @@ import skfem
 from numba import njit
 
 from signorini.arrays import Array
-from signorini.meshing.faces import CORNERS
+from signorini.meshing.facets import facet_corners
 
 _EDGE = np.array([[-1.0], [1.0], [0.0]])
 _TRIANGLE = np.array([[0.0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
@@ -78,7 +78,7 @@ def facet_nodes(dimension: int, count: int) -> Array:
     """Reference coordinates of the nodes of a facet, (count, dimension - 1)."""
     if dimension == 2:
         return _EDGE[:count]
-    return (_TRIANGLE if CORNERS[count] == 3 else _SQUARE)[:count]
+    return (_TRIANGLE if facet_corners(dimension, count) == 3 else _SQUARE)[:count]
 
 
 @cache

@@ -95,8 +95,9 @@ def thin_bodies(space: Space, model: Model) -> tuple[str, ...]:
     """Bodies of standard linear quadrilaterals of which every one lies at an outer edge: too stiff in bending."""
     if "quad" not in model.mesh.cells:
         return ()
-    key, count = np.unique(space.edges.key, return_counts=True)
-    outer = space.edges.cell[count[np.searchsorted(key, space.edges.key)] == 1]
+    edges = space.facets[2]
+    key, count = np.unique(edges.key, return_counts=True)
+    outer = edges.cell[count[np.searchsorted(key, edges.key)] == 1]
     at_edge = np.zeros(model.mesh.number_of_cells, bool)
     at_edge[outer] = True
     quads = np.zeros(model.mesh.number_of_cells, bool)

@@ -14,8 +14,7 @@ from signorini.arrays import Array, BoolArray, IntArray, among, extent
 from signorini.errors import InputError
 from signorini.fem.jacobian import determinants, jacobians
 from signorini.fem.wedge import QuadraticWedge
-from signorini.meshing.edges import Edges, check_conforming, make_edges
-from signorini.meshing.faces import HEXAHEDRON, Faces, make_faces
+from signorini.meshing.facets import HEXAHEDRON, CellFacets, check_conforming, make_facets, refuse_folded
 from signorini.model.mesh import CORNERS, Mesh
 
 ON_AXIS = 1e-10
@@ -159,14 +158,9 @@ class Space:
         return {number: node for node, number in enumerate(self.mesh.labels.tolist())}
 
     @cached_property
-    def edges(self) -> Edges:
-        """Of all cells."""
-        return make_edges(self.mesh)
-
-    @cached_property
-    def faces(self) -> dict[int, Faces]:
-        """Of all cells in space, by the number of their nodes."""
-        return make_faces(self.mesh)
+    def facets(self) -> dict[int, CellFacets]:
+        """Of all cells, by the number of their nodes."""
+        return make_facets(self.mesh)
 
     @cached_property
     def jacobians(self) -> tuple[Array, ...]:
@@ -218,7 +212,7 @@ def make_space(mesh: Mesh, *, axisymmetric: bool = False, obstacles: int = 0, li
     linked = np.empty(0, np.int64) if linked is None else linked
     space = Space(mesh=mesh, blocks=tuple(blocks), obstacles=obstacles, linked=linked)
     if space.dimension == 2 and any(nodes.shape[1] > CORNERS[family] for family, nodes in mesh.cells.items()):
-        check_conforming(mesh, space.edges)
+        check_conforming(mesh, space.facets)
     _check_extent(space)
     _check_shapes(space)
     return space
@@ -339,19 +333,5 @@ def _spelled(point: Array) -> str:
 def _check_shapes(space: Space) -> None:
     for block, inner in zip(space.blocks, space.jacobians, strict=True):
         outer = jacobians(space.mesh.points[block.cells], block.corners)
-        volume = np.concatenate([determinants(outer), determinants(inner)], axis=1)
-        size, total = np.abs(volume).max(axis=1), volume.sum(axis=1)
-        # clockwise cells are fine; a change of sign inside a cell, or no area, is not
-        bad = (np.abs(total) < 1e-12 * size) | (size == 0.0)
-        bad |= (volume * np.sign(total)[:, None]).min(axis=1) <= -1e-12 * size
-        if bad.any():
-            cell = int(np.nonzero(bad)[0][0])
-            centre = tuple(float(x) for x in space.mesh.points[block.cells[cell]].mean(axis=0).round(6))
-            linear = CORNERS[block.family] == block.cells.shape[1]
-            expected = "a convex cell" if linear else "the middle nodes near the middles of edges that bend little"
-            raise InputError(
-                f"{space.mesh.cell_name(block.first + cell)} near {centre} has no area or is turned inside out (its "
-                f"Jacobian changes sign); expected {expected}",
-                where=("mesh",),
-                cell=block.first + cell,
-            )
+        volumes = np.concatenate([determinants(outer), determinants(inner)], axis=1)
+        refuse_folded(space.mesh, block.family, block.first, volumes)

@@ -10,8 +10,8 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components, depth_first_order
 
 from signorini.arrays import Array, IntArray
-from signorini.errors import InputError, one_of
-from signorini.meshing.edges import make_edges, outer_edges
+from signorini.errors import InputError
+from signorini.meshing.facets import tool_facets
 from signorini.meshing.read import read_facets, read_mesh
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Profile
@@ -40,14 +40,9 @@ def mesh_profile(mesh: Mesh, name: str, *, fillet: float = 0.0, flip: bool = Fal
     >>> mesh_profile(rectangle(width=2.0, height=1.0, nx=2, ny=1, origin=(0.0, 3.0)), "bottom").points
     ((2.0, 3.0), (1.0, 3.0), (0.0, 3.0))
     """
-    if name not in mesh.boundaries:
-        raise InputError(one_of(name, mesh.boundaries, "boundary"), where=("boundary",))
-    if mesh.bounds_nothing(name):
-        (facets,) = mesh.facets(name)
-    else:
-        # the tool is on the left of its facets
-        edges, _ = outer_edges(make_edges(mesh), mesh, name, ("boundary",))
-        facets = np.column_stack([edges[:, 1], edges[:, 0], edges[:, 2:]])
+    (facets,) = tool_facets(mesh, name)
+    if not mesh.bounds_nothing(name):  # the tool is on the left of its edges
+        facets = np.column_stack([facets[:, 1], facets[:, 0], facets[:, 2:]])
     return _profile(mesh.points, facets, f"'{name}'", fillet, flip)
 
 

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from signorini.arrays import Array, IntArray
 from signorini.checks import choice, text, vector
 from signorini.errors import InputError, Where
-from signorini.meshing.faces import HEXAHEDRON, make_faces
+from signorini.meshing.facets import HEXAHEDRON, make_facets
 from signorini.meshing.grids import check_grid
 from signorini.model.mesh import CORNERS, NODES_PER_CELL, NODES_PER_SOLID_CELL, Mesh
 
@@ -181,7 +181,7 @@ def _tetrahedra(number: IntArray, step: int) -> IntArray:
 
 
 def _sides(mesh: Mesh) -> dict[str, IntArray]:
-    (faces,) = make_faces(mesh).values()
+    (faces,) = make_facets(mesh).values()
     lowest, highest = mesh.points.min(axis=0), mesh.points.max(axis=0)
     sides = {}
     for axis, names in enumerate(SIDES):

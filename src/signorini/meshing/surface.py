@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.errors import InputError, one_of
-from signorini.meshing.faces import make_faces, outer_faces
+from signorini.errors import InputError
+from signorini.meshing.facets import tool_facets
 from signorini.meshing.read import read_facets, read_mesh
 from signorini.model.mesh import Mesh
 from signorini.model.triangulated import Surface
@@ -48,14 +48,9 @@ def mesh_surface(mesh: Mesh, name: str, *, flip: bool = False) -> Surface:
     >>> print(top, top.nearest([[0.5, 0.5, 3.0]])[0])
     an open surface of 4 triangles [2.]
     """
-    if name not in mesh.boundaries:
-        raise InputError(one_of(name, mesh.boundaries, "boundary"), where=("boundary",))
+    parts = tool_facets(mesh, name)
     if mesh.points.shape[1] != 3:
         raise InputError(f"'{name}' lies in the plane; expected a mesh in space", where=("boundary",))
-    if mesh.bounds_nothing(name):
-        parts = mesh.facets(name)
-    else:
-        parts = tuple(faces for faces, _ in outer_faces(make_faces(mesh), mesh, name, ("boundary",)))
     return _surface(mesh.points, parts, flip)
 
 

@@ -7,8 +7,8 @@ import numpy as np
 
 from signorini.arrays import IntArray
 from signorini.errors import InputError
-from signorini.meshing.faces import HEXAHEDRON
-from signorini.model.mesh import FACES, Mesh
+from signorini.meshing.facets import HEXAHEDRON
+from signorini.model.mesh import FACETS, Mesh
 
 _CUT = {"hexahedron": "tetra", "hexahedron27": "tetra10"}
 _EDGES = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))  # of a tetrahedron, in the order of its middle nodes
@@ -44,7 +44,7 @@ def tetrahedra(mesh: Mesh) -> Mesh:
     ((family, cells),) = mesh.cells.items()
     tip = np.argmin(cells[:, :8], axis=1)
     found: list[IntArray] = []
-    for face in FACES["hexahedron"]:
+    for face in FACETS["hexahedron"]:
         away = (np.array(face) != tip[:, None]).all(axis=1)
         for triangle in np.moveaxis(_halves(cells[away][:, face]), 1, 0):
             local = np.column_stack([np.array(face)[triangle], tip[away]])

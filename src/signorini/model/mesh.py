@@ -26,21 +26,10 @@ NODES_PER_SOLID_CELL = {
 NODES_PER_CELL = NODES_PER_PLANE_CELL | NODES_PER_SOLID_CELL
 """Families of cells by their names in meshio: corners, then the middles of edges, of faces, then the centre."""
 
-CORNERS = {"triangle": 3, "quad": 4, "triangle6": 3, "quad8": 4, "quad9": 4} | {
-    "tetra": 4,
-    "hexahedron": 8,
-    "wedge": 6,
-    "tetra10": 4,
-    "hexahedron20": 8,
-    "hexahedron27": 8,
-    "wedge15": 6,
-}
-"""Of every family. In the plane edge k goes from corner k to corner k + 1; in quadratic cells node ``corners + k`` is
-on it."""
+CORNERS = {family: NODES_PER_CELL[family.rstrip("0123456789")] for family in NODES_PER_CELL}
+"""Of every family: nodes of the linear one."""
 
-_TETRA = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
 _TETRA10 = ((0, 2, 1, 6, 5, 4), (0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6))
-_HEXAHEDRON = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
 _HEXAHEDRON20 = (
     (0, 3, 2, 1, 11, 10, 9, 8),
     (4, 5, 6, 7, 12, 13, 14, 15),
@@ -49,23 +38,34 @@ _HEXAHEDRON20 = (
     (2, 3, 7, 6, 10, 19, 14, 18),
     (3, 0, 4, 7, 11, 16, 15, 19),
 )
+_WEDGE15 = (
+    (0, 2, 1, 8, 7, 6),
+    (3, 4, 5, 9, 10, 11),
+    (0, 1, 4, 3, 6, 13, 9, 12),
+    (1, 2, 5, 4, 7, 14, 10, 13),
+    (2, 0, 3, 5, 8, 12, 11, 14),
+)
 _CENTRES = (24, 25, 22, 21, 23, 20)  # of the faces of a hexahedron with 27 nodes, in the order above
-FACES: Mapping[str, tuple[tuple[int, ...], ...]] = {
-    "tetra": _TETRA,
-    "tetra10": _TETRA10,
-    "hexahedron": _HEXAHEDRON,
-    "hexahedron20": _HEXAHEDRON20,
+
+
+def _corners_of(faces: tuple[tuple[int, ...], ...]) -> tuple[tuple[int, ...], ...]:
+    """Of quadratic faces, which have as many middles."""
+    return tuple(face[: len(face) // 2] for face in faces)
+
+
+FACETS: Mapping[str, tuple[tuple[int, ...], ...]] = {
+    "triangle": ((0, 1), (1, 2), (2, 0)),
+    "quad": ((0, 1), (1, 2), (2, 3), (3, 0)),
+    "triangle6": ((0, 1, 3), (1, 2, 4), (2, 0, 5)),
+    **dict.fromkeys(("quad8", "quad9"), ((0, 1, 4), (1, 2, 5), (2, 3, 6), (3, 0, 7))),
+    **{"tetra10": _TETRA10, "hexahedron20": _HEXAHEDRON20, "wedge15": _WEDGE15},
+    "tetra": _corners_of(_TETRA10),
+    "hexahedron": _corners_of(_HEXAHEDRON20),
+    "wedge": _corners_of(_WEDGE15),
     "hexahedron27": tuple((*face, centre) for face, centre in zip(_HEXAHEDRON20, _CENTRES, strict=True)),
-    "wedge": ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)),
-    "wedge15": (
-        (0, 2, 1, 8, 7, 6),
-        (3, 4, 5, 9, 10, 11),
-        (0, 1, 4, 3, 6, 13, 9, 12),
-        (1, 2, 5, 4, 7, 14, 10, 13),
-        (2, 0, 3, 5, 8, 12, 11, 14),
-    ),
 }
-"""Nodes of every face, anticlockwise seen from outside: corners, then middles of edges, then the middle."""
+"""Nodes of the facets of cells: of every edge in the plane both ends, anticlockwise, and the middle; of every face of a
+solid, anticlockwise seen from outside, corners, middles of edges, and the middle."""
 
 _NODES_PER_FACET = {2: (2, 3), 3: (3, 4, 6, 8, 9)}
 

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.model.mesh import FACES
+from signorini.model.mesh import FACETS
 
 _CREASE_COSINE = np.cos(np.radians(35.0))  # of the angle between faces: beyond it their edge is one of the body
 # by the number of the nodes of a face: its pieces, a triangle with its last corner twice; 8 is the middle
@@ -94,7 +94,7 @@ def make_skin(points: Array, blocks: Sequence[tuple[str, IntArray, IntArray]]) -
     inner: dict[int, list[Array]] = {}
     for family, cells, body in blocks:
         middle = points[cells].mean(axis=1)
-        for face in FACES[family]:
+        for face in FACETS[family]:
             faces.setdefault(len(face), []).append(cells[:, list(face)])
             owner.setdefault(len(face), []).append(body)
             inner.setdefault(len(face), []).append(middle)
