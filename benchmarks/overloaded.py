@@ -38,8 +38,8 @@ from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.errors import InputError, SolveFailed
 from signorini.friction import krylov, newton
-from signorini.friction.history.space import find_rates as rates
-from signorini.friction.history.space import no_rates_proof as sectors
+from signorini.friction.history import rates
+from signorini.friction.history.space import find_rates as space_rates
 from signorini.friction.history.space import sticking_response as held
 from signorini.friction.space import overload, proximal
 from signorini.linalg import multifrontal
@@ -181,10 +181,10 @@ def counted() -> Iterator[Work]:
         wrapped(krylov, "symmetric_product", lambda a, _k, _f: 2.0 * len(a[1]) ** 2),
         wrapped(krylov, "softened", lambda a, _k, _f: 2.0 * len(a[1]) ** 2),
         wrapped(proximal, "gauss_seidel", lambda a, k, _f: 2.0 * k["count"] * (3 * a[0].pairs) ** 2),
-        wrapped(sectors, "linprog", programme),
+        wrapped(rates, "linprog", programme),
         wrapped(overload, "linprog", programme),
         wrapped(held.StickingResponse, "of", held_form),
-        wrapped(rates, "_complementary", lambda a, _k, _f: 2.0 / 3.0 * len(a[1]) ** 3),
+        wrapped(space_rates, "_complementary", lambda a, _k, _f: 2.0 / 3.0 * len(a[1]) ** 3),
         wrapped(multifrontal, "analyse", planned),
     ):
         yield work

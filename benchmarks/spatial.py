@@ -19,8 +19,7 @@ from benchmarks.spatial_problems import from_compliance, hard_random, natural_re
 from signorini.arrays import Array
 from signorini.fem.boundary import Boundary
 from signorini.fem.facets import facet_nodes
-from signorini.friction.history.plane import PathState
-from signorini.friction.history.space import StopSettings, at_rest, follow_stopping
+from signorini.friction.history import PathSettings, PathState, follow, initial_state
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 from signorini.interface.facing import near_pairs
@@ -97,7 +96,7 @@ def histories() -> str:
     def ends(count: int) -> tuple[ContactProblem, PathState]:
         problem, root = from_compliance(A, c, np.full(n, mu), facets=count)
         begin = from_compliance(A, touching, np.full(n, mu))[0].b
-        return problem, at_rest(problem, begin, motion=root * touching)
+        return problem, initial_state(problem, begin, motion=root * touching)
 
     def equal(problem: ContactProblem, state: PathState, number: int) -> tuple[Array, int, int]:
         h, y = state.h, None
@@ -109,7 +108,7 @@ def histories() -> str:
         return np.concatenate([result.normal_force, result.tangential_force.T.ravel()]), number, number
 
     def stopping(problem: ContactProblem, state: PathState, **settings: float) -> tuple[Array, int, int]:
-        segment = follow_stopping(problem, state, problem.b, settings=StopSettings(**settings))
+        segment = follow(problem, state, problem.b, settings=PathSettings(**settings))
         return segment.end.r, len(segment.pieces) - 1, segment.pivots
 
     circle = ends(0)

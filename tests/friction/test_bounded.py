@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 
 from signorini.errors import InputError
-from signorini.friction.history.plane import follow as follow_load
-from signorini.friction.history.plane import initial_state, land
+from signorini.friction.history import follow as follow_load
+from signorini.friction.history import initial_state, land
 from signorini.friction.newton import by_states, in_states
 from signorini.friction.plane.covering import follow
 from signorini.friction.plane.state_tree import search

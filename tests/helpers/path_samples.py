@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.friction.history.plane import follow, initial_state
+from signorini.friction.history import follow, initial_state
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 

@@ -4,7 +4,7 @@
 import numpy as np
 
 from signorini.engine.prepare import prepare
-from signorini.friction.history.plane import follow, initial_state
+from signorini.friction.history import follow, initial_state
 
 
 class PreparedPath:

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from signorini.arrays import Array, BoolArray
 from signorini.errors import InputError
 from signorini.friction.certificate import certify
-from signorini.friction.history.space import at_rest, follow_stopping
+from signorini.friction.history import follow, initial_state
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import pulled_away
 from signorini.friction.solve import solve_contact
@@ -119,4 +119,4 @@ def test_what_floats_is_solved_or_proved_to_leave(seed, directions):
 def test_what_needs_straight_branches_says_so():
     problem = posed(1, 3)
     with pytest.raises(InputError, match="friction: has no straight branches, which exact histories follow"):
-        follow_stopping(problem, at_rest(problem, np.zeros(18), motion=np.zeros(18)), problem.b)
+        follow(problem, initial_state(problem, np.zeros(18), motion=np.zeros(18)), problem.b)

@@ -24,8 +24,7 @@ from signorini.engine.path_states import (
 )
 from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, joined, keep
 from signorini.errors import SolveFailed, told
-from signorini.friction.history.plane import Landing, PathState, Segment
-from signorini.friction.history.space import StopSettings
+from signorini.friction.history import Landing, PathSettings, PathState, Segment
 from signorini.outcome import Outcome
 from signorini.solution.results import PairEvent
 from signorini.solution.state import State
@@ -52,7 +51,7 @@ class _Path:
     part: StepPart
     start: PathState
     segment: Segment
-    stops: StopSettings | None
+    stops: PathSettings | None
 
     @property
     def reached(self) -> float:
@@ -96,11 +95,11 @@ def follow_to_events(part: StepPart, number: int, *, jumps: bool = False, behind
         As `follow_exactly` does.
     """
     solver = part.prepared.settings
-    stops = StopSettings(shortest=1.0 / number, turn=_TURN / number**0.5, solver=solver, behind=behind)
+    stops = PathSettings(shortest=1.0 / number, turn=_TURN / number**0.5, solver=solver, behind=behind)
     return _beyond_jumps(part, "increments to events", jumps=jumps, stops=stops)
 
 
-def _beyond_jumps(part: StepPart, how: str, *, jumps: bool, stops: StopSettings | None = None) -> FollowedPart:
+def _beyond_jumps(part: StepPart, how: str, *, jumps: bool, stops: PathSettings | None = None) -> FollowedPart:
     """Part after part, from one jump to the next; ``how`` for the clock, the others as of `_Path`."""
     prepared = part.prepared
     prepared.clock.increment(f"{part.where}, {how}")
@@ -167,7 +166,7 @@ def _so_far(path: _Path) -> list[FollowedPart]:
         return []
 
 
-def _follow(part: StepPart, stops: StopSettings | None) -> _Path:
+def _follow(part: StepPart, stops: PathSettings | None) -> _Path:
     """The history up to the load at the end of a part."""
     prepared = part.prepared
 

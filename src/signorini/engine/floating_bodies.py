@@ -16,7 +16,7 @@ from signorini.fem.loads import nodal_volumes
 from signorini.fem.rigid import describe_approach
 from signorini.friction.answer import PULLED_AWAY
 from signorini.friction.approach import approach
-from signorini.friction.history.plane import Segment
+from signorini.friction.history import Segment
 from signorini.law.states import OPEN
 from signorini.outcome import Outcome
 from signorini.solution.state import State, next_state

@@ -11,7 +11,7 @@ from signorini.arrays import Array, BoolArray
 from signorini.engine.energy import stored_energy
 from signorini.engine.increments import applied, free_load, moved_by_supports, settled
 from signorini.engine.prepare import Prepared
-from signorini.friction.history.plane import PathState
+from signorini.friction.history import PathState, initial_state
 from signorini.law.bound import plain
 from signorini.law.states import OPEN, STICK
 from signorini.solution.state import LoadPoint, State, next_state
@@ -50,7 +50,7 @@ def path_state(prepared: Prepared, state: State) -> PathState:
     h = condensed.root * np.concatenate([state.gap, state.tangential])[rows]
     slip, dissipation = condensed.root[n:] * state.slip[_tangential_rows(prepared)], state.dissipation[active]
     if not state.forces.any() and not state.displacement.any() and (h[:n] < 0.0).any():
-        pressed = paths.pressed(b, h)
+        pressed = initial_state(paths.law, b, settings=prepared.settings)
         return replace(pressed, slip=slip + pressed.slip, dissipation=dissipation + pressed.dissipation)
     r, status = state.forces[rows] / condensed.root, state.status[active]
     if prepared.interface.directions == 2:  # friction that has risen since leaves some to spare

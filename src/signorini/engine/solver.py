@@ -18,8 +18,7 @@ from signorini.attempt import MethodRun
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed
 from signorini.fem.internal_forces import internal_forces
-from signorini.friction.history.plane import Landing, PathState, Segment, follow, initial_state, land
-from signorini.friction.history.space import StopSettings, at_rest, follow_stopping, land_spatial
+from signorini.friction.history import Landing, PathSettings, PathState, Segment, follow, land
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 from signorini.interface.interface import Interface
@@ -279,18 +278,7 @@ class CondensedSolver:
         still = np.concatenate([state.gap, np.zeros_like(state.tangential)])[rows]
         return r - law.by_pair(condensed.root * still)
 
-    def pressed(self, b: Array, h: Array) -> PathState:
-        """The state in which overlaps of bodies press that nothing has moved yet.
-
-        Parameters
-        ----------
-        b, h : (d a,) load of the law, and the motions of the pairs before
-        """
-        if self.law.directions == 3:
-            return at_rest(self.law, b, motion=h)
-        return initial_state(self.law, b)
-
-    def follow(self, start: PathState, b: Array, stops: StopSettings | None, tell: Callable[[float], None]) -> Segment:
+    def follow(self, start: PathState, b: Array, stops: PathSettings | None, tell: Callable[[float], None]) -> Segment:
         """Follow the load of the law straight to another.
 
         Parameters
@@ -298,18 +286,16 @@ class CondensedSolver:
         start : where the history stands
         b : (d a,) load at the end
         stops : how increments are chosen in space; None: event by event
-        tell : is called in space with the part that is behind
+        tell : is called with the part that is behind
         """
-        if self.law.directions == 3:
-            return follow_stopping(self.law, start, b, settings=stops or self._stops, tell=tell)
-        return follow(self.law, start, b)
+        return follow(self.law, start, b, settings=stops or self._stops, tell=tell)
 
     @property
-    def _stops(self) -> StopSettings:
+    def _stops(self) -> PathSettings:
         """Every event ends an increment."""
-        return StopSettings(solver=self.settings)
+        return PathSettings(solver=self.settings)
 
-    def land(self, start: PathState, segment: Segment, stops: StopSettings | None) -> Landing | None:
+    def land(self, start: PathState, segment: Segment, stops: PathSettings | None) -> Landing | None:
         """Where a jump at the end of a segment lands; None where that is not found.
 
         Parameters
@@ -318,9 +304,7 @@ class CondensedSolver:
         segment : as far as it was followed
         stops : as of `follow`
         """
-        if self.law.directions == 3:
-            return land_spatial(self.law, start, segment, settings=stops or self._stops)
-        return land(self.law, start, segment)
+        return land(self.law, start, segment, settings=stops or self._stops)
 
 
 def _friction(condensed: Condensed, interface: Interface) -> dict[str, Any]:

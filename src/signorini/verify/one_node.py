@@ -8,8 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.friction.history.plane import PathState, Segment, follow, initial_state, land
-from signorini.friction.history.space import at_rest, follow_stopping, land_spatial
+from signorini.friction.history import PathState, Segment, follow, initial_state, land
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 from signorini.verify.check import Check, checks_of
@@ -81,9 +80,9 @@ def one_node_path_in_space() -> Iterator[Check]:
         problem = ContactProblem.of(
             W=W, b=np.zeros(3), friction=np.array([friction]), motions=np.zeros((3, 0)), scale=4.0, facets=facets
         )
-        pressed = follow_stopping(problem, at_rest(problem, np.zeros(3)), W @ turn @ np.array([-1.0, 0.0, 0.0])).end
-        path = follow_stopping(problem, pressed, W @ turn @ np.array([-1.0, 4.0, 0.0]))
-        landing = land_spatial(problem, pressed, path)
+        pressed = follow(problem, initial_state(problem, np.zeros(3)), W @ turn @ np.array([-1.0, 0.0, 0.0])).end
+        path = follow(problem, pressed, W @ turn @ np.array([-1.0, 4.0, 0.0]))
+        landing = land(problem, pressed, path)
         end = path.end if landing is None else landing.state
         gap, along, _ = turn.T @ end.h
         found = [("jumps at f_t", np.nan if path.jump is None else 4 * path.jump.factor, 3.0)]

@@ -14,12 +14,12 @@ from signorini import deck
 from signorini.api import solve
 from signorini.arrays import frozen
 from signorini.clock import Clock
-from signorini.friction.history.space import at_rest
-from signorini.friction.history.space.no_rates_proof import Exhausted, search
+from signorini.friction.history import initial_state
+from signorini.friction.history.space.bearing import Bearing
+from signorini.friction.history.space.no_rates_proof import Exhausted, search_regions
 from signorini.friction.history.space.smooth_cones import ConeProblem
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import GAIN, pulled_away
-from signorini.friction.space.bearing import Bearing
 from signorini.friction.space.overload import overload
 
 HERE, EXAMPLES = Path(__file__).parent, Path(__file__).parents[3] / "examples"
@@ -76,7 +76,7 @@ def test_a_limit_is_looked_at_from_as_near_wherever_on_the_way_the_look_begins(b
 
     def seen(since, before):
         b = problem.b + since * way
-        now = replace(at_rest(problem, np.zeros(18), motion=np.zeros(18)), b=b, r=-problem.b)
+        now = replace(initial_state(problem, np.zeros(18), motion=np.zeros(18)), b=b, r=-problem.b)
         look = Bearing(problem, problem.b + way, before)
         return [since + (1.0 - since) * part for part in (look.reach(now, 0.0), look.limit, look.beyond)]
 
@@ -87,7 +87,7 @@ def test_a_limit_is_looked_at_from_as_near_wherever_on_the_way_the_look_begins(b
 
 def test_linear_programmes_end_where_bodies_nearly_roll():
     data = np.load(HERE / "nearly_rolling.npz")
-    found = search(ConeProblem(M=data["M"], q=data["q"], friction=data["friction"].T, closed=data["closed"]))
+    found = search_regions(ConeProblem(M=data["M"], q=data["q"], friction=data["friction"].T, closed=data["closed"]))
     assert isinstance(found, Exhausted)
 
 

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from signorini.friction.history.plane.find_rates import NoRates
-from signorini.friction.history.space import at_rest
-from signorini.friction.history.space.find_rates import SpatialRates, find_rates
-from signorini.friction.history.space.no_rates_proof import search
+from signorini.friction.history import initial_state
+from signorini.friction.history.rates import NoRates, Rates
+from signorini.friction.history.space.find_rates import find_rates
+from signorini.friction.history.space.no_rates_proof import search_regions
 from signorini.friction.history.space.smooth_cones import ConeProblem
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
@@ -50,7 +50,7 @@ def test_one_pair_has_rates_where_its_closed_form_has():
         M[0, 1:] *= rng.uniform(-3.0, 3.0)  # as where other pairs slip under pressure
         q, mu = rng.normal(size=3), rng.uniform(0.5, 4.0, size=2)
         problem = ConeProblem(M=M, q=q, friction=mu[:, None], closed=np.array([False]))
-        found, by_hand = search(problem), one_pair_by_hand(M, q, mu)
+        found, by_hand = search_regions(problem), one_pair_by_hand(M, q, mu)
         none += not by_hand
         if by_hand:
             assert obeys(problem, found)
@@ -70,7 +70,7 @@ def test_several_pairs_on_a_held_interface_have_rates(numbers):
         problem = ConeProblem(
             M=B @ B.T / size, q=rng.normal(size=size), friction=friction, closed=np.zeros(2, dtype=bool)
         )
-        assert obeys(problem, search(problem))
+        assert obeys(problem, search_regions(problem))
         assert obeys(problem, problem.found())
 
 
@@ -81,7 +81,7 @@ def corner(n, seed):
     W, none = (Q * rng.uniform(0.05, 0.95, 3 * n)) @ Q.T, np.zeros(3 * n)
     W = (W + W.T) / 2
     problem = ContactProblem.of(W=W, b=none, friction=np.full(n, 0.6), motions=np.zeros((3 * n, 0)), scale=1.0)
-    return problem, at_rest(problem, none, motion=none), rng
+    return problem, initial_state(problem, none, motion=none), rng
 
 
 def test_rates_at_a_corner_are_the_first_increment():
@@ -107,7 +107,7 @@ def test_a_pair_at_a_corner_beside_one_that_slips_under_pressure():
         r = np.array([1.0, 0.0, 3.0 * np.cos(angle), 0.0, 3.0 * np.sin(angle), 0.0])
         pressed = replace(now, r=r, state=np.array([STICK, STICK]))
         found = find_rates(replace(problem, b=rng.normal(size=6)), pressed, 1e-9)
-        some += isinstance(found, SpatialRates)
+        some += isinstance(found, Rates)
         none += isinstance(found, NoRates) and found.proved
     assert some + none == 25
     assert min(some, none) > 0

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from signorini.friction.certificate import certify
-from signorini.friction.history.plane import follow, initial_state, land
+from signorini.friction.history import follow, initial_state, land
 from signorini.law.states import OPEN, SLIP_PLUS
 from tests.helpers.path_samples import EqualBodies, Springs, one_node, stiff
 

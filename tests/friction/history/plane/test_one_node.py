@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from signorini.friction.history.plane import follow, initial_state
+from signorini.friction.history import follow, initial_state
 from signorini.law.states import OPEN, SLIP_MINUS, STICK
 from tests.helpers.path_samples import at, one_node
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import strategies as st
 
 from signorini.friction.certificate import certify
-from signorini.friction.history.plane import initial_state
+from signorini.friction.history import initial_state
 from signorini.friction.uniqueness import mu_low
 from signorini.law.states import SLIP_MINUS, SLIP_PLUS
 from tests.helpers.contact_samples import for_all

@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
-from signorini.errors import InputError
-from signorini.friction.history.plane import follow, initial_state
+from signorini.errors import InputError, SolveFailed
+from signorini.friction.history import PathSettings, follow, initial_state
 from signorini.friction.problem import ContactProblem
 from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS
+from signorini.settings import SolverSettings
 from tests.helpers.contact_samples import block_on_floor, for_all
 from tests.helpers.path_samples import Springs, increments, loads_at_breakpoints, one_node, stiff
 
@@ -110,6 +111,26 @@ def test_friction_that_was_lowered_below_what_a_pair_carries_is_refused():
     assert follow(replace(problem, friction=[0.95]), held, load(-1.0, 0.92)).followed
     with pytest.raises(InputError, match="start: pair 0 carries more friction than it can"):
         follow(replace(problem, friction=[0.5]), held, load(-1.0, 1.5))
+
+
+def test_starts_and_paths_keep_to_the_limits_that_the_user_gives():
+    few = SolverSettings(newton_steps=1, searched_steps=1, pivots_per_pair=(1,), tree_pairs=0, proximal_rounds=0)
+    for directions in (2, 3):
+        body = np.random.default_rng(1).normal(size=(6 * directions, 6 * directions))
+        W = body @ body.T / (1.0 + np.linalg.norm(body @ body.T, 2))
+        b = np.random.default_rng(2).normal(size=6 * directions)
+        problem = ContactProblem.of(
+            W=W, b=np.zeros_like(b), friction=np.full(6, 0.4), motions=np.zeros((6 * directions, 0)), scale=1.0
+        )
+        assert initial_state(problem, b).note == "the load presses: one increment from zero slip"
+        with pytest.raises(SolveFailed, match="at the start of the history: no certified equilibrium"):
+            initial_state(problem, b, settings=replace(few, swept_rounds=0))
+    problem, load = one_node(0.3)
+    exact = PathSettings(solver=SolverSettings(tolerance=1e-300))
+    turned = load(-0.7, 0.1 / 3.0)
+    lost = follow(problem, initial_state(problem, np.zeros(2)), turned, settings=exact)
+    assert follow(problem, initial_state(problem, np.zeros(2)), turned).followed
+    assert "fails its certificate" in lost.message
 
 
 def test_states_are_read_only():

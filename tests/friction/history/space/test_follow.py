@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from signorini.errors import InputError
-from signorini.friction.history.plane import follow, initial_state
-from signorini.friction.history.space import StopSettings, at_rest, follow_stopping
+from signorini.friction.history import PathSettings, follow, initial_state
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 from tests.helpers.contact_samples import block_on_floor
@@ -34,9 +33,9 @@ def in_space(W, friction, facets, **changes):
 
 
 def run(problem, h0, b0, loads, **settings):
-    state, segments = at_rest(problem, b0, motion=h0), []
+    state, segments = initial_state(problem, b0, motion=h0), []
     for b in loads:
-        segments.append(follow_stopping(problem, state, b, settings=StopSettings(**settings)))
+        segments.append(follow(problem, state, b, settings=PathSettings(**settings)))
         assert segments[-1].followed, segments[-1].message
         state = segments[-1].end
     return segments
@@ -117,7 +116,7 @@ def test_increments_that_end_at_the_same_loads_give_the_same(facets):
     W, h0, b0, loads = random_history(20 + facets, 6, 3)
     problem, n = in_space(W, 0.5, facets), 6
     start = b0
-    state = at_rest(problem, b0, motion=h0)
+    state = initial_state(problem, b0, motion=h0)
     h = state.h
     for segment, b_end in zip(run(problem, h0, b0, loads), loads, strict=True):
         y = None
@@ -154,8 +153,8 @@ def test_a_block_pulled_along_a_corner_slides_at_the_friction_of_its_weight(face
     pressed = block_on_floor(9, (-1.0, 0, 0, 0, 0, 0), facets=facets)
     pulled = block_on_floor(9, (-1.0, 0.5, 0, 0, 0, 0), facets=facets)
     none = np.zeros_like(pressed.b)
-    first = follow_stopping(pressed, at_rest(pressed, none, motion=none), pressed.b)
-    second = follow_stopping(pressed, first.end, pulled.b)
+    first = follow(pressed, initial_state(pressed, none, motion=none), pressed.b)
+    second = follow(pressed, first.end, pulled.b)
     assert second.outcome == "jump"
     assert second.jump.gross_sliding
     assert second.jump.factor == pytest.approx(0.3 / 0.5, abs=1e-9)
@@ -168,10 +167,10 @@ def test_a_block_pulled_along_a_corner_slides_at_the_friction_of_its_weight(face
 
 def test_a_block_that_is_lifted_leaves_and_says_how_sure_that_is():
     pressed = block_on_floor(9, (-1.0, 0, 0, 0, 0, 0), facets=8)
-    first = follow_stopping(
-        pressed, at_rest(pressed, np.zeros_like(pressed.b), motion=np.zeros_like(pressed.b)), pressed.b
+    first = follow(
+        pressed, initial_state(pressed, np.zeros_like(pressed.b), motion=np.zeros_like(pressed.b)), pressed.b
     )
-    second = follow_stopping(pressed, first.end, -2.0 * pressed.b)
+    second = follow(pressed, first.end, -2.0 * pressed.b)
     assert second.outcome == "jump"
     assert second.jump.factor == pytest.approx(1.0 / 3.0, abs=1e-6)
     assert not second.jump.gross_sliding
@@ -184,4 +183,4 @@ def test_a_block_that_is_lifted_leaves_and_says_how_sure_that_is():
 def test_loads_that_are_no_loads_are_refused(end, said):
     problem = in_space(0.5 * np.eye(3), 0.5, 0)
     with pytest.raises(InputError, match=said):
-        follow_stopping(problem, at_rest(problem, np.zeros(3)), end)
+        follow(problem, initial_state(problem, np.zeros(3)), end)

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from signorini.friction.certificate import certify
-from signorini.friction.history.plane import follow, initial_state, land
-from signorini.friction.history.space import StopSettings, at_rest, follow_stopping, land_spatial
-from signorini.friction.history.space.find_rates import SpatialRates, find_rates
+from signorini.friction.history import PathSettings, follow, initial_state, land
+from signorini.friction.history.rates import Rates
+from signorini.friction.history.space.find_rates import find_rates
 from signorini.friction.problem import ContactProblem
 from signorini.law.states import OPEN, STICK
 from tests.helpers.path_samples import Springs, stiff
@@ -27,8 +27,8 @@ def turned_node(mu, facets, angle, **bounds):
 
 def pulled(mu, facets, angle, most=8.0, **bounds):
     problem, load, turn = turned_node(mu, facets, angle, **bounds)
-    pressed = follow_stopping(problem, at_rest(problem, np.zeros(3)), load(-1.0, 0.0)).end
-    return problem, turn, pressed, follow_stopping(problem, pressed, load(-1.0, most)), load
+    pressed = follow(problem, initial_state(problem, np.zeros(3)), load(-1.0, 0.0)).end
+    return problem, turn, pressed, follow(problem, pressed, load(-1.0, most)), load
 
 
 # a corner of the section along the pull, an edge across it, and the circle
@@ -52,12 +52,12 @@ def test_one_node_jumps_and_lands_by_hand(f_t, facets, angle, share):
     assert "combinations of states has rates" in path.jump.proof
     assert path.end.state.tolist() == [STICK]
     np.testing.assert_allclose(turn.T @ path.end.r, [1.0, -f_t, 0.0], atol=1e-12)
-    landing = land_spatial(problem, pressed, path)
+    landing = land(problem, pressed, path)
     np.testing.assert_allclose(turn.T @ landing.state.h, [(f_t - 2) / 3, (2 * f_t - 1) / 3, 0.0], atol=1e-12)
     assert landing.state.state.tolist() == [OPEN]
     assert landing.state.dissipation == pytest.approx(0.5 * f_t, abs=1e-12)
     assert 8.0 * landing.lowest == pytest.approx(2.0, abs=1e-12)
-    on = follow_stopping(problem, landing.state, load(-1.0, 8.0))
+    on = follow(problem, landing.state, load(-1.0, 8.0))
     assert on.followed
     assert not on.events
     np.testing.assert_allclose(turn.T @ on.end.h, [2.0, 5.0, 0.0], atol=1e-11)
@@ -67,9 +67,9 @@ def test_one_node_jumps_and_lands_by_hand(f_t, facets, angle, share):
 def test_what_lies_within_rounding_is_no_proof(facets, angle):
     """As in the plane: along the edge of friction there are rates, beyond it none, by what the pull has too much."""
     problem, load, _ = turned_node(3.0, facets, angle)
-    pressed = follow_stopping(problem, at_rest(problem, np.zeros(3)), load(-1.0, 0.0)).end
-    edge = follow_stopping(problem, pressed, load(-1.0, 3.0)).end
-    assert isinstance(find_rates(replace(problem, b=load(-1.0, 3.0)), edge, 1e-7), SpatialRates)
+    pressed = follow(problem, initial_state(problem, np.zeros(3)), load(-1.0, 0.0)).end
+    edge = follow(problem, pressed, load(-1.0, 3.0)).end
+    assert isinstance(find_rates(replace(problem, b=load(-1.0, 3.0)), edge, 1e-7), Rates)
     for beyond in (1e-8, 1e-7, 1e-4, 0.1):
         none = find_rates(replace(problem, b=load(-1.0, 3.0 + beyond)), edge, 1e-7)
         assert none.proved == (beyond > 1e-5)
@@ -85,9 +85,9 @@ def test_what_lies_within_rounding_is_no_proof(facets, angle):
 def test_increments_pass_over_no_jump_wherever_and_how_large_it_is(number, part, f_t):
     """On the circle, at a part of the way; the jump of f_t = 2.02 is one of a hundredth of the force."""
     problem, load, _ = turned_node(f_t, 0, 0.3)
-    pressed = follow_stopping(problem, at_rest(problem, np.zeros(3)), load(-1.0, 0.0)).end
-    settings = StopSettings(shortest=1.0 / number, turn=0.04 / number**0.5)
-    path = follow_stopping(problem, pressed, load(-1.0, f_t / part), settings=settings)
+    pressed = follow(problem, initial_state(problem, np.zeros(3)), load(-1.0, 0.0)).end
+    settings = PathSettings(shortest=1.0 / number, turn=0.04 / number**0.5)
+    path = follow(problem, pressed, load(-1.0, f_t / part), settings=settings)
     assert path.outcome == "jump"
     assert path.jump.factor == pytest.approx(part, abs=1e-9)
 
@@ -115,13 +115,13 @@ def plane_and_space(seed, pairs, mu, facets):
     )
     flat = initial_state(springs.problem, springs.load(np.zeros(2 * pairs)), motion=springs.gap)
     none = np.zeros(pairs)
-    deep = at_rest(wide, np.append(flat.b, none), motion=np.append(flat.h, none))
+    deep = initial_state(wide, np.append(flat.b, none), motion=np.append(flat.h, none))
     for _ in range(3):
         F = rng.normal(size=2 * pairs)
         F[:pairs] -= 1.0
         b = springs.load(F)
-        one, two = follow(springs.problem, flat, b), follow_stopping(wide, deep, np.append(b, none))
-        landed = (None, None) if one.followed else (land(springs.problem, flat, one), land_spatial(wide, deep, two))
+        one, two = follow(springs.problem, flat, b), follow(wide, deep, np.append(b, none))
+        landed = (None, None) if one.followed else (land(springs.problem, flat, one), land(wide, deep, two))
         yield one, two, landed
         if not one.followed:
             return
@@ -162,16 +162,16 @@ def test_landings_are_equilibria_where_less_is_stored_than_the_loads_gave(pairs,
     problem = ContactProblem.of(
         W=(W + W.T) / 2, b=none, friction=friction, motions=np.zeros((3 * pairs, 0)), scale=1.0, facets=facets
     )
-    state, before, rng = at_rest(problem, none, motion=none), none, np.random.default_rng((seed, 1))
+    state, before, rng = initial_state(problem, none, motion=none), none, np.random.default_rng((seed, 1))
     for _ in range(4):
         F = rng.normal(size=3 * pairs)
         F[:pairs] -= 1.0
-        segment = follow_stopping(problem, state, W @ F)
+        segment = follow(problem, state, W @ F)
         if not segment.followed:
             break
         state, before = segment.end, F
     assert segment.outcome == "jump"
-    limit, landed = segment.end, land_spatial(problem, state, segment).state
+    limit, landed = segment.end, land(problem, state, segment).state
     origin = np.concatenate([np.zeros(pairs), landed.h[pairs:]])
     b = limit.b + problem.W @ origin - origin
     assert certify(replace(problem, b=b), problem.by_pair(landed.r - (landed.h - origin))) < 1e-10
@@ -189,19 +189,19 @@ def test_increments_find_the_random_jumps_that_every_event_finds(behind, pairs, 
     W = np.linalg.inv(S + np.eye(3 * pairs))
     given = {"W": (W + W.T) / 2, "b": none, "friction": np.full(pairs, mu), "motions": np.zeros((3 * pairs, 0))}
     problem, rng = ContactProblem.of(**given, scale=1.0), np.random.default_rng((seed, 1))
-    state, fine = at_rest(problem, none, motion=none), StopSettings(turn=0.1)
+    state, fine = initial_state(problem, none, motion=none), PathSettings(turn=0.1)
     for _ in range(4):
         F = rng.normal(size=3 * pairs)
         F[:pairs] -= 1.0
-        segment = follow_stopping(problem, state, W @ F, settings=fine)
+        segment = follow(problem, state, W @ F, settings=fine)
         if not segment.followed:
             break
         state = segment.end
     assert segment.outcome == "jump"
     at = behind * segment.jump.factor
-    begin = follow_stopping(problem, state, (1.0 - at) * state.b + at * (W @ F), settings=fine).end
+    begin = follow(problem, state, (1.0 - at) * state.b + at * (W @ F), settings=fine).end
     for number in (1, 4, 16):
-        coarse = StopSettings(shortest=1.0 / number, turn=0.04 / number**0.5)
-        path = follow_stopping(problem, begin, W @ F, settings=coarse)
+        coarse = PathSettings(shortest=1.0 / number, turn=0.04 / number**0.5)
+        path = follow(problem, begin, W @ F, settings=coarse)
         assert path.outcome == "jump"
         assert at + (1.0 - at) * path.jump.factor == pytest.approx(segment.jump.factor, abs=1e-6)

@@ -11,9 +11,10 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.friction.history.plane.rate_law import CORNER, INSIDE, RATE, RateLaw, Rates
+from signorini.friction.history.plane.rate_law import CORNER, INSIDE, RATE, RateLaw
 from signorini.friction.history.plane.responses import Responses
 from signorini.friction.history.plane.state_inverse import SingularState
+from signorini.friction.history.rates import Rates
 from signorini.law.states import OPEN, STICK
 
 WRONG_RATE_TOL = 1e-9

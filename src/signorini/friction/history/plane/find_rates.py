@@ -4,48 +4,32 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import linprog
 
 from signorini import lcp
 from signorini.arrays import Array, IntArray
-from signorini.friction.history.plane.rate_law import CORNER, RATE, RateLaw, Rates
+from signorini.friction.history.plane.rate_law import CORNER, RATE, RateLaw
 from signorini.friction.history.plane.responses import Responses
 from signorini.friction.history.plane.state_inverse import SingularState
+from signorini.friction.history.rates import (
+    MARGIN,
+    RAY,
+    RUNAWAY_RATE,
+    NoRates,
+    Rates,
+    evidence,
+    least_lacking,
+    refused,
+)
 from signorini.law.bound import SIGN
 from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 COMBINATIONS = 4096
 """Most combinations of states that are tried one by one."""
 
-MARGIN = 1e-6
-"""Of the data: what every state must lack for a proof that there are no rates; rates that are accepted lack 1e-9."""
-
-RUNAWAY_RATE = 1e6
-"""Of the load: rates larger than that are none that equilibrium goes on with."""
-
-RAY = "ray termination"
-
 KINKS = 4
 """Most pairs at kinks of their bound whose branches are chosen in all ways before Lemke's method."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class NoRates:
-    """Why there are no rates, or why none were found.
-
-    Attributes
-    ----------
-    proof : in words
-    proved : False where the search ended without an answer
-    margin : of a proof: what rates lack at least, of the data; 0 where it is strong evidence alone
-    """
-
-    proof: str
-    proved: bool
-    margin: float = 0.0
 
 
 def find_rates(
@@ -189,30 +173,6 @@ def _enumerate(responses: Responses, law: RateLaw, load: Array, state: IntArray,
     return refused(f"{ending}; none of the {count} combinations of states has rates that obey the law", margin)
 
 
-def refused(words: str, margin: float) -> NoRates:
-    """No rates were found and every state lacks at least the margin: a proof where that is more than rounding.
-
-    >>> refused("nothing moves", 0.25)
-    NoRates(proof='nothing moves: what comes nearest lacks 0.25 of the data', proved=True, margin=0.25)
-    >>> refused("nothing moves", 1e-9).proved
-    False
-    """
-    if margin <= MARGIN:
-        return NoRates(proof=f"{words}, but what comes nearest lacks {margin:.1g} of the data: no proof", proved=False)
-    return NoRates(proof=f"{words}: what comes nearest lacks {margin:.2g} of the data", proved=True, margin=margin)
-
-
-def evidence(ending: str, combinations: str) -> NoRates:
-    """Too many combinations to try: a ray of Lemke's method stands alone.
-
-    >>> evidence("Lemke's method: ray termination", "2^40 combinations").proved
-    True
-    """
-    words = f"{ending}; {combinations} are too many to try"
-    ray = ending.endswith(RAY)
-    return NoRates(proof=f"{words}: strong evidence, no proof" if ray else words, proved=ray)
-
-
 def _lacking(responses: Responses, law: RateLaw, load: Array, state: IntArray, least: float) -> Rates | float:
     """Rates of a state that obey the law, or what they lack of it, relative to them.
 
@@ -251,15 +211,9 @@ def _by_program(responses: Responses, law: RateLaw, load: Array, state: IntArray
     balance = np.hstack([motions - problem.W @ motions, -problem.W @ forces])
     rows = np.concatenate([balance, -balance, needs])
     right = np.concatenate([load, -load, np.zeros(len(needs))]) / unit
-    answer = linprog(
-        np.append(np.zeros(4 * n), 1.0),
-        A_ub=np.hstack([rows, -np.ones((len(rows), 1))]),
-        b_ub=right,
-        bounds=[(-RUNAWAY_RATE, RUNAWAY_RATE)] * (4 * n) + [(0.0, None)],
-        method="highs",
-        options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
-    )
-    return float(answer.fun) if answer.status == 0 else 0.0
+    most = np.full(4 * n, RUNAWAY_RATE)
+    lacking = least_lacking(rows, right, -most, most)[0]
+    return 0.0 if np.isnan(lacking) else lacking
 
 
 def _choices(law: RateLaw, k: int) -> tuple[int, ...]:

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
-from signorini.friction.history.plane.find_rates import NoRates
 from signorini.friction.history.plane.rate_law import weight
+from signorini.friction.history.rates import NoRates
 from signorini.friction.history.segment import Jump
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem

@@ -24,6 +24,7 @@ from functools import cached_property
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.friction.history.rates import Rates
 from signorini.law.bound import SIGN, FrictionBound, plain
 from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
@@ -32,26 +33,6 @@ INSIDE, CORNER = -1, 0
 
 RATE = 1e-10
 """Sign of a rate, relative to the largest rate."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Rates:
-    """Rates in one state of the pairs, per unit of the load parameter.
-
-    Attributes
-    ----------
-    state : (n,)
-    h, r : (2n,)
-    """
-
-    state: IntArray
-    h: Array
-    r: Array
-
-    @cached_property
-    def size(self) -> float:
-        """The largest of them, which tolerances refer to."""
-        return float(max(np.abs(self.h).max(initial=0.0), np.abs(self.r).max(initial=0.0))) or 1.0
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from itertools import islice, product
 from typing import Literal
 
@@ -12,8 +11,8 @@ import numpy as np
 
 from signorini import lcp
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.friction.history.plane.find_rates import NoRates, evidence, refused
-from signorini.friction.history.space.no_rates_proof import Exhausted, search
+from signorini.friction.history.rates import NoRates, Rates, evidence, refused
+from signorini.friction.history.space.no_rates_proof import Exhausted, search_regions
 from signorini.friction.history.space.rate_problem import CONE, FACET, GAP, KINK, RateProblem
 from signorini.friction.history.space.smooth_cones import ConeProblem
 from signorini.friction.history.state import PathState
@@ -34,27 +33,12 @@ _CLOSES: Literal["closes"] = "closes"
 _STAYS: Literal["stays"] = "stays"
 
 
-@dataclass(frozen=True, kw_only=True)
-class SpatialRates:
-    """Rates per unit of the load parameter.
-
-    Attributes
-    ----------
-    state : (n,) OPEN, STICK or SLIP from here on
-    h, r : (3n,)
-    """
-
-    state: IntArray
-    h: Array
-    r: Array
-
-
-def find_rates(problem: ContactProblem, now: PathState, width: float) -> SpatialRates | NoRates:
+def find_rates(problem: ContactProblem, now: PathState, width: float) -> Rates | NoRates:
     """Rates behind a state that obey the law, or why there are none.
 
-    Lemke's method, then every combination of what pairs may do (see `choice`), up to 2^16 of them; linear programs
+    Lemke's method, then every combination of what pairs may do (see `RateProblem`), up to 2^16 of them; linear programs
     decide singular ones. With more of them a ray of Lemke's method is strong evidence, no proof, and the words say so.
-    Where pairs touch a smooth section without pressure, Newton's method, then sectors of directions (see `sectors`).
+    Where pairs touch a smooth section without pressure, Newton's method, sectors of directions (`no_rates_proof`).
 
     Parameters
     ----------
@@ -71,11 +55,11 @@ def find_rates(problem: ContactProblem, now: PathState, width: float) -> Spatial
     One pair that sticks with its friction used up: it slips if the pull grows, and sticks on if it falls.
 
     >>> from dataclasses import replace
-    >>> from signorini.friction.history.space.follow import at_rest, follow_stopping
+    >>> from signorini.friction.history import follow, initial_state
     >>> problem = ContactProblem.of(
     ...     W=0.5 * np.eye(3), b=np.zeros(3), friction=[0.5], motions=np.zeros((3, 0)), scale=1.0, facets=8
     ... )
-    >>> now = follow_stopping(problem, at_rest(problem, np.zeros(3)), np.array([-0.5, 0.25, 0.0])).end
+    >>> now = follow(problem, initial_state(problem, np.zeros(3)), np.array([-0.5, 0.25, 0.0])).end
     >>> loads = (np.array([0.0, 1.0, 0.0]), np.array([0.0, -1.0, 0.0]))
     >>> rates = [find_rates(replace(problem, b=load), now, 1e-10) for load in loads]
     >>> [(each.state.tolist(), (each.h.round(12) + 0.0).tolist()) for each in rates]
@@ -85,7 +69,7 @@ def find_rates(problem: ContactProblem, now: PathState, width: float) -> Spatial
     return NoRates(proof=choice, proved=False) if isinstance(choice, str) else _solved(choice)
 
 
-def departures(problem: ContactProblem, now: PathState, width: float) -> Iterator[SpatialRates]:
+def departures(problem: ContactProblem, now: PathState, width: float) -> Iterator[Rates]:
     """Rates in which acting pairs leave their state, all of them first, then only some; others slip on, or may stick.
 
     Where no pair acts, in the middle of a curve, those in which every pair stays in its state.
@@ -116,7 +100,7 @@ def departures(problem: ContactProblem, now: PathState, width: float) -> Iterato
         leaves = any(way != _STAYS for way in taken)
         for chosen in ([moves | slip_on] if slip_on else []) + ([moves] if leaves else []):
             found = _solved(choice, chosen, closed)
-            if isinstance(found, SpatialRates):
+            if isinstance(found, Rates):
                 yield found
 
 
@@ -153,7 +137,7 @@ def _some(facets: list[int]) -> list[tuple[int, ...]]:
 
 def _solved(
     choice: RateProblem, moves: Mapping[int, bool] | None = None, closed: BoolArray | None = None
-) -> SpatialRates | NoRates:
+) -> Rates | NoRates:
     """Rates of a choice in which some numbers move and some do not, whatever they would do; ``closed`` pairs stay."""
     moves, M, q = moves or {}, choice.M, choice.q
     free = np.setdiff1d(np.arange(len(q)), list(moves))
@@ -183,13 +167,13 @@ def _solved(
     none = _RATE_TOL * np.abs(z).max(initial=0.0)
     if (w < -rounding)[one].any() or z[one].min(initial=0.0) < -none or off > _RATE_TOL * size:
         return NoRates(proof="the rates found do not obey the law", proved=False)
-    return SpatialRates(state=_states(choice, h, r, _RATE_TOL * size), h=h, r=r)
+    return Rates(state=_states(choice, h, r, _RATE_TOL * size), h=h, r=r)
 
 
 def _with_cones(problem: ConeProblem, size: float) -> Array | NoRates:
     """Numbers, and motions of pairs in Coulomb's law, or why there are none; ``size`` of the terms of q."""
     found = problem.found()
-    answer = search(problem) if found is None else found
+    answer = search_regions(problem) if found is None else found
     if not isinstance(answer, Exhausted):
         return answer
     if answer.undecided:
@@ -216,7 +200,7 @@ def _complementary(M: Array, q: Array, size: float) -> Array | NoRates:
     combinations = f"2^{len(q)} combinations of states"
     if found.status is not lcp.Status.NO_SOLUTION:
         return evidence(ending, combinations)
-    answer = search(ConeProblem(M=M, q=q, friction=np.zeros((2, 0)), closed=np.zeros(0, dtype=np.bool_)))
+    answer = search_regions(ConeProblem(M=M, q=q, friction=np.zeros((2, 0)), closed=np.zeros(0, dtype=np.bool_)))
     if not isinstance(answer, Exhausted):
         return answer
     if answer.undecided:

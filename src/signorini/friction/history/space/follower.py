@@ -16,20 +16,26 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
-from signorini.friction.history.plane.find_rates import NoRates
-from signorini.friction.history.recorder import PathRecorder, check_loads
+from signorini.friction.history.follower import ZERO_WIDTH, PathFollower, PathSettings
+from signorini.friction.history.rates import NoRates, Rates
 from signorini.friction.history.segment import Breakpoint, Jump, Segment
-from signorini.friction.history.space.find_rates import SpatialRates, acting_pairs, find_rates
-from signorini.friction.history.space.increment import SolvedIncrement, StopSettings
+from signorini.friction.history.space.bearing import OVERLOADED, Bearing, sliding
+from signorini.friction.history.space.find_rates import acting_pairs, departures, find_rates
 from signorini.friction.history.space.missed_jumps import first_missed_jump
-from signorini.friction.history.space.straight import extrapolated_length, friction_turn, held_until, tangents
+from signorini.friction.history.space.standstill import standstill
+from signorini.friction.history.space.straight import (
+    END_ROUNDING,
+    SolvedIncrement,
+    extrapolated_length,
+    friction_turn,
+    held_until,
+    settled,
+)
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import pulled_away
 from signorini.friction.result import ContactAnswer
 from signorini.friction.solve import solve_contact
-from signorini.friction.space.bearing import OVERLOADED, Bearing, sliding
-from signorini.friction.space.standstill import standstill
 from signorini.law.bound import ADHESION_SLOPE
 from signorini.law.states import OPEN, SLIP, STICK
 from signorini.outcome import Outcome
@@ -51,27 +57,23 @@ _LONGER_TURN = 4.0  # times what friction may turn elsewhere: where one longer i
 _FOLD_REACH = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)  # times the last increment: where to look for the other side of a fold
 _FOLD, _TURNED = 1e-9, 0.3  # part of the way in which it is looked for, and what friction may turn in it
 _PATIENCE = 4  # tries
-_END_ROUNDING = 1e-9  # part of an increment: what comes so late does not happen in it
 _LOST = 1e-7  # part of the segment: where not even that has a solution nothing goes on gradually
 _TRIES = 60  # at one increment
-_IDLE = 1e-12  # of the data: a normal force that rounding leaves, under which nothing slips
 _EVENT_WIDTH = 1e-6  # of the data: width of zero at an event that smooth sections make uncertain
 _QUICK_STEPS = 12  # of Newton's method, in an increment that may be shorter
 
 
-class SpaceFollower(PathRecorder):
-    """One straight way of the load from a state in space, gone increment by increment.
+class SpaceFollower(PathFollower):
+    """A straight way of the load in space, gone increment by increment.
 
     Parameters
     ----------
-    problem, start, b_end, settings : see `follow_stopping`
+    problem, start, b_end, settings : see `PathFollower`
     """
 
-    def __init__(self, problem: ContactProblem, start: PathState, b_end: Array, settings: StopSettings) -> None:
-        check_loads(3 * problem.pairs, start=start.b, b_end=b_end)
-        super().__init__(start)
-        self.problem, self.start, self.b_end, self.settings = problem, start, b_end, settings
-        self.width = settings.width * (problem.scale or 1.0)
+    def __init__(self, problem: ContactProblem, start: PathState, b_end: Array, settings: PathSettings) -> None:
+        super().__init__(problem, start, b_end, settings)
+        self.width = ZERO_WIDTH * (problem.scale or 1.0)
         self._quick = replace(
             settings.solver, searched_steps=_QUICK_STEPS, swept_rounds=1, proximal_rounds=0, springs=()
         )
@@ -86,7 +88,7 @@ class SpaceFollower(PathRecorder):
         self._overloaded = False  # whether the pairs that are near hold the bodies no more
         self.bearing = Bearing(problem, self.b_end, settings.behind)
         # the load as rates see it; what smooth sections know of an event is less sharp
-        self.rate_problem = replace(problem, b=frozen(b_end - start.b))
+        self.rate_problem = replace(problem, b=frozen(self.b_end - start.b))
         self.near, self._astray = (_EVENT_WIDTH * (problem.scale or 1.0), 0.5) if self.smooth else (self.width, 1e-6)
 
     def go_on(self) -> NoRates | None:
@@ -99,26 +101,28 @@ class SpaceFollower(PathRecorder):
         if stop is not None and (stop.proved or self.settings.shortest):  # events may be as many as they like
             self.limited = stop.proved
             return stop
-        words = self.advance(patience=_PATIENCE)
+        words = self._advance(patience=_PATIENCE)
         if not words:
             return None
         if self._leaves:
             return NoRates(proof=words, proved=True)
         found = find_rates(self.rate_problem, self.now, self.near)
-        if isinstance(found, SpatialRates) and self.along(found):
+        if isinstance(found, Rates) and self._along(found):
             return None
         if isinstance(found, NoRates) and found.proved:
             return replace(found, proof=f"{words}; {found.proof}")
-        words = self.advance(patience=_TRIES)  # also where increments do not go along the rates, one of several
+        words = self._advance(patience=_TRIES)  # also where increments do not go along the rates, one of several
         if words and self.careful > self.factor:
             self.careful, self.trusting = 0.0, True
             return self.go_on()
         rest = f"; {found.proof}" if isinstance(found, NoRates) else ", though there are rates"
         return NoRates(proof=f"{words}{rest}", proved=False) if words else None
 
-    def again(self) -> bool:
+    def goes_back(self) -> bool:
         """Whether an increment has passed over something: back to its beginning, to go through it event by event."""
-        k = first_missed_jump(self.problem, self.start, self.pieces, self.balanced) if self.settings.shortest else None
+        if self.limited or not self.settings.shortest:  # close to a limit of the load all increments miss energy
+            return False
+        k = first_missed_jump(self.problem, self.start, self.pieces, self.balanced)
         if k is None:
             return False
         self.careful = self.balanced = self.pieces[k].factor
@@ -145,7 +149,7 @@ class SpaceFollower(PathRecorder):
         """The last increment, to the very load that can be held, where equilibrium at it is near by."""
         trial = self._near_by(self._trial(self.bearing.limit - self.factor, 0.0))
         if trial is not None and trial.until >= 1.0 - _LATE_EVENT_TOL:
-            self._enter(trial, self._settled(trial, trial.after.state), 1)
+            self._enter(trial, settled(self.problem, self.now, trial, trial.after.state), 1)
 
     def _near_by(self, trial: SolvedIncrement | ContactAnswer) -> SolvedIncrement | None:
         """An increment that moves no pair farther than the loads of the whole history deform the bodies."""
@@ -158,7 +162,7 @@ class SpaceFollower(PathRecorder):
         """Whether an increment was refused with the proof that loads pull bodies away."""
         return self.refused is not None and self.refused.outcome == "no_equilibrium"
 
-    def along(self, rates: SpatialRates) -> bool:
+    def _along(self, rates: Rates) -> bool:
         """One increment in the direction of rates, up to the next event; whether there is one."""
         now, tried, n = self.now, self.tried, self.problem.pairs
         short = 0.5 * self._pressed_for(rates)
@@ -179,11 +183,20 @@ class SpaceFollower(PathRecorder):
             elif trial.turn > self._turn:
                 step *= _SHRINK * self._turn / trial.turn
             else:
-                self._enter(trial, self._settled(trial, rates.state), self.tried - tried)
+                self._enter(trial, settled(self.problem, self.now, trial, rates.state), self.tried - tried)
                 return True
         return False
 
-    def cross(self, before: PathState) -> bool:
+    def departs(self) -> bool:
+        """One increment in rates in which acting pairs are in a next state, not in those that led here."""
+        return any(self._along(rates) for rates in departures(self.rate_problem, self.now, self.near))
+
+    def stuck(self) -> bool:
+        """Whether it is known beforehand that no rates lead on."""
+        found = find_rates(self.rate_problem, self.now, self.near)
+        return isinstance(found, NoRates) and found.proved
+
+    def crosses(self, before: PathState) -> bool:
         """One increment across a fold of the curve of equilibria that led here from ``before``; whether there is one.
 
         On a smooth section friction turns until the load that goes back can go no farther: on with the same slip.
@@ -197,11 +210,11 @@ class SpaceFollower(PathRecorder):
                 continue
             moved = trial.after.h - now.h
             if moved @ h > 0.5 * float(h @ h):
-                self._enter(trial, self._settled(trial, trial.after.state), 1)
+                self._enter(trial, settled(self.problem, self.now, trial, trial.after.state), 1)
                 return True
         return False
 
-    def _pressed_for(self, rates: SpatialRates) -> float:
+    def _pressed_for(self, rates: Rates) -> float:
         """How long no normal force vanishes or comes to a kink of the bound on friction, within the segment."""
         p, rate = self.now.r[: self.problem.pairs], rates.r[: self.problem.pairs]
         times = [self.reach - self.factor]
@@ -211,7 +224,7 @@ class SpaceFollower(PathRecorder):
             times.append(float((away[comes] / rate[comes]).min(initial=np.inf)))
         return min(times)
 
-    def advance(self, *, patience: int) -> str:
+    def _advance(self, *, patience: int) -> str:
         """One increment; why there is none, or nothing. Given up where so many were tried, and pairs act in all."""
         if len(self.pieces) > self.settings.solver.path_increments:
             return f"{self.settings.solver.path_increments} increments end at factor {self.factor:.12g}"
@@ -257,8 +270,8 @@ class SpaceFollower(PathRecorder):
                 break
         if best is None or inner is None:
             return f"at factor {self.factor:.12g}: no increment, however short, goes on gradually ({words})"
-        exact = best.until >= 1.0 - _END_ROUNDING
-        after = self._settled(best, inner.after.state if exact else best.after.state)
+        exact = best.until >= 1.0 - END_ROUNDING
+        after = settled(self.problem, self.now, best, inner.after.state if exact else best.after.state)
         self._enter(best, after, self.tried - tried)
         return ""
 
@@ -269,24 +282,6 @@ class SpaceFollower(PathRecorder):
         if trial.until < 1.0:
             aim = min(aim, trial.until * (_SHRINK if best is None else 1.0))
         return max(aim * trial.step, shortest if best is None else best.step)
-
-    def _settled(self, trial: SolvedIncrement, state: IntArray) -> PathState:
-        """The end of a piece, where pairs may be on the verge of another state, in the states inside it.
-
-        What slips from an event in the piece on does so under the friction at its end.
-        """
-        now, end, n = self.now, trial.after, self.problem.pairs
-        closed, sticks = state != OPEN, np.tile(state == STICK, 2)
-        h = np.concatenate([np.where(closed, 0.0, end.h[:n]), np.where(sticks, now.h[n:], end.h[n:])])
-        r = np.where(np.tile(closed, 3), end.r, 0.0)
-        pressed = closed & (np.maximum(r[:n], now.r[:n]) > _IDLE * (self.problem.scale or 1.0))
-        moved = np.where(np.tile(pressed, 2), h[n:] - now.h[n:], 0.0)
-        late = (trial.each < 1.0 - _END_ROUNDING) & (now.state != OPEN)
-        rubbing = np.where(np.tile(late, 2), r[n:], 0.5 * (r[n:] + now.r[n:]))
-        lost = -(tangents(rubbing) * tangents(moved)).sum(axis=0)
-        return replace(
-            end, h=h, r=r, state=state, anchor=h[n:], slip=now.slip + moved, dissipation=now.dissipation + lost
-        )
 
     def _grips(self, trial: SolvedIncrement) -> bool:
         """Whether a pair that holds friction without pressure closes in it, which sticks where it touches, or opens."""
@@ -378,11 +373,13 @@ class SpaceFollower(PathRecorder):
         if self._overloaded:
             return self.segment(Outcome.JUMP, self.bearing.jump(self.now, self.factor, pressed, lost.proof), lost.proof)
         slide = sliding(self.problem, self.pieces[-2:], pressed) if self.limited else None
+        pull = pulled_away(replace(self.problem, b=frozen(self.b_end))) if leaves else None
+        share = 0.0 if pull is None else pull.share
         jump = Jump(
             factor=self.factor,
             pairs=tuple(int(k) for k in (acting if len(acting) else np.flatnonzero(spent))),
             proof=refused.message if refused is not None and leaves else lost.proof,
-            margin=_share(self.problem, self.b_end) if leaves else lost.margin,
+            margin=share if leaves else lost.margin,
             gross_sliding=bool(leaves and pressed.any() and spent[pressed].all()) or slide is not None,
             escape=slide,
         )
@@ -392,9 +389,3 @@ class SpaceFollower(PathRecorder):
     def effort(self) -> tuple[int, int, int]:
         """Increments tried; nothing dense is kept between them."""
         return self.tried, 0, 0
-
-
-def _share(problem: ContactProblem, b: Array) -> float:
-    """What of a load (3n,) on rigid motions no forces of the pairs take; 0 where they take all."""
-    pull = pulled_away(replace(problem, b=frozen(b)))
-    return 0.0 if pull is None else pull.share

@@ -14,16 +14,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import linprog
 
 from signorini.arrays import Array
-from signorini.friction.history.plane.find_rates import MARGIN
+from signorini.friction.history.rates import MARGIN, RUNAWAY_RATE, least_lacking
 from signorini.friction.history.space.smooth_cones import ConeProblem
 
 _MAX_PROGRAMMES = 400  # linear programmes
 _WORK, _FACTORISATIONS = 2e9, 20.0  # operations, and factorisations of a system as large: the more of both is the most
-_RUNAWAY_RATE = 1e6  # of the data: motions larger than that are none that equilibrium goes on with
-_PROGRAM_TOL = 1e-10  # of the data, that linear programmes are solved to
 _SLACK = 1e-8  # of the data: what an answer may lack to be looked at further
 _PIVOTS = 10  # of a linear programme, per row and column; a half is usual
 _TANGENTS = 8
@@ -61,7 +58,7 @@ class Exhausted:
         return not self.undecided and self.margin > MARGIN
 
 
-def search(problem: ConeProblem) -> Array | Exhausted:
+def search_regions(problem: ConeProblem) -> Array | Exhausted:
     """A solution x, or that there is none up to 1e6 times the data, or that too many linear programmes would tell.
 
     Examples
@@ -71,7 +68,7 @@ def search(problem: ConeProblem) -> Array | Exhausted:
     >>> M = np.array([[2.0, -1.0, 0.0], [-1.0, 2.0, 0.0], [0.0, 0.0, 2.0]])
     >>> def pair(*q):
     ...     return ConeProblem(M=M, q=np.array(q), friction=np.full((1, 2), 3.0), closed=np.array([True]))
-    >>> search(pair(-1.0, 0.5, 0.0)).proved, search(pair(1.0, 0.5, 0.0)).round(12).tolist()
+    >>> search_regions(pair(-1.0, 0.5, 0.0)).proved, search_regions(pair(1.0, 0.5, 0.0)).round(12).tolist()
     (True, [0.0, 0.0, 0.0])
     """
     N, m = problem.numbers, len(problem.closed)
@@ -133,17 +130,12 @@ def _rows(problem: ConeProblem, k: int, matrix: Array) -> tuple[Array, Array]:
 
 
 class _Programme:
-    """Rows of a linear programme ``A x <= b + t``, ``|C x - d| <= t``, ``low <= x <= high``, in the least t.
-
-    Whether t vanishes is what is asked. Posed so, and with motions that have an end, it always has an answer, whose t
-    is the margin of a proof. Without an end answers of 1e7 times the data came up where bodies nearly roll, and the
-    simplex method went round for ever.
-    """
+    """Rows of a linear programme ``A x <= b + t``, ``|C x - d| <= t``, ``low <= x <= high``, in the least t."""
 
     def __init__(self, size: int) -> None:
         self.above: list[tuple[Array, float]] = []
         self.equal: list[tuple[Array, float]] = []
-        self.low, self.high = np.full(size, -_RUNAWAY_RATE), np.full(size, _RUNAWAY_RATE)
+        self.low, self.high = np.full(size, -RUNAWAY_RATE), np.full(size, RUNAWAY_RATE)
 
     def solve(self, work: float) -> tuple[float, Array, float]:
         """The least t, its x, and the operations that it took; NaN where these were not enough to solve it."""
@@ -153,22 +145,9 @@ class _Programme:
         rows, right = np.concatenate([A, C, -C]), np.concatenate([b, d, -d])
         pivot = 2.0 * len(rows) * size
         length = np.maximum(np.abs(rows).max(axis=1, initial=0.0), 1.0)
-        found = linprog(
-            np.append(np.zeros(size), 1.0),
-            A_ub=np.column_stack([rows / length[:, None], -np.ones(len(rows))]),
-            b_ub=right / length,
-            bounds=np.column_stack([np.append(self.low, 0.0), np.append(self.high, np.inf)]),
-            method="highs",
-            options={
-                "primal_feasibility_tolerance": _PROGRAM_TOL,
-                "dual_feasibility_tolerance": _PROGRAM_TOL,
-                "maxiter": max(1, min(_PIVOTS * (len(rows) + size), int(work / pivot))),
-            },
-        )
-        took = pivot * max(int(found.nit), 1)
-        if found.status != 0:
-            return float("nan"), np.zeros(size), took
-        return float(found.fun), np.asarray(found.x[:size], dtype=np.float64), took
+        most = max(1, min(_PIVOTS * (len(rows) + size), int(work / pivot)))
+        lacks, x, pivots = least_lacking(rows / length[:, None], right / length, self.low, self.high, pivots=most)
+        return lacks, x, pivot * max(pivots, 1)
 
 
 def _stacked(rows: list[tuple[Array, float]], size: int) -> tuple[Array, Array]:
@@ -197,7 +176,7 @@ def _pair(problem: ConeProblem, k: int, region: Region, tangents: list[float], p
     N, m = problem.numbers, len(problem.closed)
     at = N + k + m * np.arange(3)
     closed = problem.closed[k] or region not in (None, "open")
-    programme.low[at[0]], programme.high[at[0]] = 0.0, 0.0 if closed else _RUNAWAY_RATE
+    programme.low[at[0]], programme.high[at[0]] = 0.0, 0.0 if closed else RUNAWAY_RATE
     normal, along = _rows(problem, k, problem.M)
     start = problem.q[at[1:]] / problem.friction[:, k]
     if region == "open":

@@ -11,8 +11,8 @@ those facets, c_j their distance from the origin in a section of size 1 and F th
 
 F' is the slope of F times p'; at a kink of F, where the slope falls from s to s', ``F' = s' p' - (s - s') k`` with
 ``0 <= k  _|_  p' + k >= 0``. A pair at a corner touches all facets. On a smooth section the one facet is its tangent:
-to first order friction turns freely along it; at a corner the rates of a pair obey Coulomb's law itself (see `cones`).
-The forces are linear in these motions, from those while all pairs hold.
+to first order friction turns freely along it; at a corner the rates of a pair obey Coulomb's law itself, see
+`smooth_cones`. The forces are linear in these motions, from those while all pairs hold.
 """
 
 from __future__ import annotations

@@ -14,15 +14,42 @@ not hold is an event on the way.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
 import numpy as np
 
-from signorini.arrays import Array, BoolArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
+from signorini.friction.result import ContactAnswer
 from signorini.law.states import OPEN, STICK
 
+END_ROUNDING = 1e-9  # part of an increment: what comes so late does not happen in it
+_IDLE = 1e-12  # of the data: a normal force that rounding leaves, under which nothing slips
 _RATE_TOL = 1e-9  # of the largest rate: a rate that is none
 _VALUE_ROUNDING = 1e-12  # of the values that a rate is the difference of
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolvedIncrement:
+    """An increment that was solved.
+
+    Attributes
+    ----------
+    step : part of the segment
+    after : the state at its end
+    result : of the solver
+    until : part of it up to which the law holds on a straight way
+    each : (n,) that part of every pair
+    turn : largest angle by which friction turns
+    """
+
+    step: float
+    after: PathState
+    result: ContactAnswer
+    until: float
+    each: Array
+    turn: float
 
 
 def tangents(rows: Array) -> Array:
@@ -127,6 +154,29 @@ def extrapolated_length(problem: ContactProblem, start: PathState, end: PathStat
         if which.any():
             times.append(float((above[which] / below[which]).min()))
     return min(times)
+
+
+def settled(problem: ContactProblem, now: PathState, trial: SolvedIncrement, state: IntArray) -> PathState:
+    """The end of a piece, where pairs may be on the verge of another state, in the states inside it.
+
+    What slips from an event in the piece on does so under the friction at its end.
+
+    Parameters
+    ----------
+    problem : the problem; its b does not matter
+    now, trial : the beginning of the piece, and the increment that it is
+    state : (n,) inside it
+    """
+    end, n = trial.after, problem.pairs
+    closed, sticks = state != OPEN, np.tile(state == STICK, 2)
+    h = np.concatenate([np.where(closed, 0.0, end.h[:n]), np.where(sticks, now.h[n:], end.h[n:])])
+    r = np.where(np.tile(closed, 3), end.r, 0.0)
+    pressed = closed & (np.maximum(r[:n], now.r[:n]) > _IDLE * (problem.scale or 1.0))
+    moved = np.where(np.tile(pressed, 2), h[n:] - now.h[n:], 0.0)
+    late = (trial.each < 1.0 - END_ROUNDING) & (now.state != OPEN)
+    rubbing = np.where(np.tile(late, 2), r[n:], 0.5 * (r[n:] + now.r[n:]))
+    lost = -(tangents(rubbing) * tangents(moved)).sum(axis=0)
+    return replace(end, h=h, r=r, state=state, anchor=h[n:], slip=now.slip + moved, dissipation=now.dissipation + lost)
 
 
 def _over(force: Array, axes: Array) -> Array:

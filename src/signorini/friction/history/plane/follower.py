@@ -9,124 +9,58 @@ on its friction limit may change with them: from slip to stick only then.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray, frozen
+from signorini.arrays import Array, BoolArray, IntArray, frozen
 from signorini.errors import InputError
 from signorini.friction.certificate import certify
+from signorini.friction.history.follower import ZERO_WIDTH, PathFollower, PathSettings
 from signorini.friction.history.plane.driven_pivots import drive
-from signorini.friction.history.plane.find_rates import MARGIN, NoRates, find_rates
+from signorini.friction.history.plane.find_rates import find_rates
 from signorini.friction.history.plane.jump import explain
-from signorini.friction.history.plane.rate_law import CORNER, RateLaw, Rates, weight
+from signorini.friction.history.plane.rate_law import CORNER, INSIDE, RateLaw, weight
 from signorini.friction.history.plane.responses import MISFIT_ROUNDING, Responses
 from signorini.friction.history.plane.state_inverse import SingularState
-from signorini.friction.history.recorder import PathRecorder, check_loads
+from signorini.friction.history.rates import MARGIN, NoRates, Rates
 from signorini.friction.history.segment import Breakpoint, Segment
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
 from signorini.law.bound import SIGN, plain
-from signorini.law.states import OPEN, SLIP_PLUS, STICK, UNDECIDED
+from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 from signorini.outcome import Outcome
 
+_SAME_EVENT = 1e-12  # part of the segment: events closer than that act together
+_STANDSTILL = 50  # events at one load, after which the path is given up
 _KINK_WIDTH = 1e-2  # of the first kink of a bound: what counts as zero beside it
 _DATA_ROUNDING = 1e-14  # of the data
+_LAWLESS = 1e-9  # of the largest rate: what rates of a next state may lack of the law
 
 LET_GO = "a pair of infinite friction holds back a tangential force until it loses its pressure, and lets go at once"
 """A jump that the law itself makes."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class PathSettings:
-    """Tolerances of the path, all dimensionless; events do not depend on them between 1e-12 and 1e-7.
+class PlaneFollower(PathFollower):
+    """A straight way of the load in the plane, gone from event to event.
 
-    Attributes
-    ----------
-    width : of zero for a gap, a force or the friction to spare, relative to the data
-    together : events closer than this part of the segment act together
-    tolerance : of the certificate at every event, relative to the data
-    standstill : most events without progress between them
-    """
-
-    width: float = 1e-10
-    together: float = 1e-12
-    tolerance: float = 1e-10
-    standstill: int = 50
-
-
-def follow(problem: ContactProblem, start: PathState, b_end: Array, *, settings: PathSettings | None = None) -> Segment:
-    """Follow the load from ``start.b`` straight to ``b_end``.
-
-    ``G h - W r = b(s)`` with h = (gap, total tangential displacement), Coulomb's law for the slip rate.
-
-    Parameters
-    ----------
-    problem : the problem; its own b is not used
-    start : where the history stands
-    b_end : (2n,) load at the end of the segment
-    settings : tolerances
-
-    Returns
-    -------
-    Segment
-        Also where the path ends in a jump or is not found: look at ``outcome``.
-
-    Raises
-    ------
-    InputError
-        Where shapes do not fit, the start is outside the friction cone, or supports drag a pair along that may never
-        slip.
-
-    Notes
-    -----
     Every end of a piece is certified as an increment that starts at the end before, and solved for afresh where its
     equilibrium lacks more than rounding, so that no error adds up.
 
-    References
-    ----------
-    Klarbring (1986), A mathematical programming approach to three-dimensional contact problems with friction;
-    Klarbring (1990), Examples of non-uniqueness and non-existence of solutions to quasistatic contact problems.
-
-    Examples
-    --------
-    One node, pressed by 1 and pulled sideways by up to 4: slips at 1, lifts off at 2.
-
-    >>> from signorini.friction.history.plane import initial_state
-    >>> W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    >>> problem = ContactProblem.of(W=W, b=np.zeros(2), friction=[1.0], motions=np.zeros((2, 0)), scale=1.0)
-    >>> pressed = follow(problem, initial_state(problem, np.zeros(2)), W @ [-1.0, 0.0])
-    >>> pulled = follow(problem, pressed.end, W @ [-1.0, 4.0])
-    >>> [(round(4.0 * event.factor, 9), event.what) for event in pulled.events], pulled.end.h.round(6).tolist()
-    ([(1.0, 'slips'), (2.0, 'opens')], [0.666667, 2.333333])
-    """
-    walk = PlaneFollower(problem, start, b_end, settings or PathSettings())
-    while walk.factor < 1.0:
-        failure = walk.turn() or walk.advance()
-        if failure is not None:
-            return walk.ended(failure)
-    return walk.segment(Outcome.FOLLOWED, None, f"followed through {len(walk.events)} events")
-
-
-class PlaneFollower(PathRecorder):
-    """One straight way of the load from a state in the plane, gone from event to event.
-
     Parameters
     ----------
-    problem, start, b_end, settings : see `follow`
+    problem, start, b_end, settings : see `PathFollower`
 
     Attributes
     ----------
-    acting : pairs whose event it is
     load : (2n,) rate of b
     responses : of the interface
     """
 
     def __init__(self, problem: ContactProblem, start: PathState, b_end: Array, settings: PathSettings) -> None:
-        target = np.array(b_end, dtype=np.float64)
-        check_loads(2 * problem.pairs, start=start.b, b_end=target)
-        self.b_start, self.b_end, self.settings = start.b, target, settings
-        self.problem = replace(problem, b=frozen(target - start.b))
+        super().__init__(problem, start, b_end, settings)
+        self.problem = replace(problem, b=frozen(self.b_end - start.b))
         self.load = self.problem.b
         self.responses = Responses(self.problem)
         self.bound = self.problem.pieces
@@ -134,11 +68,8 @@ class PlaneFollower(PathRecorder):
         self.forced = np.where(self.unbounded, STICK, self.problem.law.closed)
         unit = problem.scale or 1.0
         # a kink at small pressures is told from the corner
-        self.width = np.minimum(
-            settings.width * unit, np.maximum(_KINK_WIDTH * self.bound.kinks[1], _DATA_ROUNDING * unit)
-        )
-        super().__init__(self._entered(start))
-        self.acting: IntArray = np.zeros(0, dtype=np.int64)
+        self.width = np.minimum(ZERO_WIDTH * unit, np.maximum(_KINK_WIDTH * self.bound.kinks[1], _DATA_ROUNDING * unit))
+        self.now = self._entered(start)
         self.rates: Rates | None = None
         self.still = 0
 
@@ -167,9 +98,41 @@ class PlaneFollower(PathRecorder):
         meant = np.abs(given - self.bound.at(p)) <= self.width * weight(self.problem.mu)
         return np.where((state > STICK) & meant, state, here)
 
-    def turn(self) -> NoRates | None:
+    def go_on(self) -> NoRates | None:
+        """One piece up to the next event or the end, certified; why there is none, or None."""
+        return self._turn() or self._advance()
+
+    def departs(self) -> bool:
+        """One piece in which acting pairs are in a next state, not in those that led here; whether there is one."""
+        law = self._law()
+        acts = np.zeros(len(law.kind), dtype=np.bool_)
+        acts[self.acting] = True
+        held = replace(law, kind=np.where(acts, INSIDE, law.kind), kink=law.kink & ~acts)
+        for state in self._next_states(law, acts):
+            found = find_rates(self.responses, held, self.load, state, [state])
+            if isinstance(found, Rates) and law.violation(found) <= _LAWLESS:
+                self._enter(found)
+                return self._advance() is None
+        return False
+
+    def _next_states(self, law: RateLaw, acts: BoolArray) -> Iterator[IntArray]:
+        """The states that acting pairs may enter: slip for stick, open for closed, and any closed one for open.
+
+        At a kink of the bound also slip on its other branch.
+        """
+        state = self.now.state
+        spent = acts & (law.kind > CORNER) & (state == STICK)
+        leaves = acts & (law.kind == CORNER) & (state != OPEN)
+        meets = acts & (law.kind == CORNER) & (state == OPEN)
+        turns = acts & law.kink & (state > STICK)
+        moved = np.where(spent, law.kind, np.where(leaves, OPEN, np.where(turns, law.across(state), state)))
+        for closed in (STICK, SLIP_PLUS, SLIP_MINUS) if meets.any() else (STICK,):
+            forced = np.where(law.forced == UNDECIDED, closed, law.forced)
+            yield np.where(meets, forced, moved).astype(np.int64)
+
+    def _turn(self) -> NoRates | None:
         """Find the rates from here on; what changes its state is an event."""
-        state, law = self.now.state, self.law()
+        state, law = self.now.state, self._law()
         found: Rates | NoRates | None = None
         if self.rates is not None:
             found = drive(self.responses, law, self.load, self.rates, self.acting)
@@ -177,10 +140,10 @@ class PlaneFollower(PathRecorder):
             found = find_rates(self.responses, law, self.load, state, self._guesses(law, state))
         if isinstance(found, NoRates):
             return found
-        self.enter(found)
+        self._enter(found)
         return None
 
-    def law(self) -> RateLaw:
+    def _law(self) -> RateLaw:
         """The law of the rates here."""
         now = self.now
         closing = self.acting[now.state[self.acting] == OPEN]
@@ -194,7 +157,7 @@ class PlaneFollower(PathRecorder):
             closing=closing,
         )
 
-    def enter(self, rates: Rates) -> None:
+    def _enter(self, rates: Rates) -> None:
         """Go on with these rates; what changes its state is an event."""
         self._change(rates.state)
         self.rates = rates
@@ -233,23 +196,23 @@ class PlaneFollower(PathRecorder):
             self.now,
         )
 
-    def advance(self) -> NoRates | None:
+    def _advance(self) -> NoRates | None:
         """Go on to the next event or the end, and certify it."""
         assert self.rates is not None
         times = self._times(self.rates)
         step, room = float(times.min(initial=np.inf)), 1.0 - self.factor
         last = step >= room - 1e-13
         factor = 1.0 if last else self.factor + step
-        self.acting = np.flatnonzero(times <= step + self.settings.together)
+        self.acting = np.flatnonzero(times <= step + _SAME_EVENT)
         self.still = self.still + 1 if factor - self.factor < 1e-13 else 0
-        if self.still > self.settings.standstill:
+        if self.still > _STANDSTILL:
             return NoRates(proof=f"{self.still} events follow each other at one load", proved=False)
         try:
             after, residual = self._reached(factor, self.rates)
         except SingularState:
             return NoRates(proof="the state that has rates is singular", proved=False)
         lost = self._let_go(after)
-        if residual > self.settings.tolerance and not len(lost):
+        if residual > self.settings.solver.tolerance and not len(lost):
             return NoRates(proof=f"the next state fails its certificate, residual {residual:.1e}", proved=False)
         self.now, self.factor = after, factor
         self.pieces.append(Breakpoint(factor=factor, h=after.h, r=after.r))
@@ -290,7 +253,7 @@ class PlaneFollower(PathRecorder):
         return np.asarray(times.min(axis=0))
 
     def _load_at(self, factor: float) -> Array:
-        return self.b_end if factor == 1.0 else self.b_start + factor * self.load
+        return self.b_end if factor == 1.0 else self.start.b + factor * self.load
 
     def _reached(self, factor: float, rates: Rates) -> tuple[PathState, float]:
         """The state at a load, solved for afresh where it lacks more than rounding, and its certificate."""

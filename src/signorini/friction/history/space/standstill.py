@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from signorini.friction.history.plane.find_rates import NoRates
+from signorini.friction.history.rates import NoRates
 from signorini.friction.history.segment import Breakpoint
 
 _STANDSTILL = 1e-5  # part of the way: increments that get on no farther stand still
