@@ -202,22 +202,56 @@ def test_a_support_before_the_steps_is_replaced(tmp_path: Path) -> None:
     np.testing.assert_array_equal(replaced, displacements(deck(tmp_path, [move])))
 
 
-def test_another_axis_after_op_new(tmp_path: Path) -> None:
-    """CalculiX 2.20, to which a set has one axis for all steps, is without rotation then."""
-    other = "*DLOAD,OP=NEW\nE,CENTRIF,5.,0,0,0,1,0,0"
-    found = displacements(deck(tmp_path, [SPIN, other]))[-1]
-    np.testing.assert_allclose(found, displacements(deck(tmp_path, [other]))[-1], rtol=0.0, atol=1e-13)
+def plane_cells(kind: str) -> str:
+    """A skew quadrilateral and its neighbour, held at the left, as decks have them."""
+    nodes = "*NODE,NSET=ALL\n1,1.,0.\n2,2.1,.1\n3,3.,0.\n4,1.,1.\n5,1.9,1.2\n6,3.1,.9\n*NSET,NSET=FIX\n1,4\n"
+    cells = f"*ELEMENT,TYPE={kind},ELSET=E\n1,1,2,5,4\n2,2,3,6,5\n*SOLID SECTION,ELSET=E,MATERIAL=M\n"
+    return f"{nodes}{cells}*MATERIAL,NAME=M\n*ELASTIC\n1000.,.27\n*DENSITY\n2.5\n*BOUNDARY\nFIX,1,2\n"
+
+
+AXES = {  # head, and the data of two rotations
+    "space": (HEAD, "10.,0,0,0,0,0,1", "5.,0,1,0,1,0,1"),
+    "plane strain": (plane_cells("CPE4"), "10.,0,0,0,0,0,1", "5.,3,2,0,0,0,1"),
+    "plane stress": (plane_cells("CPS4"), "10.,0,0,0,0,0,1", "5.,3,2,0,0,0,1"),
+    "axisymmetric": (plane_cells("CAX4"), "10.,0,0,0,0,1,0", "5.,0,2,0,0,1,0"),
+}
+
+
+@pytest.mark.parametrize("case", AXES)
+def test_axes_of_rotation_add_up(tmp_path: Path, case: str) -> None:
+    """In one card, in two and in two steps; behind OP=NEW there is the new one alone."""
+    head, *data = AXES[case]
+    one, two = (f"*DLOAD\nE,CENTRIF,{words}" for words in data)
+    alone = [displacements(deck(tmp_path, [step], head))[-1] for step in (one, two)]
+    cases = {
+        "one card": ([f"{one}\nE,CENTRIF,{data[1]}"], sum(alone)),
+        "two cards": ([f"{two}\n{one}"], sum(alone)),
+        "OP=NEW": ([one, two.replace("*DLOAD", "*DLOAD,OP=NEW")], alone[1]),
+        "two steps": ([one, two], alone[1] if case == "axisymmetric" else sum(alone)),  # there it is the one axis
+        "twice as fast": ([f"{one}\n{two}", f"{two}\n{one}".replace("10.", "40.")], 4.0 * alone[0] + alone[1]),
+    }
+    for name, (steps, expected) in cases.items():
+        found = displacements(deck(tmp_path, steps, head))[-1]
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-12 * np.abs(expected).max(), err_msg=name)
+        notes = " ".join(load_deck(deck(tmp_path, steps, head)).notes)
+        several = case != "axisymmetric" and name != "OP=NEW"
+        assert ("about several axes on the same elements; to CalculiX the first is the only one" in notes) is several
+        assert ("CENTRIF of step 2 acts beside that of an earlier" in notes) is (several and name == "two steps")
+
+
+@needs_ccx
+@pytest.mark.parametrize("case", ["space", "plane strain"])
+def test_each_axis_of_rotation_is_that_of_calculix(tmp_path: Path, case: str) -> None:
+    """CalculiX 2.20 leaves out every axis of an element but the first: both are what it says of each, added up."""
+    head, *data = AXES[case]
+    printed = sum(ccx_displacements(deck(tmp_path, [f"*DLOAD\nE,CENTRIF,{words}"], head))[-1] for words in data)
+    found = displacements(deck(tmp_path, [f"*DLOAD\nE,CENTRIF,{data[0]}\nE,CENTRIF,{data[1]}"], head))[-1]
+    np.testing.assert_allclose(found, printed[:, : found.shape[1]], rtol=0.0, atol=1e-6 * np.abs(printed).max())
 
 
 @pytest.mark.parametrize(
     ("steps", "named", "said"),
     [
-        (
-            [f"{SPIN}\nE,CENTRIF,5.,0,0,0,1,0,0"],
-            "E,CENTRIF,5.",
-            r"'E' rotates already by line \d+; expected one CENTRIF",
-        ),
-        ([SPIN, "*DLOAD\nE,CENTRIF,5.,0,0,0,1,0,0"], "E,CENTRIF,5.", "OP=NEW before another axis"),
         ([f"{PULL}\n*CLOAD,AMPLITUDE=A\n18,3,2."], "18,3,2.", r"\*CLOAD: acts with 'A' where line \d+ .* no amplitude"),
         (["*DLOAD,AMPLITUDE=A\n5,P2,1.\n*DSLOAD,AMPLITUDE=TOTAL\nTOP,P,1."], "TOP,P", "acts with 'TOTAL' where"),
         (["*BOUNDARY,AMPLITUDE=A\nR,1,1,.1\n*BOUNDARY\nR,1,1,.2"], "R,1,1,.2", "acts with no amplitude where"),

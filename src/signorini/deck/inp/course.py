@@ -150,10 +150,6 @@ class Course:
         """Remove every value (``OP=NEW``)."""
         self._now = {}
 
-    def set_by(self, slot: int) -> Card | None:
-        """The keyword whose value a slot has, None where it has none."""
-        return self._sources[self._now[slot].source][1] if slot in self._now else None
-
     @property
     def keywords(self) -> set[str]:
         """Keywords that have set the present values."""

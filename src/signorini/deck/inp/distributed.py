@@ -46,8 +46,6 @@ def read_dload(card: Card, known: Known, courses: Courses) -> None:
         value, given = _VOLUME_LOADS[kind](row, known)
         for load in _on_sections(row, kind, label, _whole_sections(elements, label, known.sections, row), given):
             slot = courses.volume_slot(load)
-            if kind == "CENTRIF":
-                _refuse_two_axes(load, slot, courses, row, known)
             courses.volume.put(np.array([slot]), value, load.label, at, amplitude, adds=True)
 
 
@@ -70,19 +68,6 @@ def read_dsload(card: Card, known: Known, courses: Courses) -> None:
         surface.refuse_bare(row)
         value = row.number(2, "the pressure")
         courses.pressure.put(surface.keys, value, surface.name, card.at(row), amplitude, adds=True)
-
-
-def _refuse_two_axes(load: VolumeLoad, slot: int, courses: Courses, row: Row, known: Known) -> None:
-    """A body rotates about one axis; in a later step it may do so with another velocity."""
-    for other, earlier in enumerate(courses.volume_loads):
-        if (earlier.kind, earlier.section) != ("CENTRIF", load.section) or other in courses.volume.kept_slots & {slot}:
-            continue
-        by = courses.volume.set_by(other)
-        if by is not None:
-            raise row.error(
-                f"*DLOAD: '{known.sections[load.section].name}' rotates already by line {by.line}; expected "
-                "one CENTRIF for an element, OP=NEW before another axis"
-            )
 
 
 def _gravity(row: Row, known: Known) -> tuple[float, dict[str, Any]]:

@@ -91,14 +91,22 @@ def _renew(cards: Sequence[Card], cleared: Sequence[Course], notes: list[str]) -
 
 
 def _kept_beside(courses: Courses, step: DeckStep) -> Iterator[str]:
-    """Gravity of earlier steps that goes on beside that of this step."""
-    loads = courses.volume_loads
-    kept = {loads[slot].section for slot in courses.volume.kept_slots if loads[slot].kind == "GRAV"}
-    if any(loads[slot].kind == "GRAV" and loads[slot].section in kept for slot in courses.volume.new_slots):
-        yield (
-            f"GRAV of {step.name} acts beside that of an earlier step on the same elements, as in CalculiX, since its "
-            "direction or set is another; OP=NEW takes the earlier one away"
+    """Gravity and rotation of earlier steps that go on beside those of this step, and rotation about several axes."""
+    for kind, other, alike in (("GRAV", "direction or set", ", as in CalculiX,"), ("CENTRIF", "axis", "")):
+        new, kept = (
+            [courses.volume_loads[slot].section for slot in slots if courses.volume_loads[slot].kind == kind]
+            for slots in (courses.volume.new_slots, courses.volume.kept_slots)
         )
+        if set(new) & set(kept):
+            yield (
+                f"{kind} of {step.name} acts beside that of an earlier step on the same elements{alike} since its "
+                f"{other} is another; OP=NEW takes the earlier one away"
+            )
+        if kind == "CENTRIF" and new and len({*new, *kept}) < len(new) + len(kept):
+            yield (
+                f"CENTRIF of {step.name} acts about several axes on the same elements; to CalculiX the first is the "
+                "only one"
+            )
 
 
 def _boundary(card: Card, known: Known, courses: Courses) -> None:
