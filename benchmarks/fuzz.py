@@ -46,10 +46,11 @@ from signorini.model.model import Model
 from signorini.output.archive import read_archive
 from signorini.output.checkpoint import read_checkpoint
 from signorini.output.compare import compare
+from signorini.output.folder import read_folder
 from signorini.plot.contact import draw_contacts
 from signorini.plot.field import draw_stress
 from signorini.plot.history import draw_history
-from signorini.plot.result_folder import ResultFolder
+from signorini.plot.picture_data import PictureData
 
 SECONDS, MEMORY = 5, 2**30
 STUCK = 60  # seconds by the clock: what not even a signal ends
@@ -88,10 +89,9 @@ def _read(kind: str, path: Path, sound: Corpus) -> None:
     elif kind == "archive":
         compare(read_archive(path), read_archive(sound.results / "solution.h5"))
     else:
-        folder = ResultFolder(path=path)
-        _try(lambda: draw_contacts(folder))
-        _try(lambda: draw_stress(folder))
-        _try(lambda: draw_history(folder))
+        data = PictureData(read_folder(path))
+        for draw in (draw_contacts, draw_stress, draw_history):
+            draw(data)
 
 
 def _try(read: Callable[[], object]) -> None:

@@ -254,7 +254,7 @@ def damage(sound: Corpus, chance: random.Random, folder: Path, kind: str = "") -
         return kind, path
     path = folder / "results"
     shutil.copytree(sound.results, path, dirs_exist_ok=True)
-    file = path / chance.choice(("summary.json", "contact.csv", "history.csv", "solution.vtu"))
+    file = path / chance.choice(("summary.json", "solution.h5"))
     content = file.read_bytes()
     if file.suffix == ".json" and chance.random() < 0.7:
         content = json.dumps(_damaged_json(json.loads(content), chance)).encode()

@@ -21,11 +21,11 @@ from signorini.errors import InputError, Interrupted, SolveFailed, one_of
 from signorini.fem.path import PathResult, along
 from signorini.fem.stress import BodyStress
 from signorini.model.model import Model
-from signorini.output.archive import read_archive, write_archive
+from signorini.output.archive import write_archive
 from signorini.output.atomic_write import atomic_write
 from signorini.output.checkpoint import read_checkpoint, write_checkpoint
 from signorini.output.fields import Fields
-from signorini.output.folder import ARCHIVE
+from signorini.output.folder import read_results
 from signorini.output.frd import write_frd
 from signorini.output.series import write_pvd
 from signorini.output.table import history_table
@@ -33,7 +33,7 @@ from signorini.output.vtu import write_bodies
 from signorini.plot.animation import animate_path
 from signorini.plot.contact import draw_contacts
 from signorini.plot.escape import plot_escape
-from signorini.plot.picture_data import HistoryData
+from signorini.plot.picture_data import PictureData
 from signorini.plot.style import literal
 from signorini.plot.view import write_view
 from signorini.settings import SolverSettings
@@ -132,7 +132,7 @@ class Solution(History):
 
     def plot(self) -> Figure:
         """Draw pressure and friction of every contact at the end of the last step."""
-        return literal(draw_contacts(HistoryData(self, self._fields)))
+        return literal(draw_contacts(PictureData(self, self._fields)))
 
     def view(self, path: str | Path) -> None:
         """Write a picture of a model in space after the last step, ``*.png``, rendered off-screen.
@@ -145,7 +145,7 @@ class Solution(History):
         InputError
             If PyVista is not installed, the model is plane, nothing was solved, or the name ends otherwise.
         """
-        write_view(HistoryData(self, self._fields), Path(path))
+        write_view(PictureData(self, self._fields), Path(path))
 
     def plot_escape(self) -> Figure:
         """Draw the motion along which bodies run away, where no equilibrium was found because of it.
@@ -289,7 +289,6 @@ def prepare(
     model : the problem
     backend : of the sparse factorisation, "auto" or a name
     settings : limits of the methods that solve contact
-    settings : limits of the methods that solve contact
     clock : counts the seconds and tells progress
 
     Raises
@@ -326,8 +325,7 @@ def load(path: str | Path) -> Solution:
     InputError
         If there is none, or it was written by a version with other data.
     """
-    path = Path(path)
-    return _dressed(read_archive(path / ARCHIVE if path.is_dir() else path))
+    return _dressed(read_results(Path(path)))
 
 
 def _answered(run: Callable[[], History]) -> Solution:

@@ -6,14 +6,7 @@ from pathlib import Path
 import pytest
 
 from signorini.cli import main
-
-DECK = """
-mesh = {generator = "rectangle", nx = 2, ny = 2}
-material.soft = {E = 1.0, nu = 0.3}
-body = [{name = "block", material = "soft"}]
-load = [{on = "top", traction = [0.0, 1.0]}]
-contact = [{nonmortar = "bottom", plane = {point = [0.0, 0.0], normal = [0.0, 1.0]}, friction = 0.3}]
-"""
+from tests.helpers.lifted_block import DECK
 
 
 def test_the_motion_of_a_body_that_is_lifted_is_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

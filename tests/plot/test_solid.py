@@ -157,12 +157,11 @@ def solution():
 
 @pytest.mark.slow
 def test_a_hidden_contact_is_shown_on_its_body_alone(solution):
-    from signorini.output.fields import Fields
-    from signorini.plot.picture_data import HistoryData
+    from signorini.plot.picture_data import PictureData
     from signorini.plot.shots import make_shots
     from signorini.plot.solid import draw_solid_mesh, draw_solid_stress
 
-    data = HistoryData(solution, Fields(solution.model))
+    data = PictureData(solution)
     whole, near = make_shots(data)
     assert near.title == "at the contact 'high.bottom', 'high' alone, seen from below"
     assert set(near.skin.body) == {1}

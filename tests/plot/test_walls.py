@@ -5,9 +5,8 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.output.fields import Fields
 from signorini.plot.field import draw_mesh, draw_stress
-from signorini.plot.picture_data import HistoryData
+from signorini.plot.picture_data import PictureData
 
 PUNCH = sg.Profile([(3.0, 3.0), (3.0, 1.0), (1.0, 1.0), (1.0, 3.0)], fillet=0.2)
 
@@ -25,7 +24,7 @@ def test_closed_nodes_lie_on_the_obstacle_where_it_is_drawn(shape, u):
         contacts=[sg.Contact("top", "tool", name="seat")],
     )
     solution = sg.solve(model)
-    data = HistoryData(solution, Fields(model))
+    data = PictureData(solution)
     (wall,) = data.walls
     contact = solution.contact("seat")
     moved = (data.bodies.points + data.bodies.displacement)[contact.node]

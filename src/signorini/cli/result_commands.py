@@ -8,16 +8,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from signorini.errors import InputError
-from signorini.output.archive import read_archive
 from signorini.output.atomic_write import atomic_write
 from signorini.output.compare import compare
-from signorini.output.folder import ARCHIVE
+from signorini.output.folder import read_folder, read_results
 from signorini.output.table import align
 from signorini.plot.contact import draw_contacts
 from signorini.plot.escape import plot_escape
 from signorini.plot.field import draw_mesh, draw_stress
 from signorini.plot.history import draw_history
-from signorini.plot.result_folder import ResultFolder
+from signorini.plot.picture_data import PictureData
 from signorini.plot.solid import draw_solid_mesh, draw_solid_stress
 from signorini.plot.style import literal
 from signorini.plot.view import write_view
@@ -31,42 +30,44 @@ _FORMATS = (".png", ".pdf", ".svg")
 
 def plot(options: argparse.Namespace) -> int:
     """Draw, write the picture and say where it is."""
-    folder = ResultFolder(path=Path(options.folder))
-    file = Path(options.file) if options.file else folder.path / f"{options.what}.png"
+    folder = Path(options.folder)
+    file = Path(options.file) if options.file else folder / f"{options.what}.png"
     formats = _FORMATS[:1] if options.what == "view" else _FORMATS
     if file.suffix.lower() not in formats:
         raise InputError(f"is '{file}'; expected a name that ends in {', '.join(formats)}", where=("-o",))
     if options.file and not file.parent.is_dir():
         raise InputError(f"there is no folder '{file.parent}'", where=("-o",))
+    history = read_folder(folder)
+    if options.what != "escape" and not history.steps:
+        why = "" if history.solved else f": the run ended with '{history.status}': {history.message}"
+        raise InputError(f"the results in '{folder}' hold no step{why}")
+    if options.what in ("contact", "history") and not history.model.contacts:
+        raise InputError(f"the results in '{folder}' have no contact to draw")
     if options.what == "view":
-        write_view(folder, file)
+        write_view(PictureData(history), file)
     else:
-        figure = literal(_draw(folder, options.what))
         with atomic_write(file) as aside:
-            figure.savefig(aside, dpi=150)
+            literal(_draw(history, options.what)).savefig(aside, dpi=150)
     print(file)
     return 0
 
 
-def _draw(folder: ResultFolder, what: str) -> Figure:
+def _draw(history: History, what: str) -> Figure:
     if what == "escape":
-        return plot_escape(read_archive(folder.archive))
+        return plot_escape(history)
+    data = PictureData(history)
     if what == "stress":
-        return draw_solid_stress(folder) if folder.solid else draw_stress(folder)
+        return draw_solid_stress(data) if data.solid else draw_stress(data)
     if what == "mesh":
-        return draw_solid_mesh(folder) if folder.solid else draw_mesh(folder)
-    if not folder.rows:
-        raise InputError(f"the results in '{folder.path}' have no contact to draw")
-    if what == "history":
-        return draw_history(folder)
-    return draw_contacts(folder)
+        return draw_solid_mesh(data) if data.solid else draw_mesh(data)
+    return draw_history(data) if what == "history" else draw_contacts(data)
 
 
 def diff(options: argparse.Namespace) -> int:
     """Print what differs; 0 if nothing does by more than the tolerance, otherwise 1."""
     if not options.tolerance >= 0.0:
         raise InputError(f"is {options.tolerance:g}; expected a number >= 0", where=("--tolerance",))
-    first, second = _archive(options.first), _archive(options.second)
+    first, second = (read_results(Path(name)) for name in (options.first, options.second))
     differences, words = compare(first, second)
     apart = [d for d in differences if not d.relative <= options.tolerance]
     for line in words:
@@ -80,8 +81,3 @@ def diff(options: argparse.Namespace) -> int:
     else:
         print(f"{len(differences)} quantities, none apart by more than {options.tolerance:g} of its size")
     return 1 if apart or words else 0
-
-
-def _archive(name: str) -> History:
-    path = Path(name)
-    return read_archive(path / ARCHIVE if path.is_dir() else path)

@@ -22,7 +22,7 @@ def slave_values(contact: Contact, result: ContactResult) -> Array:
     """
     normals = padded(result.normals, 3)
     axes = tangents(normals)
-    moved = _vectors(result, result.slip) - contact.tangential_compliance * result.shear
+    moved = result.along_tangents(result.slip) - contact.tangential_compliance * result.shear
     return np.column_stack(
         [
             result.gap,
@@ -51,10 +51,3 @@ def slave_energies(contact: Contact, result: ContactResult) -> Array:
     tangential = contact.tangential_compliance * np.sum(result.shear**2, axis=1)
     energies: Array = 0.5 * result.area * (normal + tangential)
     return energies
-
-
-def _vectors(result: ContactResult, values: Array) -> Array:
-    """Tangential components of pairs as vectors, (n, d)."""
-    if values.ndim == 1:
-        return np.asarray(values[:, None] * result.tangents)
-    return np.einsum("nk,nki->ni", values, result.tangents)

@@ -26,15 +26,8 @@ _COLUMNS: Mapping[str, Callable[[ContactResult], list[Any]]] = {
 }
 
 
-def contact_rows(step: int, contact: ContactResult, labels: IntArray) -> Iterator[dict[str, Any]]:
-    """Nonmortar nodes with area of one contact at the end of a step, by column.
-
-    Parameters
-    ----------
-    step : its number, from 1
-    contact : at the end of that step
-    labels : (nodes,) numbers in the mesh or deck
-    """
+def _rows(step: int, contact: ContactResult, labels: IntArray) -> Iterator[dict[str, Any]]:
+    """Nonmortar nodes with area of one contact at the end of a step, which counts from 1; numbers of all nodes."""
     columns = zip(labels[contact.node].tolist(), *(values(contact) for values in _COLUMNS.values()), strict=True)
     for area, (node, *values) in zip(contact.area, columns, strict=True):
         if area > 0:
@@ -45,5 +38,5 @@ def write_contacts(history: History, path: Path) -> None:
     """Write the contacts at the end of every step as ``contact.csv``; numbers read back exactly."""
     labels = history.model.mesh.labels
     ends = ((number, contact) for number, step in enumerate(history.steps, start=1) for contact in step.contacts)
-    rows = (row for number, contact in ends for row in contact_rows(number, contact, labels))
+    rows = (row for number, contact in ends for row in _rows(number, contact, labels))
     write_csv(("step", "contact", "node", *_COLUMNS), rows, path)

@@ -18,7 +18,7 @@ from signorini.clock import Clock
 from signorini.errors import InputError
 from signorini.model.prints import Prints
 from signorini.outcome import Outcome
-from signorini.output.archive import GrowingArchive, write_archive
+from signorini.output.archive import GrowingArchive, read_archive, write_archive
 from signorini.output.checkpoint import write_checkpoint
 from signorini.output.contact_csv import write_contacts
 from signorini.output.dat import write_dat
@@ -86,7 +86,7 @@ def own_folder(path: Path, deck: str) -> Iterator[Path]:
     """
     folder = open_folder(path)
     with _locked(folder):
-        other = _deck_of(folder / SUMMARY)
+        other = _said(folder, "deck")
         if other not in ("", deck):
             raise InputError(
                 f"the folder '{folder}' holds the results of another deck, '{other}'; expected a folder of its own (-o)"
@@ -96,10 +96,33 @@ def own_folder(path: Path, deck: str) -> Iterator[Path]:
         yield folder
 
 
-def _deck_of(summary: Path) -> str:
-    """The deck that a summary speaks of; empty where there is none, or none that can be read."""
+def read_results(path: Path) -> History:
+    """Read a history from an archive, or from the folder that holds it."""
+    return read_folder(path) if path.is_dir() else read_archive(path)
+
+
+def read_folder(path: Path) -> History:
+    """Read the history that a run has left in a folder.
+
+    Raises
+    ------
+    InputError
+        If there is no such folder, or it lacks a file: then why, where the run tells.
+    """
+    if not path.is_dir():
+        raise InputError(f"there is no folder '{path}'; expected one that 'signorini run' has written")
+    for name in (SUMMARY, ARCHIVE):
+        if not (path / name).is_file():
+            status = _said(path, "status")
+            why = f": the run ended with '{status}': {_said(path, 'message')}" if status not in ("", "solved") else ""
+            raise InputError(f"the folder '{path}' has no '{name}'{why}")
+    return read_archive(path / ARCHIVE)
+
+
+def _said(folder: Path, key: str) -> str:
+    """An entry of the summary in a folder; empty where there is none, or none that can be read."""
     try:
-        return str(json.loads(summary.read_text(encoding="utf-8"))["deck"])
+        return str(json.loads((folder / SUMMARY).read_text(encoding="utf-8"))[key])
     except (OSError, ValueError, KeyError, TypeError):
         return ""
 

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from signorini.output.atomic_write import write_csv
 from signorini.solution.history import History
@@ -54,15 +54,12 @@ _COLUMNS: Mapping[str, Callable[[_Row], str | int | float]] = {
 """Work and dissipation count from the beginning of the step; work is empty where the bodies were not looked at."""
 
 
-def history_rows(history: History) -> Iterator[dict[str, Any]]:
-    """Every contact at every instant, by column: events, increments, kinks of the loads, times asked for, ends."""
-    for number, step in enumerate(history.steps, start=1):
-        for instant in step.instants:
-            for contact in instant.contacts:
-                row = _Row(number, instant, contact)
-                yield {name: value(row) for name, value in _COLUMNS.items()}
-
-
 def write_history(history: History, path: Path) -> None:
-    """Write the rows of a history as ``history.csv``; numbers read back exactly."""
-    write_csv(_COLUMNS, history_rows(history), path)
+    """Write every contact at every instant, an event, an increment, a kink of the loads, a time asked for or an end."""
+    rows = (
+        _Row(number, instant, contact)
+        for number, step in enumerate(history.steps, start=1)
+        for instant in step.instants
+        for contact in instant.contacts
+    )
+    write_csv(_COLUMNS, ({name: value(row) for name, value in _COLUMNS.items()} for row in rows), path)

@@ -71,7 +71,7 @@ def write_surfaces(model: Model, contacts: Sequence[ContactResult], path: Path) 
             "points": contact.points,
             "pressure": contact.pressure,
             "traction": contact.shear,
-            "slip": np.einsum("nk,nki->ni", contact.slip, contact.tangents),
+            "slip": contact.along_tangents(contact.slip),
             "gap": contact.gap,
             "area": contact.area,
             "normal": contact.normals,

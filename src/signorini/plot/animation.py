@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from signorini.arrays import Array
 from signorini.errors import InputError, one_of
 from signorini.plot.contact import shade_status
-from signorini.plot.curve import surface_coordinate
+from signorini.plot.curve import coefficient, surface_coordinate
 from signorini.plot.style import BOUND, INK, PRESSURE, STATUS_COLOURS, TRACTION, dress, literal
 from signorini.solution.history import History
 from signorini.solution.results import OPEN, SLIP, STICK
@@ -35,7 +35,7 @@ class ContactFilm:
     Attributes
     ----------
     name, axis : of the contact, and what s is
-    friction : Coulomb's coefficient
+    friction : see `coefficient`
     s : (k,)
     load : (m,) where in the history; every straight segment of the loads takes 1
     pressure, traction, slip : (m, k)
@@ -89,7 +89,6 @@ def film_of(history: History, contact: str | None = None) -> ContactFilm:
     if contact is not None and contact not in names:
         raise InputError(one_of(contact, names, "contact"), where=("contact",))
     i = names.index(contact) if contact is not None else 0
-    law = history.model.contacts[i]
     found = [(step.name, instant, instant.contacts[i]) for step in history.steps for instant in step.instants]
     kinks = [0.0, *(instant.load_factor for _, instant, _ in found if instant.what == "segment")]
     loads = np.array([0.0, *(instant.load_factor for _, instant, _ in found)])
@@ -103,7 +102,7 @@ def film_of(history: History, contact: str | None = None) -> ContactFilm:
     return ContactFilm(
         name=names[i],
         axis=axis,
-        friction=law.coefficient if law.coulomb else math.inf,
+        friction=coefficient(history.model.contacts[i]),
         s=s[order],
         load=np.interp(loads, kinks, np.arange(len(kinks))),
         pressure=values("pressure"),

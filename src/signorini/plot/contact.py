@@ -14,14 +14,12 @@ from signorini.arrays import Array
 from signorini.plot.curve import Curve, closed_range
 from signorini.plot.patch import draw_patches
 from signorini.plot.picture_data import PictureData
-from signorini.plot.style import BOUND, INK, PLAIN, PRESSURE, STATUS_COLOURS, TRACTION, dress, entitle, label
-from signorini.solution.results import SLIP
+from signorini.plot.style import BOUND, INK, PRESSURE, STATUS_COLOURS, TRACTION, dress, entitle, label
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from matplotlib.patches import Patch
 
 _MAX_DOTS = 100  # nodes: more cannot be told apart as dots
 
@@ -31,8 +29,8 @@ def draw_contacts(data: PictureData) -> Figure:
     from matplotlib.figure import Figure
 
     if data.solid:
-        return draw_patches(data.patches, data.title)
-    curves = data.curves(data.last_number)
+        return draw_patches(data.patches, data.model.title)
+    curves = data.curves(len(data.history.steps))
     figure = Figure(figsize=(7.6, 0.7 + 3.9 * max(len(curves), 1)), layout="constrained")
     panels = figure.subplots(max(len(curves), 1), squeeze=False)[:, 0]
     for axes, curve in zip(panels, curves, strict=False):
@@ -40,11 +38,13 @@ def draw_contacts(data: PictureData) -> Figure:
     if not curves:
         panels[0].text(0.5, 0.5, "no contact", ha="center", va="center")
         panels[0].set_axis_off()
-    entitle(figure, data.title)
+    entitle(figure, data.model.title)
     return figure
 
 
 def _draw(axes: Axes, curve: Curve) -> None:
+    from matplotlib.patches import Patch
+
     shade_status(axes, curve.s, curve.status, STATUS_COLOURS)
     single = len(curve.s) == 1
     dots, squares = ("o-", "s-") if len(curve.s) <= _MAX_DOTS else ("-", "-")
@@ -65,14 +65,8 @@ def _draw(axes: Axes, curve: Curve) -> None:
         axes.set_xlim(*closed_range(curve))
     label(axes, x=curve.place, y="force per area", title=f"{curve.contact}, end of step '{curve.step}'")
     dress(axes)
-    axes.legend(
-        handles=[*lines, *_status_handles(curve)],
-        fontsize=8.5,
-        frameon=True,
-        framealpha=0.92,
-        edgecolor="none",
-        loc="best",
-    )
+    states = [Patch(color=colour, label=words) for words, colour in STATUS_COLOURS.items() if words in curve.status]
+    axes.legend(handles=[*lines, *states], fontsize=8.5, frameon=True, framealpha=0.92, edgecolor="none", loc="best")
 
 
 def shade_status(axes: Axes, s: Array, status: NDArray[np.str_], colours: Mapping[str, str]) -> list[Artist]:
@@ -87,11 +81,3 @@ def shade_status(axes: Axes, s: Array, status: NDArray[np.str_], colours: Mappin
         for start, end in pairwise(changes)
         if status[start] in colours
     ]
-
-
-def _status_handles(curve: Curve) -> list[Patch]:
-    from matplotlib.patches import Patch
-
-    words = {SLIP: PLAIN} if curve.friction == 0.0 else {}
-    present = [name for name in STATUS_COLOURS if (curve.status == name).any()]
-    return [Patch(color=STATUS_COLOURS[name], label=words.get(name, name)) for name in present]

@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signorini.arrays import Array
-from signorini.solution.results import OPEN
+from signorini.model.contact import Contact
+from signorini.plot.style import status_words
+from signorini.solution.results import OPEN, ContactResult
 
 _MAX_GRAPH_LENGTH = 2.0  # times its extent: a surface that is longer is no graph over that axis
 
@@ -25,8 +27,8 @@ class Curve:
     axis : what the coordinate is: "x", "y", or "angle in degrees" about the middle of a closed surface
     s : (n,) increasing coordinate
     pressure, traction : (n,) force per area; traction is friction on the nonmortar body along the tangent
-    status : (n,) "open", "stick" or "slip"
-    friction : Coulomb's coefficient, infinite where the contact never slips, it varies or has another bound too
+    status : (n,) see `status_words`
+    friction : see `coefficient`
     """
 
     contact: str
@@ -47,6 +49,33 @@ class Curve:
     def has_bound(self) -> bool:
         """Whether ``mu p`` is a bound to draw."""
         return 0.0 < self.friction < math.inf
+
+
+def curve_of(law: Contact, contact: ContactResult, step: str) -> Curve:
+    """The pairs with an area of one contact of the plane.
+
+    Parameters
+    ----------
+    law, contact : as the model has it, and at the end of a step
+    step : name of the step
+    """
+    axis, s = surface_coordinate(contact.points[contact.area > 0])
+    own = np.flatnonzero(contact.area > 0)[np.argsort(s, kind="stable")]
+    return Curve(
+        contact=contact.name,
+        step=step,
+        axis=axis,
+        s=np.sort(s),
+        pressure=contact.pressure[own],
+        traction=contact.traction[own],
+        status=status_words(contact)[own],
+        friction=coefficient(law),
+    )
+
+
+def coefficient(law: Contact) -> float:
+    """Coulomb's coefficient, infinite where the contact never slips, it varies or has another bound too."""
+    return law.coefficient if law.coulomb and not math.isnan(law.coefficient) else math.inf
 
 
 def surface_coordinate(points: Array) -> tuple[str, Array]:

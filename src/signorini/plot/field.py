@@ -3,15 +3,15 @@
 
 from __future__ import annotations
 
+from itertools import cycle
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.plot.picture_data import PictureData
-from signorini.plot.style import INK, colour_bar, entitle, frame, label, legend_below, round_number
+from signorini.plot.style import INK, STATUS_INK, colour_bar, entitle, frame, label, legend_below, round_number
 from signorini.plot.walls import Wall, draw_walls
-from signorini.solution.results import OPEN
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -61,7 +61,7 @@ def draw_stress(data: PictureData) -> Figure:
     bar = colour_bar(figure, field, panels, words, spacing="proportional")
     bar.ax.yaxis.set_major_locator(MaxNLocator(nbins=7, steps=[1, 2, 2.5, 5, 10]))
     _finish(panels)
-    entitle(figure, data.title, f"deformed, {factor_words(factor)}; end of step '{data.last_step['name']}'")
+    entitle(figure, data.model.title, f"deformed, {factor_words(factor)}; end of step '{data.last.name}'")
     return figure
 
 
@@ -78,13 +78,13 @@ def draw_mesh(data: PictureData) -> Figure:
             axes.add_collection(PolyCollection(list(grid.points[cells]), facecolors=faces, edgecolors="none"))
         _edges(axes, data.outlines, grid.points, colour="#7d7d7d", alpha=1.0)
         draw_walls(axes, data.walls, moved=False)
-        for dots in data.dots:
-            x, y = grid.points[np.isin(grid.node, dots.node)].T
-            drawn = axes.plot(x, y, "o", ms=4, color=dots.colour, label=dots.label, zorder=3)
+        for words, own in data.dots.items():
+            x, y = grid.points[own].T
+            drawn = axes.plot(x, y, "o", ms=4, color=STATUS_INK[words], label=f"contact node, {words}", zorder=3)
             handles += drawn if axes is panels[-1] else []
     legend_below(figure, handles)
     _finish(panels)
-    entitle(figure, data.title, data.size)
+    entitle(figure, data.model.title, data.size)
     return figure
 
 
@@ -92,8 +92,8 @@ def body_handles(data: PictureData) -> list[Artist]:
     """A handle of a legend for every body, in its colour."""
     from matplotlib.patches import Patch
 
-    names = data.summary.get("bodies", [])
-    return [Patch(facecolor=BODIES[i % len(BODIES)], edgecolor="#7d7d7d", label=name) for i, name in enumerate(names)]
+    look = zip(data.model.bodies, cycle(BODIES), strict=False)
+    return [Patch(facecolor=colour, edgecolor="#7d7d7d", label=body.name) for body, colour in look]
 
 
 def factor_words(factor: float) -> str:
@@ -122,8 +122,7 @@ def drawn_factor(size: float, displacement: Array) -> float:
 
 def _window(data: PictureData, points: Array) -> Window | None:
     """The part around the closed contact nodes; None if that is much of the picture."""
-    closed = [int(row["node"]) for row in data.last_nodes if row["status"] != OPEN]
-    here = points[np.isin(data.bodies.node, closed)]
+    here = points[data.closed]
     size = float(np.ptp(points, axis=0).max())
     if not len(here):
         return None

@@ -4,14 +4,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, padded
 from signorini.plot.curve import Curve, closed_range
-from signorini.plot.picture_data import PictureData, column
+from signorini.plot.picture_data import PictureData
 from signorini.plot.style import INK, PRESSURE, STATUS_INK, TRACTION, dress, entitle, label
+from signorini.solution.history import History
 from signorini.solution.results import OPEN, SLIP, STICK
 
 if TYPE_CHECKING:
@@ -28,14 +29,14 @@ def draw_history(data: PictureData) -> Figure:
     """
     from matplotlib.figure import Figure
 
-    summary = data.summary["steps"]
-    names = [contact["name"] for contact in summary[0]["contacts"]] if summary else []
+    steps = [step.name for step in data.history.steps]
+    names = [contact.label for contact in data.model.contacts]
     rows = max(len(names), 1)
     figure = Figure(figsize=(13.0, 0.8 + 4.2 * rows), layout="constrained")
     panels = figure.subplots(rows, 3, squeeze=False)
-    ends = [] if data.solid else [data.curves(number) for number in range(1, len(summary) + 1)]
+    ends = [] if data.solid else [data.curves(number) for number in range(1, len(steps) + 1)]
     for i, name in enumerate(names):
-        forces = _contact_forces(data, name)
+        forces = _contact_forces(data.history, i)
         if data.solid:
             _largest_pressure(panels[i, 0], forces, name)
             _nodes(panels[i, 1], forces, name)
@@ -45,16 +46,16 @@ def draw_history(data: PictureData) -> Figure:
             _profiles(panels[i, 1], curves, "traction")
         _resultants(panels[i, 2], forces, data.solid)
         for axes in panels[i] if data.solid else panels[i, 2:]:
-            axes.set_xlim(0.0, len(summary) * 1.02)
-            _steps_below(axes, summary)
+            axes.set_xlim(0.0, len(steps) * 1.02)
+            _steps_below(axes, steps)
     if not names:
         for panel in panels.flat:
             panel.set_axis_off()
-    elif not data.solid and len(summary) <= _MAX_NAMED_STEPS:
-        lines = panels[0, 0].get_lines()[: len(summary)]
+    elif not data.solid and len(steps) <= _MAX_NAMED_STEPS:
+        lines = panels[0, 0].get_lines()[: len(steps)]
         legend = figure.legend(handles=lines, loc="outside lower center", ncols=6, fontsize=9, frameon=False)
         legend.set_title("profiles at the end of step")
-    entitle(figure, data.title)
+    entitle(figure, data.model.title)
     return figure
 
 
@@ -81,23 +82,25 @@ class _ContactForces:
     ends: IntArray
 
 
-def _contact_forces(data: PictureData, name: str) -> _ContactForces:
-    rows = data.instants_of(name)
-    load, step, dissipation = column(rows, "load_factor", "step", "dissipation").T
-    counts = column(rows, OPEN, STICK, SLIP)
-    ends = np.append(np.flatnonzero(np.diff(step)), len(rows) - 1)
-    unloaded = load[0] > 0.0 and not data.summary.get("goes_on", False)
+def _contact_forces(history: History, i: int) -> _ContactForces:
+    """The contact i of the model."""
+    instants = [instant for step in history.steps for instant in step.instants]
+    contacts = [instant.contacts[i] for instant in instants]
+    load = np.array([instant.load_factor for instant in instants])
+    counts = np.array([[contact.count(status) for status in (OPEN, STICK, SLIP)] for contact in contacts], float)
+    ends = np.cumsum([len(step.instants) for step in history.steps]) - 1
+    unloaded = load[0] > 0.0 and not history.loaded
 
     def course(values: Array, first: Array | float = 0.0) -> Array:
         return np.concatenate([np.full_like(values[:1], first), values]) if unloaded else values
 
     return _ContactForces(
         load=course(load),
-        normal=course(column(rows, *(f"normal_force_{axis}" for axis in "xyz"))),
-        friction=course(column(rows, *(f"tangential_force_{axis}" for axis in "xyz"))),
-        largest=course(column(rows, "max_pressure")[:, 0]),
+        normal=course(padded(np.array([contact.normal_force for contact in contacts]), 3)),
+        friction=course(padded(np.array([contact.tangential_force for contact in contacts]), 3)),
+        largest=course(np.array([contact.pressure.max(initial=0.0) for contact in contacts])),
         counts=course(counts, np.array([counts[0].sum(), 0.0, 0.0])).T,
-        dissipation=course(_since_the_beginning(dissipation, ends)),
+        dissipation=course(_since_the_beginning(np.array([contact.dissipation for contact in contacts]), ends)),
         ends=ends + unloaded,
     )
 
@@ -179,11 +182,11 @@ def _spelled(vector: Array) -> str:
     return f"({', '.join(f'{part:.2g}' for part in np.where(np.abs(vector) < _MIN_SHARE, 0.0, vector))})"
 
 
-def _steps_below(axes: Axes, steps: list[dict[str, Any]]) -> None:
+def _steps_below(axes: Axes, steps: list[str]) -> None:
     """Step k ends at the load factor k: its name is there, where names fit."""
-    numbers = np.arange(1, len(steps) + 1)
     if len(steps) <= _MAX_NAMED_STEPS:
-        axes.set_xticks(numbers, [f"{k} {step['name']}" for k, step in zip(numbers, steps, strict=True)], fontsize=9)
+        numbers = range(1, len(steps) + 1)
+        axes.set_xticks(numbers, [f"{k} {name}" for k, name in zip(numbers, steps, strict=True)], fontsize=9)
     label(axes, x="load factor: ends of steps")
 
 

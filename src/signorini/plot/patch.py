@@ -4,15 +4,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from signorini.arrays import Array, IntArray
+from signorini.model.model import Model
 from signorini.plot.chart import Chart, chart_of
-from signorini.plot.style import INK, PLAIN, STATUS_INK, colour_bar, entitle, frame, label
+from signorini.plot.style import INK, STATUS_INK, colour_bar, entitle, frame, label, status_words
+from signorini.solution.results import OPEN, ContactResult
+from signorini.solution.surface import contact_faces
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,7 +29,7 @@ _PATCH_MARGIN = 0.35  # of the size of the closed patch: around it
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Patch:
-    """One contact in space at the end of a step.
+    """One contact in space at the end of a step, its nodes those of its faces.
 
     Attributes
     ----------
@@ -34,7 +38,7 @@ class Patch:
     faces : (m, 4) indices of them, around the faces; a triangle has its last one twice
     pressure : (n,) force per area
     shear : (n, 3) friction on the nonmortar body, force per area
-    status : (n,) 0 open, 1 stick, 2 slip
+    status : (n,) see `status_words`
     """
 
     contact: str
@@ -43,12 +47,12 @@ class Patch:
     faces: IntArray
     pressure: Array
     shear: Array
-    status: IntArray
+    status: NDArray[np.str_]
 
     @cached_property
     def chart(self) -> Chart:
         """Places of the nodes on paper, those that touch in the middle."""
-        return chart_of(self.points, self.faces, self.status > 0)
+        return chart_of(self.points, self.faces, self.status != OPEN)
 
     @property
     def arrows(self) -> IntArray:
@@ -56,22 +60,26 @@ class Patch:
         rubbed = np.flatnonzero(np.linalg.norm(self.shear, axis=1) > 0.0)
         return rubbed[:: max(1, len(rubbed) // _MAX_ARROWS)]
 
-    def trimmed(self) -> Patch:
-        """Without the nodes that no face has."""
-        node, index = np.unique(self.faces, return_inverse=True)
-        return replace(
-            self,
-            points=self.points[node],
-            faces=index.reshape(-1, 4),
-            pressure=self.pressure[node],
-            shear=self.shear[node],
-            status=self.status[node],
-        )
 
+def patch_of(model: Model, contact: ContactResult, step: str) -> Patch:
+    """The faces of a contact in space whose corners all have pairs.
 
-def padded_faces(*kinds: IntArray) -> IntArray:
-    """Faces (m, 3) and (m, 4) as quadrangles, (m, 4): a triangle has its last node twice."""
-    return np.concatenate([faces[:, [0, 1, 2, -1]] for faces in kinds])
+    Parameters
+    ----------
+    model, contact : the model, and the contact at the end of a step
+    step : name of the step
+    """
+    faces = np.concatenate([corners[:, [0, 1, 2, -1]] for corners in contact_faces(model, contact)])
+    own, index = np.unique(faces, return_inverse=True)
+    return Patch(
+        contact=contact.name,
+        step=step,
+        points=contact.points[own],
+        faces=index.reshape(-1, 4),
+        pressure=contact.pressure[own],
+        shear=contact.shear[own],
+        status=status_words(contact)[own],
+    )
 
 
 def draw_patches(patches: Sequence[Patch], title: str) -> Figure:
@@ -114,25 +122,22 @@ def _status(axes: Axes, patch: Patch) -> None:
     from matplotlib.collections import PolyCollection
     from matplotlib.patches import Patch as Swatch
 
-    chart, names = patch.chart, ("open", "stick", "slip")
+    chart = patch.chart
     (x, y), shear = chart.at.T, patch.shear[chart.node]
     outlines = chart.at[chart.faces]
     axes.add_collection(PolyCollection(list(outlines), facecolors="none", edgecolors="#d0d0cc", lw=0.5, zorder=0))
     size = _marker(patch)
     handles = []
-    for code, name in enumerate(names):
-        own = patch.status[chart.node] == code
+    for words, colour in STATUS_INK.items():
+        own = patch.status[chart.node] == words
         if own.any():
-            colour = STATUS_INK[name]
             axes.scatter(x[own], y[own], s=size, color=colour, alpha=0.6, edgecolors="none", zorder=1)
-            plain = name == "slip" and not patch.shear.any()
-            handles.append(Swatch(color=colour, alpha=0.6, label=PLAIN if plain else name))
+            handles.append(Swatch(color=colour, alpha=0.6, label=words))
     some = np.flatnonzero(np.isin(chart.node, patch.arrows))
     if len(some):
         right, up = (np.sum(shear[some] * part[some], axis=1) for part in (chart.first, chart.second))
         axes.quiver(x[some], y[some], right, up, color=INK, width=0.003, zorder=2)
-    words = "status and friction on the nonmortar body" if len(some) else "status"
-    label(axes, title=words)
+    label(axes, title="status and friction on the nonmortar body" if len(some) else "status")
     axes.legend(
         handles=handles,
         fontsize=9,
@@ -156,7 +161,7 @@ def _marker(patch: Patch) -> float:
 def _window(patch: Patch) -> tuple[Array, Array]:
     """Corners of the part to show: the closed nodes and something around them, at most everything."""
     points = patch.chart.at
-    closed = points[patch.status[patch.chart.node] > 0]
+    closed = points[patch.status[patch.chart.node] != OPEN]
     low, high = points.min(axis=0), points.max(axis=0)
     if not len(closed):
         return low, high

@@ -10,9 +10,8 @@ import numpy as np
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.plot.camera import Camera, best_view
 from signorini.plot.field import MAX_WINDOW, drawn_factor
-from signorini.plot.picture_data import PictureData, Row
+from signorini.plot.picture_data import PictureData
 from signorini.plot.skin import Skin
-from signorini.solution.results import OPEN
 
 _HALF_WINDOW = 0.85  # of the size of the contact: half of what is shown of it
 _MIN_HALF_WINDOW = 0.05  # of the size of the bodies: a contact of one node is shown with what is around it
@@ -94,7 +93,7 @@ def contact_shot(data: PictureData) -> Shot | None:
     camera = best_view(skin.spans(skin.points), facing + 1e-3 * stressed / max(float(stressed.max()), 1e-300))
     body = int(np.argmax(np.bincount(skin.body[facing])))
     own = skin.body == body
-    alone = f", '{data.summary['bodies'][body]}' alone" if not own.all() else ""
+    alone = f", '{data.model.bodies[body].name}' alone" if not own.all() else ""
     below = ", seen from below" if camera.towards[2] < 0.0 else ""
     title = f"at the contact '{name}'{alone}{below}"
     return Shot(title=title, skin=skin.part(own), camera=camera, focus=focus, contact=facing[own])
@@ -118,20 +117,13 @@ def _stressed(data: PictureData) -> Array:
 
 def _contact(data: PictureData, skin: Skin) -> tuple[str, IntArray, BoolArray]:
     """Name of the contact that presses most, its closed points, and which faces are its own, (f,)."""
-    rows = [row for row in data.last_nodes if row["status"] != OPEN]
-    faces = np.zeros(len(skin.body), bool)
-    if not rows:
-        return "", np.zeros(0, np.int64), faces
-    name = max(rows, key=lambda row: float(row["pressure"]))["contact"]
-    number = data.bodies.node
-
-    def points(chosen: list[Row]) -> BoolArray:
-        found = np.zeros(len(skin.points), bool)
-        found[: len(number)] = np.isin(number, [int(row["node"]) for row in chosen if row["contact"] == name])
-        return found
-
-    every = points(data.last_nodes)
-    faces = np.bincount(skin.edge_face, weights=every[skin.edges[:, 0]], minlength=len(faces)) >= _MIN_CORNERS
-    own = np.zeros(len(skin.points), bool)
-    own[skin.pieces[faces[skin.face]]] = True
-    return name, np.flatnonzero(points(rows) & own), faces
+    touching = [contact for contact in data.last.contacts if contact.closed.any()]
+    if not touching:
+        return "", np.zeros(0, np.int64), np.zeros(len(skin.body), bool)
+    contact = max(touching, key=lambda contact: contact.pressure[contact.closed].max())
+    every = np.zeros(len(skin.points), bool)
+    every[: len(data.bodies.points)] = data.points_of(contact, np.ones(len(contact.node), bool))
+    corners = np.bincount(skin.edge_face, weights=every[skin.edges[:, 0]], minlength=len(skin.body))
+    faces = corners >= _MIN_CORNERS
+    closed = np.flatnonzero(data.points_of(contact, contact.closed))
+    return contact.name, np.intersect1d(closed, skin.pieces[faces[skin.face]]), faces

@@ -13,7 +13,7 @@ from signorini.plot.field import BODIES, body_handles, factor_words
 from signorini.plot.paint import Paint, body_paint, paint_skin
 from signorini.plot.picture_data import PictureData
 from signorini.plot.shots import Shot, deformed, make_shots
-from signorini.plot.style import INK, colour_bar, entitle, frame, label, legend_below, round_number
+from signorini.plot.style import INK, STATUS_INK, colour_bar, entitle, frame, label, legend_below, round_number
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -45,7 +45,7 @@ def draw_solid_stress(data: PictureData) -> Figure:
     more = f" (elsewhere up to {largest:.4g})" if beyond else ""
     words = f"von Mises stress on the skin, force per area{more}"
     colour_bar(figure, ScalarMappable(scale, colours), panels, words, shrink=0.7, extend="max" if beyond else "neither")
-    entitle(figure, data.title, f"deformed, {factor_words(factor)}; end of step '{data.last_step['name']}'")
+    entitle(figure, data.model.title, f"deformed, {factor_words(factor)}; end of step '{data.last.name}'")
     return figure
 
 
@@ -53,22 +53,20 @@ def draw_solid_mesh(data: PictureData) -> Figure:
     """The undeformed mesh, a colour a body, and the contact nodes with their status after the last step."""
     from matplotlib.lines import Line2D
 
-    grid, skin = data.bodies, data.skin
-    shots = make_shots(data)
+    skin, shots = data.skin, make_shots(data)
     figure, panels = _canvas(shots, skin.points)
     paint = body_paint(BODIES)
     for axes, shot in zip(panels, shots, strict=True):
         paint_skin(axes, shot.skin, skin.points, shot.camera, paint)
     handles = body_handles(data)
     seen = shots[-1].inside(skin.points)
-    for dots in data.dots:
-        own = seen[seen < len(grid.node)]
-        own = own[np.isin(grid.node[own], dots.node)]
+    for words, points in data.dots.items():
+        own, colour = np.intersect1d(points, seen), STATUS_INK[words]
         if len(own):
-            panels[-1].plot(*shots[-1].camera.across(skin.points[own]).T, "o", ms=3.5, color=dots.colour, zorder=3)
-            handles.append(Line2D([], [], marker="o", ls="", ms=4, color=dots.colour, label=dots.label))
+            panels[-1].plot(*shots[-1].camera.across(skin.points[own]).T, "o", ms=3.5, color=colour, zorder=3)
+            handles.append(Line2D([], [], marker="o", ls="", ms=4, color=colour, label=f"contact node, {words}"))
     legend_below(figure, handles)
-    entitle(figure, data.title, data.size)
+    entitle(figure, data.model.title, data.size)
     return figure
 
 

@@ -7,18 +7,30 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from signorini.arrays import Array
+from signorini.solution.results import OPEN, SLIP, STICK, ContactResult
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 PRESSURE, TRACTION, BOUND = "#1b4f8a", "#c4451c", "#c4451c"
-STATUS_COLOURS = {"open": "#f1f1ef", "stick": "#cfe3f5", "slip": "#fbe3c6"}
-STATUS_INK = {"open": "#9a9a96", "stick": "#2f78b7", "slip": "#dd8a1f"}
 INK = "#333333"
 PLAIN = "closed, without friction"
 """Words for "slip" where there is no friction."""
+
+STATUS_COLOURS = {OPEN: "#f1f1ef", STICK: "#cfe3f5", PLAIN: "#fbe3c6", SLIP: "#fbe3c6"}
+STATUS_INK = {OPEN: "#9a9a96", STICK: "#2f78b7", PLAIN: "#dd8a1f", SLIP: "#dd8a1f"}
+"""Of `status_words`, light for surfaces and strong for dots."""
+
+
+def status_words(contact: ContactResult) -> NDArray[np.str_]:
+    """What pairs do in words, (n,)."""
+    plain = (contact.status == SLIP) & (not contact.traction.any())
+    return np.where(plain, PLAIN, contact.status)
 
 
 def dress(axes: Axes) -> None:

@@ -102,7 +102,7 @@ def _stress(plotter: Any, pyvista: Any, data: PictureData, shot: Shot) -> None:
     limits = (0.0, float(stress.max()) or 1.0)
     plotter.add_mesh(surface, cmap="viridis", clim=limits, scalar_bar_args=_BAR, **_SURFACE)
     _edges(plotter, pyvista, shot, points, "white", 0.25)
-    _look(plotter, pyvista, shot, points, ", ".join([*filter(None, [data.title]), factor_words(factor)]))
+    _look(plotter, pyvista, shot, points, ", ".join([*filter(None, [data.model.title]), factor_words(factor)]))
 
 
 def _contact(plotter: Any, pyvista: Any, data: PictureData, shot: Shot) -> None:

@@ -3,25 +3,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.model.obstacle import Circle, Plane, Profile
+from signorini.model.model import Model
+from signorini.model.obstacle import Obstacle
 from signorini.plot.style import INK
+from signorini.solution.results import StepResult
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_SHAPES = {kind.__name__.lower(): kind for kind in (Plane, Circle, Profile)}
 _POINTS_ACROSS = 400  # a panel: where obstacles are asked for their distance
 _FILL_COLOUR = "#e2e2df"
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False)
 class Wall:
     """A rigid obstacle of a plane model.
 
@@ -33,7 +33,7 @@ class Wall:
     rotation : radians, small
     """
 
-    shape: Plane | Circle | Profile
+    shape: Obstacle
     about: Array
     displacement: Array
     rotation: float
@@ -46,23 +46,14 @@ class Wall:
         return -self.shape.nearest(points)[0]
 
 
-def read_walls(summary: Mapping[str, Any]) -> list[Wall]:
-    """Obstacles of the plane that a summary describes."""
-    moved = summary["steps"][-1]["obstacles"]
-    walls = []
-    for obstacle in summary.get("obstacles", []):
-        known = dict(obstacle)
-        name, kind, about = known.pop("name"), known.pop("shape"), known.pop("about")
-        motion = moved.get(name, {"displacement": [0.0, 0.0], "rotation": 0.0})
-        walls.append(
-            Wall(
-                shape=_SHAPES[kind](**known),
-                about=np.array(about),
-                displacement=np.array(motion["displacement"]),
-                rotation=motion["rotation"],
-            )
-        )
-    return walls
+def walls_of(model: Model, step: StepResult) -> list[Wall]:
+    """Obstacles of a plane model at the end of a step; none in space."""
+    if model.dimension == 3:
+        return []
+    moving = [(rigid.shape, rigid.about, step.obstacles[rigid.name]) for rigid in model.obstacles]
+    walls = [Wall(shape, np.array(about), found.displacement, float(found.rotation)) for shape, about, found in moving]
+    resting = [contact.mortar for contact in model.contacts if isinstance(contact.mortar, Obstacle)]
+    return walls + [Wall(shape, np.zeros(2), np.zeros(2), 0.0) for shape in resting]
 
 
 def draw_walls(axes: Axes, walls: list[Wall], *, moved: bool) -> None:

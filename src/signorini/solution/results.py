@@ -86,9 +86,13 @@ class ContactResult(Short):
     @property
     def shear(self) -> Array:
         """Friction on the nonmortar body as vectors, (n, d) force per area."""
-        if self.traction.ndim == 1:
-            return self.traction[:, None] * self.tangents
-        return np.einsum("nk,nki->ni", self.traction, self.tangents)
+        return self.along_tangents(self.traction)
+
+    def along_tangents(self, components: Array) -> Array:
+        """Vectors (n, d) from components along the tangents, (n,) in the plane and (n, 2) in space."""
+        if components.ndim == 1:
+            return components[:, None] * self.tangents
+        return np.einsum("nk,nki->ni", components, self.tangents)
 
     @property
     def slipped(self) -> Array:
