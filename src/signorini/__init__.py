@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from signorini.model.mesh import Mesh, join
     from signorini.model.model import Model
     from signorini.model.obstacle import Circle, Plane, Profile, Sphere
+    from signorini.model.plastic import Plastic
     from signorini.model.revolved import Cone, Cylinder, Torus
     from signorini.model.rigid import Rigid
     from signorini.model.step import Step
@@ -55,6 +56,7 @@ __all__ = [
     "Model",
     "Orthotropic",
     "Plane",
+    "Plastic",
     "Profile",
     "Rigid",
     "RigidBody",
@@ -106,6 +108,7 @@ _HOMES = {
     "signorini.model.model": ("Model",),
     "signorini.model.obstacle": ("Circle", "Plane", "Profile", "Sphere"),
     "signorini.model.revolved": ("Cone", "Cylinder", "Torus"),
+    "signorini.model.plastic": ("Plastic",),
     "signorini.model.rigid": ("Rigid",),
     "signorini.model.step": ("Step",),
     "signorini.model.triangulated": ("Surface",),

@@ -17,6 +17,7 @@ from signorini.model.links import Equation, RigidBody
 from signorini.model.material import Elastic, Material, Orthotropic
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Circle, Obstacle, Plane, Profile, Sphere
+from signorini.model.plastic import Plastic
 from signorini.model.revolved import Cone, Cylinder, Torus
 from signorini.model.rigid import Rigid
 from signorini.model.step import Step
@@ -122,7 +123,11 @@ def deck_materials(data: Mapping[str, Any]) -> dict[str, Material]:
     for name, entry in table(data.get("material", {}), ("material",)).items():
         given = table(entry, ("material", name))
         where = ("material", name)
-        found[name] = make(Orthotropic, given, where) if "E1" in given else make(Elastic, given, where)
+        kind: Callable[..., Material] = Orthotropic if "E1" in given else Elastic
+        if "plastic" in given and kind is Elastic:
+            inside: Where = (*where, "plastic")
+            given = given | {"plastic": make(Plastic, table(given["plastic"], inside), inside)}
+        found[name] = make(kind, given, where)
     return found
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import MISSING, fields
+from dataclasses import MISSING, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,7 @@ import numpy as np
 
 from signorini.deck.tables import FIELDS, OBSTACLES
 from signorini.errors import InputError
+from signorini.model.material import Material
 from signorini.model.model import Model
 from signorini.model.varying import Along
 
@@ -79,11 +80,23 @@ def _lines(model: Model, mesh: str) -> Iterator[str]:
     for body in model.bodies:
         if body.material not in materials:
             materials[body.material] = f"material {len(materials) + 1}"
-            yield from ("", f"[material.{_key(materials[body.material])}]", *_entries(_given(body.material)))
+            yield from _material(f"material.{_key(materials[body.material])}", body.material)
     for key, field in FIELDS.items():
         for member in getattr(model, field):
-            named = {"material": materials[member.material]} if key == "body" else {}
-            yield from ("", f"[[{key}]]", *_entries(_given(member) | named))
+            given = _given(member)
+            if key == "body":
+                given["material"] = materials[member.material]
+                if member == replace(member, formulation=None):
+                    del given["formulation"]
+            yield from ("", f"[[{key}]]", *_entries(given))
+
+
+def _material(name: str, material: Material) -> Iterator[str]:
+    given = _given(material)
+    plastic = given.pop("plastic", None)
+    yield from ("", f"[{name}]", *_entries(given))
+    if plastic is not None:
+        yield from ("", f"[{name}.plastic]", *_entries(_given(plastic)))
 
 
 def _given(part: Any) -> dict[str, Any]:

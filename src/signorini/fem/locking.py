@@ -28,8 +28,9 @@ def refuse_locking(model: Model) -> None:
         If a body is nearly incompressible, its strain is prescribed across the plane and its cells would lock; if a
         formulation is asked for cells, a material or a kind of model that do not have it.
     """
-    for i, (body, families) in enumerate(zip(model.bodies, _families(model), strict=True)):
+    for i, body in enumerate(model.bodies):
         where = ("body", i, "formulation")
+        families = model.mesh.families(body.name)
         found = " and ".join(sorted(families))
         if body.formulation == "incompatible" and not families & set(BRICKS):
             raise InputError(
@@ -50,17 +51,6 @@ def refuse_locking(model: Model) -> None:
             "dilatation'",
             where=where,
         )
-
-
-def _families(model: Model) -> list[set[str]]:
-    """Families of the cells of every body."""
-    owner, first = model.body_of_cells(), 0
-    found: list[set[str]] = [set() for _ in model.bodies]
-    for family, cells in model.mesh.cells.items():
-        for i in np.unique(owner[first : first + len(cells)]):
-            found[i].add(family)
-        first += len(cells)
-    return found
 
 
 def _refuse_mean_dilatation(model: Model, body: Body, families: set[str], where: Where) -> None:
@@ -84,9 +74,9 @@ def stiffened_bodies(model: Model) -> tuple[str, ...]:
         return ()
     return tuple(
         body.name
-        for body, families in zip(model.bodies, _families(model), strict=True)
+        for body in model.bodies
         if body.formulation == "standard"
-        and not families <= _SUPPLE
+        and not model.mesh.families(body.name) <= _SUPPLE
         and body.material.bulk_modulus > _NOTICED_RATIO * body.material.shear_modulus
     )
 

@@ -3,12 +3,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
 from dataclasses import dataclass
 from typing import Literal
 
 from signorini.checks import choice, number, text
-from signorini.errors import InputError
+from signorini.errors import InputError, Where
 from signorini.model.material import Elastic, Material, Orthotropic
+
+_LINEAR = {"triangle", "quad", "tetra", "hexahedron", "wedge"}
+_WITHOUT_MEAN = {"triangle", "tetra", "wedge"}
+"""Linear families that lock with a mean dilatation too."""
 
 
 @dataclass(frozen=True)
@@ -20,7 +25,8 @@ class Body:
     name : body of the mesh (physical group, or what the generator calls it)
     material : what it is made of
     formulation : of its cells: "standard"; "incompatible": linear quadrilaterals with two modes more a cell, hexahedra
-        with three, so that thin bodies bend as they should; "mean dilatation" for nearly incompressible materials
+        with three, so that thin bodies bend as they should; "mean dilatation" for nearly incompressible materials, and
+        for those that yield, whose flow keeps the volume. None is that where the material yields, else "standard"
     thickness : out of plane, length, of plane models; None is the model's. Bodies lie on one middle plane, so that
         two touch over the smaller of their thicknesses
 
@@ -28,17 +34,66 @@ class Body:
     --------
     >>> Body("beam", Elastic(E=1.0, nu=0.3), formulation="incompatible").formulation
     'incompatible'
+    >>> Body("beam", Elastic(E=1.0, nu=0.3)).formulation
+    'standard'
     """
 
     name: str
     material: Material
-    formulation: Literal["standard", "incompatible", "mean dilatation"] = "standard"
+    formulation: Literal["standard", "incompatible", "mean dilatation"] | None = None
     thickness: float | None = None
 
     def __post_init__(self) -> None:
         text(self.name, ("name",))
         if not isinstance(self.material, Elastic | Orthotropic):
             raise InputError(f"is {self.material!r}; expected an Elastic or Orthotropic material", where=("material",))
+        if self.formulation is None:
+            object.__setattr__(self, "formulation", "mean dilatation" if self.material.yields else "standard")
         choice(self.formulation, ("standard", "incompatible", "mean dilatation"), ("formulation",), "formulation")
         if self.thickness is not None:
             object.__setattr__(self, "thickness", number(self.thickness, ("thickness",), above=0.0))
+
+    def check_flow(self, where: Where, kind: str, families: Set[str]) -> None:
+        """Refuse what a body that yields cannot be.
+
+        Parameters
+        ----------
+        where : path of the body in the model
+        kind : of the model
+        families : of its cells
+
+        Raises
+        ------
+        InputError
+            In plane stress, with internal modes, and where its cells would lock: flow keeps the volume, and cells that
+            cannot do so without becoming rigid have too high a limit load, or none.
+        """
+        found, where_cells = " and ".join(sorted(families)), (*where, "formulation")
+        if kind == "plane stress":
+            raise InputError(
+                f"'{self.name}' yields, which bodies in plane stress cannot yet; expected another kind of model",
+                where=(*where, "material"),
+            )
+        if self.formulation == "incompatible":
+            raise InputError(
+                f"is 'incompatible', but '{self.name}' yields, which cells with internal modes cannot yet; expected "
+                "'mean dilatation'",
+                where=where_cells,
+            )
+        if families & _WITHOUT_MEAN:
+            raise InputError(
+                f"'{self.name}' yields: its cells ({found}) would lock where it flows. Expected quadrilaterals, "
+                "hexahedra or quadratic cells",
+                where=where_cells,
+            )
+        if self.formulation == "standard" and families & _LINEAR:
+            raise InputError(
+                f"is 'standard', but '{self.name}' yields: its cells ({found}) would lock where it flows. Expected "
+                "'mean dilatation'",
+                where=where_cells,
+            )
+        if self.formulation == "mean dilatation" and "wedge15" in families:
+            raise InputError(
+                f"'{self.name}' yields and has wedge15 cells, which have no mean dilatation; expected 'standard'",
+                where=where_cells,
+            )

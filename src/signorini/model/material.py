@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What bodies are made of: linear elastic, isotropic or orthotropic."""
+"""What bodies are made of: linear elastic, isotropic or orthotropic; isotropic ones may yield."""
 
 from __future__ import annotations
 
@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 from signorini.checks import number
 from signorini.errors import InputError
+from signorini.model.plastic import Plastic
 
 
 @dataclass(frozen=True)
 class Elastic:
-    """Isotropic linear elasticity, ``sigma = lambda tr(eps) I + 2 G eps``.
+    """Isotropic linear elasticity, ``sigma = lambda tr(eps) I + 2 G eps``; where it yields, of the elastic strain.
 
     Parameters
     ----------
@@ -19,23 +20,29 @@ class Elastic:
     nu : Poisson's ratio, -1 < nu < 0.5
     density : mass per volume, >= 0; gravity and centrifugal loads need it
     expansion : thermal strain per temperature
+    plastic : how it yields; None (default) if it does not
 
     Examples
     --------
     >>> round(Elastic(E=210e3, nu=0.3).shear_modulus)
     80769
+    >>> print(Elastic(E=210e3, nu=0.3, plastic=Plastic(235.0)))
+    E 210000, nu 0.3, yields at 235
     """
 
     E: float
     nu: float
     density: float = 0.0
     expansion: float = 0.0
+    plastic: Plastic | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "E", number(self.E, ("E",), above=0.0))
         object.__setattr__(self, "nu", number(self.nu, ("nu",), above=-1.0, below=0.5))
         object.__setattr__(self, "density", number(self.density, ("density",), least=0.0))
         object.__setattr__(self, "expansion", number(self.expansion, ("expansion",)))
+        if not isinstance(self.plastic, Plastic | None):
+            raise InputError(f"is {self.plastic!r}; expected a Plastic or None", where=("plastic",))
 
     @property
     def shear_modulus(self) -> float:
@@ -57,8 +64,13 @@ class Elastic:
         """Whether temperature strains it."""
         return self.expansion != 0.0
 
+    @property
+    def yields(self) -> bool:
+        """Whether it is plastic beyond some stress."""
+        return self.plastic is not None
+
     def __str__(self) -> str:
-        return f"E {self.E:g}, nu {self.nu:g}"
+        return f"E {self.E:g}, nu {self.nu:g}" + (f", {self.plastic}" if self.plastic else "")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -158,6 +170,11 @@ class Orthotropic:
     def expands(self) -> bool:
         """Whether temperature strains it."""
         return any((self.expansion1, self.expansion2, self.expansion3))
+
+    @property
+    def yields(self) -> bool:
+        """Whether it is plastic beyond some stress: no orthotropic material is."""
+        return False
 
     def __str__(self) -> str:
         return f"E {self.E1:g}, {self.E2:g}, {self.E3:g} at {self.angle:g} degrees"

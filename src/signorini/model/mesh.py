@@ -211,6 +211,11 @@ class Mesh:
         found = self.facets(name) if name in self.boundaries else (self.nodes[name],)
         return np.unique(np.concatenate([part.ravel() for part in found]))
 
+    def families(self, body: str) -> set[str]:
+        """Families of the cells of a body."""
+        ends = np.cumsum([len(nodes) for nodes in self.cells.values()])
+        return {list(self.cells)[i] for i in distinct(np.searchsorted(ends, self.bodies[body], side="right"))}
+
     def bounds_nothing(self, name: str) -> bool:
         """Whether no node of a boundary belongs to a cell: a line or surface of its own, for a rigid obstacle."""
         used = among(self.cells.values(), len(self.points))

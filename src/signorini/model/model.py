@@ -89,17 +89,9 @@ class Model(Short):
         object.__setattr__(self, "thickness", number(self.thickness, ("thickness",), above=0.0))
         if self.thickness != 1.0:
             self._refuse_thickness(self.thickness, ("thickness",))
-        for part, kind in (
-            ("bodies", Body),
-            ("supports", Support),
-            ("foundations", Foundation),
-            ("loads", Load),
-            ("contacts", Contact),
-            ("obstacles", Rigid),
-            ("equations", Equation),
-            ("rigid_bodies", RigidBody),
-            ("steps", Step),
-        ):
+        kinds = {"bodies": Body, "supports": Support, "foundations": Foundation, "loads": Load, "contacts": Contact}
+        kinds |= {"obstacles": Rigid, "equations": Equation, "rigid_bodies": RigidBody, "steps": Step}
+        for part, kind in kinds.items():
             object.__setattr__(self, part, members(getattr(self, part), kind, part))
         self._check_bodies()
         self._check_links()
@@ -144,6 +136,11 @@ class Model(Short):
         return owner
 
     @property
+    def yields(self) -> bool:
+        """Whether any body is plastic beyond some stress."""
+        return any(body.material.yields for body in self.bodies)
+
+    @property
     def thicknesses(self) -> list[float]:
         """Of every body, length; 1 in models that have none."""
         return [self.thickness if body.thickness is None else body.thickness for body in self.bodies]
@@ -154,17 +151,17 @@ class Model(Short):
         return np.array(self.thicknesses)[self.body_of_cells()]
 
     def _refuse_thickness(self, found: float, where: tuple[str | int, ...]) -> None:
-        what = "an axisymmetric model has none: forces and areas are for the circumference"
-        if self.kind == "3d":
-            what = "a model in space has none"
-        if self.kind in ("axisymmetric", "3d"):
-            raise InputError(f"is {found:g}; {what}", where=where)
+        why = {"axisymmetric": "an axisymmetric model has none: forces and areas are for the circumference"}
+        why["3d"] = "a model in space has none"
+        if self.kind in why:
+            raise InputError(f"is {found:g}; {why[self.kind]}", where=where)
 
     def _check_bodies(self) -> None:
         known = self.mesh.bodies
         if not self.bodies:
             raise InputError(f"there is none; the mesh has {', '.join(known) or 'no named body'}", where=("body",))
         count = np.zeros(self.mesh.number_of_cells, int)
+        rigid = {rigid_body.on for rigid_body in self.rigid_bodies}
         for i, body in enumerate(self.bodies):
             if body.name not in known:
                 raise InputError(one_of(body.name, known, "body"), where=("body", i, "name"))
@@ -173,6 +170,8 @@ class Model(Short):
                 self._refuse_thickness(body.thickness, ("body", i, "thickness"))
             if self.dimension == 3 and isinstance(body.material, Orthotropic) and not body.material.solid:
                 raise InputError("has no G13 and G23; a model in space needs them", where=("body", i, "material"))
+            if body.material.yields and body.name not in rigid:
+                body.check_flow(("body", i), self.kind, self.mesh.families(body.name))
         if (count == 1).all():
             return
         cell = int(np.nonzero(count != 1)[0][0])

@@ -7,7 +7,7 @@ import hashlib
 import importlib
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import fields, is_dataclass
+from dataclasses import MISSING, fields, is_dataclass
 from functools import cache
 from types import MappingProxyType
 from typing import Any, cast
@@ -29,6 +29,7 @@ _HOMES = (
     "signorini.model.rigid",
     "signorini.model.mesh",
     "signorini.model.model",
+    "signorini.model.plastic",
     "signorini.model.stage",
     "signorini.model.step",
     "signorini.model.varying",
@@ -111,7 +112,8 @@ def from_plain(plain: Any, get: Callable[[str], AnyArray]) -> Any:
     Raises
     ------
     InputError
-        If it names a class that this version does not have, or with other fields; if an array is not what was written.
+        If it names a class that this version does not have, with fields that this one lacks, or without one that has no
+        default; if an array is not what was written.
     """
     if isinstance(plain, list):
         return [from_plain(part, get) for part in plain]
@@ -133,10 +135,13 @@ def from_plain(plain: Any, get: Callable[[str], AnyArray]) -> Any:
         return pairs if mark == "table" else MappingProxyType(pairs)
     name = str(plain["name"])
     made_of = _kinds().get(_FORMER_NAMES.get(name, name))
-    expected = {field.name for field in fields(made_of)} if made_of is not None else set()
-    if made_of is None or set(plain["of"]) != expected:
+    expected = {field.name: field.default for field in fields(made_of)} if made_of is not None else {}
+    newer = {key: default for key, default in expected.items() if key not in plain["of"]}
+    if made_of is None or len(newer) + len(plain["of"]) != len(expected) or MISSING in newer.values():
         raise InputError(f"holds a {name} as another version of signorini has it; expected this version's")
     made: Any = object.__new__(made_of)
+    for key, default in newer.items():
+        object.__setattr__(made, key, default)
     for key, part in plain["of"].items():
         object.__setattr__(made, key, from_plain(part, get))
     return made
