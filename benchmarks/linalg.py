@@ -33,6 +33,12 @@ CASES: dict[str, tuple[int, ...]] = {
     "3d_3e4": (21, 21, 21),
     "3d_1e5": (32, 32, 31),
 }
+ENTRIES = {
+    "multifrontal": lambda factor: factor.plan.nnz_factor,
+    "pardiso": lambda factor: int(factor.solver.get_iparm(18)),
+    "superlu": lambda factor: factor.lu.L.nnz,
+}
+"""Of the factor, by back end."""
 
 
 def block(cells: tuple[int, ...]) -> tuple[sparse.csr_array, np.ndarray, np.ndarray]:
@@ -84,7 +90,7 @@ def measure(case: str, backend: str, repeats: int) -> None:
     pairs = []
     for _ in range(repeats):
         seconds, factor = command.cpu(contact, K, interface, nodes, backend)
-        nnz = factor.nnz_factor
+        nnz = ENTRIES[backend](factor)
         del factor
         pairs.append((seconds, command.cpu(plain, fixed, nodes[inside], backend)[0]))
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss

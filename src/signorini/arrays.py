@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.integer[Any]]
+Int32Array = NDArray[np.int32]
 BoolArray = NDArray[np.bool_]
 
 

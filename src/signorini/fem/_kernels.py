@@ -7,11 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
-from signorini.arrays import Array, IntArray
-
-Int32Array = NDArray[np.int32]
+from signorini.arrays import Array, Int32Array, IntArray
 
 
 @njit(cache=True)

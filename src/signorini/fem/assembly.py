@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy import sparse
 
-from signorini.arrays import Array
+from signorini.arrays import Array, Int32Array
 from signorini.errors import InputError
 from signorini.fem import _kernels
 
@@ -131,7 +131,7 @@ def stiffness(points: Array, blocks: Cells | Sequence[Cells], *, axisymmetric: b
     return sparse.csr_array((data, indices, indptr), shape=(count * d, count * d))
 
 
-def _nodes(block: Cells, points: Array, number: int) -> _kernels.Int32Array:
+def _nodes(block: Cells, points: Array, number: int) -> Int32Array:
     """Read the nodes of a block, after a look at its shapes."""
     cells = np.ascontiguousarray(block.nodes, dtype=np.int32)
     expected = (len(block.weights), cells.shape[-1], points.shape[1])

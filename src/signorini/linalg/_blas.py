@@ -19,8 +19,7 @@ from numba.extending import get_cython_function_address
 from numpy.typing import NDArray
 from scipy.linalg import cython_blas
 
-from signorini.arrays import Array
-from signorini.linalg.system import Int32Array
+from signorini.arrays import Array, Int32Array
 from signorini.linalg.threads import thread_functions
 
 

@@ -19,8 +19,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from signorini.arrays import IntArray
-from signorini.linalg._graph import Graph, Int32Array
+from signorini.arrays import Int32Array, IntArray
+from signorini.linalg._graph import Graph
 
 LEAF_SIZE = 8  # vertices: pieces up to it are not cut
 ROUGH_SIZE = 30  # vertices: pieces up to it are cut, but the cut is not refined, which would gain less than it takes

@@ -14,11 +14,10 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from signorini.arrays import Array
+from signorini.arrays import Array, Int32Array
 from signorini.linalg._blas import Scratch, StoredMatrix, gemm, potrf, set_threads, syrk, trsm
 from signorini.linalg._graph import Elimination, Rows
 from signorini.linalg.plan import Fronts
-from signorini.linalg.system import Int32Array
 
 SHARED_WORK = 1e9  # operations from which threads share what a front leaves: tens of milliseconds of one thread
 TILE = 64  # rows and columns that are mirrored at a time, so that they stay in the cache

@@ -9,16 +9,13 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
-from signorini.arrays import Array
-
-Indices = NDArray[np.int32]
+from signorini.arrays import Array, Int32Array
 
 
 @njit(cache=True)
 def sweep_from_zero(
-    block: tuple[int, ...], indptr: Indices, indices: Indices, data: Array, inverses: Array, b: Array
+    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, data: Array, inverses: Array, b: Array
 ) -> tuple[Array, Array]:
     """A forward sweep from zero over ``A x = b``: x and the residual ``b - A x``, both (m, d).
 
@@ -63,7 +60,7 @@ def sweep_from_zero(
 
 @njit(cache=True)
 def sweep_back(
-    block: tuple[int, ...], indptr: Indices, indices: Indices, data: Array, inverses: Array, b: Array, x: Array
+    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, data: Array, inverses: Array, b: Array, x: Array
 ) -> None:
     """A backward sweep over ``A x = b`` in place.
 

@@ -15,9 +15,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from signorini.arrays import IntArray
+from signorini.arrays import Int32Array, IntArray
 from signorini.linalg._graph import Elimination, Graph, sort_lists
-from signorini.linalg.system import Int32Array
 
 
 @njit(cache=True)

@@ -8,10 +8,10 @@ import itertools
 import numpy as np
 import pymetis
 
-from signorini.arrays import Array
+from signorini.arrays import Array, Int32Array
 from signorini.linalg._dissection import dissect
 from signorini.linalg._graph import subgraph
-from signorini.linalg.system import Int32Array, NodeGraph
+from signorini.linalg.system import NodeGraph
 
 
 def nested_dissection(graph: NodeGraph) -> Int32Array:
@@ -47,11 +47,6 @@ def _directions(points: Array) -> tuple[Array, Array]:
     pairs = list(itertools.combinations(axes, 2))
     diagonals = [x + sign * y for x, y in pairs for sign in (1.0, -1.0)]
     return axes, np.array(diagonals).reshape(-1, len(points))
-
-
-def elimination_order(graph: NodeGraph) -> Int32Array:
-    """List the interior unknowns in an order that fills in little."""
-    return unknowns(graph, nested_dissection(graph))
 
 
 def unknowns(graph: NodeGraph, nodes: Int32Array) -> Int32Array:

@@ -59,11 +59,6 @@ class PardisoFactorisation:
     condensed: Array = field(repr=False)
     name: str = "pardiso"
 
-    @property
-    def nnz_factor(self) -> int:
-        """Entries of the factor."""
-        return int(self.solver.get_iparm(18))
-
     def schur(self) -> Array:
         """Give S, (m, m), read-only."""
         return self.condensed
@@ -125,7 +120,7 @@ def factorise(system: System) -> Factorisation:
         condensed=_in_order(condensed, system.interface, lift[system.interface]),
     )
     weakref.finalize(result, _call, solver, RELEASE, upper, np.zeros(1))
-    check_energy(system, lambda load: result.reduce(load).expand(np.zeros(system.m)))
+    check_energy(system, result)
     return result
 
 

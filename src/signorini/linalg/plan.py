@@ -11,11 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from signorini.arrays import IntArray
+from signorini.arrays import Int32Array, IntArray
 from signorini.linalg import _symbolic
 from signorini.linalg._graph import Elimination
 from signorini.linalg.ordering import nested_dissection, unknowns
-from signorini.linalg.system import Int32Array, NodeGraph, System, node_graph
+from signorini.linalg.system import NodeGraph, System, node_graph
 
 RELAX = (8, 0.8, 24, 0.3, 0.05)
 """When supernodes are joined though zeros are stored for it; see `_symbolic.supernodes`. Found by measurement."""

@@ -26,27 +26,17 @@ class Reduced:
     Attributes
     ----------
     load : the condensed load ``f_c - K_ci K_ii^-1 f_i``, (m,) or (m, k)
-    backward : the other half, of a displacement of the interface
+    expand : the other half: gives u, (n,) or (n, k), with ``K_ii u_i = f_i - K_ic u_c`` inside, of ``u_c`` on the
+        interface
     """
 
     load: Array
-    backward: Callable[[Array], Array]
-
-    def expand(self, u_c: Array) -> Array:
-        """Give u, (n,) or (n, k), with ``K_ii u_i = f_i - K_ic u_c`` inside and ``u_c`` on the interface."""
-        return self.backward(u_c)
+    expand: Callable[[Array], Array]
 
 
 @runtime_checkable
 class Factorisation(Protocol):
-    """A factorised interior ``K_ii`` of a symmetric matrix ``K``.
-
-    Attributes
-    ----------
-    name : the back end, for reports
-    n : unknowns in all
-    m : unknowns on the interface, not eliminated; may be 0
-    """
+    """A factorised interior ``K_ii`` of a symmetric matrix ``K``."""
 
     @property
     def name(self) -> str:
@@ -58,7 +48,7 @@ class Factorisation(Protocol):
 
     @property
     def m(self) -> int:
-        """Unknowns on the interface."""
+        """Unknowns on the interface, not eliminated; may be 0."""
 
     def schur(self) -> Array:
         """Give the condensed stiffness ``S = K_cc - K_ci K_ii^-1 K_ic``, (m, m), in the order of the interface."""

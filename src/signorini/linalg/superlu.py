@@ -17,60 +17,59 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import SuperLU, splu
 
-from signorini.arrays import Array
-from signorini.linalg._triangular import solve_lower, solve_lower_transposed
+from signorini.arrays import Array, Int32Array, IntArray
 from signorini.linalg.definite import SUSPICIOUS_PIVOT, check_energy
-from signorini.linalg.ordering import elimination_order
+from signorini.linalg.ordering import nested_dissection, unknowns
 from signorini.linalg.protocol import NotPositiveDefinite, Reduced
-from signorini.linalg.system import Int32Array, System, as_columns, interface_lift, like, node_graph
+from signorini.linalg.system import System, as_columns, interface_lift, like, node_graph
 
 
 @dataclass(frozen=True, kw_only=True)
 class SuperLUFactorisation:
-    """``K_ii = L D L^T`` with unit lower triangular L, and the rows ``K_ci L^-T D^-1`` of the interface below it.
+    """Factors of ``K + D``, whose solves are told apart into halves by ``S' = S + D``.
 
     Attributes
     ----------
-    order : (n,) unknowns in their order of elimination, interface last
-    lower : (n, n - m) columns of L, the diagonal left out
-    pivot : (n - m,) D
+    interface : (m,) unknowns that are not eliminated
+    lu : of ``K + D`` in the order of elimination
+    order : (n,) unknowns in that order, interface last
+    lifted : (m, m) S'
+    condensed : (m, m) S
     """
 
     n: int
     m: int
-    order: Int32Array
-    lower: sparse.csc_array
-    pivot: Array
+    interface: IntArray
+    lu: SuperLU = field(repr=False)
+    order: Int32Array = field(repr=False)
+    lifted: Array = field(repr=False)
     condensed: Array = field(repr=False)
     name: str = "superlu"
-
-    @property
-    def nnz_factor(self) -> int:
-        """Entries of the factor."""
-        return int(self.lower.nnz) + len(self.pivot)
 
     def schur(self) -> Array:
         """Give S, (m, m)."""
         return self.condensed.copy()
 
     def reduce(self, f: Array) -> Reduced:
-        """Eliminate the interior of a load."""
-        y = as_columns(f, self.n)[self.order]
-        solve_lower(self.lower.indptr, self.lower.indices, self.lower.data, y)
-        return Reduced(like(f, y[self.n - self.m :]), lambda u_c: self._expand(f, y.copy(), u_c))
+        """Eliminate the interior of a load: with none on the interface ``S' u_c = -K_ci K_ii^-1 f_i``."""
+        load = as_columns(f, self.n)
+        inner = load.copy()
+        inner[self.interface] = 0.0
+        u = self._solve(inner)
+        gathered = self.lifted @ u[self.interface]
+        return Reduced(like(f, load[self.interface] + gathered), lambda u_c: self._expand(f, inner, gathered, u_c))
 
-    def _expand(self, f: Array, y: Array, u_c: Array) -> Array:
-        inside = self.n - self.m
-        y[:inside] /= self.pivot[:, None]
-        y[inside:] = as_columns(u_c, self.m)
-        solve_lower_transposed(self.lower.indptr, self.lower.indices, self.lower.data, y)
-        u = np.empty_like(y)
-        u[self.order] = y
+    def _expand(self, f: Array, inner: Array, gathered: Array, u_c: Array) -> Array:
+        edge, given = as_columns(u_c, self.m), inner.copy()
+        given[self.interface] = self.lifted @ edge - gathered
+        u = self._solve(given)
+        u[self.interface] = edge
         return like(f, u)
 
-    def held(self, load: Array) -> Array:
-        """Give the displacement with the interface held."""
-        return self.reduce(load).expand(np.zeros(self.m))
+    def _solve(self, load: Array) -> Array:
+        u = np.empty_like(load)
+        u[self.order] = self.lu.solve(load[self.order])
+        return u
 
 
 def factorise(system: System) -> SuperLUFactorisation:
@@ -84,21 +83,22 @@ def factorise(system: System) -> SuperLUFactorisation:
     diagonal = system.matrix.diagonal()
     if np.any(bad := (diagonal <= 0) & system.inside):
         raise NotPositiveDefinite(int(np.argmax(bad)))
-    order = np.concatenate([elimination_order(node_graph(system)), system.interface.astype(np.int32)])
+    graph = node_graph(system)
+    order = np.concatenate([unknowns(graph, nested_dissection(graph)), system.interface.astype(np.int32)])
     shift = interface_lift(system)
     lu = _without_pivoting(system, order, shift)
     if lu is None:  # a pivot was exactly 0: lift it just enough to find the motion without resistance
         lu = _without_pivoting(system, order, shift + np.finfo(np.float64).eps * np.abs(diagonal))
         if lu is None:
             raise NotPositiveDefinite(int(order[0]))
-        check_energy(system, _unpack(system, order, lu, shift).held)
+        check_energy(system, _unpack(system, order, lu, shift))
         raise NotPositiveDefinite(int(order[0]))
     factor = _unpack(system, order, lu, shift)
-    entry = diagonal[factor.order[: len(factor.pivot)]]
-    if np.any(bad := factor.pivot <= 0):
-        raise NotPositiveDefinite(int(factor.order[np.argmax(bad)]))
-    if np.any(factor.pivot < SUSPICIOUS_PIVOT * entry):
-        check_energy(system, factor.held)
+    pivot, entry = lu.U.diagonal()[lu.perm_c[: system.n - system.m]], diagonal[order[: system.n - system.m]]
+    if np.any(bad := pivot <= 0):
+        raise NotPositiveDefinite(int(order[np.argmax(bad)]))
+    if np.any(pivot < SUSPICIOUS_PIVOT * entry):
+        check_energy(system, factor)
     return factor
 
 
@@ -114,25 +114,21 @@ def _without_pivoting(system: System, order: Int32Array, shift: Array) -> SuperL
 
 
 def _unpack(system: System, order: Int32Array, lu: SuperLU, shift: Array) -> SuperLUFactorisation:
-    """Take the interior columns of L, D, and ``S = L_cc D_c L_cc^T - shift``.
+    """Take ``S' = L_cc D_c L_cc^T``.
 
-    SuperLU's postorder may put one body after the interface of another; interior unknowns are moved first again, which
-    keeps L lower triangular, for an unknown of the interface has no descendant but above it in the given order.
+    SuperLU's postorder may put one body after the interface of another; but an unknown of the interface has no
+    descendant except above it in the given order, so that L_cc is lower triangular all the same.
     """
-    inside = system.n - system.m
-    place = np.argsort(lu.perm_c)  # place[p]: which entry of `order` SuperLU put at p
-    final = np.concatenate([place[place < inside], np.arange(inside, system.n)])
-    pick = lu.perm_c[final]
-    lower = lu.L.tocsc()[:, pick][pick].tocsc()
-    pivot = lu.U.diagonal()[pick]
-    lower.eliminate_zeros()
-    corner = lower[inside:, inside:].toarray()
-    S = (corner * pivot[inside:]) @ corner.T - np.diag(shift[system.interface])
+    last = lu.perm_c[system.n - system.m :]
+    corner = lu.L.tocsr()[last][:, last].toarray()
+    S = (corner * lu.U.diagonal()[last]) @ corner.T
+    S = (S + S.T) / 2
     return SuperLUFactorisation(
         n=system.n,
         m=system.m,
-        order=order[final],
-        lower=sparse.tril(lower, -1, format="csc")[:, :inside],
-        pivot=pivot[:inside],
-        condensed=(S + S.T) / 2,
+        interface=system.interface,
+        lu=lu,
+        order=order,
+        lifted=S,
+        condensed=S - np.diag(shift[system.interface]),
     )

@@ -3,18 +3,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy import sparse
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, Int32Array, IntArray
 from signorini.errors import InputError
 from signorini.linalg._graph import Graph, Rows, quotient
-
-Int32Array = NDArray[np.int32]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,27 +85,15 @@ def checked_system(K: Any, interface: ArrayLike, nodes: ArrayLike | None, points
     shape = getattr(K, "shape", ())
     if not sparse.issparse(K) or shape != shape[:1] * 2:
         raise InputError(f"K is {type(K).__name__} of shape {shape}; expected a square sparse matrix")
-    system = _checked(sparse.csr_array(cast(Any, K)), interface, nodes)
-    return system if points is None else replace(system, points=_places(points, system.nodes))
-
-
-def _places(points: ArrayLike, nodes: IntArray) -> Array:
-    places = np.asarray(points, dtype=np.float64)
-    if places.ndim != 2 or not 0 <= nodes.min(initial=0) <= nodes.max(initial=0) < max(1, len(places)):
-        raise InputError(f"points has shape {places.shape}; expected (k, d), a row for every node, counted from 0")
-    if not np.isfinite(places).all():
-        raise InputError("points has entries that are not finite")
-    return places
-
-
-def _checked(K: sparse.csr_array, interface: ArrayLike, nodes: ArrayLike | None) -> System:
-    n = K.shape[0]
-    if K.nnz > np.iinfo(np.int32).max:
-        raise InputError(f"K has {K.nnz} entries; expected at most 2^31 - 1")
-    if not np.isfinite(K.data).all():
+    matrix = sparse.csr_array(cast(Any, K))
+    n = matrix.shape[0]
+    if matrix.nnz > np.iinfo(np.int32).max:
+        raise InputError(f"K has {matrix.nnz} entries; expected at most 2^31 - 1")
+    if not np.isfinite(matrix.data).all():
         raise InputError("K has entries that are not finite")
     if nodes is not None and np.shape(nodes) != (n,):
         raise InputError(f"nodes has shape {np.shape(nodes)}; expected ({n},), the node of every unknown")
+    own = np.arange(n) if nodes is None else np.asarray(nodes, dtype=np.int64)
     edge = np.asarray(interface, dtype=np.int64)
     if edge.ndim != 1 or (edge.size and (edge.min() < 0 or edge.max() >= n)):
         raise InputError(f"interface of shape {edge.shape} leaves the range 0 .. {n - 1} of the unknowns")
@@ -117,14 +103,24 @@ def _checked(K: sparse.csr_array, interface: ArrayLike, nodes: ArrayLike | None)
         raise InputError("interface names an unknown twice")
     return System(
         rows=Rows(
-            K.indptr.astype(np.int32, copy=False),
-            K.indices.astype(np.int32, copy=False),
-            K.data.astype(np.float64, copy=False),
+            matrix.indptr.astype(np.int32, copy=False),
+            matrix.indices.astype(np.int32, copy=False),
+            matrix.data.astype(np.float64, copy=False),
         ),
         interface=edge,
         inside=inside,
-        nodes=np.arange(n) if nodes is None else np.asarray(nodes, dtype=np.int64),
+        nodes=own,
+        points=None if points is None else _places(points, own),
     )
+
+
+def _places(points: ArrayLike, nodes: IntArray) -> Array:
+    places = np.asarray(points, dtype=np.float64)
+    if places.ndim != 2 or not 0 <= nodes.min(initial=0) <= nodes.max(initial=0) < max(1, len(places)):
+        raise InputError(f"points has shape {places.shape}; expected (k, d), a row for every node, counted from 0")
+    if not np.isfinite(places).all():
+        raise InputError("points has entries that are not finite")
+    return places
 
 
 def interface_lift(system: System) -> Array:
