@@ -175,17 +175,24 @@ class Unknowns:
             return rows
         return np.concatenate([rows, self.soft * (self.tau * h[1:, self.one]).sum(axis=0)])
 
+    def seen_by(self, x: Array) -> Array:
+        """(d, n) The transpose of `seen`, of numbers (size,)."""
+        return self._placed(x, self.soft)
+
     def forces(self, x: Array) -> Array:
         """(d, n) Forces Z x of the unknowns, (size,)."""
-        share, c, u = self.law.share, len(self.closed), len(self.rows)
-        r = np.zeros((1 + len(share), len(self.law.left)))
-        r[0, self.closed] = x[:c]
+        r = self._placed(x, 1.0)
         if len(self.slips):
-            r[1:] = share * r[0]
-        r.ravel()[self.rows[c:]] = x[c:u]
-        if len(self.one):
-            r[1:, self.one] += self.tau * x[u:]
+            r[1:] += self.law.share * r[0]
         return r
+
+    def _placed(self, x: Array, across: Array | float) -> Array:
+        """(d, n) Numbers (size,) in their rows, those of directions times ``across``."""
+        rows = np.zeros((1 + len(self.law.share), len(self.law.left)))
+        rows.ravel()[self.rows] = x[: len(self.rows)]
+        if len(self.one):
+            rows[1:, self.one] += self.tau * (across * x[len(self.rows) :])
+        return rows
 
     def coordinates(self, r: Array) -> Array:
         """(size,) The unknowns that come nearest to forces r, (d, n), each by itself."""

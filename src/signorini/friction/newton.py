@@ -22,7 +22,7 @@ from signorini.attempt import MethodRun
 from signorini.friction.candidate import NewtonEnd
 from signorini.friction.certificate import certify
 from signorini.friction.krylov import ITERATED_UNKNOWNS, iterate
-from signorini.friction.linear import Balance, Equilibrium, LinearSystem, Unknowns, linear_system
+from signorini.friction.linear import Balance, Equilibrium, LinearSystem, linear_system
 from signorini.friction.problem import ContactProblem
 from signorini.law.bound import plain
 from signorini.law.pair import Tangent
@@ -167,7 +167,7 @@ def _next_states(
     tangent = Tangent.of_states(problem.pieces, state)
     if _many(tangent):
         h, r = law.split(y)
-        nearly = _iterated(problem, tangent, r, problem.image.R.T @ h.ravel(), _STATES_FORWARD)
+        nearly = iterate(problem, tangent, r, problem.image.R.T @ h.ravel(), forward=_STATES_FORWARD)
         if nearly is not None:
             following = law.states(nearly[0] - nearly[2])
             if following.tobytes() not in seen:
@@ -266,15 +266,10 @@ def _many(law: Tangent) -> bool:
     return bool(np.count_nonzero(law.closed) + law.left.sum() >= ITERATED_UNKNOWNS)
 
 
-def _iterated(problem: ContactProblem, law: Tangent, r: Array, a: Array, forward: float) -> Balance | None:
-    found = iterate(problem, law, r, a, forward=forward)
-    return None if found is None else (found[0], found[1], Unknowns(law).prescribed(found[2]))
-
-
 def _balanced(equilibrium: Equilibrium, law: Tangent, r: Array, a: Array, *, settled: bool) -> Balance | None:
     """What balances under a linear law; None where nothing does."""
     if equilibrium.as_posed and _many(law):
-        found = _iterated(equilibrium.problem, law, r, a, _FORWARD[settled])
+        found = iterate(equilibrium.problem, law, r, a, forward=_FORWARD[settled])
         if found is not None:
             return found
     return linear_system(equilibrium, law).solve(r, a)
