@@ -12,8 +12,8 @@ from signorini.errors import InputError
 from signorini.friction.history import follow as follow_load
 from signorini.friction.history import initial_state, land
 from signorini.friction.newton import by_states, in_states
-from signorini.friction.plane.covering import follow
-from signorini.friction.plane.state_tree import search
+from signorini.friction.plane.covering import follow_covering
+from signorini.friction.plane.state_tree import search_states
 from signorini.friction.plane.walls import beyond, constant, jacobian, placed
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import pulled_away
@@ -87,10 +87,10 @@ def test_every_method_finds_a_solution_and_indices_sum_to_one(seed, pairs):
     assert result.solved
     found = [result.y]
     for way in ("open", "press"):
-        end = follow(problem, way, budget=200)
+        end = follow_covering(problem, way, budget=200)
         assert end.end == "solution"
         found.append(by_states(problem, end.state, near=end.y).y)
-    found.append(by_states(problem, search(problem).state).y)
+    found.append(by_states(problem, search_states(problem).state).y)
     assert all(min(np.abs(y - other).max() for other in known) < 1e-8 for y in found)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from signorini.condense.operator import InterfaceOperator
-from signorini.friction.plane.covering import follow
+from signorini.friction.plane.covering import follow_covering
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 from signorini.law.states import OPEN, STICK
@@ -74,7 +74,7 @@ def test_a_push_along_a_frictionless_floor_is_proved_to_have_no_equilibrium():
 
 def test_springs_hold_a_block_that_no_open_path_could_start_from():
     problem = block_on_floor(8, (-1.0, 0.2, 0.0))
-    assert follow(problem, "open", budget=100, springs=1e-6).end == "solution"
+    assert follow_covering(problem, "open", budget=100, springs=1e-6).end == "solution"
 
 
 def test_an_unloaded_block_stays():

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from signorini.friction.certificate import certify
 from signorini.friction.newton import by_states
-from signorini.friction.plane.covering import follow
+from signorini.friction.plane.covering import follow_covering
 from signorini.friction.plane.restricted import restrict_to
-from signorini.friction.plane.state_tree import search
-from signorini.friction.plane.walls import beyond, columns, jacobian, walls
+from signorini.friction.plane.state_tree import search_states
+from signorini.friction.plane.walls import beyond, columns, jacobian, placed
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 from signorini.gallery.hard import hard_set
@@ -49,12 +49,12 @@ def test_previous_states_come_first(cycling):
 
 
 def test_budget_is_kept(cycling):
-    assert follow(cycling, "press", budget=2).end == "budget spent"
-    assert follow(cycling, "press", budget=2).pivots == 2
+    assert follow_covering(cycling, "press", budget=2).end == "budget spent"
+    assert follow_covering(cycling, "press", budget=2).pivots == 2
 
 
 def test_long_paths_survive_their_refactorisations(cycling):
-    path = follow(cycling, "press", budget=10**4)
+    path = follow_covering(cycling, "press", budget=10**4)
     assert path.end == "solution"
     assert certify(cycling, path.y) < 1e-6
 
@@ -65,7 +65,7 @@ def test_paths_are_the_same_in_any_units(covering, seed, factor):
     """With a load of 1e-13 to come from, no wall seemed to come nearer: every path ended where it began."""
     problem = random_problem(seed, 4)
     scaled = replace(problem, b=factor * problem.b, scale=factor)
-    one, two = (follow(posed, covering, budget=100) for posed in (problem, scaled))
+    one, two = (follow_covering(posed, covering, budget=100) for posed in (problem, scaled))
     assert (one.end, one.pivots, one.state.tolist()) == (two.end, two.pivots, two.state.tolist())
     np.testing.assert_allclose(two.y / factor, one.y, atol=1e-9 * np.abs(one.y).max())
 
@@ -83,7 +83,7 @@ def test_the_tree_finds_an_equilibrium_of_bodies_nearly_rigid(seed):
     )
     h, r = problem.law.split(rng.normal(size=(2, pairs)))
     posed = replace(problem, b=-problem.misfit(h, r, np.zeros(2 * pairs)))
-    assert search(posed).end == "solution"
+    assert search_states(posed).end == "solution"
 
 
 def wedged_out():
@@ -112,13 +112,13 @@ def test_tree_proves_and_springs_name_the_escape():
 
 
 def test_press_path_of_a_floating_block():
-    path = follow(block_on_floor(6, (-1.0, 0.2, 0.0)), "press", budget=100)
+    path = follow_covering(block_on_floor(6, (-1.0, 0.2, 0.0)), "press", budget=100)
     assert path.end == "solution"
 
 
 def test_press_path_of_a_lifted_block_is_a_ray():
     problem = block_on_floor(6, (1.0, 0.0, 0.0))
-    path = follow(problem, "press", budget=100)
+    path = follow_covering(problem, "press", budget=100)
     gaps = problem.law.split(path.y)[0][0]
     assert path.end == "ray"
     assert gaps.min() >= 0.0  # the block may turn about its last node
@@ -131,12 +131,12 @@ def test_crossing_a_wall_changes_the_jacobian_by_rank_one():
     closed = np.full(3, UNDECIDED)
     for state in (OPEN, STICK, SLIP_PLUS, SLIP_MINUS):
         before = np.array([STICK, state, OPEN])
-        for slot, wall in enumerate(walls(before, problem.mu, closed)[:, 1]):
+        for slot, wall in enumerate(placed(before, problem.pieces, closed)[0][:, 1]):
             if not wall.any():
                 continue
             after = before.copy()
             after[1], back = beyond(state, slot, 1.0, UNDECIDED)
-            np.testing.assert_allclose(walls(after, problem.mu, closed)[back, 1], -wall, atol=1e-15)
+            np.testing.assert_allclose(placed(after, problem.pieces, closed)[0][back, 1], -wall, atol=1e-15)
             change = columns(G, problem.W, 0.7, int(after[1]), 1) - columns(G, problem.W, 0.7, state, 1)
             np.testing.assert_allclose(change, np.outer(change @ wall, wall), atol=1e-14)
 

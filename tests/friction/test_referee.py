@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
-from signorini.friction.plane.covering import follow
-from signorini.friction.plane.state_tree import search
+from signorini.friction.plane.covering import follow_covering
+from signorini.friction.plane.state_tree import search_states
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import pulled_away
 from signorini.friction.solve import solve_contact
@@ -45,7 +45,7 @@ def test_floating_answer_or_proof(seed, pairs, motions):
 @for_all(seed=seeds, pairs=st.integers(1, 4), motions=st.integers(0, 2))
 def test_tree_agrees(seed, pairs, motions):
     problem = random_problem(seed, pairs, motions)
-    tree, solutions = search(problem), all_solutions(problem)
+    tree, solutions = search_states(problem), all_solutions(problem)
     if tree.end == "impossible":
         assert not solutions
     elif tree.end == "solution":
@@ -58,7 +58,7 @@ def test_rounding_proves_nothing(seed, pairs, motions, digits):
     problem = random_problem(seed, pairs, motions)
     poor = with_stiffness(problem, 10.0**-digits)
     if solve_contact(problem).solved:
-        assert search(poor, budget=200).end != "impossible"
+        assert search_states(poor, budget=200).end != "impossible"
         assert pulled_away(poor) is None
 
 
@@ -66,7 +66,7 @@ def test_rounding_proves_nothing(seed, pairs, motions, digits):
 def test_both_paths_of_a_held_body_end_at_index_one(seed, pairs, friction):
     problem = random_problem(seed, pairs, HELD, friction)
     for covering in ("open", "press"):
-        path = follow(problem, covering, budget=1000)
+        path = follow_covering(problem, covering, budget=1000)
         assert path.end == "solution"
         assert index(problem, path.state) == 1
 

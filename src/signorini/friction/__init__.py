@@ -7,14 +7,13 @@ from signorini.friction.problem import ContactProblem
 from signorini.friction.result import ContactAnswer
 from signorini.friction.solve import solve_contact
 from signorini.friction.uniqueness import index, mu_low
-from signorini.law.states import OPEN, SLIP, SLIP_MINUS, SLIP_PLUS, STATE_NAMES, STICK, UNDECIDED
+from signorini.law.states import OPEN, SLIP, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 __all__ = [
     "OPEN",
     "SLIP",
     "SLIP_MINUS",
     "SLIP_PLUS",
-    "STATE_NAMES",
     "STICK",
     "UNDECIDED",
     "ContactAnswer",

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -38,20 +39,8 @@ TREE = told(
 )
 _LOST = "no certified equilibrium, and no proof that there is none"
 _RUNS = f"{_LOST}: with ever weaker springs the bodies run away along the motion given"
-
-
-def nothing_found(ends: str, *, escapes: bool) -> str:
-    """Words where there is neither solution nor proof.
-
-    Parameters
-    ----------
-    ends : how the methods ended
-    escapes : whether bodies run away where ever weaker springs hold them
-    """
-    if escapes:
-        return told(_RUNS, remedy="hold the bodies against it, or change loads, gaps or friction", evidence=ends)
-    remedy = "smaller increments, less friction, or moduli, sizes and compliances less far apart"
-    return told(f"{_LOST}: every method ended without a solution", remedy=remedy, evidence=ends)
+_HOLD = "hold the bodies against it, or change loads, gaps or friction"
+_SMALLER = "smaller increments, less friction, or moduli, sizes and compliances less far apart"
 
 
 def solved(problem: ContactProblem, tried: Sequence[Candidate]) -> ContactAnswer:
@@ -84,18 +73,7 @@ def solved(problem: ContactProblem, tried: Sequence[Candidate]) -> ContactAnswer
 
 def nothing_to_solve(problem: ContactProblem) -> ContactAnswer:
     """The solution of a problem without pairs."""
-    none = frozen(np.zeros((problem.directions, 0)))
-    state = frozen(np.zeros(0), dtype=np.int64)
-    return ContactAnswer(
-        outcome=Outcome.SOLVED,
-        h=none,
-        r=none,
-        state=state,
-        trace=(),
-        residual=0.0,
-        index=1,
-        message="no pairs, nothing to solve",
-    )
+    return replace(_unsolved(problem, Outcome.SOLVED, (), "no pairs, nothing to solve"), index=1)
 
 
 def impossible(problem: ContactProblem, tried: Sequence[Candidate]) -> ContactAnswer:
@@ -111,7 +89,9 @@ def not_found(problem: ContactProblem, tried: Sequence[Candidate]) -> ContactAns
     if not problem.piecewise_linear:  # rounds come in dozens
         ends = [*ends[:_NAMED_RUNS], f"least residual {_least(tried):.1e}"]
     escapes = any(found.escape is not None for found in tried)
-    return _unsolved(problem, Outcome.NOT_FOUND, tried, nothing_found("; ".join(ends), escapes=escapes))
+    sentence, remedy = (_RUNS, _HOLD) if escapes else (f"{_LOST}: every method ended without a solution", _SMALLER)
+    message = told(sentence, remedy=remedy, evidence="; ".join(ends))
+    return _unsolved(problem, Outcome.NOT_FOUND, tried, message)
 
 
 def _unsolved(problem: ContactProblem, outcome: Outcome, tried: Sequence[Candidate], message: str) -> ContactAnswer:
@@ -134,4 +114,4 @@ def _trace(tried: Sequence[Candidate]) -> tuple[MethodRun, ...]:
 
 
 def _least(tried: Sequence[Candidate]) -> float:
-    return min(found.residual for found in tried)
+    return min((found.residual for found in tried), default=0.0)

@@ -20,40 +20,6 @@ C = np.array([[1.0, -1.0, 0.0], [0.0, 0.0, 1.0]])
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class PaperLaw:
-    """The law at n pairs: ``P = D_c (u_c - C lambda)``, ``f = U u_c + V lambda``.
-
-    Attributes
-    ----------
-    D_c : (n, 2, 2) diag(E_tau, E_n), pressure per length
-    U : (n, 3, 2) ``N D_c`` with ``N = [[1, mu], [-1, mu], [0, 1]]``
-    V : (n, 3, 3) ``-N D_c C``
-
-    Examples
-    --------
-    >>> make_law(np.array([0.5]), E_tau=2.0, E_n=4.0).V[0]
-    array([[-2.,  2., -2.],
-           [ 2., -2., -2.],
-           [ 0.,  0., -4.]])
-    """
-
-    D_c: Array
-    U: Array
-    V: Array
-
-
-def make_law(friction: Array, *, E_tau: float, E_n: float) -> PaperLaw:
-    """The law for Coulomb's coefficients ``friction``, (n,), and the penalties E_tau, E_n, pressure per length."""
-    n = len(friction)
-    D_c = np.tile(np.diag([E_tau, E_n]), (n, 1, 1))
-    N = np.tile(np.array([[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0]]), (n, 1, 1))
-    N[:, :2, 1] = friction[:, None]
-    U = N @ D_c
-    V = -U @ C + 0.0
-    return PaperLaw(D_c=D_c, U=U, V=V)
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
 class PaperProblem:
     """``nu = M lambda + q``, ``nu >= 0``, ``lambda >= 0``, ``nu . lambda = 0``; multipliers pair by pair.
 
@@ -62,13 +28,12 @@ class PaperProblem:
     M : (3 n, 3 n) ``-(E_lambda + E_phi K_c^-1 Phi)``
     q : (3 n,) ``-E_phi K_c^-1 f_c - U g``, pressure
     covering : (3 n,) for Lemke: 1 + mu in the slip rows, above the mu that would let l_1 and l_2 rise together
-    law : see :class:`PaperLaw`
     """
 
     M: Array
     q: Array
     covering: Array
-    law: PaperLaw
+    _penalties: Array
     _B: Array
     _K_c: tuple[Array, bool]
     _f_c: Array
@@ -90,7 +55,7 @@ class PaperProblem:
         slip = multipliers.reshape(-1, 3) @ C.T
         u = self.solve(self._f_c + self._B.T @ (self._weighted * slip.ravel()))
         u_c = (self._B @ u + self._offset).reshape(-1, 2)
-        return u, np.einsum("nij,nj->ni", self.law.D_c, u_c - slip)
+        return u, self._penalties * (u_c - slip)
 
     def solve(self, f_c: Array) -> Array:
         """``K_c^-1 f_c`` on the contact dofs, (m, ...)."""
@@ -101,7 +66,7 @@ class PaperProblem:
 def paper_problem(
     S: Array, B: Array, f: Array, offset: Array, friction: Array, area: Array, *, E_tau: float, E_n: float
 ) -> PaperProblem:
-    """Build M and q from the stiffness condensed on the contact dofs.
+    """Build M and q from the stiffness condensed on the contact dofs: ``f = U u_c - U C lambda`` with U = N diag(E).
 
     ``K_c = S + B^T W_c D_c B`` is factorised as it stands: regular where contact alone holds a body, and as badly
     conditioned as the penalties make it.
@@ -121,18 +86,18 @@ def paper_problem(
         If K_c is not positive definite in floating-point numbers.
     """
     n = len(friction)
-    law = make_law(friction, E_tau=E_tau, E_n=E_n)
-    weighted = np.repeat(area, 2) * np.tile([E_tau, E_n], n)
+    penalties = np.array([E_tau, E_n])
+    weighted = np.repeat(area, 2) * np.tile(penalties, n)
     K_c = scipy.linalg.cho_factor(S + B.T @ (weighted[:, None] * B), lower=True)
     f_c = f - B.T @ (weighted * offset)
-    U = scipy.linalg.block_diag(*law.U)
+    U = scipy.linalg.block_diag(*(np.array([[1.0, mu], [-1.0, mu], [0.0, 1.0]]) * penalties for mu in friction))
     # K_c^-1 Phi with C taken out: so M (1, 1, 0) = 0 holds exactly at every pair, as in the paper's law
     response = scipy.linalg.cho_solve(K_c, B.T * weighted)
     return PaperProblem(
         M=(U - U @ B @ response) @ scipy.linalg.block_diag(*[C] * n),
         q=-U @ (B @ scipy.linalg.cho_solve(K_c, f_c) + offset),
         covering=np.column_stack([1.0 + friction, 1.0 + friction, np.ones(n)]).ravel(),
-        law=law,
+        _penalties=penalties,
         _B=B,
         _K_c=K_c,
         _f_c=f_c,

@@ -30,9 +30,9 @@ from signorini.friction.answer import impossible, not_found, nothing_to_solve, s
 from signorini.friction.candidate import Candidate
 from signorini.friction.linear import Equilibrium
 from signorini.friction.newton import by_states, searched
-from signorini.friction.plane.covering import Covering, PathEnd, follow
+from signorini.friction.plane.covering import Covering, PathEnd, follow_covering
 from signorini.friction.plane.restricted import restrict_to
-from signorini.friction.plane.state_tree import search
+from signorini.friction.plane.state_tree import search_states
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import pulled_away
 from signorini.friction.result import ContactAnswer
@@ -174,7 +174,7 @@ def _among_touched(task: Task, touched: BoolArray) -> Candidate:
         attempt = MethodRun(method="path among touching", iterations=0, end="touching pairs do not hold the bodies")
         return Candidate.without(problem, attempt)
     budget = task.settings.pivots_per_pair[0] * max(few.pairs, 5)
-    path = follow(few, "press" if problem.floating else "open", budget=budget)
+    path = follow_covering(few, "press" if problem.floating else "open", budget=budget)
     state = np.full(problem.pairs, OPEN)
     state[touched] = path.state
     attempt = MethodRun(method="path among touching", iterations=path.pivots, end=path.end)
@@ -182,7 +182,7 @@ def _among_touched(task: Task, touched: BoolArray) -> Candidate:
 
 
 def _along_path(task: Task, covering: Covering, budget: int, seed: int) -> Candidate:
-    path = follow(task.problem, covering, budget=budget, seed=seed)
+    path = follow_covering(task.problem, covering, budget=budget, seed=seed)
     return _at_the_end(task, path, f"path {covering}")
 
 
@@ -198,7 +198,7 @@ def _with_springs(task: Task, budget: int, seed: int) -> Iterator[Candidate]:
     """Held by springs a path always ends; in an answer that stays as the springs weaken, or in one that runs away."""
     problem, before = task.problem, np.inf
     for springs in task.settings.springs:
-        path = follow(problem, "open", budget=budget, seed=seed, springs=springs)
+        path = follow_covering(problem, "open", budget=budget, seed=seed, springs=springs)
         found = _at_the_end(task, path, "springs")
         motion, size = _runaway(problem, path.y, before)
         yield replace(found, escape=motion if path.end == "solution" else None)
@@ -216,7 +216,7 @@ def _tree(task: Task) -> Iterator[Candidate]:
     problem = task.problem
     if problem.pairs > task.settings.tree_pairs:
         return
-    tree = search(problem, budget=task.settings.tree_programs)
+    tree = search_states(problem, budget=task.settings.tree_programs)
     attempt = MethodRun(method="tree", iterations=tree.programs, end=tree.end)
     if tree.state is not None:
         yield replace(task.polish(tree.state), attempt=attempt)

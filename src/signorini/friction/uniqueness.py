@@ -26,7 +26,7 @@ from signorini.errors import InputError
 from signorini.friction.certificate import certify
 from signorini.friction.linear import Equilibrium
 from signorini.friction.newton import admissible, by_states, in_states, searched, y_in_states
-from signorini.friction.plane.covering import follow
+from signorini.friction.plane.covering import follow_covering
 from signorini.friction.problem import ContactProblem
 from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
@@ -185,7 +185,7 @@ def _from_states(problem: ContactProblem) -> Iterator[Array]:
         yield by_states(problem, rng.integers(OPEN, SLIP_MINUS + 1, n)).y
     for seed in range(_PATHS):
         for covering in ("press",) if problem.floating else ("open", "press"):
-            path = follow(problem, "open" if covering == "open" else "press", budget=20 * max(n, 5), seed=seed)
+            path = follow_covering(problem, "open" if covering == "open" else "press", budget=20 * max(n, 5), seed=seed)
             if path.end == "solution":
                 yield by_states(problem, path.state, near=path.y).y
 

@@ -11,5 +11,3 @@ UNDECIDED = -1
 
 SLIP = SLIP_PLUS
 """Closed and slipping: in space the direction is that of the tangential force."""
-
-STATE_NAMES = ("open", "stick", "slip, friction +", "slip, friction -")

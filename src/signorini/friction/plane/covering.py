@@ -101,7 +101,9 @@ class _Course:
         return jacobian(self.G, self.W, np.abs(self.problem.pieces.slope(state)), state)
 
 
-def follow(problem: ContactProblem, covering: Covering, *, budget: int, seed: int = 0, springs: float = 0.0) -> PathEnd:
+def follow_covering(
+    problem: ContactProblem, covering: Covering, *, budget: int, seed: int = 0, springs: float = 0.0
+) -> PathEnd:
     """Follow one path to its end.
 
     Parameters
@@ -117,7 +119,7 @@ def follow(problem: ContactProblem, covering: Covering, *, budget: int, seed: in
     >>> problem = ContactProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.5]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
-    >>> [(end.end, end.state.tolist()) for end in (follow(problem, way, budget=9) for way in ("open", "press"))]
+    >>> [(end.end, end.state.tolist()) for end in (follow_covering(problem, way, budget=9) for way in ("open", "press"))]
     [('solution', [3]), ('solution', [3])]
     """
     n, W, unit = problem.pairs, np.asfortranarray(problem.W), problem.scale or 1.0

@@ -57,7 +57,7 @@ class TreeEnd:
     margin: float = 0.0
 
 
-def search(problem: ContactProblem, *, budget: int = 2000) -> TreeEnd:
+def search_states(problem: ContactProblem, *, budget: int = 2000) -> TreeEnd:
     """Search all states for equilibrium.
 
     Parameters
@@ -70,7 +70,7 @@ def search(problem: ContactProblem, *, budget: int = 2000) -> TreeEnd:
     >>> problem = ContactProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.5]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
-    >>> end = search(problem)
+    >>> end = search_states(problem)
     >>> end.end, end.state.tolist()
     ('solution', [3])
     """

@@ -24,25 +24,8 @@ LOWER, EDGE, UPPER = 0, 1, 2
 """Slots of a slipping pair."""
 
 
-def walls(state: IntArray, friction: Array | FrictionBound, closed: IntArray) -> Array:
-    """(slots, n, 2) coefficients (a_n, a_t) of the walls of every pair, of length 1; zeros where there is none.
-
-    Parameters
-    ----------
-    state : (n,) codes with their branch
-    friction : the bound, or (n,) mu of Coulomb's law
-    closed : (n,) as in `PairLaw.closed`
-
-    Examples
-    --------
-    >>> walls(np.array([SLIP_MINUS]), np.array([0.75]), np.array([UNDECIDED])).tolist()
-    [[[1.0, 0.0]], [[-0.6, -0.8]]]
-    """
-    return placed(state, friction if isinstance(friction, FrictionBound) else FrictionBound.of(friction), closed)[0]
-
-
 def placed(state: IntArray, bound: FrictionBound, closed: IntArray) -> tuple[Array, Array]:
-    """The coefficients of `walls`, (slots, n, 2), and the a of every wall on their scale, (slots, n).
+    """Coefficients (a_n, a_t) of the walls of every pair, (slots, n, 2), of length 1, and their a, (slots, n); 0 for none.
 
     Parameters
     ----------
@@ -52,6 +35,8 @@ def placed(state: IntArray, bound: FrictionBound, closed: IntArray) -> tuple[Arr
 
     Examples
     --------
+    >>> placed(np.array([SLIP_MINUS]), FrictionBound.of([0.75]), np.array([UNDECIDED]))[0].tolist()
+    [[[1.0, 0.0]], [[-0.6, -0.8]]]
     >>> wall, a = placed(np.array([SLIP_MINUS + 2]), FrictionBound.of([0.75], limit=1.5), np.array([UNDECIDED]))
     >>> wall[:3, 0].tolist(), a[:3, 0].tolist()
     ([[1.0, 0.0], [-0.0, -1.0], [0.0, 0.0]], [2.0, 1.5, 0.0])
