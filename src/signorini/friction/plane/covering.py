@@ -119,7 +119,8 @@ def follow_covering(
     >>> problem = ContactProblem.of(
     ...     W=np.diag([0.5, 0.5]), b=np.array([-1.0, 0.5]), friction=[0.3], motions=np.zeros((2, 0)), scale=1.0
     ... )
-    >>> [(end.end, end.state.tolist()) for end in (follow_covering(problem, way, budget=9) for way in ("open", "press"))]
+    >>> ends = [follow_covering(problem, covering, budget=9) for covering in ("open", "press")]
+    >>> [(end.end, end.state.tolist()) for end in ends]
     [('solution', [3]), ('solution', [3])]
     """
     n, W, unit = problem.pairs, np.asfortranarray(problem.W), problem.scale or 1.0

@@ -25,7 +25,7 @@ LOWER, EDGE, UPPER = 0, 1, 2
 
 
 def placed(state: IntArray, bound: FrictionBound, closed: IntArray) -> tuple[Array, Array]:
-    """Coefficients (a_n, a_t) of the walls of every pair, (slots, n, 2), of length 1, and their a, (slots, n); 0 for none.
+    """Coefficients (a_n, a_t) of the walls of every pair, (slots, n, 2), of length 1 or 0 for none, and a, (slots, n).
 
     Parameters
     ----------
