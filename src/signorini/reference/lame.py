@@ -40,10 +40,30 @@ def press_fit_pressure(
     2.34375
     """
     a, b, c = inner, interface, outer
-    (E_i, nu_i), (E_o, nu_o) = (_plane_strain(body) if plane_strain else body for body in (inner_body, outer_body))
-    shaft = ((b**2 + a**2) / (b**2 - a**2) - nu_i) / E_i
-    hub = ((c**2 + b**2) / (c**2 - b**2) + nu_o) / E_o
-    return interference / (b * (shaft + hub))
+    E_o, nu_o = _plane_strain(outer_body) if plane_strain else outer_body
+    shaft = shaft_contraction(inner=a, outer=b, body=inner_body, plane_strain=plane_strain)
+    hub = b * ((c**2 + b**2) / (c**2 - b**2) + nu_o) / E_o
+    return interference / (shaft + hub)
+
+
+def shaft_contraction(*, inner: float, outer: float, body: tuple[float, float], plane_strain: bool = False) -> float:
+    """How far the outside of a ring a..b comes inwards under unit pressure on it, length per force per area.
+
+    ``b [(b^2 + a^2) / (b^2 - a^2) - nu] / E`` in plane stress; plane strain as :func:`press_fit_pressure`.
+
+    Parameters
+    ----------
+    inner, outer : a, b, length
+    body : (E, nu)
+    plane_strain : rather than plane stress
+
+    Examples
+    --------
+    >>> round(shaft_contraction(inner=0.0, outer=2.0, body=(100.0, 0.3)), 6)
+    0.014
+    """
+    E, nu = _plane_strain(body) if plane_strain else body
+    return outer * ((outer**2 + inner**2) / (outer**2 - inner**2) - nu) / E
 
 
 def _plane_strain(body: tuple[float, float]) -> tuple[float, float]:
