@@ -42,7 +42,7 @@ BELOW_CLI = BASE | CORE | {"engine", "deck", "output", "plot", "reference"}
 
 # folder or file: what it may import besides itself and the base
 ALLOWED = {
-    "model": set(),
+    "model": {"law"},
     "linalg": set(),
     "lcp": {"linalg"},
     "law": set(),
@@ -54,7 +54,7 @@ ALLOWED = {
     "friction": {"law", "linalg", "lcp", "condense"},
     "solution": {"law", "model", "fem", "interface"},
     "engine": CORE,
-    "deck": {"model", "meshing", "fem"},
+    "deck": {"law", "model", "meshing", "fem"},
     "output": {"solution", "law", "model", "meshing", "fem"},
     "plot": {"solution", "law", "model", "output"},
     "reference": set(),

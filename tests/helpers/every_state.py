@@ -38,7 +38,7 @@ def follow(model):
             at = {name: start[name] + (end[name] - start[name]) * k / step.increments for name in end}
             loads = sum((at[name] * f for name, f in prepared.loads.items()), np.zeros(len(K)))
             imposed = sum((at[name] * u for name, u in constraints.prescribed.items()), np.zeros(len(K)))
-            now = _increment(K, B, T, loads, imposed, interface.gap, interface.friction, now)
+            now = _increment(K, B, T, loads, imposed, interface.gap, interface.friction.steepest, now)
         ends.append(now)
     return ends
 

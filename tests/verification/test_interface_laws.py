@@ -219,7 +219,8 @@ nonmortar = "bottom"
 plane = { point = [0, 0], normal = [0, 1] }
 friction = """
     (tmp_path / "deck.toml").write_text(text + "{ x = [0.0, 1.0], mu = [0.1, 0.3] }\n")
-    np.testing.assert_allclose(read(tmp_path / "deck.toml").contacts[0].coefficients(np.array([[0.5, 0.0]])), [0.2])
+    law = read(tmp_path / "deck.toml").contacts[0].law
+    np.testing.assert_allclose(law.parameters(np.array([[0.5, 0.0]]))["friction"], [0.2])
     (tmp_path / "deck.toml").write_text(text + "{ x = [0.0, 1.0], y = [0.1, 0.3] }\n")
     with pytest.raises(InputError, match="expected one coordinate and mu"):
         read(tmp_path / "deck.toml")

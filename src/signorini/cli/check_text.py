@@ -14,6 +14,7 @@ from signorini.engine.examine import Examined
 from signorini.engine.validity_notes import finer_notes, overlap_notes
 from signorini.fem.locking import stiffened_bodies, thin_bodies
 from signorini.fem.rigid import describe_motions
+from signorini.law.friction import FrictionLaw
 from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.step import Step
@@ -142,10 +143,10 @@ def _contacts(examined: Examined) -> Rows:
     rows: Rows = []
     for i, contact in enumerate(examined.model.contacts):
         own = examined.interface.contact == i
-        gap = examined.interface.gap[own]
+        gap, points = examined.interface.gap[own], examined.model.mesh.points[examined.interface.node[own]]
         pairing = examined.interface.sides[i]
         sides = f"{pairing.nonmortar} on {pairing.mortar}"
-        friction = "tied" if contact.tied else _friction(contact, examined.interface.friction[own])
+        friction = "tied" if contact.tied else _friction(contact, points)
         if contact.facets:
             friction += f" on {contact.facets} facets"
         initial = f"initial gap {gap.min():.5g} to {gap.max():.5g}"
@@ -153,8 +154,11 @@ def _contacts(examined: Examined) -> Rows:
     return rows
 
 
-def _friction(contact: Contact, mu: Array) -> str:
-    """Law of friction of one contact in words; ``mu`` (n,) of its pairs."""
+def _friction(contact: Contact, points: Array) -> str:
+    """Law of friction of one contact in words; ``points`` (n, d) of its pairs."""
+    if isinstance(contact.friction, FrictionLaw):
+        return contact.friction.words
+    mu = contact.law.parameters(points)["friction"]
     limit = "" if contact.shear_limit is None else f"shear limit {contact.shear_limit:g}"
     if np.isinf(mu).all():
         return f"sticks up to {limit}" if limit else "sticks"
@@ -232,8 +236,8 @@ def _contact_notes(examined: Examined) -> list[str]:
         gap = interface.gap[own]
         if gap.min() > 1e-9 * size:
             notes.append(f"contact '{contact.label}' is open everywhere at the start, by at least {gap.min():.4g}")
-        coulomb = bool((interface.rubs & ~interface.sticks)[own].any())
-        if contact.shear_limit is not None and not interface.rubs[own].any():
+        coulomb = bool(interface.friction.bounded[own].any())
+        if contact.shear_limit is not None and not interface.friction.rubs[own].any():
             notes.append(f"contact '{contact.label}' has a shear limit, but no friction that it could limit")
         if coulomb and any(step.increments == 1 for step in model.steps):
             notes.append(f"contact '{contact.label}' has friction, and a step one increment: it starts from zero slip")

@@ -8,8 +8,9 @@ import inspect
 from collections.abc import Callable, Collection, Mapping
 from typing import Any, TypeVar
 
-from signorini.checks import text
+from signorini.checks import choice, text
 from signorini.errors import InputError, Where, one_of
+from signorini.law.friction import LAWS, FrictionLaw
 from signorini.model.body import Body
 from signorini.model.conditions import Foundation, Load, Support
 from signorini.model.contact import Contact
@@ -196,8 +197,11 @@ def _refuse_place(on: Any, where: Where) -> None:
         raise InputError(f"is {on!r}; expected a name, or the coordinates of a node", where=(*where, "on"))
 
 
-def _along(entry: dict[str, Any], where: Where) -> Along:
-    """``{ x = [...], mu = [...] }``."""
+def _friction(entry: dict[str, Any], where: Where) -> Along | FrictionLaw:
+    """``{ x = [...], mu = [...] }``, or ``{ law = "NAME", ... }`` with what the law needs."""
+    if "law" in entry:
+        name = choice(entry["law"], LAWS, (*where, "law"), "law of friction")
+        return make(LAWS[name], {key: value for key, value in entry.items() if key != "law"}, where)
     axes = [key for key in entry if key != "mu"]
     if "mu" not in entry or len(axes) != 1:
         raise InputError(
@@ -270,7 +274,7 @@ def _contact(entry: dict[str, Any], where: Where, reach: Reach, mesh: Mesh) -> C
     check_keys(entry, where, known=_CONTACT_KEYS, needed=[] if "between" in entry else ["nonmortar"])
     given = _sided(entry, where)
     if isinstance(given.get("friction"), dict):
-        given["friction"] = _along(given["friction"], (*where, "friction"))
+        given["friction"] = _friction(given["friction"], (*where, "friction"))
     sides = [key for key in ("mortar", *OBSTACLES) if key in given]
     if len(sides) != 1:
         found = "both " + " and ".join(f"'{key}'" for key in sides) if sides else "no other side"

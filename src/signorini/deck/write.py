@@ -14,6 +14,7 @@ import numpy as np
 
 from signorini.deck.tables import FIELDS, OBSTACLES
 from signorini.errors import InputError
+from signorini.law.friction import FrictionLaw
 from signorini.model.material import Material
 from signorini.model.model import Model
 from signorini.model.varying import Along
@@ -131,6 +132,8 @@ def _value(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, FrictionLaw):
+        value = value.table
     if isinstance(value, Along):
         value = {value.axis: value.at, "mu": value.values}
     if callable(value):

@@ -128,7 +128,7 @@ def _defect(prepared: Prepared, followed: FollowedPart) -> float:
 
 def _followed(part: StepPart, number: int, jump: Literal["stop", "follow"] | None) -> tuple[FollowedPart, str]:
     """A way in at most so many increments, and their number in words; equal ones where those to events are lost."""
-    if part.prepared.interface.directions == 2 or part.prepared.solver.paths is None:
+    if not part.prepared.watched:
         return unwatched(part, follow_increments(part, number)), _counted(number)
     try:
         followed = follow_to_events(part, number, jumps=jump == "follow")

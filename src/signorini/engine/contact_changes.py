@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -14,10 +15,8 @@ from signorini.engine.free_motion_check import left_out, refuse_free_motions
 from signorini.engine.increments import advance
 from signorini.engine.prepare import Prepared
 from signorini.errors import InputError
-from signorini.interface.frames import along_tangents
-from signorini.interface.interface import pairs_of
+from signorini.interface.interface import pairs_of, under_laws
 from signorini.law.states import OPEN
-from signorini.model.contact import ratios
 from signorini.model.stage import Stage
 from signorini.solution.certificate import Certificate
 from signorini.solution.scale import Loading
@@ -69,7 +68,7 @@ def relaxed(prepared: Prepared, state: State, where: str) -> tuple[State, Certif
     """
     n, interface = len(prepared.interface), prepared.interface
     tangential, bound = interface.effort(state.forces[n:]), interface.most(state.forces[:n])
-    bound[interface.sticks] = np.inf
+    bound[interface.friction.sticks] = np.inf
     size = float(np.abs(state.forces).max(initial=0.0))
     if not (~prepared.absent & (tangential > (1.0 + _BOUND_TOL) * bound + 1e-12 * size)).any():
         return None
@@ -94,16 +93,12 @@ def staged(prepared: Prepared, stage: Stage, loading: Loading) -> Prepared:
         If the contacts that are left do not hold a body: it is named, with its motion.
     """
     labels = [contact.label for contact in prepared.model.contacts]
-    mu, anisotropy = prepared.interface.friction.copy(), prepared.interface.anisotropy.copy()
+    laws: list[Any] = [contact.law for contact in prepared.model.contacts]
     for name, value in stage.friction.items():
         i = labels.index(name)
-        own = prepared.interface.contact == i
-        mu[own] = max(value) if isinstance(value, tuple) else value
-        anisotropy[own] = along_tangents(
-            ratios(value), prepared.model.contacts[i].friction_axis, prepared.interface.tangents[own]
-        )
+        laws[i] = replace(laws[i], friction="stick" if value == np.inf else value)
     absent = pairs_of(prepared.model, prepared.interface, stage.inactive)
-    interface = replace(prepared.interface, friction=mu, anisotropy=anisotropy)
+    interface = under_laws(prepared.interface, prepared.model, laws) if stage.friction else prepared.interface
     if absent.any():
         left = interface.among(~absent)
         try:

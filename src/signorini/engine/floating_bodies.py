@@ -17,6 +17,7 @@ from signorini.fem.rigid import describe_approach
 from signorini.friction.answer import PULLED_AWAY
 from signorini.friction.approach import approach
 from signorini.friction.history import Segment
+from signorini.law.bound import ADHESION_SLOPE
 from signorini.law.states import OPEN
 from signorini.outcome import Outcome
 from signorini.solution.state import State, next_state
@@ -57,15 +58,16 @@ def approached(part: StepPart) -> FollowedPart | None:
     if (state.gap[apart] < -width).any():  # overlaps press first
         return None
     moved = np.asarray((interface.B @ motions) @ floating)
-    basis = unfelt(moved[np.concatenate([presses, np.tile(presses & interface.rubs, interface.directions - 1)])])
+    rubs = np.tile(presses & interface.friction.rubs, interface.directions - 1)
+    basis = unfelt(moved[np.concatenate([presses, rubs])])
     basis = basis @ _alike(prepared, floating @ basis)
     if np.abs(basis.T @ work).max(initial=0.0) <= enough:
         return None
-    grips = interface.adhesion[apart] > 0.0
+    slope = interface.friction.steepest[apart]
     found = approach(
         moved[interface.rows(apart)] @ basis,
         np.maximum(state.gap[apart], 0.0),
-        np.where(grips, np.inf, interface.coefficients[apart].T),
+        np.where(slope >= ADHESION_SLOPE, np.inf, slope * interface.anisotropy[apart].T),
         basis.T @ work,
         width=width,
     )

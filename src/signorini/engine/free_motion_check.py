@@ -49,8 +49,7 @@ def refuse_free_motions(
     free = free_motions(motions, constraints, touching)
     if free.shape[1]:
         raise InputError(f"{_say(parts, free)}: no support or contact holds it; add a support")
-    along = interface.coefficients + interface.adhesion[:, None] * interface.anisotropy
-    rubbing = (along > 0).T.ravel()
+    rubbing = (interface.friction.rubs & (interface.anisotropy > 0).T).ravel()
     resisting = interface.B[np.concatenate([np.ones(len(interface), bool), rubbing])]
     free = free_motions(motions, constraints, resisting)
     if free.shape[1]:

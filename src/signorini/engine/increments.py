@@ -289,7 +289,7 @@ def certified(prepared: Prepared, state: State, before: Array, where: str) -> Ce
         return certificate
     words = f"{where}: the solver's answer did not pass the certificate"
     remedy = "look for extreme ratios of moduli, sizes or compliances, which are the usual cause"
-    verge = np.flatnonzero(prepared.interface.sticks & ~prepared.absent & (state.status > STICK))
+    verge = np.flatnonzero(prepared.interface.friction.sticks & ~prepared.absent & (state.status > STICK))
     if len(verge):
         pair = int(verge[0])
         contact = prepared.model.contacts[prepared.interface.contact[pair]]

@@ -21,6 +21,7 @@ from signorini.outcome import Outcome
 from signorini.solution.state import State
 
 UNWATCHED = "contact alone holds bodies and is iterated with multipliers: slides of them are not looked for"
+CURVED = "contact alone holds bodies and its friction has no straight branches: slides of them are not looked for"
 
 _ZOOMS, _WATCH_INCREMENTS = 3, 16  # times that the largest change is looked at in as many increments
 _SUDDEN = 0.5  # of that change, in one of them each time: no increments resolve it
@@ -74,10 +75,11 @@ def unwatched(part: StepPart, followed: FollowedPart) -> FollowedPart:
     followed : the part, as it was followed in increments
     """
     prepared, interface = part.prepared, part.prepared.interface
-    rubbing = bool((interface.rubs & ~interface.sticks & ~prepared.absent).any())
-    if interface.directions == 2 or prepared.solver.paths is not None or not prepared.floating.shape[1] or not rubbing:
+    rubbing = bool((interface.friction.bounded & ~prepared.absent).any())
+    if interface.directions == 2 or prepared.watched or not prepared.floating.shape[1] or not rubbing:
         return followed
-    return replace(followed, notes=(*followed.notes, UNWATCHED)) if followed.after.forces.any() else followed
+    note = UNWATCHED if prepared.solver.paths is None else CURVED
+    return replace(followed, notes=(*followed.notes, note)) if followed.after.forces.any() else followed
 
 
 def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
@@ -89,7 +91,7 @@ def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
     ----------
     followed : the part in space, as it was followed in increments
     """
-    if part.prepared.interface.directions == 2 or part.prepared.solver.paths is None:
+    if not part.prepared.watched:
         return None
     at = part.interval.factor
     states = [followed.before, *(shot.state for shot in followed.snapshots)]
@@ -122,9 +124,9 @@ def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
 
 def _far(part: StepPart, before: State, after: State) -> bool:
     """Whether an increment moves a pair farther than all loads compress bodies that contact alone holds."""
-    paths = part.prepared.solver.paths
-    if part.prepared.interface.directions == 2 or paths is None or not paths.law.floating or not before.forces.any():
+    if not part.prepared.watched or not part.prepared.paths.law.floating or not before.forces.any():
         return False
+    paths = part.prepared.paths
     condensed = paths.condensed
     moved = np.concatenate([after.gap - before.gap, after.tangential - before.tangential])[condensed.active_rows]
     return bool(np.abs(condensed.root * moved).max(initial=0.0) > (paths.law.scale or 1.0))
@@ -140,7 +142,7 @@ def _done(part: StepPart, followed: FollowedPart | None) -> float:
 
 def _jump(part: StepPart, state: State, low: float, high: float) -> SolveFailed | None:
     """The first jump between the fractions low and high of a part, from the state at low; None where none is seen."""
-    if part.prepared.interface.directions == 2 or part.prepared.solver.paths is None:
+    if not part.prepared.watched:
         return None
     try:
         follow_to_events(_between(part, state, low, high), 1, behind=low / (high - low))

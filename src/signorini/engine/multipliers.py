@@ -99,7 +99,7 @@ class MultiplierSolver:
         load = IncrementLoad(
             f=bodies.blocks.spread(increment.f),
             offset=increment.offset[rows].reshape(bodies.directions, -1),
-            bound=system.interface.bound(bodies.pairs),
+            bound=system.interface.bound.among(np.isin(np.arange(len(bodies.active)), bodies.pairs)),
             force=system.scale.force,
             length=length,
             tolerance=self.settings.tolerance,

@@ -119,7 +119,7 @@ def formulate(model: Model | Prepared, *, E_n: float, E_tau: float) -> PaperForm
             condensed.B.toarray()[order],
             condensed.reduce(f).load,
             offset[rows][order],
-            interface.friction[pairs],
+            interface.friction.steepest[pairs],
             interface.area[pairs],
             E_tau=E_tau,
             E_n=E_n,

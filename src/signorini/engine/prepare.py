@@ -24,7 +24,7 @@ from signorini.fem.rigid import free_motions
 from signorini.fem.stiffness import reduced_stiffness, stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.active import FreeBodies
-from signorini.interface.interface import Interface, anisotropy_of, friction_of
+from signorini.interface.interface import Interface, under_laws
 from signorini.interface.reach import candidates
 from signorini.iterative.bodies import ITERATIVE
 from signorini.linalg.protocol import NotPositiveDefinite
@@ -146,6 +146,12 @@ class Prepared(Examined, DiscreteModel):
         return replace(solver, bodies=bodies.factored(nodes, self.space.places, patience=patience))
 
     @property
+    def watched(self) -> bool:
+        """Whether increments in space can be followed to events: condensed, and friction has straight branches."""
+        interface = self.interface
+        return interface.directions == 3 and self.solver.paths is not None and interface.friction.straight
+
+    @property
     def has_multipliers(self) -> bool:
         """Whether there is another way than the condensed interface, and nobody has asked for this one alone."""
         interface = self.interface
@@ -189,10 +195,8 @@ class Prepared(Examined, DiscreteModel):
         own, pairs = self.interface.contact, zip(contacts, self.model.contacts, strict=True)
         overlap = np.array([contact.interference - old.interference for contact, old in pairs])
         interface = replace(
-            self.interface,
+            under_laws(self.interface, model, [contact.law for contact in contacts]),
             gap=self.interface.gap - overlap[own],
-            friction=friction_of(self.space, model, self.interface.node, own),
-            anisotropy=anisotropy_of(model, self.interface.tangents, own),
         )
         now = replace(
             self,

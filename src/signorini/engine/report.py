@@ -245,7 +245,7 @@ def _contact_result(
     code, area = state.status[own], surface.fixed["area"]
     bound = interface.most(state.forces[:n])[own]
     # a pair that a support guides carries no friction: it touches without slipping
-    sticks = (code == STICK) | (interface.rubs[own] & (tangential < (1.0 - 1e-9) * bound))
+    sticks = (code == STICK) | (interface.friction.rubs[own] & (tangential < (1.0 - 1e-9) * bound))
     status = np.where(code == OPEN, results.OPEN, np.where(sticks, results.STICK, results.SLIP))
     dissipation = (state.dissipation - before.dissipation)[own]
     return ContactResult(

@@ -319,13 +319,13 @@ def _as_asked(stage: Stage, part: StepPart) -> FollowedPart:
     """
     step, interface = stage.step, part.prepared.interface
     jump = "follow" if step.follows_jumps else step.jump
-    rubbing = bool((interface.rubs & ~interface.sticks & ~part.prepared.absent).any())
+    rubbing = bool((interface.friction.bounded & ~part.prepared.absent).any())
     if step.path != "exact" and (step.path is not None or step.increments is not None or not rubbing):
         if step.increments == "auto":
             return follow_automatically(part, step.tolerance, jump=jump)
         number = _increments(step, part.interval, stage)
         return follow_watchfully(part, number, stops=step.jump == "stop")
-    if step.path is None and interface.directions == 3:
+    if step.path is None and (interface.directions == 3 or not interface.friction.straight):
         return follow_automatically(part, step.tolerance, enough=_SPACE_INCREMENTS, jump=jump)
     try:
         return follow_exactly(part, jumps=step.follows_jumps)
@@ -348,7 +348,7 @@ def _as_asked(stage: Stage, part: StepPart) -> FollowedPart:
 def _iterated(stage: Stage, part: StepPart) -> FollowedPart:
     """Follow a straight part of a step in increments: as many as asked for; as behind a jump where a path was lost."""
     interface = part.prepared.interface
-    rubbing = bool((interface.rubs & ~interface.sticks).any())
+    rubbing = bool(interface.friction.bounded.any())
     if interface.directions == 2 and stage.step.path is None and stage.step.increments is None and rubbing:
         return follow_increments(part, _BEHIND_A_JUMP)
     return _as_asked(stage, part)

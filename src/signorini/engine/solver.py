@@ -22,6 +22,7 @@ from signorini.friction.history import Landing, PathSettings, PathState, Segment
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 from signorini.interface.interface import Interface
+from signorini.law.bound import Bound
 from signorini.outcome import Outcome
 from signorini.settings import SolverSettings
 from signorini.solution.discrete_model import DiscreteModel
@@ -310,15 +311,12 @@ class CondensedSolver:
 def _friction(condensed: Condensed, interface: Interface) -> dict[str, Any]:
     """The friction of the active pairs as the laws take it, forces scaled."""
     active = condensed.active
-    area = interface.area[active] / condensed.root[: int(active.sum())]
-    adheres, limited = interface.adhesion[active].any(), np.isfinite(interface.shear_limit[active]).any()
-    bounds = {
-        "adhesion": interface.adhesion[active] * area if adheres else None,
-        "limit": interface.shear_limit[active] * area if limited else None,
-    }
+    posed = interface.friction.among(active).posed(interface.area[active] / condensed.root[: int(active.sum())])
     if interface.directions == 2:
-        return {"friction": interface.friction[active], **bounds}
-    return {"friction": interface.coefficients[active].T, "facets": interface.facets[active], **bounds}
+        return posed
+    if not isinstance(posed["friction"], Bound):
+        posed["friction"] = posed["friction"] * interface.anisotropy[active].T
+    return posed | {"facets": interface.facets[active]}
 
 
 def _size(condensed: Condensed, interface: Interface, scale: Scale) -> float:

@@ -50,7 +50,7 @@ def step_notes(prepared: Prepared, followed: FollowedPart) -> Iterator[str]:
 
 def _friction_notes(prepared: Prepared, followed: FollowedPart) -> Iterator[str]:
     """Friction in one increment, which knows nothing of the way to its end."""
-    rubbing = prepared.interface.rubs & ~prepared.interface.sticks
+    rubbing = prepared.interface.friction.bounded
     if followed.path != "single" or not rubbing.any():
         return
     yield ONE_INCREMENT

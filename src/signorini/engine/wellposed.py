@@ -33,14 +33,14 @@ def assess(prepared: Prepared, state: State | None = None) -> WellPosedness:
     state : at whose loads, and from whose slips, other equilibria are looked for; None asks about the model alone
     """
     if prepared.solver.paths is None:
-        friction = float(prepared.interface.friction.max(initial=0.0))
+        friction = _without_pressure(float(prepared.interface.friction.steepest.max(initial=0.0)))
         words = "not examined: that needs the condensed interface, and this model is solved by iteration"
         return WellPosedness(friction=friction, bound=None, verdict="not decided", words=words)
     if prepared.limited:  # other loads, and other solutions, may close pairs that are far apart
         prepared = replace(prepared.widened(), absent=prepared.absent)
     law = prepared.paths.law
     slope = float(law.mu[~law.locked.all(axis=0)].max(initial=0.0))
-    friction, bound = np.inf if slope >= ADHESION_SLOPE else slope, mu_low(law)
+    friction, bound = _without_pressure(slope), mu_low(law)
     if bound is not None and friction < bound:
         words = _unique(friction, bound, law.floating)
         return WellPosedness(friction=friction, bound=bound, verdict="unique", words=words)
@@ -64,6 +64,11 @@ def assess(prepared: Prepared, state: State | None = None) -> WellPosedness:
         return WellPosedness(friction=friction, bound=bound, verdict="one", words=words)
     words = f"{above}; a search from many starts found no other equilibrium, which proves nothing"
     return WellPosedness(friction=friction, bound=bound, verdict="not decided", words=words)
+
+
+def _without_pressure(slope: float) -> float:
+    """Friction per pressure; infinite where pairs hold it without pressure, because they stick or adhere."""
+    return np.inf if slope >= ADHESION_SLOPE else slope
 
 
 def _unique(friction: float, bound: float, floating: bool) -> str:

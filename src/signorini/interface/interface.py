@@ -19,9 +19,9 @@ from signorini.interface.coupling import along
 from signorini.interface.frames import LEAST_SINE, along_tangents, tangents
 from signorini.interface.moments import moments_of_rows
 from signorini.interface.pairing import Pairs, Sides, make_pairs
-from signorini.law.bound import FrictionBound
+from signorini.law.bound import Bound
+from signorini.law.friction import FrictionLaw, PairFriction
 from signorini.law.section import FrictionSection
-from signorini.model.contact import ratios
 from signorini.model.model import Model
 
 _SHARED_COMPLIANCE = 1e-8  # of the size of the model over the softest modulus
@@ -48,10 +48,8 @@ class Interface:
     node : (n,) nodes on the nonmortar side
     moments : (d n, 1 or 3) moments about the origin of unit forces of every row of B on the nonmortar side, length
     contact : (n,) index of the contact that a pair belongs to
-    friction : (n,) Coulomb's coefficient, the largest where it differs by direction, infinite where it sticks
-    adhesion, shear_limit : (n,) tractions of `law.bound`, force per area, along the direction of the largest
-        friction; no limit is infinite
-    anisotropy : (n, d - 1) coefficient along every tangent over the largest
+    friction : laws with their parameters, along the direction of the largest friction
+    anisotropy : (n, d - 1) friction along every tangent over the largest
     facets : (n,) corners of the section of the friction cone, 0 for the exact one
     normal_compliance, tangential_compliance : (n,) length per pressure
     tied : (n,) whether the pair neither slips nor opens
@@ -66,9 +64,7 @@ class Interface:
     node: IntArray
     moments: Array
     contact: IntArray
-    friction: Array
-    adhesion: Array
-    shear_limit: Array
+    friction: PairFriction
     anisotropy: Array
     facets: IntArray
     normal_compliance: Array
@@ -95,7 +91,7 @@ class Interface:
             for field in fields(self)
             if isinstance(value := getattr(self, field.name), np.ndarray) and len(value) == len(kept)
         }
-        return replace(self, B=self.B[self.rows(kept)], **parts)
+        return replace(self, B=self.B[self.rows(kept)], friction=self.friction.among(kept), **parts)
 
     @property
     def compliance(self) -> Array:
@@ -108,31 +104,13 @@ class Interface:
         return np.tile(self.area, self.directions)
 
     @property
-    def sticks(self) -> BoolArray:
-        """(n,) pairs without any bound on their friction."""
-        return np.asarray(np.isinf(self.friction) & np.isinf(self.shear_limit), dtype=np.bool_)
-
-    @property
-    def rubs(self) -> BoolArray:
-        """(n,) pairs that have friction."""
-        return np.asarray((self.friction > 0) | (self.adhesion > 0), dtype=np.bool_)
-
-    @property
-    def coefficients(self) -> Array:
-        """(n, d - 1) Coulomb's coefficient along every tangent."""
-        return self.friction[:, None] * self.anisotropy
-
-    def bound(self, pairs: BoolArray | IntArray) -> FrictionBound:
-        """Of the friction forces of some pairs."""
-        area = self.area[pairs]
-        return FrictionBound.of(
-            self.friction[pairs], adhesion=self.adhesion[pairs] * area, limit=self.shear_limit[pairs] * area
-        )
+    def bound(self) -> Bound:
+        """Of the friction forces."""
+        return self.friction.bound(self.area)
 
     def most(self, normal: Array) -> Array:
         """(n,) Largest friction forces under normal forces (n,); infinite where a pair sticks that is pressed."""
-        bound = self.bound(np.ones(len(self), dtype=np.bool_)).at(np.maximum(normal, 0.0))
-        return np.where(self.sticks & (normal > 0), np.inf, bound)
+        return np.where(self.friction.sticks & (normal > 0), np.inf, self.bound.at(np.maximum(normal, 0.0)))
 
     @property
     def section(self) -> FrictionSection:
@@ -175,7 +153,9 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
     fibres = np.array([contact.friction_axis or (0.0,) * 3 for contact in model.contacts]).reshape(-1, 3)[index]
     axes, still = tangents(normals, mirrored, fibres)
     _refuse_no_fibre(space, model, node, index, normals, mirrored)
-    friction = friction_of(space, model, node, index)
+    friction = PairFriction.of(
+        [contact.law for contact in model.contacts], [space.mesh.points[part.coupling.nodes] for part in parts]
+    )
     facets = np.array([contact.facets for contact in model.contacts], np.int64)[index]
     B = _relative_rows(space, model, parts, normals, axes, still)
     own = [part.own for part in parts]
@@ -189,12 +169,12 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
         moments=moments_of_rows(B, space.mesh.points, own, np.tile(index, space.dimension)),
         contact=index,
         friction=friction,
-        adhesion=data("adhesion"),
-        shear_limit=data("most_shear"),
-        anisotropy=anisotropy_of(model, axes, index),
-        facets=np.where(np.isinf(friction) & np.isinf(data("most_shear")), 0, facets),
+        anisotropy=_anisotropy(model, [contact.law for contact in model.contacts], axes, index),
+        facets=np.where(friction.sticks, 0, facets),
         normal_compliance=data("normal_compliance"),
-        tangential_compliance=np.maximum(data("tangential_compliance"), _of_shared_nodes(space, model, node, friction)),
+        tangential_compliance=np.maximum(
+            data("tangential_compliance"), _of_shared_nodes(space, model, node, friction.rubs)
+        ),
         tied=data("tied").astype(bool),
         sides=tuple(part.sides for part in parts),
     )
@@ -250,7 +230,7 @@ def _refuse_no_fibre(
             )
 
 
-def _of_shared_nodes(space: Space, model: Model, node: IntArray, friction: Array) -> Array:
+def _of_shared_nodes(space: Space, model: Model, node: IntArray, rubs: BoolArray) -> Array:
     """Tangential compliance of pairs with friction at plane nodes that several contacts share, (n,), otherwise 0.
 
     In a corner the normal force of one contact and the friction of the other act along one line, and only their sum is
@@ -262,24 +242,38 @@ def _of_shared_nodes(space: Space, model: Model, node: IntArray, friction: Array
     shared = np.bincount(node)[node] > 1
     size = float(extent(space.mesh.points).max())
     softest = min(body.material.smallest_modulus for body in model.bodies)
-    return np.where(shared & (friction > 0.0), _SHARED_COMPLIANCE * size / softest, 0.0)
+    return np.where(shared & rubs, _SHARED_COMPLIANCE * size / softest, 0.0)
 
 
-def anisotropy_of(model: Model, axes: Array, contact: IntArray) -> Array:
-    """Coulomb's coefficient along every tangent over the largest, (n, d - 1).
+def _anisotropy(model: Model, laws: Sequence[FrictionLaw], axes: Array, contact: IntArray) -> Array:
+    """(n, d - 1) Friction along every tangent, axes (n, d - 1, d), over the largest; laws of every contact."""
+    found = np.ones(axes.shape[:2])
+    for i, (data, law) in enumerate(zip(model.contacts, laws, strict=True)):
+        if law.ratios != (1.0, 1.0):
+            own = contact == i
+            found[own] = along_tangents(law.ratios, data.friction_axis, axes[own])
+    return found
+
+
+def under_laws(interface: Interface, model: Model, laws: Sequence[FrictionLaw]) -> Interface:
+    """The interface with other laws of friction.
 
     Parameters
     ----------
-    model : of the contacts
-    axes : (n, d - 1, d) tangents of the pairs
-    contact : (n,) contacts that they belong to
+    interface, model : pairs and contacts
+    laws : of every contact
+
+    Raises
+    ------
+    InputError
+        If a function that gives the friction gives something else, with the contact's index.
     """
-    found = np.ones(axes.shape[:2])
-    for i, data in enumerate(model.contacts):
-        if isinstance(data.friction, tuple):
-            own = contact == i
-            found[own] = along_tangents(ratios(data.friction), data.friction_axis, axes[own])
-    return found
+    nodes = [interface.node[interface.contact == i] for i in range(len(laws))]
+    return replace(
+        interface,
+        friction=PairFriction.of(laws, [model.mesh.points[own] for own in nodes]),
+        anisotropy=_anisotropy(model, laws, interface.tangents, interface.contact),
+    )
 
 
 def pairs_of(model: Model, interface: Interface, labels: Collection[str]) -> BoolArray:
@@ -292,29 +286,6 @@ def pairs_of(model: Model, interface: Interface, labels: Collection[str]) -> Boo
     """
     own = [i for i, contact in enumerate(model.contacts) if contact.label in labels]
     return np.asarray(np.isin(interface.contact, own), dtype=np.bool_)
-
-
-def friction_of(space: Space, model: Model, node: IntArray, contact: IntArray) -> Array:
-    """Coulomb's coefficient of every pair, (n,).
-
-    Parameters
-    ----------
-    space, model : of the nodes and contacts
-    node, contact : (n,) nonmortar nodes of the pairs, and the contacts that they belong to
-
-    Raises
-    ------
-    InputError
-        If a function that gives the friction gives something else, with the contact's index.
-    """
-    friction = np.zeros(len(node))
-    for i, data in enumerate(model.contacts):
-        own = contact == i
-        try:
-            friction[own] = data.coefficients(space.mesh.points[node[own]])
-        except InputError as error:
-            raise error.inside("contact", i) from error
-    return friction
 
 
 def _sliding_rows(closing: tuple[sp.csr_array, ...], normals: Array, axes: Array) -> tuple[sp.csr_array, ...]:

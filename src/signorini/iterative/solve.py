@@ -29,7 +29,7 @@ from signorini.attempt import MethodRun
 from signorini.errors import told
 from signorini.iterative.bodies import Bodies
 from signorini.iterative.law import BoundedLaw, Slope
-from signorini.law.bound import FrictionBound
+from signorini.law.bound import Bound
 from signorini.law.section import FrictionSection
 from signorini.law.states import OPEN, STICK
 from signorini.linalg.krylov import conjugate_gradients
@@ -100,7 +100,7 @@ class IncrementLoad:
 
     f: Array
     offset: Array
-    bound: FrictionBound
+    bound: Bound
     force: float
     length: float
     floating: bool

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -185,6 +185,36 @@ class FrictionBound(Bound):
             return table[0]
         branch = np.where(state > STICK, (state - SLIP_PLUS) // 2, 0)
         return np.asarray(table[branch, np.arange(len(state))], dtype=np.float64)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class JoinedBound(Bound):
+    """Bounds of several laws, each of the pairs behind those of the one before."""
+
+    parts: tuple[Bound, ...]
+
+    def _split(self, values: Array | BoolArray) -> list[tuple[Bound, Any]]:
+        """Every part with its own of n values."""
+        ends = np.cumsum([len(part.steepest) for part in self.parts])[:-1]
+        return list(zip(self.parts, np.split(values, ends), strict=True))
+
+    def at(self, p: Array) -> Array:
+        """(n,) F at normal forces p >= 0."""
+        return np.concatenate([part.at(own) for part, own in self._split(p)])
+
+    def tangent(self, p: Array) -> tuple[Array, Array]:
+        """Slope and start, each (n,), of the line that F is near normal forces p."""
+        slopes, starts = zip(*(part.tangent(own) for part, own in self._split(p)), strict=True)
+        return np.concatenate(slopes), np.concatenate(starts)
+
+    @property
+    def steepest(self) -> Array:
+        """(n,) The largest slope, at p = 0."""
+        return np.concatenate([part.steepest for part in self.parts])
+
+    def among(self, kept: BoolArray) -> JoinedBound:
+        """The bound of the kept pairs, (n,)."""
+        return JoinedBound(parts=tuple(part.among(own) for part, own in self._split(kept)))
 
 
 def plain(state: IntArray) -> IntArray:

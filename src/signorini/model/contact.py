@@ -4,15 +4,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Literal
-
-import numpy as np
 
 from signorini.arrays import Array
 from signorini.checks import choice, number, text, vector, whole
 from signorini.errors import InputError, Where
+from signorini.law.friction import Coulomb, FrictionLaw
 from signorini.model.obstacle import Obstacle
 
 COUPLINGS = ("auto", "nodes", "mortar", "node-to-segment")
@@ -34,7 +34,7 @@ class Contact:
     friction : Coulomb's coefficient, >= 0; "stick": never slips (it may still open); "tied": neither slips nor
         opens, nor presses initial gaps, which count as filled; or a function of the points (k, d) that gives the
         coefficients (k,), such as :class:`Along`. In space also two coefficients, along ``friction_axis`` and across:
-        tractions lie in an ellipse then, and slip is normal to it
+        tractions lie in an ellipse then, and slip is normal to it. Or a law of its own, a :class:`FrictionLaw`
     shear_limit : largest traction of friction, force per area, > 0: Coulomb's law with a limit, or Tresca's law with
         friction = "stick"; None (default) is no limit
     adhesion : traction that friction holds without pressure, force per area, >= 0; lost where the sides open
@@ -65,7 +65,7 @@ class Contact:
 
     nonmortar: str
     mortar: str | Obstacle
-    friction: float | tuple[float, float] | Literal["stick", "tied"] | Callable[[Array], Array] = 0.0
+    friction: float | tuple[float, float] | Literal["stick", "tied"] | Callable[[Array], Array] | FrictionLaw = 0.0
     shear_limit: float | None = None
     adhesion: float = 0.0
     gap: float | Literal["geometry", "zero"] = "geometry"
@@ -84,20 +84,13 @@ class Contact:
         text(self.nonmortar, ("nonmortar",))
         if not isinstance(self.mortar, Obstacle):
             text(self.mortar, ("mortar",))
-        if self.friction not in ("stick", "tied") and not callable(self.friction):
-            if isinstance(self.friction, str):
-                raise InputError(
-                    f"is '{self.friction}'; expected a number >= 0, 'stick' or 'tied'", where=("friction",)
-                )
-            object.__setattr__(self, "friction", coefficient(self.friction, ("friction",)))
+        self._check_law()
         self._check_cone()
         if not isinstance(self.gap, str):
             object.__setattr__(self, "gap", number(self.gap, ("gap",)))
         elif self.gap not in ("geometry", "zero"):
             raise InputError(f"is '{self.gap}'; expected 'geometry', 'zero' or a number", where=("gap",))
-        if self.shear_limit is not None:
-            object.__setattr__(self, "shear_limit", number(self.shear_limit, ("shear_limit",), above=0.0))
-        for key in ("adhesion", "normal_compliance", "tangential_compliance"):
+        for key in ("normal_compliance", "tangential_compliance"):
             object.__setattr__(self, key, number(getattr(self, key), (key,), least=0.0))
         object.__setattr__(self, "interference", number(self.interference, ("interference",)))
         choice(self.coupling, COUPLINGS, ("coupling",), "coupling")
@@ -112,12 +105,23 @@ class Contact:
             for key in ("interference", "normal_compliance", "tangential_compliance"):
                 if getattr(self, key):
                     raise InputError("is given, but a tied contact is neither pressed nor compliant", where=(key,))
-        for key in ("shear_limit", "adhesion"):
-            if getattr(self, key) and (self.tied or (self.friction == "stick" and key == "adhesion")):
-                words = "is tied" if self.tied else "never slips"
-                raise InputError(f"is given, but the contact {words}, whatever its friction holds", where=(key,))
         if self.adjust is not None and self.gap != "geometry":
             raise InputError("goes with gap = 'geometry' only", where=("adjust",))
+
+    def _check_law(self) -> None:
+        """What a law of friction says of itself, and what goes with it."""
+        law = self.law
+        if isinstance(law, Coulomb):
+            for key in ("friction", "shear_limit", "adhesion"):
+                object.__setattr__(self, key, getattr(law, key))
+        for key in ("shear_limit", "adhesion"):
+            if not getattr(self, key):
+                continue
+            if not isinstance(law, Coulomb):
+                raise InputError(f"is given, but friction has a law of its own, {law.title()}", where=(key,))
+            if self.tied or (self.friction == "stick" and key == "adhesion"):
+                words = "is tied" if self.tied else "never slips"
+                raise InputError(f"is given, but the contact {words}, whatever its friction holds", where=(key,))
 
     def _check_cone(self) -> None:
         """What a friction cone in space has."""
@@ -166,6 +170,51 @@ class Contact:
                     where=(key,),
                 )
 
+    def check_exact(self, where: Where, *, in_space: bool) -> None:
+        """What goes with an exact path: straight branches of friction, and in space no smooth section.
+
+        Parameters
+        ----------
+        where : the path asked for, in the model
+        in_space : whether it is one for models in space
+
+        Raises
+        ------
+        InputError
+            If friction has no exact path.
+        """
+        if not self.law.straight:
+            raise InputError(
+                f"is \"exact\", but the friction of contact '{self.label}' has no straight branches to follow; "
+                'expected increments, a number or "auto"',
+                where=where,
+            )
+        slips = not self.coulomb or self.friction not in (0.0, "stick", "tied")
+        if in_space and slips and not self.facets:
+            raise InputError(
+                f"is \"exact\", but friction on the exact cone of contact '{self.label}' turns between events; "
+                'expected facets there, or increments, a number or "auto"',
+                where=where,
+            )
+
+    def check_change(self, friction: Any, where: Where) -> None:
+        """What goes with another coefficient, or two of them, in a step.
+
+        Raises
+        ------
+        InputError
+            If the contact has a law of its own, or no axis for two.
+        """
+        if not isinstance(self.law, Coulomb):
+            raise InputError(
+                f"is given, but friction has a law of its own, {self.law.title()}; only coefficients change",
+                where=where,
+            )
+        if isinstance(friction, tuple) and self.friction_axis is None:
+            raise InputError(
+                "has two coefficients; expected friction_axis in the contact, the direction of the first", where=where
+            )
+
     @classmethod
     def between(cls, one: str, other: str, **options: Any) -> Contact:
         """Two boundaries of which neither is named the nonmortar side: the coarser one is taken, see ``side``.
@@ -191,66 +240,19 @@ class Contact:
         """Whether it neither slips nor opens."""
         return self.friction == "tied"
 
+    @cached_property
+    def law(self) -> FrictionLaw:
+        """The law of its friction: Coulomb's where ``friction`` is none itself."""
+        if isinstance(self.friction, FrictionLaw):
+            return self.friction
+        return Coulomb(self.friction, self.adhesion, self.shear_limit)
+
     @property
     def coulomb(self) -> bool:
         """Whether friction has no other bound than ``friction * pressure``."""
-        return self.shear_limit is None and self.adhesion == 0.0
-
-    @property
-    def most_shear(self) -> float:
-        """The shear limit, infinite where there is none."""
-        return math.inf if self.shear_limit is None else self.shear_limit
+        return isinstance(self.law, Coulomb) and self.shear_limit is None and self.adhesion == 0.0
 
     @property
     def coefficient(self) -> float:
-        """Coulomb's coefficient as one number; infinite where it sticks or is tied, NaN where it varies."""
-        if callable(self.friction) or isinstance(self.friction, tuple):
-            return math.nan
-        return math.inf if self.friction in ("stick", "tied") else float(self.friction)
-
-    def coefficients(self, points: Array) -> Array:
-        """Coulomb's coefficient at points (k, d), (k,), the larger of two; infinite where they stick.
-
-        Raises
-        ------
-        InputError
-            If a function gives anything but one number >= 0 for every point.
-        """
-        if isinstance(self.friction, tuple):
-            return np.full(len(points), max(self.friction))
-        if not callable(self.friction):
-            return np.full(len(points), self.coefficient)
-        found = np.asarray(self.friction(points), float)
-        if found.shape != (len(points),) or not (found >= 0.0).all():
-            raise InputError(
-                f"gives an array of shape {found.shape}, smallest {found.min(initial=np.inf):g}; expected one number "
-                f">= 0 for each of {len(points)} points",
-                where=("friction",),
-            )
-        return found
-
-
-def coefficient(value: Any, where: Where) -> float | tuple[float, float]:
-    """One coefficient of friction >= 0, or two of them.
-
-    Examples
-    --------
-    >>> coefficient([0.1, 0.3], ("friction",))
-    (0.1, 0.3)
-    """
-    if not isinstance(value, Sequence) or isinstance(value, str):
-        return number(value, where, least=0.0)
-    if len(value) != 2:
-        raise InputError(f"has {len(value)} coefficients; expected one, or two along two directions", where=where)
-    return number(value[0], (*where, 0), least=0.0), number(value[1], (*where, 1), least=0.0)
-
-
-def ratios(value: float | tuple[float, float]) -> tuple[float, float]:
-    """Two coefficients over the larger of them; (1, 1) for one.
-
-    >>> ratios((0.1, 0.4)), ratios(0.3)
-    ((0.25, 1.0), (1.0, 1.0))
-    """
-    if not isinstance(value, tuple) or not any(value):
-        return 1.0, 1.0
-    return value[0] / max(value), value[1] / max(value)
+        """Coulomb's coefficient; infinite where it sticks or is tied, NaN where there is no one number."""
+        return self.law.coefficient if isinstance(self.law, Coulomb) else math.nan

@@ -13,6 +13,7 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.checks import choice, members, number
 from signorini.errors import InputError, one_of
+from signorini.law.friction import FrictionLaw
 from signorini.model.body import Body
 from signorini.model.conditions import BODY_LOADS, Foundation, Load, Place, Support
 from signorini.model.contact import Contact
@@ -108,6 +109,9 @@ class Model(Short):
             self._check_load(i, load)
         for i, contact in enumerate(self.contacts):
             self._check_contact(i, contact)
+            if isinstance(contact.friction, tuple) and any(isinstance(c.friction, FrictionLaw) for c in self.contacts):
+                words = "has two coefficients, and another contact a law of its own; expected one coefficient"
+                raise InputError(words, where=("contact", i, "friction"))
         for i, obstacle in enumerate(self.obstacles):
             self._check_obstacle(i, obstacle)
         self._check_labels()
@@ -349,19 +353,9 @@ class Model(Short):
                     raise InputError(one_of(name, names, "load or moving support"), where=("step", i, "scale"))
             self._check_contact_names(i, step)
             self._check_support_names(i, step)
-            if step.path == "exact" and self.kind == "3d":
-                self._check_facets(i)
-
-    def _check_facets(self, i: int) -> None:
-        """In space a path is exact where no section of a friction cone is smooth."""
-        for contact in self.contacts:
-            slips = not contact.coulomb or contact.friction not in (0.0, "stick", "tied")
-            if slips and not contact.facets:
-                raise InputError(
-                    f"is \"exact\", but friction on the exact cone of contact '{contact.label}' turns between events; "
-                    'expected facets there, or increments, a number or "auto"',
-                    where=("step", i, "path"),
-                )
+            if step.path == "exact":
+                for contact in self.contacts:
+                    contact.check_exact(("step", i, "path"), in_space=self.kind == "3d")
 
     def _check_contact_names(self, i: int, step: Step) -> None:
         known = [contact.label for contact in self.contacts]
@@ -372,11 +366,7 @@ class Model(Short):
                 if self.contacts[known.index(name)].tied:
                     raise InputError(f"'{name}' is tied for good; only contacts can change", where=("step", i, key))
         for name, value in step.friction.items():
-            if isinstance(value, tuple) and self.contacts[known.index(name)].friction_axis is None:
-                raise InputError(
-                    "has two coefficients; expected friction_axis in the contact, the direction of the first",
-                    where=("step", i, "friction", name),
-                )
+            self.contacts[known.index(name)].check_change(value, ("step", i, "friction", name))
 
     def _check_support_names(self, i: int, step: Step) -> None:
         known = [support.label for support in self.supports]

@@ -11,7 +11,7 @@ from typing import Any, Literal
 
 from signorini.checks import choice, number, text, whole
 from signorini.errors import InputError
-from signorini.model.contact import coefficient
+from signorini.law.friction import coefficient
 
 _MAX_COUNT = 1_000_000
 """Cycles, increments and times of a step: more of them have no meaning."""

@@ -16,6 +16,7 @@ import numpy as np
 
 from signorini.arrays import frozen
 from signorini.errors import InputError
+from signorini.law.friction import LAWS
 
 AnyArray = np.ndarray[Any, Any]
 
@@ -57,6 +58,11 @@ def _kinds() -> Mapping[str, type]:
     return MappingProxyType(found)
 
 
+def _kind(name: str) -> type | None:
+    """A class that files may hold, by name: those, and laws of friction that somebody entered."""
+    return {kind.__name__: kind for kind in LAWS.values()}.get(name) or _kinds().get(name)
+
+
 def to_plain(value: Any, path: str, keep: Callable[[str, AnyArray], str]) -> Any:
     """Plain data that JSON can hold; larger arrays are given to ``keep`` with a path, and it says under which they are.
 
@@ -88,7 +94,7 @@ def to_plain(value: Any, path: str, keep: Callable[[str, AnyArray], str]) -> Any
         pairs = [[key, to_plain(part, f"{path}/{_safe(key)}", keep)] for key, part in value.items()]
         return {_MARK: kind, "of": pairs}
     name = type(value).__name__
-    if _kinds().get(name) is not type(value):
+    if _kind(name) is not type(value):
         raise InputError(f"'{path}' is {value!r}, which a file cannot hold; expected numbers or a table")
     own = {
         field.name: to_plain(getattr(value, field.name), f"{path}/{field.name}", keep)
@@ -134,7 +140,7 @@ def from_plain(plain: Any, get: Callable[[str], AnyArray]) -> Any:
         pairs = {key: from_plain(part, get) for key, part in plain["of"]}
         return pairs if mark == "table" else MappingProxyType(pairs)
     name = str(plain["name"])
-    made_of = _kinds().get(_FORMER_NAMES.get(name, name))
+    made_of = _kind(_FORMER_NAMES.get(name, name))
     expected = {field.name: field.default for field in fields(made_of)} if made_of is not None else {}
     newer = {key: default for key, default in expected.items() if key not in plain["of"]}
     if made_of is None or len(newer) + len(plain["of"]) != len(expected) or MISSING in newer.values():

@@ -10,6 +10,7 @@ from typing import Any
 
 from signorini._version import __version__
 from signorini.arrays import Array
+from signorini.law.friction import FrictionLaw
 from signorini.memory import peak_memory
 from signorini.model.contact import Contact
 from signorini.model.model import Model
@@ -140,7 +141,7 @@ def _contact(contact: Contact, result: ContactResult) -> dict[str, Any]:
         "nonmortar": result.nonmortar,
         "mortar": result.mortar,
         "coupling": result.coupling,
-        "friction": "varies" if callable(contact.friction) else contact.friction,
+        "friction": _friction(contact),
         "adhesion": contact.adhesion,
         "shear_limit": contact.shear_limit,
         "normal_force": _list(result.normal_force),
@@ -156,6 +157,13 @@ def _contact(contact: Contact, result: ContactResult) -> dict[str, Any]:
         "max_slip_amplitude": float(0.5 * result.slip_range.max()),
         "dissipation": result.dissipation,
     }
+
+
+def _friction(contact: Contact) -> Any:
+    """As a deck says it, but for what a function gives."""
+    if isinstance(contact.friction, FrictionLaw):
+        return contact.friction.table
+    return "varies" if callable(contact.friction) else contact.friction
 
 
 def _turn(value: float | Array) -> float | list[float]:

@@ -25,11 +25,8 @@ _WHERE = ("start",)
 
 _POSED = {
     "gap": "the initial gap {}",
-    "friction": "the friction {}",
     "anisotropy": "the ratios of friction {}",
     "facets": "{} facets",
-    "adhesion": "the adhesion {}",
-    "shear_limit": "the shear limit {}",
     "normal_compliance": "the normal compliance {}",
     "tangential_compliance": "the tangential compliance {}",
     "tied": "a tie ({})",
@@ -37,7 +34,7 @@ _POSED = {
     "normals": "the normal {}",
     "tangents": "the tangent {}",
 }
-"""What of an interface a state refers to, in words."""
+"""What of an interface a state refers to, in words; parameters of its friction are said by their names."""
 
 _ADVICE = {
     "gap": "; a step's 'interference' changes it",
@@ -97,7 +94,7 @@ class Checkpoint(Short):
             contacts=tuple(contact.label for contact in model.contacts),
             contact=interface.contact,
             node=interface.node,
-            posed={name: getattr(interface, name) for name in _POSED},
+            posed=_posed(interface),
             mesh=digest(model.mesh),
         )
 
@@ -137,11 +134,14 @@ class Checkpoint(Short):
 
     def _contradictions(self, model: Model, interface: Interface) -> Iterator[str]:
         """What the contacts of the model say otherwise, in words."""
-        size = float(np.ptp(model.mesh.points, axis=0).max())
-        for name, words in _POSED.items():
-            old, new = self.posed[name], getattr(interface, name)
+        size, now = float(np.ptp(model.mesh.points, axis=0).max()), _posed(interface)
+        lacking = np.full(len(interface), np.nan)
+        for name in dict.fromkeys([*now, *self.posed]):
+            words = _POSED.get(name, f"the {name.replace('_', ' ')} {{}}")
+            old, new = self.posed.get(name, lacking), now.get(name, lacking)
             if old.dtype.kind == "f":
-                same = np.isclose(old, new, rtol=_NUMBER_TOL, atol=_ZERO_TOL * (size if name == "gap" else 1.0))
+                atol = _ZERO_TOL * (size if name == "gap" else 1.0)
+                same = np.isclose(old, new, rtol=_NUMBER_TOL, atol=atol, equal_nan=True)
             else:
                 same = old == new
             other = np.flatnonzero(~same.reshape(len(same), -1).all(axis=1))
@@ -153,6 +153,11 @@ class Checkpoint(Short):
                     f"has {found} at node {model.mesh.labels[self.node[i]]} of contact '{label}'; the model has "
                     f"{expected}, expected the same{_ADVICE.get(name, '')}"
                 )
+
+
+def _posed(interface: Interface) -> dict[str, NDArray[Any]]:
+    """What contacts say of their pairs."""
+    return interface.friction.parameters | {name: getattr(interface, name) for name in _POSED}
 
 
 def _spelled(value: Any) -> str:
