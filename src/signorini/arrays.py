@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
+import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
@@ -66,6 +67,29 @@ def among(lists: Iterable[IntArray], count: int) -> BoolArray:
     for numbers in lists:
         found[numbers] = True
     return found
+
+
+def selection(numbers: IntArray, count: int) -> sp.csr_array:
+    """(k, count) What picks some of ``count`` rows, one each; transposed it puts k rows at those places.
+
+    >>> selection(np.array([2, 0]), 3).toarray().tolist()
+    [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
+    """
+    k = len(numbers)
+    return sp.csr_array((np.ones(k), (np.arange(k), numbers)), shape=(k, count))
+
+
+def sharing(values: IntArray) -> tuple[IntArray, IntArray]:
+    """All pairs of entries that have one value, an entry and itself too: places of the first and of the second.
+
+    >>> [part.tolist() for part in sharing(np.array([7, 3, 7]))]
+    [[1, 0, 0, 2, 2], [1, 0, 2, 0, 2]]
+    """
+    order = np.argsort(values, kind="stable")
+    _, start, count = np.unique(values[order], return_index=True, return_counts=True)
+    each = np.repeat(count, count)
+    within = np.arange(each.sum()) - np.repeat(np.cumsum(each) - each, each)
+    return np.repeat(order, each), order[np.repeat(np.repeat(start, count), each) + within]
 
 
 def padded(values: Array, width: int) -> Array:

@@ -48,7 +48,7 @@ def test_normals_and_areas_of_a_turned_rectangle(count):
     Q = rotation(count)
     side = Boundary.of(np.column_stack([flat, np.zeros(len(flat))]) @ Q.T, turned(faces))
     np.testing.assert_allclose(side.nodal_normals, np.tile(-Q[:, 2], (len(side.nodes), 1)), atol=1e-14)
-    np.testing.assert_allclose(side.nodal_areas.sum(), 2.0)
+    np.testing.assert_allclose(side.nodal((block.weights for block in side.blocks), corners=True).sum(), 2.0)
 
 
 @pytest.mark.parametrize("count", [6, 8, 9])

@@ -40,7 +40,7 @@ def passed(coupling):
 def on_facets(side, other, **given):
     """Corners of a side on the faces opposite."""
     nodes = side.corner_nodes
-    areas = -side.nodal_normal_areas[np.searchsorted(side.nodes, nodes)]
+    areas = -side.nodal((block.outward for block in side.blocks), corners=True)[np.searchsorted(side.nodes, nodes)]
     return node_to_facet(side, other, nodes, areas, **given)
 
 
@@ -84,7 +84,9 @@ def test_covered_sides_reproduce_linear_fields_and_integrals(kinds, x, jiggle, s
     coupling = mortar_coupling(side, other)
     np.testing.assert_array_equal(coupling.nodes, side.corner_nodes)
     assert (coupling.area > 0).all()
-    full = side.nodal_areas[np.searchsorted(side.nodes, coupling.nodes)]
+    full = side.nodal((block.weights for block in side.blocks), corners=True)[
+        np.searchsorted(side.nodes, coupling.nodes)
+    ]
     np.testing.assert_allclose(coupling.relative @ fields(points), 0.0, atol=1e-12)
     # on quadrilaterals that are no parallelograms the integrands are rational functions
     near = {"atol": 1e-11 if jiggle else 1e-14}
@@ -318,7 +320,7 @@ def test_matching_sides_pair_their_nodes(kind):
     points, side, other = two_sides(upper, lower, gap=0.05, turn=rotation(1))
     partner, reason = match_nodes(side, other, np.arange(len(points)))
     assert not reason
-    coupling = node_pairs(side, other, partner, -side.nodal_normal_areas)
+    coupling = node_pairs(side, other, partner, -side.nodal((block.outward for block in side.blocks), corners=True))
     np.testing.assert_allclose(
         coupling.relative @ points, np.tile(0.05 * rotation(1)[:, 2], (len(side.nodes), 1)), atol=1e-15
     )

@@ -53,7 +53,7 @@ def surface_load(mesh, z):
     """``int N_k`` over the faces at a height, (n,)."""
     side = Boundary.of(mesh.p.T, faces(mesh, z))
     load = np.zeros(mesh.nvertices)
-    load[side.nodes] = side.nodal_areas
+    load[side.nodes] = side.nodal((block.weights for block in side.blocks), corners=True)
     return load
 
 

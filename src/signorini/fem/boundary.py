@@ -42,7 +42,7 @@ class Boundary:
         Examples
         --------
         >>> side = Boundary.of([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
-        >>> side.nodal_areas.round(12).tolist(), side.nodal_normals[0].tolist()
+        >>> side.nodal(block.weights for block in side.blocks).round(12).tolist(), side.nodal_normals[0].tolist()
         ([0.5, 0.5, 0.5, 0.5], [0.0, 0.0, 1.0])
         """
         x = np.asarray(points, float)
@@ -89,16 +89,6 @@ class Boundary:
             total[collapsed] = self._gathered(block.level_spans for block in self.blocks)[collapsed]
         normals: Array = total / np.linalg.norm(total, axis=1, keepdims=True)
         return normals
-
-    @cached_property
-    def nodal_areas(self) -> Array:
-        """(n,) ``int N_k`` of the hats of the corners, length or area; 0 at other nodes."""
-        return self.nodal((block.weights for block in self.blocks), corners=True)
-
-    @cached_property
-    def nodal_normal_areas(self) -> Array:
-        """(n, d) ``int N_k n`` of the hats of the corners, n outward; 0 at other nodes."""
-        return self.nodal((block.outward for block in self.blocks), corners=True)
 
     @property
     def nodal_lengths(self) -> Array:

@@ -124,10 +124,7 @@ class FacetBlock:
         corners : N are the hats of the corners; 0 at other nodes
         """
         shapes = self.hats if corners else self.shapes[0]
-        shares = np.einsum("qa,mq...->ma...", shapes, integrand)
-        result = np.zeros((len(self.nodes), *integrand.shape[2:]))
-        np.add.at(result, np.searchsorted(self.nodes, self.facets[:, : shapes.shape[1]]), shares)
-        return result
+        return self._summed(np.einsum("qa,mq...->ma...", shapes, integrand))
 
     @cached_property
     def nodal_spans(self) -> Array:
@@ -135,16 +132,17 @@ class FacetBlock:
         own = outward_normals(self.points, facet_shapes(self.count, facet_nodes(self.dimension, self.count))[1])
         length = np.linalg.norm(own, axis=-1)  # 0 where a side of the facet is, at its ends
         own *= (self.weights.sum(axis=1)[:, None] / np.where(length > 0.0, length, 1.0))[..., None]
-        total = np.zeros((len(self.nodes), self.dimension))
-        np.add.at(total, np.searchsorted(self.nodes, self.facets), own)
-        return total
+        return self._summed(own)
 
     @property
     def level_spans(self) -> Array:
         """Mean normals of the facets times their sizes, summed at the nodes, (n, d)."""
-        total = np.zeros((len(self.nodes), self.dimension))
-        every = np.repeat(self.outward.sum(axis=1)[:, None], self.count, axis=1)
-        np.add.at(total, np.searchsorted(self.nodes, self.facets), every)
+        return self._summed(np.repeat(self.outward.sum(axis=1)[:, None], self.count, axis=1))
+
+    def _summed(self, shares: Array) -> Array:
+        """Shares (m, corners or k, ...) of the nodes of facets, summed at every node, (n, ...)."""
+        total = np.zeros((len(self.nodes), *shares.shape[2:]))
+        np.add.at(total, np.searchsorted(self.nodes, self.facets[:, : shares.shape[1]]), shares)
         return total
 
     @property
@@ -155,6 +153,16 @@ class FacetBlock:
     @property
     def _rule(self) -> tuple[Array, Array]:
         return facet_rule(self.dimension, self.count)
+
+
+def unit_tangents(normals: Array) -> Array:
+    """Unit vectors across unit normals (..., d), (..., d - 1, d): in the plane ``(n_y, -n_x)``; ``t1 x t2 = n``."""
+    if normals.shape[-1] == 2:
+        return np.stack([normals[..., 1], -normals[..., 0]], axis=-1)[..., None, :]
+    least = np.eye(3)[np.argmin(np.abs(normals), axis=-1)]
+    first = np.cross(normals, least)
+    first /= np.linalg.norm(first, axis=-1, keepdims=True)
+    return np.stack([first, np.cross(normals, first)], axis=-2)
 
 
 def outward_normals(points: Array, slopes: Array) -> Array:

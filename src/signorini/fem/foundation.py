@@ -6,9 +6,8 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array
 from signorini.fem.boundary import boundary
-from signorini.fem.facet_block import FacetBlock
+from signorini.fem.facet_block import FacetBlock, unit_tangents
 from signorini.fem.measure import facet_areas
 from signorini.fem.space import Space
 from signorini.model.conditions import Foundation
@@ -40,7 +39,7 @@ def _of_block(space: Space, model: Model, foundation: Foundation, block: FacetBl
     areas, parts = facet_areas(model, block), []
     for stiffness, directions in (
         (foundation.normal_stiffness, normals),
-        *((foundation.tangential_stiffness, tangents) for tangents in _across(normals)),
+        *((foundation.tangential_stiffness, tangents) for tangents in np.moveaxis(unit_tangents(normals), -2, 0)),
     ):
         if stiffness > 0.0:
             size = np.sqrt(stiffness * np.maximum(areas, 0.0))[..., None] * directions
@@ -51,13 +50,3 @@ def _of_block(space: Space, model: Model, foundation: Foundation, block: FacetBl
             entries = (values.ravel(), (rows.ravel(), columns.ravel()))
             parts.append(sp.csr_array(entries, shape=(areas.size, space.number_of_dofs)))
     return parts
-
-
-def _across(normals: Array) -> tuple[Array, ...]:
-    """Unit vectors across normals (..., d): one in the plane, two in space."""
-    if normals.shape[-1] == 2:
-        return (np.stack([normals[..., 1], -normals[..., 0]], axis=-1),)
-    least = np.eye(3)[np.argmin(np.abs(normals), axis=-1)]
-    first = np.cross(normals, least)
-    first = first / np.linalg.norm(first, axis=-1, keepdims=True)
-    return first, np.cross(normals, first)

@@ -6,7 +6,6 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.fem.boundary import Boundary
 from signorini.fem.facet_block import FacetBlock
 from signorini.model.model import Model
 
@@ -44,25 +43,3 @@ def facet_areas(model: Model, block: FacetBlock) -> Array:
     """Area that belongs to each quadrature point of the facets, (m, q)."""
     areas: Array = block.weights * measure(model, block.at, block.cells)
     return areas
-
-
-def nodal_areas(model: Model, side: Boundary) -> Array:
-    """``int N_k dS`` of every node of a boundary, (k,) in the order of its nodes, length^2.
-
-    Linear facets: the trapezoidal rule, except that a node on the axis of an axisymmetric body has its share of the
-    circle around it, ``pi h^2 / 3``. Quadratic facets: 1/6, 1/6 and 4/6 of a straight one.
-    """
-    return side.nodal(facet_areas(model, block) for block in side.blocks)
-
-
-def nodal_contact_areas(model: Model, side: Boundary, opposite: IntArray) -> Array:
-    """``int N_k n dS`` of every node of a side in contact, (k, d) in the order of its nodes, n its outward normals.
-
-    Parameters
-    ----------
-    model : tells the thickness
-    side : in contact; plane
-    opposite : (m,) numbers of the cells that its facets touch
-    """
-    (block,) = side.blocks
-    return side.nodal([block.outward * contact_measure(model, block.at, block.cells, opposite)[..., None]])

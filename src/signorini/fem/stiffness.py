@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sp
 
+from signorini.arrays import selection
 from signorini.fem.assembly import Cells
 from signorini.fem.assembly import stiffness as assemble
 from signorini.fem.elasticity import elasticities, law_tensor
@@ -69,7 +70,7 @@ def reduced_stiffness(K: sp.csr_array, T: sp.csr_array) -> sp.csr_array:
     size = abs(T[:, together]).T @ abs(K) @ abs(T)
     rows = reduced[together]
     noise = sp.csr_array(rows - rows.multiply(abs(rows) > _PRODUCT_TOL * size))
-    put = sp.csr_array((np.ones(len(together)), (together, np.arange(len(together)))), (T.shape[1], len(together)))
+    put = selection(together, T.shape[1]).T
     spread = put @ noise
     result = sp.csr_array(reduced - spread - spread.T + put @ (noise[:, together] @ put.T))
     result.eliminate_zeros()

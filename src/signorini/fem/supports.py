@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, selection
 from signorini.errors import InputError
 from signorini.fem.foundation import make_springs
 from signorini.fem.links import Eliminated, Links, eliminate, make_links, place_dofs
@@ -120,7 +120,7 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
     total = space.number_of_dofs
     if len(links.first):
         # dofs of a rigid loaded boundary are one unknown
-        C = sp.csr_array(links.C @ sp.csr_array((np.ones(total), (np.arange(total), leader)), shape=(total, total)))
+        C = sp.csr_array(links.C @ selection(leader, total))
         links = replace(links, C=C, first=leader[links.first])
     found = eliminate(links, given.held)
     _refuse_contradictions(space, links, found, given)
@@ -136,10 +136,7 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
     dependent, shares = np.flatnonzero(free == -2), found.shares
     if len(dependent):
         shares = shares[np.searchsorted(found.dependent, leader[dependent])]
-        spread = sp.csr_array(
-            (np.ones(len(dependent)), (dependent, np.arange(len(dependent)))), (total, len(dependent))
-        )
-        T = sp.csr_array(T + spread @ (shares @ T))
+        T = sp.csr_array(T + selection(dependent, total).T @ (shares @ T))
     made = Constraints(
         free=free,
         transform=T,

@@ -130,12 +130,6 @@ def point_coupling(
     return Coupling(nodes=nodes, normal_areas=normal_areas, forces=forces, smoothing=smoothing)
 
 
-def picked(nodes: IntArray, count: int) -> sp.csr_array:
-    """One row a node, (k, count)."""
-    k = len(nodes)
-    return sp.csr_array((np.ones(k), (np.arange(k), nodes)), shape=(k, count))
-
-
 def spread(rows: IntArray, columns: IntArray, values: Array, n: int) -> tuple[sp.csr_array, ...]:
     """Entries of facets, summed into d matrices (n, n).
 

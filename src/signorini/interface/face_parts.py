@@ -15,7 +15,7 @@ from signorini.interface.clip import overlap_areas
 from signorini.interface.common_parts import CommonParts, Opposite
 from signorini.interface.coupling import FacetGaps
 from signorini.interface.face_integrals import FacePieces, PiecePairs, Rule, Sums, integrate, spread_gaps
-from signorini.interface.facing import near_pairs, nearest_layers, piece_normals
+from signorini.interface.facing import near_pairs, nearest_layers, piece_normals, piece_spans
 from signorini.interface.fitting import smooth_surfaces
 from signorini.interface.tilt import normals_between, turning_angles
 
@@ -112,8 +112,7 @@ def _opposite(
     order = np.argsort(i, kind="stable")
     chosen = np.empty(len(i), np.bool_)
     # the pieces of a quadratic face are triangles or quadrilaterals in space, plane or nearly so
-    spans = np.cross(first[:, 2] - first[:, 0], first[:, -1] - first[:, 1])
-    whole = 0.5 * np.abs(np.sum(spans * normals, axis=1))
+    whole = 0.5 * np.abs(np.sum(piece_spans(first) * normals, axis=1))
     chosen[order] = nearest_layers(area[order], distance[order], i[order], whole, search)
     by_kind = np.split(chosen, np.cumsum([len(part[1]) for part in found[:-1]]))
     return [

@@ -99,10 +99,20 @@ def nearest_layers(area: Array, distance: Array, i: IntArray, whole: Array, sear
     return there & (share <= whole[i] * (1.0 + 1e-6))
 
 
+def piece_spans(pieces: Array) -> Array:
+    """(p, d) Outward normals of edges (p, 2, 2), as long as they, or of pieces (p, 3 or 4, 3), as long as twice their
+    areas: from their diagonals.
+    """
+    if pieces.shape[2] == 2:
+        along = pieces[:, 1] - pieces[:, 0]
+        return np.stack([along[:, 1], -along[:, 0]], axis=1)
+    return np.cross(pieces[:, 2] - pieces[:, 0], pieces[:, -1] - pieces[:, 1])
+
+
 def piece_normals(pieces: Array) -> Array:
-    """(p, 3) Outward unit normals of pieces with corners (p, 3 or 4, 3), from their diagonals."""
-    normal = np.cross(pieces[:, 2] - pieces[:, 0], pieces[:, -1] - pieces[:, 1])
-    return np.asarray(normal / np.linalg.norm(normal, axis=1, keepdims=True))
+    """(p, d) Outward unit normals of edges (p, 2, 2) or pieces (p, 3 or 4, 3)."""
+    spans = piece_spans(pieces)
+    return np.asarray(spans / np.linalg.norm(spans, axis=1, keepdims=True))
 
 
 def _bounds(pieces: Array) -> tuple[Array, Array, Array]:

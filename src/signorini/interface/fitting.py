@@ -8,9 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
-from signorini.fem.facet_block import FacetBlock, outward_normals
+from signorini.arrays import Array, BoolArray, IntArray, sharing
+from signorini.fem.facet_block import FacetBlock, outward_normals, unit_tangents
 from signorini.fem.facets import facet_nodes, facet_shapes
+from signorini.interface.facing import piece_normals
 from signorini.interface.smooth import Smooth, heights
 
 _CORNER = 2.0 * np.sin(np.radians(35.0) / 2)  # between normals of neighbours: from here on they meet in a corner
@@ -94,7 +95,7 @@ def _smooth_already(kinds: Sequence[FacetBlock], bend: Array, one: IntArray, two
         start += len(along)
         turn.append((bends / np.linalg.norm(along, axis=2)).max(axis=1))
     at = np.concatenate(normals)
-    entry, other = _sharing(node)
+    entry, other = sharing(node)
     count = len(bend)
     beside = sp.csr_array((np.ones(len(one)), (one, two)), shape=(count, count))
     near = np.asarray(beside[facet[entry], facet[other]]).ravel() > 0.0
@@ -115,13 +116,7 @@ def _flat(kind: FacetBlock) -> Smooth:
 
 def _normals(kind: FacetBlock) -> Array:
     """Outward unit normals of the corners of facets, (m, d)."""
-    x = kind.points[:, : kind.corners]
-    if x.shape[2] == 2:
-        along = x[:, 1] - x[:, 0]
-        normal = np.stack([along[:, 1], -along[:, 0]], axis=1)
-    else:
-        normal = np.cross(x[:, 2] - x[:, 0], x[:, -1] - x[:, 1])
-    return np.asarray(normal / np.linalg.norm(normal, axis=1, keepdims=True))
+    return piece_normals(kind.points[:, : kind.corners])
 
 
 def _edges(kind: FacetBlock) -> IntArray:
@@ -152,7 +147,7 @@ def _apart(normals: Array, one: IntArray, two: IntArray) -> Array:
 def _neighbours(kinds: Sequence[FacetBlock], normals: Array, bent: BoolArray) -> tuple[IntArray, IntArray]:
     """Facets and those that share a corner and go on smoothly there, themselves too; none that go on into a plane."""
     facet, node = _incidence(kinds)
-    entry, other = _sharing(node)
+    entry, other = sharing(node)
     apart = _apart(normals, facet[entry], facet[other])
     smooth = apart < _CORNER
     turn = np.zeros(len(node))
@@ -186,15 +181,6 @@ def _quadrilaterals(kinds: Sequence[FacetBlock]) -> Array:
     """Of every corner of every facet what it counts: a triangle half a quadrilateral."""
     counts = [np.full(kind.corner_nodes.size, 0.5 if kind.corners == 3 else 1.0) for kind in kinds]
     return np.concatenate(counts)
-
-
-def _sharing(node: IntArray) -> tuple[IntArray, IntArray]:
-    """All pairs of entries that have one node."""
-    order = np.argsort(node, kind="stable")
-    _, start, count = np.unique(node[order], return_index=True, return_counts=True)
-    each = np.repeat(count, count)
-    within = np.arange(each.sum()) - np.repeat(np.cumsum(each) - each, each)
-    return np.repeat(order, each), order[np.repeat(np.repeat(start, count), each) + within]
 
 
 def _rim(kinds: Sequence[FacetBlock], size: int) -> BoolArray:
@@ -240,7 +226,7 @@ def _fitted(points: Array, stencil: sp.csr_array, origin: Array, normal: Array) 
     r = points[stencil.indices] - origin[facet]
     size = np.sqrt(np.maximum.reduceat(np.sum(r**2, axis=1), stencil.indptr[:-1]))
     r /= size[facet, None]
-    axes = _axes(normal)
+    axes = unit_tangents(normal)
     x, z = np.einsum("pe,pke->pk", r, axes[facet]), np.sum(r * normal[facet], axis=1)
     i, j = np.triu_indices(d - 1)
     rows = np.column_stack([np.ones(len(x)), x, np.where(i == j, 0.5, 1.0) * x[:, i] * x[:, j]])
@@ -258,16 +244,6 @@ def _fitted(points: Array, stencil: sp.csr_array, origin: Array, normal: Array) 
         arch = np.where(-curvatures[:, 0] > curvatures[:, -1], curvatures[:, 0], curvatures[:, -1])
     bend = np.einsum("mae,mab,mbf->mef", axes, form, axes) / size[:, None, None]
     return found[:, 0] * size, np.einsum("ma,mae->me", found[:, 1:d], axes), bend, arch / size
-
-
-def _axes(normal: Array) -> Array:
-    """Unit vectors across normals, (m, d - 1, d)."""
-    if normal.shape[1] == 2:
-        return np.stack([-normal[:, 1], normal[:, 0]], axis=1)[:, None]
-    least = np.eye(3)[np.argmin(np.abs(normal), axis=1)]
-    first = np.cross(normal, least)
-    first /= np.linalg.norm(first, axis=1, keepdims=True)
-    return np.stack([first, np.cross(normal, first)], axis=1)
 
 
 def _at_nodes(kind: FacetBlock, surface: Smooth) -> tuple[Array, Array]:

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
+from signorini.fem.facet_block import unit_tangents
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.coupling import Coupling
@@ -87,7 +88,7 @@ def tangents(normals: Array, mirrored: BoolArray, fibres: Array) -> tuple[Array,
     fibres : (k, 3) in space, direction of the first tangent; 0 leaves it to a coordinate axis
     """
     if normals.shape[1] == 2:
-        return np.stack([normals[:, 1], -normals[:, 0]], axis=1)[:, None], np.zeros((len(normals), 1), bool)
+        return unit_tangents(normals), np.zeros((len(normals), 1), bool)
     axes = frames(normals)[:, 1:]
     for axis in np.unique(fibres[fibres.any(axis=1)], axis=0):
         own = (fibres == axis).all(axis=1)

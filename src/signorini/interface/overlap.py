@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import KDTree
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, sharing
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary
 from signorini.fem.facet_block import FacetBlock
@@ -144,12 +144,7 @@ def _nearest_layer(found: Overlaps, distance: Array, lengths: Array) -> BoolArra
     covered = np.bincount(found.first, found.high - found.low, len(lengths))
     layered = np.nonzero(covered[found.first] > lengths[found.first] * (1.0 + 1e-9))[0]
     keep = np.ones(len(found.first), bool)
-    order = layered[np.argsort(found.first[layered], kind="stable")]
-    _, start, count = np.unique(found.first[order], return_index=True, return_counts=True)
-    per_piece = np.repeat(count, count)
-    one = np.repeat(order, per_piece)
-    offset = np.arange(len(one)) - np.repeat(np.cumsum(per_piece) - per_piece, per_piece)
-    two = order[np.repeat(np.repeat(start, count), per_piece) + offset]
+    one, two = (layered[part] for part in sharing(found.first[layered]))
     shared = np.minimum(found.high[one], found.high[two]) - np.maximum(found.low[one], found.low[two])
     behind = (shared > 1e-9 * lengths[found.first[one]]) & (distance[one] > distance[two])
     keep[one[behind]] = False

@@ -9,15 +9,15 @@ from functools import partial
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, selection
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary, boundary
 from signorini.fem.facet_block import FacetBlock
-from signorini.fem.measure import contact_measure, facet_areas, nodal_areas, nodal_contact_areas
+from signorini.fem.measure import contact_measure, facet_areas
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.corners import corner_coupling
-from signorini.interface.coupling import Coupling, FacetGaps, geometric_gap, joined_gaps, picked, point_coupling
+from signorini.interface.coupling import Coupling, FacetGaps, geometric_gap, joined_gaps, point_coupling
 from signorini.interface.frames import in_symmetry_planes, symmetric_partners
 from signorini.interface.gaps import initial_gaps, normal_gap, refuse_deep_overlap, resolved
 from signorini.interface.matching import facing_cells, match_nodes
@@ -114,16 +114,17 @@ def _on_obstacle(
     distance, normals = obstacle.nearest(points[side.nodes])
     if (np.sum(side.nodal_normals * normals, axis=1) >= 0).all():
         raise InputError(f"'{contact.nonmortar}' faces away from {_faced_away(obstacle)}", where=where)
+    areas = [facet_areas(model, block) for block in side.blocks]
     if side.quadratic:
         there = [obstacle.nearest(b.at.reshape(-1, b.dimension))[1].reshape(b.at.shape) for b in side.blocks]
-        coupling = corner_coupling(side, [facet_areas(model, block) for block in side.blocks], there, len(points))
+        coupling = corner_coupling(side, areas, there, len(points))
         on_facets = [distance[np.searchsorted(side.nodes, block.facets)] for block in side.blocks]
         coupling = replace(
             coupling, facets=joined_gaps([_nodal_gaps(*own) for own in zip(side.blocks, on_facets, strict=True)])
         )
     else:
-        areas = nodal_areas(model, side)[:, None] * normals
-        coupling = point_coupling(side.nodes, areas, picked(side.nodes, len(points)))
+        # the trapezoidal rule, except that a node on the axis has its share of the circle around it, pi h^2 / 3
+        coupling = point_coupling(side.nodes, side.nodal(areas)[:, None] * normals, selection(side.nodes, len(points)))
     _refuse_no_normal(space, coupling, where)
     one = normal_gap(coupling, side.nodes, normals, np.ones(len(distance)))
     gap = resolved(normal_gap(coupling, side.nodes, normals, distance), coupling, one)
@@ -222,9 +223,13 @@ def _couple(
 def _nodal_areas(model: Model, side: Boundary, mortar: Boundary) -> tuple[IntArray, Array]:
     """Nodes that can bear forces, all of edges and the corners of faces, and normals into the body times area there."""
     if side.dimension == 2:
-        return side.nodes, -nodal_contact_areas(model, side, facing_cells(side, mortar))
+        (block,) = side.blocks
+        thickness = contact_measure(model, block.at, block.cells, facing_cells(side, mortar))
+        return side.nodes, -side.nodal([block.outward * thickness[..., None]])
     nodes = side.corner_nodes
-    return nodes, -side.nodal_normal_areas[np.searchsorted(side.nodes, nodes)]
+    return nodes, -side.nodal((block.outward for block in side.blocks), corners=True)[
+        np.searchsorted(side.nodes, nodes)
+    ]
 
 
 def _share(model: Model, *sides: Boundary) -> float:
@@ -256,24 +261,19 @@ def _without_removed(seen: Coupling, kept: Array, partner: IntArray) -> tuple[sp
     parts = []
     for i, force in enumerate(seen.forces):
         there = np.nonzero((partner[:, i] >= 0) & (seen.normal_areas[:, i] != kept[:, i]))[0]
-        across = picked(seen.nodes[there], count) - picked(partner[there, i], count)
+        across = selection(seen.nodes[there], count) - selection(partner[there, i], count)
         taken = sp.diags_array((kept - seen.normal_areas)[there, i]) @ across
-        parts.append(sp.csr_array(force + _rows(there, len(partner)) @ taken))
+        parts.append(sp.csr_array(force + selection(there, len(partner)).T @ taken))
     return tuple(parts)
 
 
 def _mirrored(coupling: Coupling, partner: IntArray) -> tuple[sp.csr_array, ...]:
     """The weights of the sliding: node against node on planes of symmetry."""
     there = np.nonzero(partner >= 0)[0]
-    count, rows = coupling.forces[0].shape[1], _rows(there, len(partner))
-    pairs = picked(coupling.nodes[there], count) - picked(partner[there], count)
+    count, rows = coupling.forces[0].shape[1], selection(there, len(partner)).T
+    pairs = selection(coupling.nodes[there], count) - selection(partner[there], count)
     keep = sp.diags_array(np.where(partner >= 0, 0.0, 1.0))
     return tuple(
         sp.csr_array(keep @ force + rows @ (sp.diags_array(coupling.normal_areas[there, i]) @ pairs))
         for i, force in enumerate(coupling.forces)
     )
-
-
-def _rows(there: IntArray, count: int) -> sp.csr_array:
-    """What puts rows at their places, (count, k)."""
-    return sp.csr_array((np.ones(len(there)), (there, np.arange(len(there)))), shape=(count, len(there)))

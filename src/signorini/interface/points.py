@@ -6,12 +6,12 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, selection
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary
 from signorini.fem.facet_block import FacetBlock
 from signorini.fem.facets import facet_shapes
-from signorini.interface.coupling import Coupling, picked, point_coupling
+from signorini.interface.coupling import Coupling, point_coupling
 from signorini.interface.facing import FACING, near, search_distance
 from signorini.interface.fitting import smooth_surfaces
 from signorini.interface.overlap import interpolate, parameter
@@ -35,7 +35,7 @@ def node_pairs(nonmortar: Boundary, mortar: Boundary, partner: IntArray, areas: 
     nodes, n = nonmortar.nodes, len(nonmortar.points)
     opposite = mortar.nodal_normals[np.searchsorted(mortar.nodes, partner)]
     areas = areas_between(areas, nonmortar.nodal_normals, opposite, share)
-    return point_coupling(nodes, areas, sp.csr_array(picked(nodes, n) - picked(partner, n)))
+    return point_coupling(nodes, areas, sp.csr_array(selection(nodes, n) - selection(partner, n)))
 
 
 def node_to_facet(
@@ -81,7 +81,7 @@ def node_to_facet(
             "surfaces that face each other, or another 'search'",
             where=where,
         )
-    return point_coupling(nodes[met], areas[met], sp.csr_array((picked(nodes, n) - gives)[met]), fallen=fallen[met])
+    return point_coupling(nodes[met], areas[met], sp.csr_array((selection(nodes, n) - gives)[met]), fallen=fallen[met])
 
 
 def _nearest(
