@@ -15,8 +15,10 @@ import numpy as np
 from signorini.engine.events import follow_to_events
 from signorini.engine.increments import follow_increments
 from signorini.engine.limit_load import known
+from signorini.engine.path_states import path_state, right_hand_side
 from signorini.engine.step_parts import FollowedPart, StepPart, keep, reached
 from signorini.errors import SolveFailed, told
+from signorini.friction.history.space.bearing import bears
 from signorini.outcome import Outcome
 from signorini.solution.state import State
 
@@ -47,7 +49,8 @@ def follow_watchfully(part: StepPart, number: int, *, stops: bool = False) -> Fo
         lost, found = known(failure, part), reached(failure)
         if lost.status != Outcome.NOT_FOUND:
             raise lost from None
-        jump = _jump(part, found.after if found else part.before, _done(part, found), 1.0)
+        held = found.after if found else part.before
+        jump = None if _bears(part, held) else _jump(part, held, _done(part, found), 1.0)
         if jump is None:
             raise
         raise keep(jump, [] if found is None else [found]) from lost
@@ -130,6 +133,14 @@ def _far(part: StepPart, before: State, after: State) -> bool:
     condensed = paths.condensed
     moved = np.concatenate([after.gap - before.gap, after.tangential - before.tangential])[condensed.active_rows]
     return bool(np.abs(condensed.root * moved).max(initial=0.0) > (paths.law.scale or 1.0))
+
+
+def _bears(part: StepPart, state: State) -> bool:
+    """Whether contact can hold all bodies from a state to the end of a part, so that no slide is to be looked for."""
+    prepared, paths = part.prepared, part.prepared.solver.paths
+    if prepared.interface.directions == 2 or paths is None:
+        return False
+    return bears(paths.law, path_state(prepared, state), right_hand_side(prepared, part.end))
 
 
 def _done(part: StepPart, followed: FollowedPart | None) -> float:

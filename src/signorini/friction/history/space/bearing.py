@@ -50,10 +50,10 @@ class Bearing:
 
     def reach(self, now: PathState, factor: float) -> float:
         """Part of the way just before the pairs that are near can hold the bodies no more, 1 while nothing presses."""
-        problem, n = self.problem, self.problem.pairs
+        problem = self.problem
         if not problem.floating or not now.r.any():
             return 1.0
-        near = now.h[:n] <= _NEAR_GAP * (problem.scale or 1.0)
+        near = _near(problem, now)
         if not self._known(near):
             found = overload(replace(problem, b=now.b), now.r, self.b_end, near=near)
             self._near = near
@@ -107,6 +107,25 @@ class Bearing:
             escape=along_contact(problem, over.motion, pressed),
             hopeless=_along(factor, every.proved) if every is not None and sure else None,
         )
+
+
+def bears(problem: ContactProblem, now: PathState, b_end: Array) -> bool:
+    """Whether pairs that touch, or nearly do, can hold floating bodies all the way: none of them slides as a whole.
+
+    Parameters
+    ----------
+    problem : its b is not used
+    now : the state at the beginning of the way
+    b_end : (3n,) load at its end
+    """
+    if problem.bounded.any():
+        return False
+    return overload(replace(problem, b=now.b), now.r, b_end, near=_near(problem, now)) is None
+
+
+def _near(problem: ContactProblem, now: PathState) -> BoolArray:
+    """(n,) Pairs that touch in a state, or nearly do."""
+    return np.asarray(now.h[: problem.pairs] <= _NEAR_GAP * (problem.scale or 1.0))
 
 
 def _along(behind: float, part: float) -> float:
