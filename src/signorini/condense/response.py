@@ -15,9 +15,10 @@ balanced loads they carry nothing: what the bodies answer to those is right but 
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Protocol, Self
+from typing import Self
 
 import numpy as np
 import scipy.linalg
@@ -30,64 +31,22 @@ from signorini.linalg.border import bordered
 from signorini.linalg.protocol import Factorisation, Reduced
 from signorini.linalg.registry import factorise
 
-
-class Response(Protocol):
-    """How the bodies answer loads and the forces of the pairs; springs hold what nothing but contact resists."""
-
-    @property
-    def factorisation(self) -> Factorisation:
-        """Of the bodies, with what is kept last."""
-
-    @property
-    def motions(self) -> Array:
-        """(d a, k) Relative displacements of the pairs under the rigid motions that nothing but contact resists."""
-
-    def reduce(self, f: Array) -> Reduced:
-        """Condense loads (z,) on the free displacements onto what is kept."""
-
-    def moved(self, load: Array) -> Array:
-        """(d a,) Relative displacements of the pairs under a condensed load alone."""
-
-    def resultant(self, load: Array) -> Array:
-        """(k,) Work of a condensed load on the rigid motions."""
-
-    def compliance(self) -> Array:
-        """Relative displacements of the pairs per force, (d a, d a), symmetric to the last digit; a new array."""
-
-    def displacement(self, reduced: Reduced, r: Array, travel: Travel) -> Array:
-        """Free displacements (z,) under a load, forces r (d a,) of the pairs and the rigid motion of `travel`.
-
-        Parameters
-        ----------
-        reduced : a load, see `reduce`
-        r : (d a,) forces of the pairs
-        travel : finds the rigid motion
-        """
-
-    def among(self, rows: BoolArray) -> Self:
-        """This response with some of the (d a,) rows alone."""
-
-    def moving(self, ways: Array) -> Self:
-        """This response where of the k rigid motions only some combinations (k, m) occur, springs hold the others."""
-
-
 Travel = Callable[[Array], Array]
 """Rigid motion (k,) beyond given relative displacements (d a,) of the pairs."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class ByNodes:
-    """The displacements of the contact nodes are kept.
+class Response(ABC):
+    """How the bodies answer loads and the forces of the pairs; springs hold what nothing but contact resists.
 
     Attributes
     ----------
-    parts : the condensed bodies
-    B : (d a, m) relative displacements of the pairs in terms of the contact dofs
-    rigid : (m, k) rigid motions of those
+    factorisation : of the bodies, with what is kept last
+    B : (d a, m) relative displacements of the pairs in terms of the displacements that forces are found to cause
+    rigid : (m, k) rigid motions of those that nothing but contact resists
     """
 
     factorisation: Factorisation
-    parts: BodyBlocks
     B: sp.csr_array
     rigid: Array
 
@@ -97,12 +56,56 @@ class ByNodes:
         seen: Array = self.B @ self.rigid
         return seen
 
+    @abstractmethod
+    def reduce(self, f: Array) -> Reduced:
+        """Condense loads (z,) on the free displacements onto what is kept."""
+
+    @abstractmethod
+    def moved(self, load: Array) -> Array:
+        """(d a,) Relative displacements of the pairs under a condensed load alone."""
+
+    @abstractmethod
+    def resultant(self, load: Array) -> Array:
+        """(k,) Work of a condensed load on the rigid motions."""
+
+    @abstractmethod
+    def compliance(self) -> Array:
+        """Relative displacements of the pairs per force, (d a, d a), symmetric to the last digit; a new array."""
+
+    @abstractmethod
+    def displacement(self, reduced: Reduced, r: Array, travel: Travel) -> Array:
+        """(z,) Free displacements under a reduced load, forces r (d a,) and the rigid motion that ``travel`` finds."""
+
+    def travelled(self, x: Array, travel: Travel) -> Array:
+        """Displacements x, (m,), and the rigid motion beyond them."""
+        return x + self.rigid @ travel(self.B @ x) if self.rigid.shape[1] else x
+
+    def among(self, rows: BoolArray) -> Self:
+        """This response with some of the (d a,) rows alone."""
+        return replace(self, B=self.B[rows])
+
+    def moving(self, ways: Array) -> Self:
+        """This response where of the k rigid motions only some combinations (k, m) occur, springs hold the others."""
+        return replace(self, rigid=self.rigid @ ways)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ByNodes(Response):
+    """The displacements of the contact nodes are kept.
+
+    Attributes
+    ----------
+    parts : the condensed bodies
+    """
+
+    parts: BodyBlocks
+
     def reduce(self, f: Array) -> Reduced:
         """Condense loads (z,) onto the contact dofs."""
         return self.factorisation.reduce(f)
 
     def moved(self, load: Array) -> Array:
-        """(d a,) Relative displacements under a condensed load alone."""
+        """(d a,) What the bodies yield to a condensed load."""
         moved: Array = self.B @ self.parts.solve(load)
         return moved
 
@@ -111,93 +114,56 @@ class ByNodes:
         return self.rigid.T @ load
 
     def compliance(self) -> Array:
-        """Relative displacements per force, (d a, d a)."""
+        """Relative displacements per force, (d a, d a), of all bodies together."""
         return self.parts.compliance(self.B)
 
     def displacement(self, reduced: Reduced, r: Array, travel: Travel) -> Array:
-        """Free displacements (z,).
-
-        Parameters
-        ----------
-        reduced, r, travel : see `Response`
-        """
-        moved = self.parts.solve(reduced.load + self.B.T @ r)
-        if self.rigid.shape[1]:
-            moved += self.rigid @ travel(self.B @ moved)
-        return reduced.expand(moved)
-
-    def among(self, rows: BoolArray) -> ByNodes:
-        """This response with some rows (d a,) alone."""
-        return replace(self, B=self.B[rows])
-
-    def moving(self, ways: Array) -> ByNodes:
-        """This response with some rigid motions alone."""
-        return replace(self, rigid=self.rigid @ ways)
+        """Displacements of the contact nodes under the reduced load and r, and travel, then all that follow them."""
+        return reduced.expand(self.travelled(self.parts.solve(reduced.load + self.B.T @ r), travel))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class ByPairs:
-    """The forces of the pairs are kept, with the opposite sign.
+class ByPairs(Response):
+    """The forces of the pairs are kept, with the opposite sign; B and the rigid motions are of all free displacements.
 
     A condensed load is the displacements that it causes, with the opposite sign, and its resultants.
 
     Attributes
     ----------
     rows : (d a,) those of the pairs that the law is asked of among all kept
-    B : (d a, z) their relative displacements in terms of the free displacements
-    rigid : (z, k) rigid motions of those
     """
 
-    factorisation: Factorisation
     rows: IntArray
-    B: sp.csr_array
-    rigid: Array
-
-    @property
-    def motions(self) -> Array:
-        """(d a, k) Rigid motions as the pairs see them."""
-        seen: Array = self.B @ self.rigid
-        return seen
 
     def reduce(self, f: Array) -> Reduced:
-        """Condense loads (z,)."""
+        """Condense loads (z,) to what they move, and their resultants."""
         m = self.factorisation.m
         reduced = self.factorisation.reduce(np.concatenate([f, np.zeros(m)]))
         load = np.concatenate([reduced.load, self.rigid.T @ f])
         return Reduced(load, lambda kept: reduced.expand(kept)[:-m])
 
     def moved(self, load: Array) -> Array:
-        """(d a,) Relative displacements under a condensed load alone."""
+        """(d a,) Part of the condensed load."""
         return -load[self.rows]
 
     def resultant(self, load: Array) -> Array:
-        """(k,) Work of a condensed load on the rigid motions."""
+        """(k,) Part of the condensed load."""
         return load[self.factorisation.m :]
 
     def compliance(self) -> Array:
-        """Relative displacements per force, (d a, d a)."""
+        """Relative displacements per force, (d a, d a): what the factorisation has left."""
         condensed = self.factorisation.schur()
         return -(condensed if len(self.rows) == len(condensed) else condensed[np.ix_(self.rows, self.rows)])
 
     def displacement(self, reduced: Reduced, r: Array, travel: Travel) -> Array:
-        """Free displacements (z,).
-
-        Parameters
-        ----------
-        reduced, r, travel : see `Response`
-        """
+        """Free displacements under the reduced load and the forces r that are kept, and travel."""
         kept = np.zeros(self.factorisation.m)
         kept[self.rows] = -r
-        z = reduced.expand(kept)
-        return z + self.rigid @ travel(self.B @ z) if self.rigid.shape[1] else z
+        return self.travelled(reduced.expand(kept), travel)
 
-    def among(self, rows: BoolArray) -> ByPairs:
-        """This response with some rows (d a,) alone."""
-        return replace(self, rows=self.rows[rows], B=self.B[rows])
-
-    def moving(self, ways: Array) -> ByPairs:
-        """This response with some rigid motions alone."""
-        return replace(self, rigid=self.rigid @ ways)
+    def among(self, rows: BoolArray) -> Self:
+        """This response with some of the (d a,) rows alone."""
+        return replace(super().among(rows), rows=self.rows[rows])
 
 
 def keep_pairs(bodies: FreeBodies, *, at: Array, rigid: Array, stiffness: float, backend: str) -> ByPairs:
