@@ -41,10 +41,6 @@ class BodyBlock:
         moved: Array = scipy.linalg.cho_solve((self.cholesky, True), load, check_finite=False)
         return moved
 
-    def inverse(self) -> Array:
-        """Of the stiffness, (p, p), symmetric to the last digit."""
-        return inverse_of(self.cholesky)
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BodyBlocks:
@@ -77,7 +73,7 @@ class BodyBlocks:
             own = sp.csr_array(B[:, part.dofs])
             seen = np.flatnonzero(np.diff(own.indptr))
             own = own[seen]
-            moved = own @ np.ascontiguousarray((own @ part.inverse().T).T)
+            moved = own @ np.ascontiguousarray((own @ inverse_of(part.cholesky).T).T)
             if len(seen) == len(result):
                 result += moved
             else:

@@ -151,7 +151,7 @@ class Unknowns:
             along = (self.tau * self.law.share[:, self.one]).sum(axis=0)
             matrix[u + has, column[has]] += alpha * (self.soft * along)[has]
         if k:
-            matrix[:size, size:] = self.seen_rows(R)
+            matrix[:size, size:] = self.seen(R.reshape(-1, n, k))
             matrix[size:, :u] = R[self.rows].T
             for axis, along in enumerate(share, start=1):
                 matrix[size:, self.slips] += R[axis * n + pairs].T * along
@@ -160,20 +160,13 @@ class Unknowns:
             matrix[size + np.arange(k), size + np.arange(k)] -= beta
         return matrix
 
-    def seen_rows(self, motions: Array) -> Array:
-        """(size, k) What the law prescribes of motions (d n, k)."""
-        if not len(self.one):
-            return motions[self.rows]
-        n = len(self.law.left)
-        across = sum(tau[:, None] * motions[axis * n + self.one] for axis, tau in enumerate(self.tau, start=1))
-        return np.concatenate([motions[self.rows], self.soft[:, None] * across])
-
     def seen(self, h: Array) -> Array:
-        """(size,) What the law prescribes of motions h, (d, n)."""
-        rows = h.ravel()[self.rows]
+        """(size, ...) What the law prescribes of motions h, (d, n, ...)."""
+        rows = h.reshape(-1, *h.shape[2:])[self.rows]
         if not len(self.one):
             return rows
-        return np.concatenate([rows, self.soft * (self.tau * h[1:, self.one]).sum(axis=0)])
+        each = (..., *(None,) * (h.ndim - 2))
+        return np.concatenate([rows, self.soft[each] * (self.tau[each] * h[1:, self.one]).sum(axis=0)])
 
     def seen_by(self, x: Array) -> Array:
         """(d, n) The transpose of `seen`, of numbers (size,)."""

@@ -22,6 +22,7 @@ import numpy as np
 from scipy.linalg import lapack
 
 from signorini.arrays import Array, IntArray
+from signorini.condense.body_blocks import inverse_of
 from signorini.errors import InputError
 from signorini.friction.certificate import certify
 from signorini.friction.linear import Equilibrium
@@ -245,5 +246,4 @@ def _inverse(W: Array) -> Array | None:
     factor, failed = lapack.dpotrf(W, lower=1, clean=1)
     if failed or np.diag(factor).min() ** 2 < 1e-13:
         return None
-    factor, _ = lapack.dpotri(factor, lower=1)
-    return np.asarray(np.tril(factor) + np.tril(factor, -1).T, dtype=np.float64)
+    return inverse_of(factor, overwrite=True)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, IntArray
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -25,13 +25,6 @@ class Blocks:
     size: int
     count: int
     place: IntArray
-
-    @property
-    def padding(self) -> BoolArray:
-        """(size * count,) Unknowns that stand for no free displacement."""
-        padding = np.ones(self.size * self.count, dtype=np.bool_)
-        padding[self.place] = False
-        return padding
 
     def spread(self, values: Array) -> Array:
         """Values (z, ...) of free displacements on all unknowns, zero elsewhere."""
@@ -56,7 +49,7 @@ class Blocks:
         blocks = sp.bsr_array(whole, blocksize=(d, d))
         rows = np.repeat(np.arange(self.count), np.diff(blocks.indptr))
         own = np.flatnonzero(blocks.indices == rows)  # one a row, in order
-        across = np.flatnonzero(self.padding)
+        across = np.setdiff1d(np.arange(n), self.place)  # the padding
         blocks.data[own[across // d], across % d, across % d] = whole.diagonal().sum() / len(self.place)
         return blocks
 

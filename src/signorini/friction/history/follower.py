@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -15,6 +14,8 @@ from signorini.friction.history.rates import NoRates
 from signorini.friction.history.segment import Breakpoint, Event, Jump, Segment, What
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
+from signorini.law.bound import plain
+from signorini.law.states import OPEN, STICK
 from signorini.outcome import Outcome
 from signorini.settings import SolverSettings
 
@@ -100,11 +101,28 @@ class PathFollower(ABC):
         """Whether it is known beforehand that no rates lead on."""
         return False
 
-    def happens(self, kinds: Mapping[What, BoolArray], state: PathState) -> None:
-        """Pairs, (n,) of every kind of event, change here; the state with the codes that hold from here on."""
+    def happens(self, before: IntArray, state: PathState, *, free: BoolArray | None = None) -> None:
+        """Note which pairs change here.
+
+        Parameters
+        ----------
+        before : (n,) their codes before
+        state : the state with the codes that hold from here on
+        free : (n,) pairs that decide themselves whether they slip; all where not given
+        """
+        now = state.state
+        turned = plain(now) != plain(before)
+        slips, slipped = now > STICK, before > STICK
+        kinds: dict[What, BoolArray] = {
+            "opens": (before != OPEN) & (now == OPEN),
+            "closes": (before == OPEN) & (now != OPEN),
+            "sticks": slipped & (now == STICK),
+            "slips": (before != OPEN) & slips & turned & (True if free is None else free),
+            "kinks": slipped & slips & (now != before) & ~turned,
+        }
         for what, which in kinds.items():
-            pairs = tuple(np.flatnonzero(which).tolist())
-            if pairs:
+            if which.any():
+                pairs = tuple(np.flatnonzero(which).tolist())
                 self.events.append(Event(factor=self.factor, pairs=pairs, what=what, state=state))
 
     @property

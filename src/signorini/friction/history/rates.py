@@ -10,6 +10,7 @@ import numpy as np
 from scipy.optimize import linprog
 
 from signorini.arrays import Array, IntArray
+from signorini.friction.problem import ContactProblem
 
 MARGIN = 1e-6
 """Of the data: what every state must lack for a proof that there are no rates; rates that are accepted lack 1e-9."""
@@ -19,6 +20,8 @@ RUNAWAY_RATE = 1e6
 
 RAY = "ray termination"
 
+_KINK_WIDTH = 1e-2  # of the first kink of a bound: what counts as zero beside it
+_DATA_ROUNDING = 1e-14  # of the data
 _PROGRAM_TOL = 1e-10  # of the data, that linear programs are solved to
 
 
@@ -56,6 +59,12 @@ class NoRates:
     proof: str
     proved: bool
     margin: float = 0.0
+
+
+def widths_of_zero(problem: ContactProblem, width: float) -> Array:
+    """(n,) Of a gap, a force or the friction to spare: a kink at small pressures is told from the corner."""
+    rounding = _DATA_ROUNDING * (problem.scale or 1.0)
+    return np.minimum(width, np.maximum(_KINK_WIDTH * problem.pieces.kinks[1], rounding))
 
 
 def refused(words: str, margin: float) -> NoRates:

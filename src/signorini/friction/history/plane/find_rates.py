@@ -61,29 +61,8 @@ def find_rates(
     return _enumerate(responses, law, load, state, ending)
 
 
-def certified(responses: Responses, law: RateLaw, load: Array, state: IntArray) -> Rates | None:
-    """The rates of a state, (n,) codes, under a load rate, (2n,), where they obey the law; else None.
-
-    Parameters
-    ----------
-    responses, law : of the bodies, and of the rates of their pairs
-    load, state : (2n,) rate of the load, and (n,) codes
-    """
-    try:
-        rates = responding(responses, state, load)
-    except SingularState:
-        return None
-    return rates if law.violation(rates) <= 10.0 * RATE else None
-
-
-def responding(responses: Responses, state: IntArray, load: Array) -> Rates:
-    """The rates of a state, refined; raises SingularState.
-
-    Parameters
-    ----------
-    responses : of the bodies
-    state, load : (n,) codes, and (2n,) rate of the load
-    """
+def _responding(responses: Responses, state: IntArray, load: Array) -> Rates:
+    """The rates of a state, (n,) codes, under a load rate, refined; raises SingularState."""
     h, r = responses.balanced(state, load, *responses.respond(state, responses.free(load)))
     return Rates(state=state, h=h, r=r)
 
@@ -93,7 +72,7 @@ def _newton(responses: Responses, law: RateLaw, load: Array, guess: IntArray, li
     for _ in range(limit):
         seen.add(state.tobytes())
         try:
-            rates = responding(responses, state, load)
+            rates = _responding(responses, state, load)
         except SingularState:
             return None
         state = law.proposal(rates)
@@ -127,7 +106,7 @@ def _lemke(
         return np.array([r[k] if not s else mu[k] * r[k] + s * r[n + k] for k, _, s in columns])
 
     try:
-        q[:] = forces(responding(responses, base, load).r)
+        q[:] = forces(_responding(responses, base, load).r)
         for j, (_, dof, sign) in enumerate(columns):
             motion = np.zeros(2 * n)
             motion[dof] = sign or 1.0
@@ -141,7 +120,12 @@ def _lemke(
         if z > w and base[k] != OPEN:
             slips = law.kind[k] if law.kind[k] > CORNER else SLIP_MINUS if sign > 0 else SLIP_PLUS
             base[k] = OPEN if dof < n else slips if law.forced[k] == UNDECIDED else law.forced[k]
-    return certified(responses, whole, load, base), "Lemke's method: its answer does not obey the law"
+    try:
+        found = _responding(responses, base, load)
+    except SingularState:
+        found = None
+    lawful = found is not None and whole.violation(found) <= 10.0 * RATE
+    return found if lawful else None, "Lemke's method: its answer does not obey the law"
 
 
 def _moves(law: RateLaw, k: int) -> list[tuple[int, float]]:
@@ -180,7 +164,7 @@ def _lacking(responses: Responses, law: RateLaw, load: Array, state: IntArray, l
     least that is lacking, of the load, up to `RUNAWAY_RATE` times the load. Not where nothing is left to prove.
     """
     try:
-        rates = responding(responses, state, load)
+        rates = _responding(responses, state, load)
     except SingularState:
         rates = None
     if rates is not None:

@@ -24,7 +24,7 @@ from signorini.friction.history.plane.jump import explain
 from signorini.friction.history.plane.rate_law import CORNER, INSIDE, RateLaw, weight
 from signorini.friction.history.plane.responses import MISFIT_ROUNDING, Responses
 from signorini.friction.history.plane.state_inverse import SingularState
-from signorini.friction.history.rates import MARGIN, NoRates, Rates
+from signorini.friction.history.rates import MARGIN, NoRates, Rates, widths_of_zero
 from signorini.friction.history.segment import Breakpoint, Segment
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
@@ -34,8 +34,6 @@ from signorini.outcome import Outcome
 
 _SAME_EVENT = 1e-12  # part of the segment: events closer than that act together
 _STANDSTILL = 50  # events at one load, after which the path is given up
-_KINK_WIDTH = 1e-2  # of the first kink of a bound: what counts as zero beside it
-_DATA_ROUNDING = 1e-14  # of the data
 _LAWLESS = 1e-9  # of the largest rate: what rates of a next state may lack of the law
 
 LET_GO = "a pair of infinite friction holds back a tangential force until it loses its pressure, and lets go at once"
@@ -66,9 +64,7 @@ class PlaneFollower(PathFollower):
         self.bound = self.problem.pieces
         self.unbounded = problem.unbounded & ~self.problem.locked[0]
         self.forced = np.where(self.unbounded, STICK, self.problem.law.closed)
-        unit = problem.scale or 1.0
-        # a kink at small pressures is told from the corner
-        self.width = np.minimum(ZERO_WIDTH * unit, np.maximum(_KINK_WIDTH * self.bound.kinks[1], _DATA_ROUNDING * unit))
+        self.width = widths_of_zero(problem, ZERO_WIDTH * (problem.scale or 1.0))
         self.now = self._entered(start)
         self.rates: Rates | None = None
         self.still = 0
@@ -104,23 +100,27 @@ class PlaneFollower(PathFollower):
 
     def departs(self) -> bool:
         """One piece in which acting pairs are in a next state, not in those that led here; whether there is one."""
-        law = self._law()
-        acts = np.zeros(len(law.kind), dtype=np.bool_)
-        acts[self.acting] = True
+        law, acts = self._law(), self._acts
         held = replace(law, kind=np.where(acts, INSIDE, law.kind), kink=law.kink & ~acts)
-        for state in self._next_states(law, acts):
+        for state in self._next_states(law):
             found = find_rates(self.responses, held, self.load, state, [state])
             if isinstance(found, Rates) and law.violation(found) <= _LAWLESS:
                 self._enter(found)
                 return self._advance() is None
         return False
 
-    def _next_states(self, law: RateLaw, acts: BoolArray) -> Iterator[IntArray]:
+    @property
+    def _acts(self) -> BoolArray:
+        acts = np.zeros(self.problem.pairs, dtype=np.bool_)
+        acts[self.acting] = True
+        return acts
+
+    def _next_states(self, law: RateLaw) -> Iterator[IntArray]:
         """The states that acting pairs may enter: slip for stick, open for closed, and any closed one for open.
 
         At a kink of the bound also slip on its other branch.
         """
-        state = self.now.state
+        state, acts = self.now.state, self._acts
         spent = acts & (law.kind > CORNER) & (state == STICK)
         leaves = acts & (law.kind == CORNER) & (state != OPEN)
         meets = acts & (law.kind == CORNER) & (state == OPEN)
@@ -137,7 +137,7 @@ class PlaneFollower(PathFollower):
         if self.rates is not None:
             found = drive(self.responses, law, self.load, self.rates, self.acting)
         if found is None:
-            found = find_rates(self.responses, law, self.load, state, self._guesses(law, state))
+            found = find_rates(self.responses, law, self.load, state, self._guesses(law))
         if isinstance(found, NoRates):
             return found
         self._enter(found)
@@ -162,19 +162,11 @@ class PlaneFollower(PathFollower):
         self._change(rates.state)
         self.rates = rates
 
-    def _guesses(self, law: RateLaw, state: IntArray) -> list[IntArray]:
-        """As before, the acting pairs in their natural next state; and with every pair at a corner sticking."""
-        natural, stuck, acts = state.copy(), state.copy(), np.zeros(len(state), dtype=np.bool_)
-        acts[self.acting] = True
-        corner = law.kind == CORNER
+    def _guesses(self, law: RateLaw) -> list[IntArray]:
+        """The acting pairs in their natural next state, the others as before; and every pair at a corner sticking."""
         hold = np.where(law.forced == UNDECIDED, STICK, law.forced)
-        natural[acts & corner] = np.where(state == OPEN, hold, OPEN)[acts & corner]
-        spent = acts & ~corner & (state == STICK) & (law.kind > CORNER)
-        natural[spent] = law.kind[spent]
-        turns = acts & law.kink & (state > STICK)
-        natural[turns] = law.across(state)[turns]
-        stuck[corner] = hold[corner]
-        return [stuck, natural] if (state == OPEN).all() else [natural, stuck]
+        natural, stuck = next(self._next_states(law)), np.where(law.kind == CORNER, hold, self.now.state)
+        return [stuck, natural] if (self.now.state == OPEN).all() else [natural, stuck]
 
     def _change(self, state: IntArray) -> None:
         """Enter new states at the present load."""
@@ -184,17 +176,7 @@ class PlaneFollower(PathFollower):
         sticking = (state == STICK) & (old != STICK)
         anchor = np.where(sticking, now.h[len(state) :], now.anchor)
         self.now = replace(now, state=state, anchor=anchor)
-        turned = plain(state) != plain(old)
-        self.happens(
-            {
-                "opens": (old != OPEN) & (state == OPEN),
-                "closes": (old == OPEN) & (state != OPEN),
-                "sticks": (old > STICK) & (state == STICK),
-                "slips": (old != OPEN) & (state > STICK) & turned & (self.forced == UNDECIDED),
-                "kinks": (old > STICK) & (state > STICK) & (state != old) & ~turned,
-            },
-            self.now,
-        )
+        self.happens(old, self.now, free=self.forced == UNDECIDED)
 
     def _advance(self) -> NoRates | None:
         """Go on to the next event or the end, and certify it."""

@@ -37,7 +37,7 @@ from signorini.friction.pull_away import pulled_away
 from signorini.friction.result import ContactAnswer
 from signorini.friction.solve import solve_contact
 from signorini.law.bound import ADHESION_SLOPE
-from signorini.law.states import OPEN, SLIP, STICK
+from signorini.law.states import OPEN
 from signorini.outcome import Outcome
 
 LEAST_STEP = 1e-12
@@ -164,7 +164,7 @@ class SpaceFollower(PathFollower):
 
     def _along(self, rates: Rates) -> bool:
         """One increment in the direction of rates, up to the next event; whether there is one."""
-        now, tried, n = self.now, self.tried, self.problem.pairs
+        now, tried = self.now, self.tried
         short = 0.5 * self._pressed_for(rates)
         piece = replace(now, h=now.h + short * rates.h, r=now.r + short * rates.r, state=rates.state)
         step = min(short * extrapolated_length(self.problem, now, piece, self.width), self.reach - self.factor)
@@ -173,7 +173,7 @@ class SpaceFollower(PathFollower):
                 return False
             h, r = step * rates.h, now.r + step * rates.r
             # the law of the whole piece is that in its middle
-            trial = self._trial(step, step, 0.5 * (now.r + r - h) - np.concatenate([now.h[:n], np.zeros(2 * n)]))
+            trial = self._trial(step, step, self._counted(0.5 * (now.r + r - h)))
             if isinstance(trial, ContactAnswer):
                 step /= 16.0
                 continue
@@ -201,11 +201,10 @@ class SpaceFollower(PathFollower):
 
         On a smooth section friction turns until the load that goes back can go no farther: on with the same slip.
         """
-        now, n = self.now, self.problem.pairs
+        now = self.now
         h, r = now.h - before.h, now.r - before.r
         for times in _FOLD_REACH:
-            y = now.r + times * (r - h) - np.concatenate([now.h[:n], np.zeros(2 * n)])
-            trial = self._trial(_FOLD, _FOLD, y)
+            trial = self._trial(_FOLD, _FOLD, self._counted(now.r + times * (r - h)))
             if isinstance(trial, ContactAnswer) or trial.turn > _TURNED:
                 continue
             moved = trial.after.h - now.h
@@ -238,7 +237,9 @@ class SpaceFollower(PathFollower):
         for number in range(_TRIES):
             late = _LATE_EVENT_TOL if self.smooth and number >= _PATIENCE else _EVENT_TOL
             longer = late * (_LOOSER ** (number - _PATIENCE) if late == _LATE_EVENT_TOL else 1.0)
-            ahead = None if self._rate is None or not self.now.r.any() else self._here + step * self._rate
+            ahead = None
+            if self._rate is not None and self.now.r.any():
+                ahead = self._counted(self.now.r) + step * self._rate
             trial = self._trial(step, shortest, ahead)
             if isinstance(trial, ContactAnswer):
                 words, longest = trial.message, step
@@ -307,11 +308,10 @@ class SpaceFollower(PathFollower):
         whole = 0.0 if self.factor < self.careful else self.settings.shortest
         return min(whole, max(_EARLY_GROWTH * self.factor, _EARLY_SHARE * whole), self.reach - self.factor)
 
-    @property
-    def _here(self) -> Array:
-        """(3n,) r - h of no increment."""
+    def _counted(self, y: Array) -> Array:
+        """(3n,) r - h of an increment from here, of an r - h whose gaps change by h."""
         n = self.problem.pairs
-        return self.now.r - np.concatenate([self.now.h[:n], np.zeros(2 * n)])
+        return np.concatenate([y[:n] - self.now.h[:n], y[n:]])
 
     def _trial(self, step: float, shortest: float, ahead: Array | None = None) -> SolvedIncrement | ContactAnswer:
         """The increment of a part of the segment, sought from its beginning or ahead; or why it has none."""
@@ -324,7 +324,7 @@ class SpaceFollower(PathFollower):
         increment = replace(problem, b=frozen(problem.misfit(origin, np.zeros(3 * n), b)))
         self.tried += 1
         if ahead is None and now.r.any():
-            ahead = self._here
+            ahead = self._counted(now.r)
         start = None if ahead is None else problem.by_pair(ahead)
         long = step <= shortest and not self._searched
         result = solve_contact(increment, start, settings=self.settings.solver if long else self._quick)
@@ -346,16 +346,7 @@ class SpaceFollower(PathFollower):
 
     def _enter(self, trial: SolvedIncrement, after: PathState, tried: int) -> None:
         """Go on from the end of an increment; what is in another state than before changed at its beginning."""
-        old, new = self.now.state, after.state
-        self.happens(
-            {
-                "opens": (old != OPEN) & (new == OPEN),
-                "closes": (old == OPEN) & (new != OPEN),
-                "sticks": (old == SLIP) & (new == STICK),
-                "slips": (old == STICK) & (new == SLIP),
-            },
-            replace(self.now, state=new),
-        )
+        self.happens(self.now.state, replace(self.now, state=after.state))
         self.factor = 1.0 if self.factor + trial.step >= 1.0 - LEAST_STEP else self.factor + trial.step
         self.now, self.last = after, trial.step
         self.pieces.append(Breakpoint(factor=self.factor, h=after.h, r=after.r, state=after, tried=tried))

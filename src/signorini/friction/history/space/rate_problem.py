@@ -22,6 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.friction.history.rates import widths_of_zero
 from signorini.friction.history.space.sticking_response import StickingResponse
 from signorini.friction.history.space.straight import tangents
 from signorini.friction.history.state import PathState
@@ -32,8 +33,6 @@ FACET, GAP, KINK, CONE = 0, 1, 2, 3
 """Kinds of complementary numbers; CONE: one of three rows of a pair in Coulomb's law."""
 
 _CANCELLED = 1e-12  # of the terms of a coefficient: what is left of them is rounding
-_KINK_WIDTH = 1e-2  # of the first kink of a bound: what counts as zero beside it
-_DATA_ROUNDING = 1e-14  # of the data
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -67,7 +66,7 @@ class PairSituation:
     def at(cls, problem: ContactProblem, now: PathState, width: float, opened: BoolArray) -> PairSituation:
         """Pairs of a problem at a state now, with a width of zero; those ``opened`` (n,) are taken to open."""
         n, bound, law = problem.pairs, problem.pieces, problem.law
-        widths = np.minimum(width, np.maximum(_KINK_WIDTH * bound.kinks[1], _DATA_ROUNDING * (problem.scale or 1.0)))
+        widths = widths_of_zero(problem, width)
         gap, p = now.h[:n], now.r[:n]
         corner = (gap <= widths) & (p <= widths) & ~opened
         closed = (corner | (p > widths)) & ~opened
