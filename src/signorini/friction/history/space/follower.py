@@ -122,7 +122,7 @@ class SpaceFollower(PathFollower):
         """Whether an increment has passed over something: back to its beginning, to go through it event by event."""
         if self.limited or not self.settings.shortest:  # close to a limit of the load all increments miss energy
             return False
-        k = first_missed_jump(self.problem, self.start, self.pieces, self.balanced)
+        k = first_missed_jump(self.problem, self.start, self.pieces, self.balanced, self.width)
         if k is None:
             return False
         self.careful = self.balanced = self.pieces[k].factor

@@ -26,7 +26,7 @@ _ENERGY_ROUNDING = 1e-12  # of the energies compared
 
 
 def first_missed_jump(
-    problem: ContactProblem, start: PathState, pieces: Sequence[Breakpoint], since: float
+    problem: ContactProblem, start: PathState, pieces: Sequence[Breakpoint], since: float, width: float
 ) -> int | None:
     """The first increment that misses more energy than smooth ones of its length do, if any.
 
@@ -36,6 +36,7 @@ def first_missed_jump(
     start : of the way
     pieces : the ends of its increments, the first its start
     since : part of the way from which increments are looked at
+    width : of zero for a motion: less of it, under the forces that press, is no energy that is missed
 
     Examples
     --------
@@ -51,8 +52,8 @@ def first_missed_jump(
     ...     return PathState(b=h, h=h, r=r, state=state, anchor=none, slip=slip, dissipation=np.array([lost]))
     >>> states = [at([0, 0, 0], [1, -1, 0], 0), at([0, 1, 0], [1, -1, 0], 1), at([1, 2, 0], [0, 0, 0], 1)]
     >>> pieces = [Breakpoint(factor=s, h=now.h, r=now.r, state=now) for s, now in zip([0, 0.9, 1], states)]
-    >>> first_missed_jump(problem, states[0], pieces, 0.0), first_missed_jump(problem, states[0], pieces, 1.0)
-    (2, None)
+    >>> [first_missed_jump(problem, states[0], pieces, since, 1e-10) for since in (0.0, 1.0)]
+    [2, None]
     """
     states = [start, *(piece.state or start for piece in pieces[1:])]
     factors = np.array([piece.factor for piece in pieces])
@@ -63,6 +64,7 @@ def first_missed_jump(
     for k, (one, two) in enumerate(pairwise(states), start=1):
         moved, missing = two.h - one.h, _missing(problem, one, two)
         rounding = _ENERGY_ROUNDING * float(np.abs(one.r) @ np.abs(moved) + two.dissipation.sum())
+        rounding += width * float(np.maximum(np.abs(one.r), np.abs(two.r)).sum())
         allowed = _MISSED_ENERGY * change * max(float(factors[k] - factors[k - 1]) ** 2, _ENERGY_ROUNDING) + rounding
         if factors[k] > since and missing > allowed:
             return k
