@@ -19,7 +19,7 @@ import numpy as np
 from benchmarks import command, page
 from benchmarks.growth import FLOOR, dragged_block
 from benchmarks.increments import PAGE
-from signorini.bench.price import TimerClock
+from signorini.clock import Clock
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.gallery.cylinder import zhu_cylinder
@@ -56,7 +56,7 @@ def measure(model: Model) -> dict[str, Any]:
     """Sizes, seconds of one factorisation and of each segment, and of all behind the factorisation."""
     runs = []
     for _ in range(REPEATS + 1):
-        clock = TimerClock(time.process_time)
+        clock = Clock(timer=time.process_time)
         prepared = prepare(model, clock=clock)
         factorisation = clock.seconds["factorisation"]
         began = time.process_time()

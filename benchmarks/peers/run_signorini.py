@@ -19,7 +19,7 @@ import numpy as np
 from benchmarks.page import KEEP_MEMORY, ONE_THREAD, peak_memory
 from benchmarks.peers.case import Case
 from benchmarks.peers.result import Result
-from signorini.bench.price import TimerClock
+from signorini.clock import Clock
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.gallery.cylinder import zhu_cylinder
@@ -64,7 +64,7 @@ def main() -> None:
         start = time.process_time()
         model = zhu_cylinder(friction=friction, refine=refine)
         made = time.process_time()
-        clock = TimerClock(time.process_time)
+        clock = Clock(timer=time.process_time)
         history = solve_prepared(prepare(model, backend=backend, clock=clock))
         whole = time.process_time() - made
         assembly = clock.seconds["assembly"]

@@ -15,9 +15,9 @@ from numpy.typing import ArrayLike
 from signorini.clock import Clock
 from signorini.engine.prepare import Prepared
 from signorini.engine.prepare import prepare as prepare_model
+from signorini.engine.solve import raise_failure, solve_prepared
 from signorini.engine.solve import solve as solve_history
-from signorini.engine.solve import solve_prepared
-from signorini.errors import InputError, Interrupted, SolveFailed, one_of
+from signorini.errors import InputError, one_of
 from signorini.fem.path import PathResult, along
 from signorini.fem.stress import BodyStress
 from signorini.model.model import Model
@@ -218,19 +218,17 @@ def solve(
     >>> sg.solve(model).contact("bottom").pressure.round(12)
     array([3., 3., 3.])
     """
-    begin = _checkpoint(start)
-    return _answered(
-        lambda: solve_history(
-            model,
-            start=begin,
-            backend=backend,
-            settings=settings,
-            raise_on_failure=raise_on_failure,
-            wellposed=wellposed,
-            clock=clock,
-            after_step=after_step,
-        )
+    history = solve_history(
+        model,
+        start=_checkpoint(start),
+        backend=backend,
+        settings=settings,
+        raise_on_failure=False,
+        wellposed=wellposed,
+        clock=clock,
+        after_step=after_step,
     )
+    return _dressed(history, raise_on_failure)
 
 
 def _checkpoint(start: Start | None) -> Checkpoint | None:
@@ -271,7 +269,7 @@ class PreparedModel:
         changed = self._prepared.changed(
             friction=self._by_contact(friction), interference=self._by_contact(interference), loads=loads
         )
-        return _answered(lambda: solve_prepared(changed, raise_on_failure=raise_on_failure))
+        return _dressed(solve_prepared(changed, raise_on_failure=False), raise_on_failure)
 
     def _by_contact(self, value: float | Mapping[str, float] | None) -> Mapping[str, float] | None:
         if value is None or isinstance(value, Mapping):
@@ -325,19 +323,11 @@ def load(path: str | Path) -> Solution:
     InputError
         If there is none, or it was written by a version with other data.
     """
-    return _dressed(read_results(Path(path)))
+    return _dressed(read_results(Path(path)), raise_on_failure=False)
 
 
-def _answered(run: Callable[[], History]) -> Solution:
-    """Dress what the engine returns, or what it had found when it failed."""
-    try:
-        return _dressed(run())
-    except SolveFailed as failure:
-        raise SolveFailed(str(failure), status=failure.status, solution=_dressed(failure.solution)) from failure
-    except Interrupted as stop:
-        raise Interrupted(str(stop), solution=_dressed(stop.solution)) from None
-
-
-def _dressed(history: object) -> Solution:
-    assert isinstance(history, History)
-    return Solution(**{name: getattr(history, name) for name in History.__dataclass_fields__})
+def _dressed(history: History, raise_on_failure: bool) -> Solution:
+    solution = Solution(**{name: getattr(history, name) for name in History.__dataclass_fields__})
+    if raise_on_failure:
+        raise_failure(solution)
+    return solution

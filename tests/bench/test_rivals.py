@@ -22,6 +22,6 @@ def test_lemke_solves_one_pair_in_every_state() -> None:
 
 
 def test_lemke_solves_every_held_step_and_newton_does_not() -> None:
-    report = hard(39)
+    report = hard(range(39))
     assert set(RIVALS) == {"Newton alone", "Lemke alone"}
     assert report.held["Lemke alone"] == report.held["steps"] > report.held["Newton alone"]

@@ -19,7 +19,7 @@ from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import pulled_away
 from signorini.friction.solve import solve_contact
 from signorini.friction.uniqueness import all_solutions, always_unique
-from signorini.gallery.hard import hard_set
+from signorini.gallery.hard import hard_problem
 from signorini.law.bound import ADHESION_SLOPE, FrictionBound
 from signorini.law.states import OPEN
 from tests.helpers.contact_samples import HELD, block_on_floor, for_all, random_problem
@@ -115,7 +115,7 @@ def test_a_limit_is_what_the_loads_pull_away_at():
 
 
 def test_the_hard_set_with_limits_and_adhesion_is_answered():
-    for case in hard_set(20):
+    for case in map(hard_problem, range(20)):
         plain, rng = solve_contact(case.first), np.random.default_rng(case.first.pairs)
         size = plain.normal_force.mean() if plain.solved and plain.normal_force.any() else case.first.scale
         n = case.first.pairs

@@ -15,7 +15,7 @@ from signorini.friction.plane.state_tree import search_states
 from signorini.friction.plane.walls import beyond, columns, jacobian, placed
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
-from signorini.gallery.hard import hard_set
+from signorini.gallery.hard import hard_problem
 from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 from signorini.settings import SolverSettings
 from tests.helpers.contact_samples import block_on_floor, for_all, random_problem
@@ -26,7 +26,7 @@ def cycling():
     """A held problem on which Newton repeats its states."""
     return next(
         step
-        for problem in hard_set(100)
+        for problem in map(hard_problem, range(100))
         for step in [problem.step(0, np.zeros(problem.first.pairs))]
         if not step.floating and by_states(step).attempt.end == "states repeat"
     )
@@ -88,7 +88,7 @@ def test_the_tree_finds_an_equilibrium_of_bodies_nearly_rigid(seed):
 
 def wedged_out():
     """The first small floating step of the hard set whose forces can balance, but in no state of the pairs."""
-    for problem in hard_set(200):
+    for problem in map(hard_problem, range(200)):
         step = problem.step(0, np.zeros(problem.first.pairs))
         if step.floating and step.pairs < 9:
             result = solve_contact(step)

@@ -61,7 +61,7 @@ def equilibria(
     Examples
     --------
     >>> from signorini.bench.hard import hard
-    >>> equilibria(hard(1).certified).several
+    >>> equilibria(hard(range(1)).certified).several
     ()
     """
     unique, single, alone, several = 0, 0, 0, []

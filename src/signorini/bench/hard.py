@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How often the Coulomb solver answers the hard set, and by which method.
-
-``python -m signorini.bench.hard`` prints the table.
-"""
+"""How often the Coulomb solver answers the hard set, and by which method."""
 
 from __future__ import annotations
 
@@ -20,10 +17,6 @@ from signorini.friction.problem import ContactProblem
 from signorini.friction.result import ContactAnswer
 from signorini.friction.solve import solve_contact
 from signorini.gallery.hard import PROBLEMS, hard_problem
-
-METHODS = ("newton", "path open", "path press", "path among touching", "springs", "tree")
-PROOFS = ("proved: rigid motions", "proved: tree")
-OTHER = ("escape named", "no answer")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,16 +38,6 @@ class HardReport:
     unanswered: tuple[str, ...]
     negative: int
     certified: tuple[tuple[str, ContactProblem], ...]
-
-    def __str__(self) -> str:
-        columns = ("steps", *METHODS, *PROOFS, *OTHER, *RIVALS)
-        lines = ["| " + " | ".join(("bodies", *columns)) + " |", "|---" * (len(columns) + 1) + "|"]
-        for name, counts in (("held", self.held), ("floating", self.floating)):
-            lines.append("| " + " | ".join([name, *(str(counts.get(key, 0)) for key in columns)]) + " |")
-        lines.append(
-            f"\n{self.problems} problems; {self.negative} certified steps with index -1 (more solutions exist)"
-        )
-        return "\n".join(lines + [f"no answer: {name}" for name in self.unanswered])
 
 
 def newton_alone(problem: ContactProblem, start: IntArray | None) -> bool:
@@ -99,30 +82,25 @@ RIVALS: dict[str, Callable[[ContactProblem, IntArray | None], bool]] = {
 
 
 def hard(
-    count: int | None = None,
-    *,
-    numbers: Sequence[int] | None = None,
-    begin: Callable[[str, int, int], None] = lambda *_: None,
+    numbers: Sequence[int] = range(PROBLEMS), *, begin: Callable[[str, int, int], None] = lambda *_: None
 ) -> HardReport:
     """Solve every step of the hard set, each with its history; a history ends where a step has no solution.
 
     Parameters
     ----------
-    count : only the first of the problems, or all of them
-    numbers : instead, those of these numbers from 0
+    numbers : of the problems, from 0; by default all
     begin : told before every problem its name, how many are done and how many there are
 
     Examples
     --------
-    >>> report = hard(3)
+    >>> report = hard(range(3))
     >>> report.problems, report.held.get("no answer", 0), report.floating.get("no answer", 0)
     (3, 0, 0)
     """
     counts: dict[bool, Counter[str]] = {False: Counter(), True: Counter()}
     unanswered, certified, negative = [], [], 0
-    chosen = range(PROBLEMS if count is None else min(count, PROBLEMS)) if numbers is None else numbers
-    for done, problem in enumerate(map(hard_problem, chosen)):
-        begin(problem.name, done, len(chosen))
+    for done, problem in enumerate(map(hard_problem, numbers)):
+        begin(problem.name, done, len(numbers))
         slipped, start = np.zeros(problem.first.pairs), None
         for k in range(len(problem.loads)):
             step = problem.step(k, slipped)
@@ -139,7 +117,7 @@ def hard(
             certified.append((f"{problem.name}, step {k}", step))
             slipped, start = slipped + result.slip, result.state
     return HardReport(
-        problems=len(chosen),
+        problems=len(numbers),
         held=dict(counts[False]),
         floating=dict(counts[True]),
         unanswered=tuple(unanswered),
@@ -165,12 +143,3 @@ def spread(sample: int | None) -> Sequence[int]:
     if sample is None or sample >= PROBLEMS:
         return range(PROBLEMS)
     return [k * PROBLEMS // sample for k in range(sample)]
-
-
-if __name__ == "__main__":
-    from signorini.bench.equilibria import equilibria
-
-    found = hard()
-    print(found)
-    print()
-    print(equilibria(found.certified))

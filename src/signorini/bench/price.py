@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import statistics
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -27,23 +26,6 @@ Timer = Callable[[], float]
 
 REPEATS = 5
 _REPEATS_SECONDS, _MIN_REPEATS = 40.0, 3  # where repeats take longer, the fewest have to do
-
-
-class TimerClock(Clock):
-    """A clock that reads another timer, such as ``time.process_time``: on a busy machine CPU seconds say more."""
-
-    def __init__(self, timer: Timer) -> None:
-        super().__init__()
-        self._timer = timer
-
-    @contextmanager
-    def phase(self, name: str) -> Iterator[None]:
-        """Time a block under a name."""
-        start = self._timer()
-        try:
-            yield
-        finally:
-            self.seconds[name] = self.seconds.get(name, 0.0) + self._timer() - start
 
 
 def warm_up(model: Model, timer: Timer) -> None:
@@ -70,7 +52,7 @@ def price(name: str, model: Model, timer: Timer, *, repeats: int = REPEATS) -> d
     while len(contact) < min(_MIN_REPEATS, repeats) or (
         len(contact) < repeats and sum(contact) + sum(linear) < _REPEATS_SECONDS
     ):
-        clock, began, cpu_began = TimerClock(timer), timer(), time.process_time()
+        clock, began, cpu_began = Clock(timer=timer), timer(), time.process_time()
         prepared = prepare(model, clock=clock)
         history = solve_prepared(prepared)
         cpu.append(time.process_time() - cpu_began)

@@ -52,7 +52,7 @@ def _rows(
 ) -> Iterator[dict[str, Any]]:
     for name in names:
         if name == "hard":
-            report = hard(numbers=spread(sample), begin=begin)
+            report = hard(spread(sample), begin=begin)
             for bodies, counts in (("held", report.held), ("floating", report.floating)):
                 yield {"name": "hard", "bodies": bodies, "problems": report.problems, "counts": counts}
             found = equilibria(report.certified, begin)

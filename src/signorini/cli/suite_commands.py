@@ -45,7 +45,9 @@ def verify(options: argparse.Namespace) -> int:
             if not cases or case["case"] != cases[-1]["case"]:
                 print(case["case"])
             cases.append(case)
-            numbers = [_word(value) for value in (case["passed"], *_numbers(case))]
+            numbers = [_word(case[column]) for column in ("passed", "computed", "reference", "error", "tolerance")]
+            if case.get("at_least"):
+                numbers[2] = f">= {numbers[2]}"
             print(_line(numbers, str(case["quantity"]), str(case["source"])), flush=True)
     _write(cases, file)
     failed = sum(not case["passed"] for case in cases)
@@ -57,6 +59,7 @@ def bench(options: argparse.Namespace) -> int:
     """Print what is found as soon as it is known, the table of times at the end; 0 if everything could be timed."""
     file = _json_file(options.json)
     from signorini.bench.suite import benchmark_rows
+    from signorini.output.table import align
 
     results = []
     with progress_bar() as tell:
@@ -69,7 +72,9 @@ def bench(options: argparse.Namespace) -> int:
                 print(result["words"], flush=True)
     timed = [result for result in results if "ratio" in result]
     if timed:
-        _print(timed, _BENCH_COLUMNS)
+        rows = [[_word(result.get(column)) for column in _BENCH_COLUMNS] for result in timed]
+        heads = [column.replace("_", " ") for column in _BENCH_COLUMNS]
+        print("\n".join(align([heads, *rows], right=range(1, len(heads)))))
     _write(results, file)
     return 0
 
@@ -98,29 +103,6 @@ def _write(results: Sequence[Mapping[str, Any]], file: Path | None) -> None:
     if file is not None:
         with atomic_write(file) as aside:
             aside.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
-
-
-def _print(results: Sequence[Mapping[str, Any]], columns: Sequence[str]) -> None:
-    from rich import box
-    from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
-
-    table = Table(box=box.SIMPLE)
-    for column in columns:
-        table.add_column(column.replace("_", " "), overflow="fold")
-    for result in results:
-        table.add_row(*(Text(_word(result.get(column))) for column in columns))
-    console = Console()
-    if not console.is_terminal:
-        console.width = 200  # a file has no width
-    console.print(table)
-
-
-def _numbers(case: Mapping[str, Any]) -> tuple[Any, ...]:
-    """Computed value, reference, marked where it is a lower bound, error and tolerance."""
-    bound = f">= {_word(case['reference'])}" if case.get("at_least") else case["reference"]
-    return case["computed"], bound, case["error"], case["tolerance"]
 
 
 def _word(value: Any) -> str:

@@ -48,6 +48,9 @@ def step_result(
     stored, dissipated = stored_energy(prepared, state), (state.dissipation - before.dissipation).sum()
     spent = stored - stored_energy(prepared, before) + float(dissipated) + state.released - before.released
     layers = interface_energy(prepared, state)
+    loads, _ = applied(prepared, state.point)
+    held = support_forces(prepared.constraints, state, loads)
+    model = prepared.model
     springs = -0.5 * float(state.displacement @ prepared.constraints.foundation_forces(state.displacement))
     return StepResult(
         name=stage.title,
@@ -58,10 +61,16 @@ def step_result(
         events=followed.events,
         displacement=frozen(prepared.space.at_nodes(state.displacement)),
         factors=dict(state.point.factors),
-        external=frozen(_external(prepared, state)),
-        obstacles=_obstacles(prepared, state),
-        rigid_bodies=_rigid_bodies(prepared, state),
-        reactions=_reactions(prepared, state),
+        external=frozen(_external(prepared, state, loads, held)),
+        obstacles={
+            obstacle.name: _rigid_result(prepared, j, state, state.external)
+            for j, obstacle in enumerate(model.obstacles)
+        },
+        rigid_bodies={
+            body.name: _rigid_result(prepared, j, state, loads + held)
+            for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles))
+        },
+        reactions=_reactions(prepared, state, held),
         strain_energy=stored - layers - springs + heat(state),
         interface_energy=layers + springs,
         work=state.work - before.work + heat(state) - heat(before),
@@ -79,85 +88,56 @@ def step_result(
     )
 
 
-def _reactions(prepared: Prepared, state: State) -> dict[str, Array]:
-    """Forces of supports and elastic foundations on the bodies, by name."""
-    owner, d = prepared.constraints.owner, prepared.model.dimension
-    force, rigid = _held_forces(prepared, state), _rigid_dofs(prepared)
+def _reactions(prepared: Prepared, state: State, held: Array) -> dict[str, Array]:
+    """Forces of supports, (dofs,) all together, and elastic foundations on the bodies, by name."""
+    model, owner, d = prepared.model, prepared.constraints.owner, prepared.model.dimension
+    rigid = {body.name: j for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles))}
     own = np.flatnonzero(owner >= 0)
-    total = np.zeros((len(prepared.model.supports), d))
-    np.add.at(total, (owner[own], own % d), force[own])
+    total = np.zeros((len(model.supports), d))
+    np.add.at(total, (owner[own], own % d), held[own])
     forces = {}
-    for i, support in enumerate(prepared.model.supports):
-        dofs, size = rigid.get(str(support.on), (np.empty(0, np.int64), np.zeros(0)))
-        own = np.where(owner[dofs] == i, force[dofs] * size, 0.0) if len(dofs) else total[i]
-        forces[support.label] = frozen(own)
+    for i, support in enumerate(model.supports):
+        forces[support.label] = frozen(total[i])
+        if (j := rigid.get(str(support.on))) is not None:
+            dofs, size = _rigid_dofs(prepared, j)
+            forces[support.label] = frozen(np.where(owner[dofs] == i, held[dofs] * size, 0.0))
     for name, S in prepared.constraints.springs.items():
         forces[name] = frozen(-(S.T @ (S @ state.displacement)).reshape(-1, d).sum(axis=0))
     return forces
 
 
-def _held_forces(prepared: Prepared, state: State) -> Array:
-    """(dofs,) Forces of supports."""
-    return support_forces(prepared.constraints, state, applied(prepared, state.point)[0])
+def _rigid_dofs(prepared: Prepared, j: int) -> tuple[IntArray, Array]:
+    """Dofs of the rigid body j, obstacles first, and what their forces are multiplied by to be forces and moments."""
+    d = prepared.model.dimension
+    dofs = prepared.space.obstacle_dofs(j)[: len(directions(d))]
+    return dofs, np.where(np.arange(len(dofs)) < d, 1.0, arm(prepared.model))
 
 
-def _rigid_dofs(prepared: Prepared) -> dict[str, tuple[IntArray, Array]]:
-    """Of every rigid body its dofs, and what their forces are multiplied by to be forces and moments."""
-    model, found = prepared.model, {}
-    for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles)):
-        dofs = prepared.space.obstacle_dofs(j)[: len(directions(model.dimension))]
-        found[body.name] = (dofs, np.where(np.arange(len(dofs)) < model.dimension, 1.0, arm(model)))
-    return found
-
-
-def _external(prepared: Prepared, state: State) -> Array:
+def _external(prepared: Prepared, state: State, loads: Array, held: Array) -> Array:
     """(nodes, d) Loads and reactions; those of a rigid body at its node of no cell, if one is at its point."""
     model, constraints = prepared.model, prepared.constraints
     if not len(constraints.dependent):
         return prepared.space.at_nodes(state.external)
-    loads, _ = applied(prepared, state.point)
-    force = np.where(constraints.alone | (constraints.free >= 0), loads, loads + _held_forces(prepared, state))
+    force = np.where(constraints.alone | (constraints.free >= 0), loads, loads + held)
     at_nodes = prepared.space.at_nodes(force).copy()
     loose = prepared.space.loose_nodes
-    for body, (dofs, _) in zip(model.rigid_bodies, _rigid_dofs(prepared).values(), strict=True):
+    for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles)):
         here = loose[(model.mesh.points[loose] == np.array(body.point)).all(axis=1)]
-        at_nodes[here[:1]] += force[dofs[: model.dimension]]
+        at_nodes[here[:1]] += force[_rigid_dofs(prepared, j)[0][: model.dimension]]
     return at_nodes
 
 
-def _obstacles(prepared: Prepared, state: State) -> dict[str, ObstacleResult]:
-    """Motions of the obstacles and what acts on them from outside, by name."""
-    if not prepared.model.obstacles:
-        return {}
-    found, length = {}, arm(prepared.model)
-    for j, obstacle in enumerate(prepared.model.obstacles):
-        d, dofs = prepared.model.dimension, prepared.space.obstacle_dofs(j)
-        turn = dofs[2:3] if d == 2 else dofs[3:]
-        found[obstacle.name] = ObstacleResult(
-            displacement=frozen(state.displacement[dofs[:d]]),
-            rotation=_number(state.displacement[turn] / length),
-            force=frozen(state.external[dofs[:d]]),
-            moment=_number(state.external[turn] * length),
-        )
-    return found
-
-
-def _rigid_bodies(prepared: Prepared, state: State) -> dict[str, ObstacleResult]:
-    """Motions of the rigid bodies and what loads and supports do to them, by name."""
-    if not prepared.model.rigid_bodies:
-        return {}
-    found, d = {}, prepared.model.dimension
-    loads, _ = applied(prepared, state.point)
-    force = loads + _held_forces(prepared, state)
-    for name, (dofs, size) in _rigid_dofs(prepared).items():
-        motion, acting = state.displacement[dofs] / size, force[dofs] * size
-        found[name] = ObstacleResult(
-            displacement=frozen(motion[:d]),
-            rotation=_number(motion[d:]),
-            force=frozen(acting[:d]),
-            moment=_number(acting[d:]),
-        )
-    return found
+def _rigid_result(prepared: Prepared, j: int, state: State, force: Array) -> ObstacleResult:
+    """The motion of the rigid body j, obstacles first, and of forces (dofs,) what acts on it from outside."""
+    d = prepared.model.dimension
+    dofs, size = _rigid_dofs(prepared, j)
+    motion, acting = state.displacement[dofs] / size, force[dofs] * size
+    return ObstacleResult(
+        displacement=frozen(motion[:d]),
+        rotation=_number(motion[d:]),
+        force=frozen(acting[:d]),
+        moment=_number(acting[d:]),
+    )
 
 
 def _number(values: Array) -> float | Array:

@@ -108,11 +108,22 @@ def solve_prepared(
     refuse_fields(prepared.model)
     begin = _first(prepared) if start is None else _fitting(prepared, start)
     history = _follow(prepared, begin, wellposed, after_step)
-    if raise_on_failure and history.status == Outcome.INTERRUPTED:
-        raise Interrupted(history.message, solution=history)
-    if raise_on_failure and not history.solved:
-        raise SolveFailed(history.message, status=history.status, solution=history)
+    if raise_on_failure:
+        raise_failure(history)
     return history
+
+
+def raise_failure(history: History) -> None:
+    """Raise what ended a history before its end, with the history.
+
+    Raises
+    ------
+    SolveFailed, Interrupted
+    """
+    if history.status == Outcome.INTERRUPTED:
+        raise Interrupted(history.message, solution=history)
+    if not history.solved:
+        raise SolveFailed(history.message, status=history.status, solution=history)
 
 
 def _first(prepared: Prepared) -> Checkpoint:

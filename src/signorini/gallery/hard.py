@@ -58,11 +58,6 @@ class HardProblem:
         )
 
 
-def hard_set(count: int | None = None) -> Iterator[HardProblem]:
-    """The problems of the set in order, or the first ones."""
-    yield from map(hard_problem, range(PROBLEMS if count is None else min(count, PROBLEMS)))
-
-
 def hard_problem(number: int) -> HardProblem:
     """One of the set, by its number from 0."""
     return _problem(np.random.default_rng([_SEED, number]), _KINDS[number % len(_KINDS)])

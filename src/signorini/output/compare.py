@@ -9,13 +9,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import IntArray
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult, StepResult
 
 _Labels = tuple[IntArray, IntArray]
 _ENERGIES = ("strain_energy", "interface_energy", "work", "dissipation")
 _STRESSES, _LENGTHS = ("pressure", "traction"), ("gap", "slip")
+_RESULTANTS = ("normal_force", "tangential_force")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,12 +85,12 @@ def _alone(mine: StepResult, theirs: StepResult) -> Iterator[str]:
 
 def _step(mine: StepResult, theirs: StepResult, labels: _Labels) -> Iterator[Difference]:
     step = mine.name
-    yield _field(step, "displacement", "length", labels, (mine.displacement, theirs.displacement))
+    yield _difference(step, "displacement", "length", (mine.displacement, theirs.displacement), labels)
     for key in _ENERGIES:
-        yield _values(step, key.replace("_", " "), "energy", getattr(mine, key), getattr(theirs, key))
+        yield _difference(step, key.replace("_", " "), "energy", (getattr(mine, key), getattr(theirs, key)))
     for name in mine.reactions:
         if name in theirs.reactions:
-            yield _values(step, f"reaction {name}", "force", mine.reactions[name], theirs.reactions[name])
+            yield _difference(step, f"reaction {name}", "force", (mine.reactions[name], theirs.reactions[name]))
     others = {contact.name: contact for contact in theirs.contacts}
     for contact in mine.contacts:
         if contact.name in others:
@@ -98,31 +99,30 @@ def _step(mine: StepResult, theirs: StepResult, labels: _Labels) -> Iterator[Dif
 
 def _contact(step: str, mine: ContactResult, theirs: ContactResult, labels: _Labels) -> Iterator[Difference]:
     nodes = labels[0][mine.node], labels[1][theirs.node]
-    for kind, keys in (("stress", _STRESSES), ("length", _LENGTHS)):
+    for kind, keys, at in (("stress", _STRESSES, nodes), ("length", _LENGTHS, nodes), ("force", _RESULTANTS, None)):
         for key in keys:
-            yield _field(step, f"{mine.name}: {key}", kind, nodes, (getattr(mine, key), getattr(theirs, key)))
-    for key in ("normal_force", "tangential_force"):
-        words = f"{mine.name}: {key.replace('_', ' ')}"
-        yield _values(step, words, "force", getattr(mine, key), getattr(theirs, key))
+            words = f"{mine.name}: {key.replace('_', ' ')}"
+            yield _difference(step, words, kind, (getattr(mine, key), getattr(theirs, key)), at)
 
 
-def _field(step: str, quantity: str, kind: str, nodes: _Labels, values: tuple[Array, Array]) -> Difference:
-    """The difference over the nodes that both have."""
-    common, i, j = np.intersect1d(nodes[0], nodes[1], return_indices=True)
-    if not len(common) or values[0].shape[1:] != values[1].shape[1:]:
+def _difference(
+    step: str, quantity: str, kind: str, values: tuple[ArrayLike, ArrayLike], nodes: _Labels | None = None
+) -> Difference:
+    """Between two values, of fields over the nodes that both have."""
+    mine, theirs = (np.atleast_1d(each) for each in values)
+    common = None
+    if nodes is not None:
+        common, i, j = np.intersect1d(nodes[0], nodes[1], return_indices=True)
+        mine, theirs = mine[i], theirs[j]
+    if mine.shape != theirs.shape or not mine.size:
         return Difference(step=step, quantity=quantity, kind=kind, largest=np.inf, size=0.0)
-    a, b = values[0][i].reshape(len(common), -1), values[1][j].reshape(len(common), -1)
-    apart = np.abs(a - b).max(axis=1)
+    apart = np.abs(mine - theirs).reshape(len(mine), -1).max(axis=1)
     worst = int(apart.argmax())
-    size = float(max(np.abs(a).max(), np.abs(b).max()))
-    where = int(common[worst])
-    return Difference(step=step, quantity=quantity, kind=kind, largest=float(apart[worst]), size=size, where=where)
-
-
-def _values(step: str, quantity: str, kind: str, a: ArrayLike, b: ArrayLike) -> Difference:
-    mine, theirs = np.atleast_1d(a), np.atleast_1d(b)
-    if mine.shape != theirs.shape:
-        return Difference(step=step, quantity=quantity, kind=kind, largest=np.inf, size=0.0)
-    size = float(max(np.abs(mine).max(initial=0.0), np.abs(theirs).max(initial=0.0)))
-    largest = float(np.abs(mine - theirs).max(initial=0.0))
-    return Difference(step=step, quantity=quantity, kind=kind, largest=largest, size=size)
+    return Difference(
+        step=step,
+        quantity=quantity,
+        kind=kind,
+        largest=float(apart[worst]),
+        size=float(max(np.abs(mine).max(), np.abs(theirs).max())),
+        where=None if common is None else int(common[worst]),
+    )
