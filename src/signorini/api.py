@@ -312,11 +312,8 @@ def prepare(
 def load(path: str | Path) -> Solution:
     """Read a solution that was written as ``.h5``, by :meth:`Solution.write` or ``signorini run``.
 
-    Every number is the same. Another history can go on from it: ``solve(model, start=load(path).end)``.
-
-    Parameters
-    ----------
-    path : of the file, or of the result folder that holds it
+    The path may be that of the result folder that holds it. Every number is the same. Another history can go on from
+    it: ``solve(model, start=load(path).end)``.
 
     Raises
     ------

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -29,6 +30,7 @@ def deck_data(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str,
     """
     model, mesh, interface = deck.model, deck.model.mesh, examined.interface
     dimension = model.dimension
+    gaps = [interface.gap[interface.contact == i] for i in range(len(model.contacts))]
     return {
         "deck": str(deck.path),
         "title": model.title,
@@ -57,11 +59,7 @@ def deck_data(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str,
             for i, support in enumerate(model.supports)
         ],
         "loads": [
-            {
-                "name": load.label,
-                "kind": load.kind,
-                "total_force": total_force(examined, load)[:dimension],
-            }
+            {"name": load.label, "kind": load.kind, "total_force": total_force(examined, load)[:dimension]}
             for load in model.loads
         ],
         "contacts": [
@@ -70,13 +68,10 @@ def deck_data(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str,
                 "nonmortar": side.nonmortar,
                 "mortar": side.mortar,
                 "coupling": side.coupling,
-                "pairs": int((interface.contact == i).sum()),
-                "initial_gap": [
-                    float(interface.gap[interface.contact == i].min(initial=float("inf"))),
-                    float(interface.gap[interface.contact == i].max(initial=float("-inf"))),
-                ],
+                "pairs": len(gap),
+                "initial_gap": [float(gap.min(initial=math.inf)), float(gap.max(initial=-math.inf))],
             }
-            for i, (contact, side) in enumerate(zip(model.contacts, interface.sides, strict=True))
+            for contact, side, gap in zip(model.contacts, interface.sides, gaps, strict=True)
         ],
         "steps": [
             {"name": step.name, "factors": factors}

@@ -32,10 +32,6 @@ def write_archive(history: History, path: Path) -> None:
 
     Arrays lie under paths like ``/steps/0/displacement``, each once however often it occurs; the text dataset
     ``structure`` holds the rest as JSON. The first 512 bytes, a user block to HDF5, hold a digest of all others.
-
-    Parameters
-    ----------
-    path : of the file, usually ``*.h5``
     """
     GrowingArchive().write(history, path)
 

@@ -28,11 +28,6 @@ def write_checkpoint(checkpoint: Checkpoint, path: Path) -> None:
 
     Arrays are members of the archive under names like ``state/displacement``; ``structure`` holds the rest as JSON, and
     digests by which damage is found.
-
-    Parameters
-    ----------
-    checkpoint : of a history, see :class:`signorini.solution.history.History`
-    path : of the file, usually ``*.npz``
     """
     arrays: dict[str, AnyArray] = {}
 

@@ -73,11 +73,7 @@ def open_folder(path: Path) -> Path:
 
 @contextmanager
 def own_folder(path: Path, deck: str) -> Iterator[Path]:
-    """Open a folder for one run alone, as long as the block lasts.
-
-    Parameters
-    ----------
-    deck : name of the run's deck: results of another one are left alone
+    """Open a folder for one run alone, as long as the block lasts; results of another deck are left alone.
 
     Raises
     ------

@@ -15,7 +15,6 @@ from signorini.memory import peak_memory
 from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle
-from signorini.solution.certificate import Certificate
 from signorini.solution.history import PHASES, History
 from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, ObstacleResult, StepResult
 
@@ -94,13 +93,7 @@ def _step(model: Model, step: StepResult) -> dict[str, Any]:
         "increments": step.increments,
         "events": len(step.events),
         "event_list": [
-            {
-                "load_factor": event.load_factor,
-                "contact": event.contact,
-                "nodes": [int(model.mesh.labels[node]) for node in event.nodes],
-                "what": event.what,
-            }
-            for event in step.events
+            asdict(event) | {"nodes": model.mesh.labels[list(event.nodes)].tolist()} for event in step.events
         ],
         "method": ", ".join(step.methods),
         "notes": list(step.notes),
@@ -115,23 +108,13 @@ def _step(model: Model, step: StepResult) -> dict[str, Any]:
         "energy_defect": step.energy_defect,
         "cycles": [asdict(cycle) for cycle in step.cycles],
         "steadiness": step.steadiness,
-        "certificate": _certificate(step.certificate),
+        "certificate": asdict(step.certificate) | {"passed": step.certificate.passed},
         "contacts": [_contact(*pair) for pair in zip(model.contacts, step.contacts, strict=True)],
     }
 
 
 def _rigid(found: ObstacleResult) -> dict[str, Any]:
-    return {
-        "displacement": _list(found.displacement),
-        "rotation": _turn(found.rotation),
-        "force": _list(found.force),
-        "moment": _turn(found.moment),
-    }
-
-
-def _certificate(certificate: Certificate) -> dict[str, Any]:
-    numbers = {key: getattr(certificate, key) for key in Certificate.__dataclass_fields__}
-    return numbers | {"passed": certificate.passed}
+    return {key: value if isinstance(value, float) else _list(value) for key, value in vars(found).items()}
 
 
 def _contact(contact: Contact, result: ContactResult) -> dict[str, Any]:
@@ -164,10 +147,6 @@ def _friction(contact: Contact) -> Any:
     if isinstance(contact.friction, FrictionLaw):
         return contact.friction.table
     return "varies" if callable(contact.friction) else contact.friction
-
-
-def _turn(value: float | Array) -> float | list[float]:
-    return value if isinstance(value, float) else _list(value)
 
 
 def _list(vector: Array) -> list[float]:

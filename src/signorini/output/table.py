@@ -29,17 +29,7 @@ _ROUNDING_TOL = 1e-12  # of the largest of its kind: smaller numbers are roundin
 
 
 def history_table(history: History, *, failure: bool = True) -> str:
-    """Forces, pressures, states, reactions and the certificate of every step.
-
-    Parameters
-    ----------
-    history : its numbers are in the units of the model
-    failure : whether to say at the end why nothing more was solved
-
-    Returns
-    -------
-    Lines joined by newlines, none at the end
-    """
+    """Forces, pressures, states, reactions and the certificate of every step; at the end why it failed, if asked."""
     mesh, model = history.model.mesh, history.model
     lines = [
         model.title or "untitled",

@@ -115,15 +115,7 @@ def film_of(history: History, contact: str | None = None) -> ContactFilm:
 
 
 def animate_path(history: History, path: Path, *, contact: str | None = None, frames: int = 100) -> None:
-    """Write a GIF of pressure, friction and slip of a contact along the whole history.
-
-    Parameters
-    ----------
-    history : with at least one step; exact paths have every event
-    path : of the file, ``*.gif``
-    contact : by name; the first where not given
-    frames : pictures, equally many for every straight segment of the loads
-    """
+    """Write a GIF of a history: path, contact and frames as of :meth:`signorini.api.Solution.animate`."""
     from matplotlib.animation import FuncAnimation, PillowWriter
 
     film = film_of(history, contact)

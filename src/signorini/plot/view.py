@@ -41,11 +41,6 @@ _BAR = {
 def write_view(data: PictureData, path: Path) -> None:
     """Write a picture: von Mises stress on the deformed bodies, pressure and friction of the contact beside.
 
-    Parameters
-    ----------
-    data : with the results of a model in space
-    path : of the file, ``*.png``
-
     Raises
     ------
     InputError

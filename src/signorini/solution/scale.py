@@ -41,12 +41,7 @@ class Scale:
     size: float = 0.0
 
     def bent(self, softness: float) -> Scale:
-        """Sizes for bodies that loads move farther than they compress them: slender ones.
-
-        Parameters
-        ----------
-        softness : displacement per load, length per force
-        """
+        """Sizes for slender bodies, which loads move farther than they compress them; softness: length per force."""
         return replace(self, length=max(self.length, min(self.loaded * softness, self.size)))
 
 

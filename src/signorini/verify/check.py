@@ -55,17 +55,8 @@ class Check:
 
     def row(self) -> dict[str, str | float | bool]:
         """As written to JSON."""
-        return {
-            "case": self.case,
-            "quantity": self.quantity,
-            "computed": float(self.computed),
-            "reference": float(self.reference),
-            "error": float(self.error),
-            "tolerance": self.tolerance,
-            "source": self.source,
-            "passed": self.passed,
-            "at_least": self.least,
-        }
+        names = ("case", "quantity", "computed", "reference", "error", "tolerance", "source", "passed")
+        return {name: getattr(self, name) for name in names} | {"at_least": self.least}
 
 
 def checks_of(case: str, *rows: Row, source: str = "", least: bool = False) -> Iterator[Check]:

@@ -54,13 +54,7 @@ def one_node_path() -> Iterator[Check]:
 
 
 def pressed_and_pulled(*, friction: float, limit: float | None = None) -> tuple[ContactProblem, PathState, Segment]:
-    """The node pressed by 1, then pulled up to 4: the problem, the state it is pressed in, and the path from there.
-
-    Parameters
-    ----------
-    friction : Coulomb's coefficient
-    limit : of the friction force, or None
-    """
+    """The node pressed by 1, then pulled up to 4: the problem, the state it is pressed in, and the path from there."""
     bound = {} if limit is None else {"limit": np.array([limit])}
     problem = ContactProblem.of(
         W=_IMAGE, b=np.zeros(2), friction=np.array([friction]), motions=np.zeros((2, 0)), scale=4.0, **bound

@@ -13,12 +13,10 @@ from signorini.engine.solve import solve
 from signorini.fem.space import make_space
 from signorini.fem.stress import body_stresses
 from signorini.gallery.blocks import block_on_foundation, curved_blocks, four_blocks, stacked_blocks
-from signorini.meshing.plane import Cells, rectangle
+from signorini.meshing.plane import Cells
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
-from signorini.model.contact import Contact
 from signorini.model.material import Elastic
-from signorini.model.mesh import join
 from signorini.model.model import Kind, Model
 from signorini.model.step import Step
 from signorini.solution.history import History
@@ -176,7 +174,7 @@ def patch_discs() -> Iterator[Check]:
         history = solve(_discs(cells, across))
         contact = history.contact("interface")
         u, (r, z) = history.last.displacement, history.model.mesh.points.T
-        wrong = np.abs(u - np.column_stack([0.003 * r, -0.01 * z])).max() / 0.015
+        wrong = np.abs(u - np.column_stack([0.003 * r, -0.01 * z])).max() / 0.02
         yield from checks_of(
             f"Axisymmetric discs, {_say(cells, across)}",
             ("contact pressure", farthest(contact.pressure, 10.0), 10.0, _EXACT),
@@ -186,20 +184,12 @@ def patch_discs() -> Iterator[Check]:
 
 
 def _discs(cells: Cells, across: tuple[int, int]) -> Model:
-    mesh = join(
-        {
-            "upper": rectangle(height=0.5, nx=across[0], ny=2, origin=(0.0, 1.0), cells=cells),
-            "lower": rectangle(nx=across[1], ny=2, cells=cells),
-        }
-    )
-    elastic = Elastic(E=1000.0, nu=0.3)
-    return Model(
-        mesh,
+    return replace(
+        stacked_blocks(friction=0.3, cells=cells, across=across),
         kind="axisymmetric",
-        bodies=[Body("upper", elastic), Body("lower", elastic)],
+        bodies=[Body(name, Elastic(E=1000.0, nu=0.3)) for name in ("upper", "lower")],
         supports=[Support("lower.bottom", u=(None, 0.0))],
         loads=[Load("upper.top", pressure=10.0)],
-        contacts=[Contact("upper.bottom", "lower.top", friction=0.3, name="interface")],
     )
 
 
