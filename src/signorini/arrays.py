@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
+
+if TYPE_CHECKING:
+    import scipy.sparse as sp
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.integer[Any]]
@@ -75,6 +77,8 @@ def selection(numbers: IntArray, count: int) -> sp.csr_array:
     >>> selection(np.array([2, 0]), 3).toarray().tolist()
     [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
     """
+    import scipy.sparse as sp  # not before it is needed: what reads decks loads no solver
+
     k = len(numbers)
     return sp.csr_array((np.ones(k), (np.arange(k), numbers)), shape=(k, count))
 
