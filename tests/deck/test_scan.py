@@ -8,7 +8,7 @@ import hypothesis.strategies as st
 import pytest
 from hypothesis import given, settings
 
-from signorini.deck.scan import line_of, scan
+from signorini.deck.syntax import line_of, scan
 
 HARD = '''\
 # a comment with [brackets] and "quotes"

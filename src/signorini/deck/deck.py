@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from signorini.deck.error import DeckError
-from signorini.deck.scan import line_of
+from signorini.deck.syntax import line_of
 from signorini.errors import InputError, Where
 from signorini.model.model import Model
 from signorini.model.prints import Prints

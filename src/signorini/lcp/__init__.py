@@ -17,7 +17,6 @@ from signorini.lcp.feasibility import Feasibility
 from signorini.lcp.game import LemkeHowson
 from signorini.lcp.interior import InteriorPoint
 from signorini.lcp.lemke import Lemke
-from signorini.lcp.method import Method
 from signorini.lcp.mprgp import MPRGP
 from signorini.lcp.multigrid import ProjectedMultigrid
 from signorini.lcp.newton import SemismoothNewton
@@ -25,9 +24,8 @@ from signorini.lcp.principal import LeastIndex
 from signorini.lcp.problem import LCP
 from signorini.lcp.relaxation import ProjectedSOR
 from signorini.lcp.residual import Residual, natural_residual
-from signorini.lcp.solution import LCPSolution, Ray
+from signorini.lcp.solution import LCPSolution, Method, Ray, Status
 from signorini.lcp.solve import METHODS, solve
-from signorini.lcp.status import Status
 
 __all__ = [
     "LCP",

@@ -14,12 +14,12 @@ from signorini.lcp.feasibility import Feasibility
 from signorini.lcp.game import LemkeHowson, first_player
 from signorini.lcp.interior import InteriorPoint
 from signorini.lcp.lemke import Lemke
-from signorini.lcp.method import Method
 from signorini.lcp.mprgp import MPRGP
 from signorini.lcp.multigrid import ProjectedMultigrid
 from signorini.lcp.newton import SemismoothNewton
 from signorini.lcp.problem import LCP
 from signorini.lcp.relaxation import ProjectedSOR
+from signorini.lcp.solution import Method
 
 DENSE_SIZE = 60  # unknowns up to which a sparse matrix is treated as a dense one
 LEMKE_SIZE = 1500  # unknowns up to which Lemke's method is as fast as a few factorisations, and tried first

@@ -12,8 +12,7 @@ from scipy.sparse.linalg import LinearOperator
 from signorini.arrays import Array, BoolArray
 from signorini.lcp.active import polish, solve_on
 from signorini.lcp.problem import LCP
-from signorini.lcp.solution import Attempt
-from signorini.lcp.status import Status
+from signorini.lcp.solution import Attempt, Status
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,8 +14,7 @@ from scipy.optimize import linprog
 from signorini.arrays import Array, BoolArray, IntArray, frozen
 from signorini.errors import InputError
 from signorini.lcp.problem import LCP, read_problem
-from signorini.lcp.solution import Attempt
-from signorini.lcp.status import Status
+from signorini.lcp.solution import Attempt, Status
 
 MAX_SIZE = 20  # unknowns: 2^20 supports take seconds
 ZERO_TOL = 1e-11  # of the largest value, balanced: less counts as 0

@@ -11,8 +11,7 @@ from scipy.optimize import linprog
 
 from signorini.arrays import Array
 from signorini.lcp.problem import LCP
-from signorini.lcp.solution import Attempt
-from signorini.lcp.status import Status
+from signorini.lcp.solution import Attempt, Status
 
 
 @dataclass(frozen=True, kw_only=True)

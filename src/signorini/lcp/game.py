@@ -12,8 +12,7 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.lcp.lemke import Lemke, Path
 from signorini.lcp.problem import LCP
 from signorini.lcp.scaling import Equilibrated, equilibrate
-from signorini.lcp.solution import Attempt
-from signorini.lcp.status import Status
+from signorini.lcp.solution import Attempt, Status
 from signorini.lcp.tableau import Tableau
 
 

@@ -13,8 +13,7 @@ from signorini.arrays import Array
 from signorini.lcp.active import polish
 from signorini.lcp.linear import factorised, scaled, with_diagonal
 from signorini.lcp.problem import LCP
-from signorini.lcp.solution import Attempt
-from signorini.lcp.status import Status
+from signorini.lcp.solution import Attempt, Status
 
 
 @dataclass(frozen=True, kw_only=True)

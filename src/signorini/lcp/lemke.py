@@ -13,12 +13,11 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
 from signorini.lcp.active import polish
 from signorini.lcp.delayed import DOUBT, RAY, SOLVED, Tolerances
+from signorini.lcp.linear import factorised
 from signorini.lcp.problem import LCP, read_vector
 from signorini.lcp.scaling import Equilibrated, equilibrate
-from signorini.lcp.solution import Attempt, Ray
-from signorini.lcp.status import Status
+from signorini.lcp.solution import Attempt, Ray, Status
 from signorini.lcp.tableau import Tableau
-from signorini.lcp.transform import principal_transform
 
 NOISE = 1e-14  # of the largest basic variable: less is rounding
 HIDDEN_TIE = 1e-6  # of its largest value: theta below it at the end of a path may be 0, hidden by a tie
@@ -238,3 +237,29 @@ class Path:
 def _normed(d: Array) -> Array:
     """d with a largest entry near 1, by a power of two: the path does not depend on its length."""
     return d / float(np.exp2(np.round(np.log2(d.max()))))
+
+
+def principal_transform(M: Array, q: Array, swapped: BoolArray) -> tuple[Array, Array] | None:
+    """(M', q') of the LCP in which z_i and w_i are exchanged where ``swapped``; None where that block is singular.
+
+    Examples
+    --------
+    >>> M, q = principal_transform(np.array([[2.0]]), np.array([-4.0]), np.array([True]))
+    >>> float(M[0, 0]), float(q[0])
+    (0.5, 2.0)
+    """
+    A, B = np.flatnonzero(swapped), np.flatnonzero(~swapped)
+    if not len(A):
+        return M, q
+    solved = factorised(M[np.ix_(A, A)])
+    if solved is None:
+        return None
+    inverse = solved(np.eye(len(A)))
+    turned, vector = np.empty_like(M), np.empty_like(q)
+    coupling = M[np.ix_(B, A)] @ inverse
+    turned[np.ix_(A, A)] = inverse
+    turned[np.ix_(A, B)] = -inverse @ M[np.ix_(A, B)]
+    turned[np.ix_(B, A)] = coupling
+    turned[np.ix_(B, B)] = M[np.ix_(B, B)] - coupling @ M[np.ix_(A, B)]
+    vector[A], vector[B] = -inverse @ q[A], q[B] - coupling @ q[A]
+    return turned, vector

@@ -10,8 +10,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.lcp.problem import LCP
-from signorini.lcp.solution import Attempt
-from signorini.lcp.status import Status
+from signorini.lcp.solution import Attempt, Status
 
 POWER_STEPS = 12  # of the power method: the norm to a few per cent
 

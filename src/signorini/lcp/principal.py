@@ -12,8 +12,7 @@ from signorini.arrays import Array
 from signorini.lcp.active import polish
 from signorini.lcp.problem import LCP
 from signorini.lcp.scaling import equilibrate
-from signorini.lcp.solution import Attempt
-from signorini.lcp.status import Status
+from signorini.lcp.solution import Attempt, Status
 from signorini.lcp.tableau import Tableau
 
 

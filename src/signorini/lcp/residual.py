@@ -13,11 +13,12 @@ from typing import Any, TypeAlias
 
 import numpy as np
 import scipy.sparse as sp
+from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import LinearOperator
 
-from signorini.arrays import Array
+from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
-from signorini.lcp.parts import ConnectedRows
+from signorini.lcp.linear import scaled
 
 Matrix: TypeAlias = Array | sp.csr_array | LinearOperator
 
@@ -55,7 +56,7 @@ def natural_residual(M: Matrix, q: Array, z: Array) -> Residual:
     With ``w = M z + q``, every w_i is divided by ``s_i = |q_i| + sum_j |M_ij z_j|``, the size of the terms that cancel
     in it, and every z_j by ``1 / max_i(|M_ij| / s_i)``, the value at which it alone would make up such a sum: the
     result does not change when rows, columns or units do. Two rules compare rows, those of one part of M only
-    (``lcp.parts``), in balanced units: parts have no units in common.
+    (``ConnectedRows``), in balanced units: parts have no units in common.
 
     Where all terms of a row are what rounding left of 0 (an open contact: ``0 = 2 mu 0 - 0``), s_i would be noise too:
     every z_j other than 0 counts with ``1e-5 columns_j max_k(s_k / rows_k)`` more. Where z is large, terms that cancel
@@ -236,3 +237,68 @@ def _largest(violation: Array) -> float:
 def _or_one(size: Array) -> Array:
     """Sizes to divide by: where nothing is there, nothing can be violated."""
     return np.where(size > 0, size, 1.0)
+
+
+COUPLING = 1e-10  # balanced entries below it tie no rows together: the rounding they carry is below all tolerances
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConnectedRows:
+    """The parts of a matrix; between them the factor of units that balancing leaves open is any number.
+
+    Attributes
+    ----------
+    label : (n,) part of every row and its column
+    count : number of parts
+    across : ``|M|`` with the entries inside the parts left out, None where there is one part
+    """
+
+    label: IntArray
+    count: int
+    across: Any | None
+
+    @staticmethod
+    def of(magnitude: Any, rows: Array, columns: Array) -> ConnectedRows:
+        """The parts of a matrix of a magnitude ``|M|`` balanced by sizes of rows and columns (``residual.balance``).
+
+        Examples
+        --------
+        >>> M = np.array([[2.0, 1.0, 0.0], [1.0, 2.0, 0.0], [5.0, 0.0, 1.0]])
+        >>> parts = ConnectedRows.of(M, np.array([3.0, 3.0, 6.0]), np.ones(3))
+        >>> parts.label[0] == parts.label[1], parts.label[0] == parts.label[2]
+        (np.True_, np.False_)
+        """
+        n = len(rows)
+        if isinstance(magnitude, np.ndarray):
+            if _reaches_all(magnitude, rows, columns) and _reaches_all(magnitude.T, 1.0 / columns, 1.0 / rows):
+                return ConnectedRows(label=np.zeros(n, dtype=np.int64), count=1, across=None)
+            strong: Any = sp.csr_array(magnitude * columns > COUPLING * rows[:, None])
+        else:
+            strong = sp.csr_array(scaled(magnitude, 1.0 / rows, columns) > COUPLING)
+        count, label = connected_components(strong, directed=True, connection="strong")
+        if count == 1:
+            return ConnectedRows(label=label, count=1, across=None)
+        if isinstance(magnitude, np.ndarray):
+            return ConnectedRows(label=label, count=count, across=np.where(label[:, None] != label, magnitude, 0.0))
+        entries = magnitude.tocoo()
+        foreign = label[entries.row] != label[entries.col]
+        taken = (entries.data[foreign], (entries.row[foreign], entries.col[foreign]))
+        return ConnectedRows(label=label, count=count, across=sp.csr_array(taken, shape=magnitude.shape))
+
+    def largest(self, sizes: Array) -> Array:
+        """(n,) the largest size in the part of every row."""
+        if self.count == 1:
+            return np.full(len(sizes), sizes.max(initial=0.0))
+        most = np.zeros(self.count)
+        np.maximum.at(most, self.label, sizes)
+        return np.asarray(most[self.label])
+
+
+def _reaches_all(magnitude: Array, rows: Array, columns: Array) -> bool:
+    """Whether every row can be reached from the first one along entries that together are not weak."""
+    reached = np.zeros(len(rows), dtype=bool)
+    fresh = np.arange(len(rows)) == 0
+    while fresh.any():
+        reached |= fresh
+        fresh = ((fresh / rows) @ magnitude * columns > COUPLING) & ~reached
+    return bool(reached.all())

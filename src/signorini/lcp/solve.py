@@ -17,15 +17,13 @@ from signorini.lcp.enumeration import Enumeration
 from signorini.lcp.game import LemkeHowson
 from signorini.lcp.interior import InteriorPoint
 from signorini.lcp.lemke import Lemke
-from signorini.lcp.method import Method
 from signorini.lcp.mprgp import MPRGP
 from signorini.lcp.multigrid import ProjectedMultigrid
 from signorini.lcp.newton import SemismoothNewton
 from signorini.lcp.principal import LeastIndex
 from signorini.lcp.problem import LCP, read_problem, read_vector
 from signorini.lcp.relaxation import ProjectedSOR
-from signorini.lcp.solution import Attempt, LCPSolution
-from signorini.lcp.status import Status
+from signorini.lcp.solution import Attempt, LCPSolution, Method, Status
 
 METHODS: dict[str, Method] = {
     method.name: method

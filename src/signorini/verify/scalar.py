@@ -16,7 +16,7 @@ from skfem.models.poisson import laplace
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.lcp import solve
-from signorini.lcp.mixed import eliminate_free
+from signorini.lcp.box import eliminate_free
 from signorini.verify.check import Check, checks_of
 
 _OFF = 0.137

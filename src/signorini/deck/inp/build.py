@@ -15,17 +15,16 @@ from signorini.deck.deck import Deck
 from signorini.deck.error import DeckError
 from signorini.deck.inp.card import Card
 from signorini.deck.inp.conditions import Conditions, make_conditions
-from signorini.deck.inp.couplings import make_deck_links
-from signorini.deck.inp.flatten import flatten
 from signorini.deck.inp.grid import DeckGrid, make_grid
 from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS, of_keyword, refuse_unsupported
 from signorini.deck.inp.known import Known, make_known
+from signorini.deck.inp.links import make_deck_links
 from signorini.deck.inp.loading import follow_steps
 from signorini.deck.inp.materials import Section
 from signorini.deck.inp.pairs import Pair, make_changes, make_contacts
 from signorini.deck.inp.prints import make_prints
 from signorini.deck.inp.steps import DeckStep, split_steps
-from signorini.deck.inp.syntax import read_cards
+from signorini.deck.inp.syntax import flatten, read_cards
 from signorini.deck.tables import FIELDS
 from signorini.errors import InputError, Where
 from signorini.model.body import Body

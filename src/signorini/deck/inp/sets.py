@@ -13,8 +13,7 @@ from signorini.arrays import IntArray, distinct
 from signorini.deck.inp.card import NUMBER_LIMIT, Card, Row, Scope, to_number
 from signorini.deck.inp.grid import DeckGrid, nodes_of
 from signorini.deck.inp.keywords import of_keyword
-from signorini.deck.inp.numbering import Numbering
-from signorini.deck.inp.numbers import number_table, whole_numbers
+from signorini.deck.inp.numbers import Numbering, number_table, whole_numbers
 from signorini.errors import one_of
 
 _MAX_GENERATED = 10_000_000  # members of a range: more than any mesh here has
