@@ -227,9 +227,8 @@ def _nodal_areas(model: Model, side: Boundary, mortar: Boundary) -> tuple[IntArr
         thickness = contact_measure(model, block.at, block.cells, facing_cells(side, mortar))
         return side.nodes, -side.nodal([block.outward * thickness[..., None]])
     nodes = side.corner_nodes
-    return nodes, -side.nodal((block.outward for block in side.blocks), corners=True)[
-        np.searchsorted(side.nodes, nodes)
-    ]
+    areas = side.nodal((block.outward for block in side.blocks), corners=True)
+    return nodes, -areas[np.searchsorted(side.nodes, nodes)]
 
 
 def _share(model: Model, *sides: Boundary) -> float:

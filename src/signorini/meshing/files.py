@@ -7,6 +7,7 @@ import re
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import meshio
@@ -14,7 +15,6 @@ import numpy as np
 
 from signorini.errors import InputError, brief
 from signorini.hdf5 import check_hdf5
-from signorini.meshing.families import name_families
 from signorini.meshing.geo import SUFFIX as GEOMETRY
 from signorini.meshing.geo import mesh_geometry
 from signorini.meshing.unv import SUFFIX as UNV
@@ -49,7 +49,7 @@ def open_mesh(path: Path) -> meshio.Mesh:
         _check_references(path, suffix)
         found = read_meshio(path)
     _check(found, path)
-    name_families(found)
+    _name_families(found)
     return found
 
 
@@ -91,3 +91,20 @@ def _check(found: meshio.Mesh, path: Path) -> None:
         if nodes.size and not 0 <= int(nodes.min()) <= int(nodes.max()) < len(points):
             wrong = int(nodes.min()) if nodes.min() < 0 else int(nodes.max())
             raise InputError(f"'{path}' holds a cell of node {wrong + 1}, but {len(points)} nodes")
+
+
+def _name_families(found: meshio.Mesh) -> None:
+    """Give a mesh from a MED file the sets that its families mean, which meshio leaves as numbers; others stay.
+
+    A family is what has the same groups: its number stands at every cell (or point), its groups in a table beside it.
+    """
+
+    def named(key: str, data: dict[str, Any]) -> Iterator[tuple[str, list[int]]]:
+        names = getattr(found, key, {}) if key in data else {}
+        for name in sorted({name for groups in names.values() for name in groups}):
+            yield name, [tag for tag, groups in names.items() if name in groups]
+
+    for name, own in named("cell_tags", found.cell_data):
+        found.cell_sets[name] = [np.flatnonzero(np.isin(block, own)) for block in found.cell_data["cell_tags"]]
+    for name, own in named("point_tags", found.point_data):
+        found.point_sets[name] = np.flatnonzero(np.isin(found.point_data["point_tags"], own))

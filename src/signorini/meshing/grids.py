@@ -6,11 +6,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, IntArray
-from signorini.checks import choice, whole
+from signorini.checks import choice, vector, whole
 from signorini.errors import InputError, Where
 from signorini.memory import check_memory
+from signorini.meshing.facets import corner_volumes
 from signorini.model.mesh import CORNERS, NODES_PER_CELL, NODES_PER_PLANE_CELL, Mesh
 
 _PER_POINT = 350
@@ -28,6 +30,31 @@ def check_grid(points: float, where: Where = ("mesh",)) -> None:
         With its points and both sizes.
     """
     check_memory(_PER_POINT * points, f"a grid of {points:.3g} points", where)
+
+
+def increasing(given: ArrayLike, where: Where, steps: int) -> Array:
+    """Increasing coordinates, with those between them where a cell takes two steps of the grid.
+
+    Parameters
+    ----------
+    given : (n,) as the user gives them, length
+    where : what errors call the place
+    steps : of the grid a cell
+
+    Raises
+    ------
+    InputError
+        If they are fewer than two or do not increase.
+    """
+    line = np.array(vector(given, where))
+    if len(line) < 2 or (np.diff(line) <= 0).any():
+        raise InputError("does not increase; expected two or more increasing coordinates", where=where)
+    return subdivided(line, steps)
+
+
+def subdivided(line: Array, steps: int) -> Array:
+    """(steps (n - 1) + 1,) Numbers (n,), each way from one to the next cut in equal steps."""
+    return np.interp(np.arange(steps * (len(line) - 1) + 1) / steps, np.arange(len(line)), line)
 
 
 def cell_family(cells: str, order: int) -> str:
@@ -101,14 +128,11 @@ def _cells_of(index: IntArray, family: str) -> IntArray:
 
 
 def _counterclockwise(points: Array, cells: IntArray, family: str) -> IntArray:
-    n = CORNERS[family]
-    corners = points[cells[:, :n]]
-    x, y = corners[..., 0], corners[..., 1]
-    area = (x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y).sum(axis=1)
+    n, inside_out = CORNERS[family], corner_volumes(points, family, cells).sum(axis=1) < 0.0
     back = list(range(n))[::-1]
     if grid_steps(family) == 2:  # the edge k of the reversed cell is the edge n - 2 - k
         back += [n + k % n for k in range(n - 2, -2, -1)] + list(range(2 * n, NODES_PER_CELL[family]))
-    return np.where(area[:, None] < 0, cells[:, back], cells)
+    return np.where(inside_out[:, None], cells[:, back], cells)
 
 
 def growing_fractions(before: float, length: float, refine: int, *, growth: float, largest: float) -> Array:
@@ -128,25 +152,12 @@ def growing_fractions(before: float, length: float, refine: int, *, growth: floa
     if len(steps) > 1 and sum(steps) - length > 0.5 * steps[-1]:
         steps.pop()
     coarse = np.concatenate([[0.0], np.cumsum(steps)]) / sum(steps)
-    fractions: Array = np.interp(np.arange(len(steps) * refine + 1) / refine, np.arange(len(coarse)), coarse)
-    return fractions
+    return subdivided(coarse, refine)
 
 
-def straight(start: Array, end: Array, fractions: Array) -> Array:
-    """Points (n, 2) on a line from ``start`` to ``end``, at ``fractions`` (n,) of it."""
-    return np.asarray(start) + (np.asarray(end) - np.asarray(start)) * fractions[:, None]
-
-
-def ruled_grid(outer: Array, inner: Array, fractions: Array) -> Array:
-    """Straight lines from one curve to another, (layers, along, 2).
-
-    Parameters
-    ----------
-    outer, inner : (n, 2) points of both curves
-    fractions : (m,) of the way, 0 to 1
-    """
-    grid: Array = outer + (inner - outer) * fractions[:, None, None]
-    return grid
+def ruled(start: Array, end: Array, fractions: Array) -> Array:
+    """Points (m, ..., 2) on straight lines from points (..., 2) to others, at fractions (m,) of the way."""
+    return start + np.multiply.outer(fractions, end - start)
 
 
 def coons_patch(bottom: Array, top: Array, left: Array, right: Array) -> Array:

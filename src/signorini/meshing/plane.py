@@ -20,9 +20,10 @@ from signorini.meshing.grids import (
     grid_sides,
     grid_steps,
     growing_fractions,
+    increasing,
     mesh_of_grids,
-    ruled_grid,
-    straight,
+    ruled,
+    subdivided,
 )
 from signorini.model.mesh import Mesh
 
@@ -63,13 +64,10 @@ def rectangle(
         if given is None:
             size = number(size, ("mesh", "width" if key == "x" else "height"), above=0.0)
             check_grid(step * whole(count, ("mesh", f"n{key}")), ("mesh", f"n{key}"))
-            lines.append(start + np.linspace(0.0, size, count + 1))
+            lines.append(subdivided(start + np.linspace(0.0, size, count + 1), step))
         else:
-            lines.append(np.array(vector(given, ("mesh", key))))
-            if len(lines[-1]) < 2 or (np.diff(lines[-1]) <= 0).any():
-                raise InputError("does not increase; expected two or more increasing coordinates", where=("mesh", key))
-    check_grid(math.prod(step * len(line) for line in lines))
-    lines = [np.interp(np.arange(step * (len(line) - 1) + 1) / step, np.arange(len(line)), line) for line in lines]
+            lines.append(increasing(given, ("mesh", key), step))
+    check_grid(math.prod(len(line) for line in lines))
     grid = np.stack(np.meshgrid(*lines, indexing="xy"), axis=-1)
     return mesh_of_grids([grid], grid_sides(grid), "block", family)
 
@@ -118,8 +116,6 @@ def half_disk(
     order: int = 1,
 ) -> Mesh:
     """The lower half "disk": a quarter disk and its mirror image, boundaries "arc" and "cut" (y = radius).
-
-    Parameters as :func:`quarter_disk`; the contact length counts to either side.
 
     Parameters
     ----------
@@ -224,15 +220,15 @@ def target(*, radii: ArrayLike, n: int, angle: float = 90.0, cells: Cells = "qua
     step = grid_steps(family)
     check_grid(quarters * (step * whole(n, ("mesh", "n"))) * step * (n + 2 * len(given)), ("mesh", "n"))
     across = np.linspace(0.0, 1.0, step * n + 1)
-    circles = np.interp(np.arange(step * (len(given) - 1) + 1) / step, np.arange(len(given)), given)
+    circles = subdivided(given, step)
     # a core whose corner is between that of a square and that of a circle keeps all angles away from 0 and 180 degrees
     side, corner = 0.5 * given[0] * np.eye(2), np.full(2, 0.4 * given[0])
-    core = coons_patch(across[:, None] * side[0], straight(side[1], corner, across), across[:, None] * side[1],
-                        straight(side[0], corner, across))  # fmt: skip
+    core = coons_patch(across[:, None] * side[0], ruled(side[1], corner, across), across[:, None] * side[1],
+                        ruled(side[0], corner, across))  # fmt: skip
     rim = np.vstack([core[:, -1], core[-1, -2::-1]])
     turns = np.radians(np.linspace(0.0, 90.0, len(rim)))
     ray = np.column_stack([np.cos(turns), np.sin(turns)])
-    inner = ruled_grid(rim, given[0] * ray, across)
+    inner = ruled(rim, given[0] * ray, across)
     rings = np.concatenate([inner, circles[1:, None, None] * ray])
     grids = [np.stack([c * g[..., 0] - s * g[..., 1], s * g[..., 0] + c * g[..., 1]], axis=-1)
              for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1))[:quarters] for g in (core, rings)]  # fmt: skip
@@ -279,14 +275,14 @@ def _quarter(
     # the core: a quadrilateral, its corner on the ray through the end of the contact but never too flat
     turn = np.clip(edge, np.radians(30.0), np.radians(45.0))
     corner = centre + depth * np.array([np.sin(turn), -np.cos(turn)])
-    below = straight(centre - [0.0, depth], corner, (fine - fine[0]) / (fine[-1] - fine[0]))
+    below = ruled(centre - [0.0, depth], corner, (fine - fine[0]) / (fine[-1] - fine[0]))
     even = np.linspace(0.0, 1.0, len(rest))
-    beside = straight(corner, centre + [depth, 0.0], even)
-    contact = ruled_grid(on_arc(fine), below, layers)
-    back = ruled_grid(on_arc(rest), beside, layers)
+    beside = ruled(corner, centre + [depth, 0.0], even)
+    contact = ruled(on_arc(fine), below, layers)
+    back = ruled(on_arc(rest), beside, layers)
     across = np.linspace(0.0, 1.0, len(fine))
-    upper = straight(centre, centre + [depth, 0.0], across)
-    axis = straight(centre - [0.0, depth], centre, even)
+    upper = ruled(centre, centre + [depth, 0.0], across)
+    axis = ruled(centre - [0.0, depth], centre, even)
     core = coons_patch(below, upper, axis, beside)
     for grid in (contact, back, core):
         grid[np.abs(grid[..., 0]) < 1e-12 * radius, 0] = 0.0

@@ -11,7 +11,7 @@ import meshio
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.errors import InputError, one_of
+from signorini.errors import InputError, Where, one_of
 from signorini.meshing.files import open_mesh
 from signorini.model.mesh import NODES_PER_CELL, NODES_PER_PLANE_CELL, NODES_PER_SOLID_CELL, Mesh
 
@@ -50,11 +50,7 @@ def read_mesh(path: str | Path) -> Mesh:
         cells and is not plane.
     """
     path = Path(path)
-    try:
-        found = open_mesh(path)
-    except InputError as error:
-        raise InputError(error.message, where=("mesh", "file")) from error
-    named, cells = _named_parts(found, path)
+    found, named, cells = _opened(path, ("mesh", "file"))
     points = np.asarray(found.points, float)
     if not len(points):
         raise InputError(f"'{path}' holds no nodes", where=("mesh", "file"))
@@ -101,11 +97,7 @@ def read_facets(path: str | Path, dimension: int, name: str = "") -> tuple[Array
         If the file is missing or unreadable, there is no such name, or none is given where the file holds cells.
     """
     path = Path(path)
-    try:
-        found = open_mesh(path)
-    except InputError as error:
-        raise InputError(error.message, where=("file",)) from error
-    named, cells = _named_parts(found, path)
+    found, named, cells = _opened(path, ("file",))
     wanted, higher = (_LINES, NODES_PER_CELL) if dimension == 1 else (NODES_PER_PLANE_CELL, NODES_PER_SOLID_CELL)
     known = {key for family in wanted for key in named[family]}
     if any(family in higher for family in cells):
@@ -122,6 +114,15 @@ def read_facets(path: str | Path, dimension: int, name: str = "") -> tuple[Array
         parts = {family: facets[named[family][name]] for family, facets in parts.items() if name in named[family]}
     points = np.asarray(found.points, float)
     return np.column_stack([points, np.zeros((len(points), 3 - points.shape[1]))]), list(parts.values())
+
+
+def _opened(path: Path, where: Where) -> tuple[meshio.Mesh, dict[str, dict[str, IntArray]], dict[str, list[IntArray]]]:
+    """What a file holds, see :func:`_named_parts` too."""
+    try:
+        found = open_mesh(path)
+    except InputError as error:
+        raise InputError(error.message, where=where) from error
+    return found, *_named_parts(found, path)
 
 
 def _listed(names: Collection[str]) -> str:

@@ -4,17 +4,17 @@
 from __future__ import annotations
 
 import math
-from itertools import permutations
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, IntArray
-from signorini.checks import choice, text, vector
-from signorini.errors import InputError, Where
+from signorini.checks import choice, text
+from signorini.errors import InputError
 from signorini.meshing.facets import HEXAHEDRON, make_facets
-from signorini.meshing.grids import check_grid
+from signorini.meshing.grids import check_grid, increasing
+from signorini.meshing.tetrahedra import tetrahedra
 from signorini.model.mesh import CORNERS, NODES_PER_CELL, NODES_PER_SOLID_CELL, Mesh
 
 SolidCells = Literal["hexahedron", "hexahedron20", "hexahedron27", "tetra", "tetra10"]
@@ -27,7 +27,6 @@ _RAISED = {
 }
 _QUADRILATERAL = ((0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1))  # places of its nodes
 _FAMILIES = tuple(family for family in NODES_PER_SOLID_CELL if not family.startswith("wedge"))
-_EDGES = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))  # of a tetrahedron, in the order of its middle nodes
 
 
 def box(*, x: ArrayLike, y: ArrayLike, z: ArrayLike, cells: SolidCells = "hexahedron") -> Mesh:
@@ -49,16 +48,17 @@ def box(*, x: ArrayLike, y: ArrayLike, z: ArrayLike, cells: SolidCells = "hexahe
     Mesh(12 nodes, 2 hexahedrons; bodies: block; boundaries: left, right, front, back, bottom, top)
     """
     choice(cells, _FAMILIES, ("mesh", "cells"), "family")
-    step = 1 if cells in ("hexahedron", "tetra") else 2
-    lines = [_line(given, ("mesh", key), step) for key, given in (("x", x), ("y", y), ("z", z))]
-    shape = tuple(len(line) for line in lines)
-    check_grid(math.prod(shape))
-    points = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 3)
-    number = np.arange(len(points)).reshape(shape)
-    nodes = _hexahedra(number, step, cells) if cells.startswith("hexahedron") else _tetrahedra(number, step)
-    used, nodes = np.unique(nodes, return_inverse=True)
-    nodes = nodes.reshape(-1, NODES_PER_SOLID_CELL[cells])
-    plain = Mesh(points=points[used], cells={cells: nodes}, bodies={"block": np.arange(len(nodes))})
+    if cells.startswith("tetra"):
+        plain = tetrahedra(box(x=x, y=y, z=z, cells="hexahedron" if cells == "tetra" else "hexahedron27"))
+    else:
+        step, count = 1 if cells == "hexahedron" else 2, NODES_PER_SOLID_CELL[cells]
+        lines = [increasing(given, ("mesh", key), step) for key, given in (("x", x), ("y", y), ("z", z))]
+        shape = tuple(len(line) for line in lines)
+        check_grid(math.prod(shape))
+        points = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 3)
+        used, nodes = np.unique(_hexahedra(np.arange(len(points)).reshape(shape), step, count), return_inverse=True)
+        nodes = nodes.reshape(-1, count)
+        plain = Mesh(points=points[used], cells={cells: nodes}, bodies={"block": np.arange(len(nodes))})
     return Mesh(points=plain.points, cells=plain.cells, bodies=plain.bodies, boundaries=_sides(plain))
 
 
@@ -102,7 +102,7 @@ def extruded(mesh: Mesh, *, z: ArrayLike, ends: tuple[str, str] = ("bottom", "to
         if name in (*mesh.boundaries, *mesh.nodes):
             raise InputError(f"'{name}' is taken: the plane mesh has it; expected another name", where=("ends", i))
     (step,) = steps
-    heights = _line(z, ("mesh", "z"), step)
+    heights = increasing(z, ("mesh", "z"), step)
     n, layers = len(mesh.points), np.arange(0, len(heights) - 1, step)
     points = np.column_stack([np.tile(mesh.points, (len(heights), 1)), np.repeat(heights, n)])
     solids = {_RAISED[plane]: _layer(plane, cells, n, step) for plane, cells in mesh.cells.items()}
@@ -147,37 +147,12 @@ def _in_layers(mesh: Mesh, own: IntArray, layers: int) -> IntArray:
     return np.concatenate(found)
 
 
-def _line(given: ArrayLike, where: Where, step: int) -> Array:
-    """Increasing coordinates, with those in the middle where a cell takes two steps."""
-    line = np.array(vector(given, where))
-    if len(line) < 2 or (np.diff(line) <= 0).any():
-        raise InputError("does not increase; expected two or more increasing coordinates", where=where)
-    return np.interp(np.arange(step * (len(line) - 1) + 1) / step, np.arange(len(line)), line)
-
-
-def _origins(number: IntArray, step: int) -> tuple[IntArray, ...]:
-    """Grid indices of the lowest corner of every box of the grid."""
+def _hexahedra(number: IntArray, step: int, count: int) -> IntArray:
+    """Hexahedra (m, count) on a grid of node numbers."""
     grids = np.meshgrid(*(np.arange(0, size - 1, step) for size in number.shape), indexing="ij")
-    return tuple(grid.ravel() for grid in grids)
-
-
-def _hexahedra(number: IntArray, step: int, family: str) -> IntArray:
-    i, j, k = _origins(number, step)
-    offsets = np.array(HEXAHEDRON[: NODES_PER_SOLID_CELL[family]])
-    if step == 1:
-        offsets = offsets // 2
+    i, j, k = (grid.ravel() for grid in grids)
+    offsets = np.array(HEXAHEDRON[:count]) * step // 2
     return np.stack([number[i + a, j + b, k + c] for a, b, c in offsets], axis=1)
-
-
-def _tetrahedra(number: IntArray, step: int) -> IntArray:
-    """Kuhn's six tetrahedra of a box: one for every way from its lowest to its highest corner along edges."""
-    i, j, k = _origins(number, step)
-    found = []
-    for order in permutations(range(3)):
-        corners = np.cumsum(np.vstack([np.zeros(3, int), step * np.eye(3, dtype=int)[list(order)]]), axis=0)
-        nodes = corners if step == 1 else np.vstack([corners, [(corners[a] + corners[b]) // 2 for a, b in _EDGES]])
-        found.append(np.stack([number[i + a, j + b, k + c] for a, b, c in nodes], axis=1))
-    return np.vstack(found)
 
 
 def _sides(mesh: Mesh) -> dict[str, IntArray]:

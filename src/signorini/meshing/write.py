@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from signorini.arrays import IntArray
+from signorini.arrays import IntArray, among
 from signorini.meshing.read import NAMED, NODE_NUMBER
 from signorini.meshio_fixes import complete_meshio
 from signorini.model.mesh import Mesh
@@ -31,38 +31,21 @@ def write_mesh(mesh: Mesh, path: Path) -> None:
     import meshio
 
     complete_meshio()
-    blocks: list[tuple[str, IntArray]] = list(mesh.cells.items())
-    kinds = _FACETS[mesh.points.shape[1]]
     named = [(name, facets) for name in mesh.boundaries for facets in mesh.facets(name)]
-    edges = [(kinds[facets.shape[1]], facets) for _, facets in named]
-    sizes = [len(nodes) for _, nodes in (*blocks, *edges)]
-    ends = np.cumsum(sizes)[:-1]
-    count = mesh.number_of_cells
-    data = {}
-    for name, cells in mesh.bodies.items():
-        flag = np.zeros(sum(sizes), np.int8)
-        flag[cells] = 1
-        data[NAMED + name] = np.split(flag, ends)
-    first = count
-    for name, facets in named:
-        flag = np.zeros(sum(sizes), np.int8)
-        flag[first : first + len(facets)] = 1
-        previous = data.get(NAMED + name)
-        data[NAMED + name] = (
-            np.split(flag, ends)
-            if previous is None
-            else [a | b for a, b in zip(previous, np.split(flag, ends), strict=True)]
-        )
-        first += len(facets)
+    kinds = _FACETS[mesh.points.shape[1]]
+    blocks = [*mesh.cells.items(), *((kinds[facets.shape[1]], facets) for _, facets in named)]
+    sizes = [len(nodes) for _, nodes in blocks]
+    ends, total, count = np.cumsum(sizes)[:-1], sum(sizes), mesh.number_of_cells
+    members = {name: [cells] for name, cells in mesh.bodies.items()}
+    for (name, _), cells in zip(named, np.split(np.arange(total), ends)[len(mesh.cells) :], strict=True):
+        members.setdefault(name, []).append(cells)
+    data = {NAMED + name: np.split(among(cells, total).astype(np.int8), ends) for name, cells in members.items()}
     point_data: dict[str, IntArray] = {}
-    for name, nodes in mesh.nodes.items():
-        flag = np.zeros(len(mesh.points), np.int8)
-        flag[nodes] = 1
-        point_data[NAMED + name] = flag
+    point_data |= {NAMED + name: among([own], len(mesh.points)).astype(np.int8) for name, own in mesh.nodes.items()}
     if mesh.node_numbers is not None:
         point_data[NODE_NUMBER] = mesh.node_numbers
     if mesh.cell_numbers is not None:
-        numbers = np.concatenate([mesh.cell_numbers, np.zeros(sum(sizes) - count, np.int64)])
+        numbers = np.concatenate([mesh.cell_numbers, np.zeros(total - count, np.int64)])
         data[NODE_NUMBER] = np.split(numbers, ends)
     points = np.column_stack([mesh.points, np.zeros((len(mesh.points), 3 - mesh.points.shape[1]))])
-    meshio.write(path, meshio.Mesh(points, [*blocks, *edges], point_data=point_data, cell_data=data), file_format="vtu")
+    meshio.write(path, meshio.Mesh(points, blocks, point_data=point_data, cell_data=data), file_format="vtu")
