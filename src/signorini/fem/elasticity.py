@@ -11,8 +11,9 @@ from signorini.arrays import Array
 from signorini.model.material import Elastic, Material, Orthotropic
 from signorini.model.model import Model
 
-_PLANE = ((0, 3, 2), (3, 1, -1))
-_SPACE = ((0, 3, 5), (3, 1, 4), (5, 4, 2))
+COMPONENTS = {2: np.array([[0, 3, 2], [3, 1, -1]]), 3: np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])}
+"""By the dimension of space: of the strain, which part the derivative j of displacement i is, -1 of none; in the plane
+``u_i / r`` is a third derivative."""
 
 
 def isotropic(lame: float, shear: float) -> Array:
@@ -81,8 +82,7 @@ def law_tensor(D: Array, *, hoop: bool = False) -> Array:
     -------
     (n, d, e, d, e), indices material, r, i, s, j; e = d, with the hoop d + 1
     """
-    components = _SPACE if D.shape[-1] == 6 else tuple(row[: 3 if hoop else 2] for row in _PLANE)
-    at = np.array(components)
+    at = COMPONENTS[3] if D.shape[-1] == 6 else COMPONENTS[2][:, : 3 if hoop else 2]
     flat = at.ravel()
     law = D[:, flat][:, :, flat] * np.outer(flat >= 0, flat >= 0)
     return np.asarray(law.reshape(len(D), *at.shape, *at.shape))

@@ -9,18 +9,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from signorini.arrays import Array, IntArray, among
+from signorini.fem.elasticity import COMPONENTS
 from signorini.fem.jacobian import determinants, gradients_in_space, jacobians
 from signorini.fem.links import rigid_nodes
 from signorini.fem.measure import measure
 from signorini.fem.space import Block, Space
+from signorini.meshing.facets import HEXAHEDRON
 from signorini.model.model import Model
 
 _AT_ONCE = 1 << 16
-_SQUARE = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
-BRICKS = {
-    "quad": np.array(_SQUARE),
-    "hexahedron": np.array([(*corner, z) for z in (-1.0, 1.0) for corner in _SQUARE]),
-}
+BRICKS = {"quad": np.array(HEXAHEDRON[:4])[:, :2] - 1.0, "hexahedron": np.array(HEXAHEDRON[:8]) - 1.0}
 """Families that have the incompatible formulation, with one internal mode along every reference axis; their corners."""
 
 
@@ -75,25 +73,18 @@ class Kinematics:
         In space of displacements (m, k or k + modes, 3), with yz and xz, (m, q, 6).
         """
         g = self.gradients[:, :, : u.shape[1]]
-        slope = np.einsum("mqai,maj->mqij", g, u)
-        if u.shape[2] == 3:
-            both = slope + slope.swapaxes(2, 3)
-            return np.stack(
-                [*(slope[..., i, i] for i in range(3)), both[..., 0, 1], both[..., 1, 2], both[..., 0, 2]], -1
-            )
-        hoop = slope[..., 2, 0] if g.shape[-1] == 3 else np.zeros(slope.shape[:2])
-        shear = slope[..., 0, 1] + slope[..., 1, 0]
-        return np.stack([slope[..., 0, 0], slope[..., 1, 1], hoop, shear], axis=-1)
+        slope = np.einsum("mqai,maj->mqji", g, u)
+        strain = np.zeros((*slope.shape[:2], 4 if u.shape[2] == 2 else 6))
+        for (i, j), part in np.ndenumerate(COMPONENTS[u.shape[2]][:, : g.shape[-1]]):
+            if part >= 0:
+                strain[..., part] += slope[..., i, j]
+        return strain
 
     def forces(self, stress: Array) -> Array:
         """``int B^T sigma`` on nodes and modes, (m, k + modes, d), of stresses (m, q, 4 or 6)."""
-        solid = stress.shape[2] == 6
-        components = [[0, 3, 5], [3, 1, 4], [5, 4, 2]] if solid else [[0, 3], [3, 1]]
-        tensor = stress[..., components] * self.weights[..., None, None]
-        force: Array = np.einsum("mqai,mqij->maj", self.gradients[..., : len(components)], tensor)
-        if self.gradients.shape[-1] == 3 and not solid:
-            force[..., 0] += np.einsum("mqa,mq->ma", self.gradients[..., 2], stress[..., 2] * self.weights)
-        return force
+        at = COMPONENTS[3 if stress.shape[2] == 6 else 2][:, : self.gradients.shape[-1]]
+        tensor = np.where(at >= 0, stress[..., at], 0.0) * self.weights[..., None, None]
+        return np.einsum("mqaj,mqij->mai", self.gradients, tensor)
 
     def relaxed(self, D: Array, stress: Array) -> Array:
         """Stresses (m, q, 4 or 6) with the internal modes in balance.

@@ -98,15 +98,10 @@ def place_dofs(space: Space, model: Model, on: Place | int, where: Where) -> Int
         dofs = space.obstacle_dofs(len(model.obstacles) + names.index(on))
         return dofs[None, : len(directions(space.dimension))]
     if isinstance(on, int):
-        return space.dofs(np.array([_numbered(space, on, where)]))
+        if on not in space.node_of:
+            raise InputError(f"there is no node {on} in the mesh", where=where)
+        return space.dofs(np.array([space.node_of[on]]))
     return space.dofs(nodes_at(space, on, where))
-
-
-def _numbered(space: Space, number: int, where: Where) -> int:
-    """The node of a number."""
-    if number not in space.node_of:
-        raise InputError(f"there is no node {number} in the mesh", where=where)
-    return space.node_of[number]
 
 
 def _equation(space: Space, model: Model, i: int, equation: Equation) -> tuple[IntArray, Array]:
@@ -236,7 +231,8 @@ def _one_by_one(
     users: dict[int, set[int]] = {}  # dof to the solved ones that have a share of it
     left: dict[int, _Row] = {}
     for row in rows.tolist():
-        given = {int(c): float(v) for c, v in zip(*_row(C, row), strict=True)}
+        part = slice(C.indptr[row], C.indptr[row + 1])
+        given = dict(zip(C.indices[part].tolist(), C.data[part].tolist(), strict=True))
         size = max(map(abs, given.values()), default=0.0)
         now: _Row = {}
         for dof, value in given.items():
@@ -259,11 +255,6 @@ def _one_by_one(
         for dof in shares:
             users.setdefault(dof, set()).add(pivot)
     return solved, left
-
-
-def _row(C: sp.csr_array, row: int) -> tuple[Array, Array]:
-    part = slice(C.indptr[row], C.indptr[row + 1])
-    return C.indices[part], C.data[part]
 
 
 def _stacked(rows: list[_Row], total: int) -> sp.csr_array:

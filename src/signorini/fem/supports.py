@@ -156,7 +156,6 @@ def _prescribed(space: Space, model: Model, links: Links, without: Collection[st
     axis_dofs = _on_axis(space, model)
     owner, values = np.full(total, -1), np.zeros(total)
     prescribed = {support.label: np.zeros(total) for support in model.supports if support.moves}
-    rigid = [body.name for body in model.rigid_bodies]
     for i, support in enumerate(model.supports):
         if support.label in without:
             continue
@@ -180,7 +179,7 @@ def _prescribed(space: Space, model: Model, links: Links, without: Collection[st
         if path.any():
             prescribed[obstacle.label] = np.zeros(total)
             prescribed[obstacle.label][dofs] = path
-    for j in range(len(rigid)):
+    for j in range(len(model.rigid_bodies)):
         dofs = space.obstacle_dofs(len(model.obstacles) + j)
         held[dofs[len(directions(d)) :]] = True
         held[dofs[[0, 2]]] |= model.axisymmetric
@@ -193,14 +192,26 @@ def _prescribed(space: Space, model: Model, links: Links, without: Collection[st
 
 
 def _leaders(space: Space, model: Model, given: _Prescribed) -> IntArray:
-    """(dofs,) The dof that each follows, of rigid loaded boundaries; itself elsewhere."""
+    """(dofs,) The dof that each follows: on a rigid loaded boundary the first one there; itself elsewhere."""
     leader = np.arange(space.number_of_dofs)
     for i, load in enumerate(model.loads):
-        if load.spread == "displacement" and load.force is not None:
-            nodes = nodes_at(space, load.on, ("load", i, "on"))
-            for axis, part in enumerate(load.force):
-                if part is not None:
-                    _tie(space, model, leader, given.owner, given.held, nodes * space.dimension + axis, i)
+        if load.spread != "displacement" or load.force is None:
+            continue
+        nodes = nodes_at(space, load.on, ("load", i, "on"))
+        for axis in (axis for axis, part in enumerate(load.force) if part is not None):
+            dofs = nodes * space.dimension + axis
+            blocked = dofs[given.held[dofs] | (leader[dofs] != dofs)]
+            if len(blocked):
+                owner = given.owner[blocked[0]]
+                by = "the axis" if given.held[blocked[0]] else "another load"
+                by = f"support '{model.supports[owner].label}'" if owner >= 0 else by
+                number = space.mesh.labels[blocked[0] // space.dimension]
+                raise InputError(
+                    f"the boundary should move rigidly in {model.axes[axis]}, but {by} holds node {number} in that "
+                    'direction; expected the component to be free (None, in a deck "free")',
+                    where=("load", i, "force"),
+                )
+            leader[dofs] = dofs[0]
     return leader
 
 
@@ -257,21 +268,3 @@ def _check_agreement(
             f"support '{other.label}' prescribes {values[dof]:g}; expected one support to move a node in a direction",
             where=("support", i, "u"),
         )
-
-
-def _tie(
-    space: Space, model: Model, leader: IntArray, owner: IntArray, held: BoolArray, dofs: IntArray, i: int
-) -> None:
-    """Let the dofs of a rigid loaded boundary follow the first of them."""
-    blocked = dofs[held[dofs] | (leader[dofs] != dofs)]
-    if len(blocked):
-        node, axis = divmod(int(blocked[0]), space.dimension)
-        number = space.mesh.labels[node]
-        by = "the axis" if held[blocked[0]] else "another load"
-        by = f"support '{model.supports[owner[blocked[0]]].label}'" if owner[blocked[0]] >= 0 else by
-        raise InputError(
-            f"the boundary should move rigidly in {model.axes[axis]}, but {by} holds node {number} in that "
-            'direction; expected the component to be free (None, in a deck "free")',
-            where=("load", i, "force"),
-        )
-    leader[dofs] = dofs[0]

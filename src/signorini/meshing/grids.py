@@ -156,7 +156,7 @@ def growing_fractions(before: float, length: float, refine: int, *, growth: floa
 
 
 def ruled(start: Array, end: Array, fractions: Array) -> Array:
-    """Points (m, ..., 2) on straight lines from points (..., 2) to others, at fractions (m,) of the way."""
+    """Points (m, ..., 2) on straight lines from ``start`` (..., 2) to ``end``, at ``fractions`` (m,) of the way."""
     return start + np.multiply.outer(fractions, end - start)
 
 

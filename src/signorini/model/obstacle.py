@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
@@ -126,6 +127,9 @@ class Profile:
     [0.25     0.207107] [ 0. -1.]
     """
 
+    dimension: ClassVar[int] = 2
+    """Of the space that it lies in."""
+
     points: tuple[tuple[float, float], ...]
     fillet: float = 0.0
     closed: bool = False
@@ -143,11 +147,6 @@ class Profile:
     def __str__(self) -> str:
         ends = f"from {_spell(self.points[0])} to {_spell(self.points[-1])}"
         return f"a {'closed ' if self.closed else ''}profile of {len(self.points)} points {ends}"
-
-    @property
-    def dimension(self) -> int:
-        """Of the space that it lies in: 2."""
-        return 2
 
     def nearest(self, points: Array) -> tuple[Array, Array]:
         """Signed distance of points (n, 2), positive outside the obstacle, and its outward normals there (n, 2)."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -25,6 +26,9 @@ class _Revolved:
     axis : direction of the axis; any size but zero
     """
 
+    dimension: ClassVar[int] = 3
+    """Of the space that it lies in."""
+
     point: tuple[float, ...]
     axis: tuple[float, ...]
 
@@ -35,11 +39,6 @@ class _Revolved:
         if size == 0.0:
             raise InputError("is zero; expected a direction", where=("axis",))
         object.__setattr__(self, "axis", tuple(part / size for part in axis))
-
-    @property
-    def dimension(self) -> int:
-        """Of the space that it lies in: 3."""
-        return 3
 
     def nearest(self, points: Array) -> tuple[Array, Array]:
         """Signed distance of points (n, 3), positive outside the obstacle, and its outward normals there (n, 3)."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
@@ -48,6 +49,9 @@ class Surface:
     [3.0, -0.25]
     """
 
+    dimension: ClassVar[int] = 3
+    """Of the space that it lies in."""
+
     points: Array
     triangles: IntArray
 
@@ -67,11 +71,6 @@ class Surface:
 
     def __str__(self) -> str:
         return f"{'an open' if self.open else 'a closed'} surface of {len(self.triangles)} triangles"
-
-    @property
-    def dimension(self) -> int:
-        """Of the space that it lies in: 3."""
-        return 3
 
     @cached_property
     def open(self) -> bool:
