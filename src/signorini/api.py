@@ -253,7 +253,10 @@ class PreparedModel:
         loads: Mapping[str, float] | None = None,
         raise_on_failure: bool = True,
     ) -> Solution:
-        """Solve the load history, with another law or load where given; nothing is factorised again.
+        """Solve the load history, with another law or load where given.
+
+        Nothing is factorised again that was for any of the last few histories: other supports, or loads that reach
+        more than twice as far, are factorised once.
 
         Parameters
         ----------
@@ -306,7 +309,7 @@ def prepare(
     >>> print(light.contact("foundation").normal_force[1].round(9))
     19.5
     """
-    return PreparedModel(prepare_model(model, backend=backend, settings=settings, clock=clock))
+    return PreparedModel(prepare_model(model, backend=backend, settings=settings, clock=clock).keeping())
 
 
 def load(path: str | Path) -> Solution:

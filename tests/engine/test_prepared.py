@@ -58,6 +58,18 @@ def test_many_laws_and_loads_cost_one_factorisation(monkeypatch):
             monkeypatch.setattr(preparing, "condense", None)
 
 
+def test_steps_that_reach_farther_are_factorised_once(monkeypatch):
+    steps = [sg.Step(scale={"cut": factor}) for factor in (0.01, 1.0, 0.1)]
+    prepared, fresh = sg.prepare(zhu_cylinder(refine=2, steps=steps)), sg.solve(zhu_cylinder(refine=2, steps=steps))
+    first = prepared.solve()
+    assert first.end.near.sum() > 2 * prepare(zhu_cylinder(refine=2, steps=steps)).candidates.sum()
+    monkeypatch.setattr(preparing, "condense", None)
+    again = prepared.solve()
+    for one, two, three in zip(fresh.steps, first.steps, again.steps, strict=True):
+        assert (one.displacement == two.displacement).all()
+        assert (one.displacement == three.displacement).all()
+
+
 def test_pressure_of_a_press_fit_is_linear_in_the_interference():
     prepared = sg.prepare(press_fit(interference=0.01))
     once = prepared.solve().contact("fit").pressure

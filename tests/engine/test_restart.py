@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 import signorini as sg
 from signorini.cli import main
 from signorini.gallery.cylinder import zhu_cylinder
+from signorini.gallery.spheres import equal_spheres
 
 FIRST = [sg.Step(name="press"), sg.Step(name="off", scale={"cut": 0.4})]
 SECOND = [sg.Step(name="again", scale={"cut": [0.9, 0.2]})]
@@ -134,6 +135,86 @@ def test_a_history_in_space_goes_on_to_the_last_bit(facets, backend) -> None:
         before = sg.solve(cube(steps[:cut], facets), backend=backend)
         after = sg.solve(cube(steps[cut:], facets), start=before, backend=backend)
         assert list(different(whole.steps[cut:], after.steps)) == []
+
+
+def bearing(steps, friction=0.3):
+    """A cylinder tied onto a plate that a support lifts and lowers, pressed on a plane."""
+    round_body = sg.half_disk(radius=8.0, contact_length=4.0, contact_spacing=1.0)
+    plate = sg.rectangle(width=20.0, height=3.0, nx=8, ny=2, origin=(-10.0, 8.0))
+    return sg.Model(
+        sg.join({"roller": round_body, "plate": plate}),
+        bodies=[sg.Body("roller", sg.Elastic(E=1000.0, nu=0.3)), sg.Body("plate", sg.Elastic(E=3000.0, nu=0.3))],
+        supports=[
+            sg.Support("plate.top", u=(0, -0.5), name="lower"),
+        ],
+        loads=[sg.Load("roller.cut", force=(20.0, -100.0), name="press")],
+        contacts=[
+            sg.Contact("roller.cut", "plate.bottom", friction="tied", name="glue"),
+            sg.Contact("roller.arc", sg.Plane((0, 0), (0, 1)), friction=friction, name="floor"),
+        ],
+        steps=steps,
+    )
+
+
+def ball(steps, facets=0, friction=0.3):
+    model = equal_spheres(approach=0.4, n=2)
+    moved = [
+        replace(support, name="lower") if support.u[2] not in (None, 0.0) else support for support in model.supports
+    ]
+    contact = replace(model.contacts[0], friction=friction, facets=facets)
+    return replace(model, supports=moved, contacts=[contact], steps=steps)
+
+
+def rising(names, least=0.003):
+    """Factors that mostly rise by far: later steps close pairs that the first ones leave out."""
+    return st.builds(
+        lambda factors, changes: [
+            sg.Step(scale=dict.fromkeys(names, factor), **change)
+            for factor, change in zip(np.cumprod(factors) * least, changes, strict=True)
+        ],
+        st.lists(st.sampled_from([1.5, 3.0, 10.0, 40.0, 0.2]), min_size=4, max_size=4),
+        st.lists(st.sampled_from([{}, {}, {"increments": 2}, {"at": (0.5,)}]), min_size=4, max_size=4),
+    )
+
+
+REACHING = {
+    "cylinder": (cylinder, ["cut"], "auto"),
+    "tied": (bearing, ["lower", "press"], "auto"),
+    "ball": (ball, ["lower"], "auto"),
+    "facets": (lambda steps: ball(steps, facets=8), ["lower"], "auto"),
+    "iterated": (lambda steps: cylinder([replace(step, increments=2) for step in steps]), ["cut"], "iterative"),
+}
+
+
+def assert_cut(kind, steps, cut) -> bool:
+    """The steps before a cut and those behind it are the whole history's; whether pairs were added behind it."""
+    model, _, backend = REACHING[kind]
+    whole = sg.solve(model(steps), backend=backend, raise_on_failure=False)
+    if len(whole.steps) < cut or not whole.steps[cut - 1].finished:
+        return False
+    first = sg.solve(model(steps[:cut]), backend=backend)
+    after = sg.solve(model(steps[cut:]), start=first, backend=backend, raise_on_failure=False)
+    assert after.status == whole.status
+    assert list(different(whole.steps[:cut], first.steps)) == []
+    assert list(different(whole.steps[cut:], after.steps)) == []
+    return bool(whole.end.near.sum() > first.end.near.sum())
+
+
+@pytest.mark.parametrize("kind", REACHING)
+def test_loads_that_reach_farther_change_no_bit_of_the_steps_before(kind) -> None:
+    """Pairs are chosen by what was imposed so far, whatever follows: of one body, of tied ones, in space, iterated."""
+    steps = [sg.Step(scale=dict.fromkeys(REACHING[kind][1], factor)) for factor in (0.01, 0.012, 1.0, 0.3)]
+    assert assert_cut(kind, steps, 2)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", REACHING)
+@settings(max_examples=6, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(data=st.data())
+def test_histories_that_reach_farther_and_farther_go_on_to_the_last_bit(kind, data) -> None:
+    steps = data.draw(rising(REACHING[kind][1]))
+    farther = assert_cut(kind, steps, data.draw(st.integers(1, len(steps) - 1)))
+    event("farther" if farther else "no farther")
 
 
 @pytest.mark.parametrize("what", [{"interference": {"fit": 0.02}}, {"friction": {"fit": 0.05}}, {"inactive": ["fit"]}])

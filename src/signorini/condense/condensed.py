@@ -165,13 +165,6 @@ class Condensed:
         response = self.response.moving(ways)
         return replace(self, response=response, **_image(response, self.root, self.compliance))
 
-    @property
-    def settled(self) -> BoolArray:
-        """(n,) Pairs that the law need not be asked of, because supports or ties hold them."""
-        settled = self.held.copy()
-        settled[self.ties.rows % len(settled)] = True
-        return settled
-
 
 def condense(
     bodies: FreeBodies,

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import scipy.sparse as sp
@@ -34,7 +34,8 @@ class Examined:
     loads : name to nodal forces at factor 1, each (dofs,)
     parts, motions : connected pieces and their rigid motions, (dofs, motions of all parts)
     floating : (motions, k) rigid motions that supports leave free and contact must hold
-    scale : sizes from the data
+    loading : the most that its first step imposes, or steps before it did
+    scale : the sizes that go with it
     """
 
     model: Model
@@ -45,6 +46,7 @@ class Examined:
     parts: tuple[ConnectedBody, ...]
     motions: sp.csr_array
     floating: Array
+    loading: Loading
     scale: Scale
 
 
@@ -78,7 +80,7 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         start.check(model, interface)
     parts = connected_bodies(space, model)
     motions = rigid_motions(space, parts)
-    loading = most_imposed(schedule, loads, constraints, None if start is None else start.loading)
+    loading = loading_of(schedule[0], loads, constraints.prescribed, None if start is None else start.loading)
     examined = Examined(
         model=model,
         space=space,
@@ -88,6 +90,7 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         parts=parts,
         motions=motions,
         floating=floating_motions(motions, constraints, interface),
+        loading=loading,
         scale=data_scale(space, model, loading, interface),
     )
     _refuse_unheld(examined, schedule)
@@ -114,24 +117,6 @@ def _refuse_unheld(examined: Examined, schedule: Sequence[Stage]) -> None:
             refuse_free_motions(space, now, left, examined.parts, examined.motions)
         except InputError as error:
             raise left_out(error, stage) from error
-
-
-def most_imposed(
-    schedule: Iterable[Stage], loads: Mapping[str, Array], constraints: Constraints, before: Loading | None = None
-) -> Loading:
-    """The most that is imposed in any step of a schedule, or was before.
-
-    Parameters
-    ----------
-    schedule : the steps
-    loads : name to nodal forces at factor 1, each (dofs,)
-    constraints : with what supports prescribe at factor 1
-    before : what was imposed before the first step
-    """
-    most = before or Loading()
-    for stage in schedule:
-        most = loading_of(stage, loads, constraints, most)
-    return most
 
 
 def floating_motions(motions: sp.csr_array, constraints: Constraints, interface: Interface) -> Array:

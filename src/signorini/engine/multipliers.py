@@ -60,11 +60,6 @@ class MultiplierSolver:
         return self.bodies.held
 
     @property
-    def settled(self) -> BoolArray:
-        """(n,) Pairs that the law need not be asked of, because supports or ties hold them."""
-        return self.bodies.settled
-
-    @property
     def paths(self) -> None:
         """None: nothing is condensed."""
 

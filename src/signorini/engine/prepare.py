@@ -3,45 +3,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
-from signorini.checks import number
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
 from signorini.condense.ties import Ties
-from signorini.engine.examine import Examined, examine, floating_motions, most_imposed
+from signorini.engine.candidate_pairs import candidate_pairs
+from signorini.engine.changed_model import changed_model
+from signorini.engine.examine import Examined, examine, floating_motions
 from signorini.engine.free_motion_check import refuse_free_motions
 from signorini.engine.memory_check import iterates, refuse_unassembled
 from signorini.engine.multipliers import MAX_ENTRIES, PATIENCE, MultiplierSolver, make_multipliers
 from signorini.engine.solver import CondensedSolver, ContactSolver
-from signorini.errors import InputError, one_of
-from signorini.fem.rigid import free_motions
+from signorini.errors import InputError
 from signorini.fem.stiffness import reduced_stiffness, stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface, under_laws
-from signorini.interface.reach import candidates
 from signorini.iterative.bodies import ITERATIVE
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.linalg.threads import one_thread
-from signorini.model.conditions import Load, Temperature
-from signorini.model.contact import Contact
 from signorini.model.model import Model
-from signorini.model.stage import stages
+from signorini.model.stage import Stage, stages
 from signorini.settings import SolverSettings
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.discrete_model import DiscreteModel
-from signorini.solution.scale import Loading, data_scale
+from signorini.solution.scale import Loading, data_scale, loading_of
 
 _UNCONDENSED = (
     "an exact path needs the condensed interface, and this model is solved by iteration, because its factor does not "
     "fit or because it was asked for; expected path = 'increments'"
 )
+
+
+_KEPT = 4  # factorisations: a history needs one for each set of supports, and seldom two for its pairs
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -54,20 +54,26 @@ class Prepared(Examined, DiscreteModel):
     clock : seconds spent so far
     backend : of the factorisation, or "iterative", as asked for
     settings : limits of the methods
+    candidates : (n,) pairs that may touch: the law is asked of those that neither supports nor ties decide
+    posed : what supports prescribe, without what ties make of it: name to (dofs,) displacements at factor 1
     softness : the farthest that any load moves the bodies, of its size, where springs hold the pairs: length per force
     released : supports that do not hold
     multiplied : what values of moving supports are multiplied by, beyond the model's
     resting : (dofs,) rigid displacement of bodies that rest, see `engine.floating_bodies`; empty where none does
+    kept : the last that was factorised, by supports released and candidates, to be found again; None: nothing is kept
     """
 
     solver: ContactSolver
     clock: Clock
     backend: str
+    candidates: BoolArray
+    posed: Mapping[str, Array]
     settings: SolverSettings = field(default_factory=SolverSettings)
     softness: float = 0.0
     released: frozenset[str] = frozenset()
     multiplied: Mapping[str, float] = field(default_factory=dict)
     resting: Array = field(default_factory=lambda: np.zeros(0))
+    kept: dict[tuple[frozenset[str], bytes], Condensed] | None = None
 
     @property
     def paths(self) -> CondensedSolver:
@@ -83,37 +89,61 @@ class Prepared(Examined, DiscreteModel):
         return self.solver.paths
 
     @property
-    def near(self) -> BoolArray:
-        """(n,) Pairs that the law of contact is asked of, or that supports or ties decide."""
-        return self.solver.active | self.solver.settled
-
-    @property
     def limited(self) -> bool:
-        """Whether pairs that seemed too far apart were left out."""
-        return not self.near.all()
+        """Whether pairs that seemed too far apart were left out, and neither supports nor ties decide them."""
+        return not (self.candidates | self.solver.held | self.interface.tied).all()
 
     def widened(self) -> Prepared:
         """With every pair in the law, factorised anew."""
         return self._made_again(np.ones(len(self.interface), bool))
 
-    def supported(self, released: frozenset[str]) -> Prepared:
-        """Under all supports but some that are released, factorised anew."""
-        if released == self.released:
-            return self
+    def ready(self, stage: Stage, before: Loading) -> tuple[Prepared, Loading]:
+        """Under the supports of a step and with the pairs that it can close; and the most imposed up to its end.
+
+        Factorised anew where supports change, or where the step reaches farther than any before.
+
+        Parameters
+        ----------
+        stage : the step
+        before : the most that was imposed before it
+        """
+        now = self if stage.released == self.released else self._released(stage.released)
+        loading = loading_of(stage, now.loads, now.posed, before)
+        if now is self and self.candidates.all():
+            return self, loading
+        found = candidate_pairs(now, loading, self.candidates)
+        if now is self and found is self.candidates:
+            return self, loading
+        return now._made_again(found), loading
+
+    def _released(self, released: frozenset[str]) -> Prepared:
+        """Under all supports but some; what is factorised is not theirs yet."""
         constraints = make_constraints(self.space, self.model, without=released)
         prescribed = {name: self.multiplied.get(name, 1.0) * u for name, u in constraints.prescribed.items()}
-        floating = floating_motions(self.motions, constraints, self.interface)
-        now = replace(
+        return replace(
             self,
             constraints=replace(constraints, prescribed=prescribed),
-            floating=floating,
+            posed=prescribed,
+            floating=floating_motions(self.motions, constraints, self.interface),
             released=released,
         )
-        return now._made_again(_near(now) if self.limited else np.ones(len(self.interface), bool))
 
-    def _made_again(self, near: BoolArray) -> Prepared:
-        made = _made(self, self.K, near, self.backend, self.settings, self.clock)
-        return replace(made, released=self.released, multiplied=self.multiplied)
+    def _made_again(self, candidates: BoolArray) -> Prepared:
+        posed = replace(self, constraints=replace(self.constraints, prescribed=self.posed))
+        key = self.released, candidates.tobytes()
+        known = self.kept.get(key) if self.kept else None
+        made = _made(posed, self.K, candidates, self.backend, self.settings, self.clock, known)
+        if known is None and self.kept is not None and made.solver.paths is not None:
+            if len(self.kept) >= _KEPT:
+                self.kept.pop(next(iter(self.kept)))
+            self.kept[key] = made.solver.paths.condensed
+        return replace(made, released=self.released, multiplied=self.multiplied, kept=self.kept)
+
+    def keeping(self) -> Prepared:
+        """To be solved many times: what steps factorise for other supports or pairs is kept, the last few."""
+        paths = self.solver.paths
+        known = {} if paths is None else {(self.released, self.candidates.tobytes()): paths.condensed}
+        return replace(self, kept=known)
 
     def under(self, interface: Interface, loading: Loading, absent: BoolArray) -> Prepared:
         """Under another law of the pairs, and the sizes of what is imposed; nothing is factorised again.
@@ -184,50 +214,29 @@ class Prepared(Examined, DiscreteModel):
         InputError
             For an unknown name, a wrong value, or a body that is left with nothing but frictionless contact.
         """
-        labels = [contact.label for contact in self.model.contacts]
-        _refuse_unknown(friction, labels, "contact", "friction")
-        _refuse_unknown(interference, labels, "contact", "interference")
-        _refuse_unknown(loads, self.model.scaled_names, "load or moving support", "loads")
-        contacts = [_changed_contact(contact, friction or {}, interference or {}) for contact in self.model.contacts]
-        factor = {name: number(value, ("loads", name)) for name, value in (loads or {}).items()}
-        hot = [replace(load, temperature=_times(load, factor)) for load in self.model.loads]
-        model = replace(self.model, contacts=contacts, loads=hot)
-        own, pairs = self.interface.contact, zip(contacts, self.model.contacts, strict=True)
+        model, factor = changed_model(self.model, friction=friction, interference=interference, loads=loads)
+        own, pairs = self.interface.contact, zip(model.contacts, self.model.contacts, strict=True)
         overlap = np.array([contact.interference - old.interference for contact, old in pairs])
         interface = replace(
-            under_laws(self.interface, model, [contact.law for contact in contacts]),
+            under_laws(self.interface, model, [contact.law for contact in model.contacts]),
             gap=self.interface.gap - overlap[own],
         )
         now = replace(
             self,
             model=model,
             constraints=replace(self.constraints, prescribed=_scaled(self.constraints.prescribed, factor)),
+            posed=_scaled(self.posed, factor),
             loads=_scaled(self.loads, factor),
             multiplied=factor | {name: factor.get(name, 1.0) * old for name, old in self.multiplied.items()},
             clock=Clock(),
         )
         refuse_free_motions(self.space, now.constraints, interface, self.parts, self.motions)
-        return now.under(interface, most_imposed(stages(model), now.loads, now.constraints), self.absent)
+        return now.under(interface, loading_of(next(stages(model)), now.loads, now.posed), self.absent)
 
 
 def _scaled(given: Mapping[str, Array], factor: Mapping[str, float]) -> dict[str, Array]:
     """Loads or prescribed displacements times their factors, 1 where there is none."""
     return {name: factor.get(name, 1.0) * values for name, values in given.items()}
-
-
-def _changed_contact(contact: Contact, friction: Mapping[str, float], interference: Mapping[str, float]) -> Contact:
-    """A contact with another friction or interference where its name is given."""
-    name = contact.label
-    for key, given in (("friction", friction), ("interference", interference)):
-        if contact.tied and name in given:
-            raise InputError("is tied for good; only contacts can change", where=(key, name))
-    if name not in friction and name not in interference:
-        return contact
-    return replace(
-        contact,
-        friction=friction.get(name, contact.friction),
-        interference=interference.get(name, contact.interference),
-    )
 
 
 @one_thread()
@@ -261,53 +270,56 @@ def prepare(
         K = stiffness(examined.space, model)
         for springs in examined.constraints.springs.values():
             K = sp.csr_array(K + springs.T @ springs)
-        near = _near(examined) if start is None else _near(examined) | start.near
+        near = candidate_pairs(examined, examined.loading, None if start is None else start.near)
     made = _made(examined, K, near, backend, settings or SolverSettings(), clock)
     before = None if start is None else start.standing
     return replace(made, released=next(stages(model, before=before)).released)
 
 
-def _near(examined: Examined) -> BoolArray:
-    """Pairs that can touch, or all of them where those alone would not hold a body."""
-    scale = examined.scale
-    if examined.space.dimension == 3:
-        near = candidates(examined.interface, scale.imposed, scale.squeezed)
-    else:
-        near = candidates(examined.interface, scale.length)
-    holding = examined.interface.B[examined.interface.rows(near)]
-    if free_motions(examined.motions, examined.constraints, holding).shape[1]:
-        return np.ones_like(near)
-    return near
-
-
 def _made(
-    examined: Examined, K: sp.csr_array, near: BoolArray, backend: str, settings: SolverSettings, clock: Clock
+    examined: Examined,
+    K: sp.csr_array,
+    candidates: BoolArray,
+    backend: str,
+    settings: SolverSettings,
+    clock: Clock,
+    known: Condensed | None = None,
 ) -> Prepared:
-    """Factorise the bodies with the nodes of the candidates last and put the law on them, or leave them as they are."""
+    """Factorise the bodies with the nodes of the candidates last and put the law on them, or leave them as they are.
+
+    Parameters
+    ----------
+    examined, K : the model, and its stiffness with those of foundations
+    candidates, backend, settings, clock : as of `Prepared`
+    known : the bodies factorised with these candidates, where they were
+    """
     interface, T = examined.interface, examined.constraints.transform
     data = {field.name: getattr(examined, field.name) for field in fields(Examined)}
-    softness = 0.0
-    with clock.phase("assembly"):
-        reduced, relative = reduced_stiffness(K, T), sp.csr_array(interface.B @ T)
-        bodies = FreeBodies(reduced, relative, examined.constraints.nodes, examined.space.places)
-        whole = iterates(bodies, interface, candidates=near, backend=backend)
-        solver: ContactSolver
-        if whole:
-            solver = make_multipliers(examined, reduced, relative, near, settings)
-    if not whole:
-        condensed = _condensed(examined, bodies, near, backend, clock)
+    softness, condensed = 0.0, known
+    solver: ContactSolver
+    if condensed is None:
+        with clock.phase("assembly"):
+            reduced, relative = reduced_stiffness(K, T), sp.csr_array(interface.B @ T)
+            bodies = FreeBodies(reduced, relative, examined.constraints.nodes, examined.space.places)
+            whole = iterates(bodies, interface, candidates=candidates, backend=backend)
+            if whole:
+                solver = make_multipliers(examined, reduced, relative, candidates, settings)
+        if not whole:
+            condensed = _condensed(examined, bodies, candidates, backend, clock)
+    if condensed is not None:
         softness = _softness(examined, condensed)
         data["scale"] = examined.scale.bent(softness)
         data["constraints"] = _with_ties(examined, condensed.ties)
         solver = CondensedSolver.of(condensed, interface, data["scale"], settings)
-    absent = np.zeros(len(interface), bool)
     return Prepared(
         **data,
         K=K,
-        absent=absent,
+        absent=np.zeros(len(interface), bool),
         solver=solver,
         clock=clock,
         backend=backend,
+        candidates=candidates,
+        posed=examined.constraints.prescribed,
         settings=settings,
         softness=softness,
     )
@@ -323,16 +335,16 @@ def _softness(examined: Examined, condensed: Condensed) -> float:
     return max(found)
 
 
-def _condensed(examined: Examined, bodies: FreeBodies, near: BoolArray, backend: str, clock: Clock) -> Condensed:
+def _condensed(examined: Examined, bodies: FreeBodies, candidates: BoolArray, backend: str, clock: Clock) -> Condensed:
     """Factorise the bodies with the nodes of the candidates last."""
     rigid = (examined.motions @ examined.floating)[examined.constraints.leaders]
     try:
         return condense(
             bodies,
             examined.interface,
-            candidates=near,
+            candidates=candidates,
             rigid=rigid,
-            stiffness=examined.scale.force / examined.scale.compressed,
+            stiffness=examined.scale.stiffness,
             backend="auto" if backend == ITERATIVE else backend,
             clock=clock,
         )
@@ -351,22 +363,6 @@ def _with_ties(examined: Examined, ties: Ties) -> Constraints:
     constraints, B, T = examined.constraints, examined.interface.B[ties.rows], examined.constraints.transform
     prescribed = {name: u + T @ ties.closing(B @ u) for name, u in constraints.prescribed.items()}
     return replace(constraints, prescribed=prescribed)
-
-
-def _times(load: Load, factors: Mapping[str, float]) -> Temperature | None:
-    """The temperature of a load times its factor; stresses refer to it, other loads are in the nodal forces."""
-    given, factor = load.temperature, factors.get(load.label, 1.0)
-    if given is None or factor == 1.0:
-        return given
-    if callable(given):
-        return lambda points: factor * given(points)
-    return factor * given
-
-
-def _refuse_unknown(given: Iterable[str] | None, known: Iterable[str], what: str, key: str) -> None:
-    for name in given or ():
-        if name not in known:
-            raise InputError(one_of(name, known, what), where=(key,))
 
 
 def _singular(examined: Examined, error: NotPositiveDefinite) -> InputError:

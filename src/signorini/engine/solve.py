@@ -37,7 +37,6 @@ from signorini.engine.wellposed import assess
 from signorini.errors import InputError, Interrupted, SolveFailed
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.interface import pairs_of
-from signorini.law.states import OPEN
 from signorini.linalg import NotPositiveDefinite
 from signorini.linalg.threads import one_thread
 from signorini.model.model import Model
@@ -49,7 +48,7 @@ from signorini.solution.certificate import TOLERANCE
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.history import History
 from signorini.solution.results import StepResult
-from signorini.solution.scale import Loading, data_scale, loading_of
+from signorini.solution.scale import Loading, data_scale
 from signorini.solution.state import LoadPoint, State, initial_state
 
 RELAXED = "friction is lower than what pairs carried: they slip at once, before the loads of the step"
@@ -132,7 +131,7 @@ def _first(prepared: Prepared) -> Checkpoint:
     zero = dict.fromkeys(model.scaled_names, 0.0)
     state = initial_state(zero, prepared.space.number_of_dofs, interface)
     standing = Standing(released=prepared.released)
-    return Checkpoint.of(model, interface, state, standing, Loading(), prepared.near)
+    return Checkpoint.of(model, interface, state, standing, Loading(), prepared.candidates)
 
 
 def _fitting(prepared: Prepared, start: Checkpoint) -> Checkpoint:
@@ -168,24 +167,20 @@ def _follow(
     nothing was found without them, the step is solved again with all pairs, and so are those after it.
     """
     model, interface, state, standing = prepared.model, prepared.interface, begin.state, begin.standing
-    if (state.status[~(prepared.near | interface.tied)] != OPEN).any():
-        prepared = prepared.widened()
     schedule = list(stages(model, factors=state.point.factors, before=standing))
     prepared.clock.expect(sum(_expected(stage) for stage in schedule))
     steps: list[StepResult] = []
-    before = replace(prepared, absent=pairs_of(model, interface, standing.inactive))
-    before = replace(before, constraints=_constraints(prepared, standing.released))
+    constraints = _constraints(prepared, standing.released)
     end, loaded = begin, bool(state.forces.any())
     try:
         for stage in schedule:
-            prepared = prepared.supported(stage.released)
-            loading = loading_of(stage, prepared.loads, prepared.constraints, end.loading)
+            prepared, loading = prepared.ready(stage, end.loading)
             why = ""
             while True:
                 try:
                     with prepared.clock.again(why):
                         now = staged(prepared, stage, loading)
-                        followed, cycle_ends = _from(before, now, stage, end.state)
+                        followed, cycle_ends = _from(end, constraints, now, stage)
                     break
                 except SolveFailed:
                     if not prepared.limited:
@@ -194,8 +189,9 @@ def _follow(
                     with prepared.clock.again(why):
                         prepared = prepared.widened()
             result = step_result(now, stage, followed, cycle_ends)
-            after = Checkpoint.of(model, interface, followed.after, stage.standing, loading, prepared.near)
-            steps, end, before = [*steps, result], after, now  # at once, whenever an interruption comes
+            after = Checkpoint.of(model, interface, followed.after, stage.standing, loading, prepared.candidates)
+            # at once, whenever an interruption comes
+            steps, end, constraints = [*steps, result], after, now.constraints
             if after_step is not None and len(steps) < len(schedule):
                 words = f"{len(steps)} of {len(schedule)} steps are finished"
                 after_step(_history(prepared, Outcome.RUNNING, words, steps, end, loaded))
@@ -214,10 +210,10 @@ def _follow(
     return replace(history, wellposedness=assess(now, end.state)) if wellposed else history
 
 
-def _from(before: Prepared, now: Prepared, stage: Stage, state: State) -> tuple[FollowedPart, list[float]]:
-    """A step from the end of the one before it, with the supports and contacts that it changes."""
-    handed = handed_over(now, before.constraints, state)
-    return _step(now, stage, switched(now, handed, before.absent))
+def _from(end: Checkpoint, before: Constraints, now: Prepared, stage: Stage) -> tuple[FollowedPart, list[float]]:
+    """A step from the end of the one before it and its supports, with the supports and contacts that it changes."""
+    state = end.state if stage.released == end.standing.released else handed_over(now, before, end.state)
+    return _step(now, stage, switched(now, state, pairs_of(now.model, now.interface, end.standing.inactive)))
 
 
 def _motion(stop: SolveFailed | KeyboardInterrupt) -> Array | None:

@@ -107,10 +107,6 @@ class ContactSolver(Protocol):
         """(n,) Pairs that supports hold on both sides."""
 
     @property
-    def settled(self) -> BoolArray:
-        """(n,) Pairs that the law need not be asked of, because supports or ties hold them."""
-
-    @property
     def paths(self) -> CondensedSolver | None:
         """What follows paths from event to event; None where nothing is condensed."""
 
@@ -179,11 +175,6 @@ class CondensedSolver:
     def held(self) -> BoolArray:
         """(n,) Pairs that supports hold on both sides."""
         return self.condensed.held
-
-    @property
-    def settled(self) -> BoolArray:
-        """(n,) Pairs that the law need not be asked of, because supports or ties hold them."""
-        return self.condensed.settled
 
     @property
     def paths(self) -> CondensedSolver:

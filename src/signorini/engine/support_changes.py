@@ -19,7 +19,7 @@ _PLACE_TOL = 1e-9  # of the largest displacement: what compilers of other machin
 
 
 def handed_over(prepared: Prepared, before: Constraints, state: State) -> State:
-    """The state under the supports of a step.
+    """The state under the supports of a step, where they are not those of the step before.
 
     What a support that lets go bears becomes a given force on the bodies, which the step takes to zero. What holds
     again, or another support holds, is where it is: beyond what the support prescribes there is an offset.
@@ -31,8 +31,6 @@ def handed_over(prepared: Prepared, before: Constraints, state: State) -> State:
     state : at its end
     """
     now = prepared.constraints
-    if now is before:
-        return state
     # at the end of a step nothing is left of what supports bore that it released
     loads, imposed = applied(prepared, replace(state.point, reaction=np.zeros(0), offset=np.zeros(0)))
     borne = support_forces(before, state, loads)

@@ -196,7 +196,9 @@ def _relative_rows(
     for k in range(space.dimension - 1):
         slid = _with_obstacles(space, model, carrier, _sliding_rows(sliding, normals, axes[:, k]))
         rows.append(sp.diags_array(np.where(still[:, k], 0.0, 1.0)) @ slid)
-    return sp.csr_array(sp.vstack(rows))
+    B = sp.csr_array(sp.vstack(rows))
+    B.sum_duplicates()  # entries in order from the start: sums do not depend on who has looked at them before
+    return B
 
 
 def _joined(parts: Sequence[Array], none: tuple[int, ...]) -> Array:

@@ -75,13 +75,6 @@ class Bodies:
         """(d a,) Rows of the interface's B that the pairs have."""
         return np.concatenate([self.pairs + k * len(self.active) for k in range(self.directions)])
 
-    @property
-    def settled(self) -> BoolArray:
-        """(n,) Pairs that the law need not be asked of, because supports or ties hold them."""
-        settled = self.held.copy()
-        settled[self.pairs[self.tied]] = True
-        return settled
-
     def factored(self, nodes: IntArray, points: Array, *, patience: int) -> Bodies:
         """Bodies with factors in place of multigrid: thin bodies and flat cells cost those nothing.
 

@@ -56,7 +56,7 @@ class Checkpoint(Short):
     state : of all bodies and pairs
     standing : friction, interferences, contacts and supports as steps have left them
     loading : the most that was imposed so far
-    near : (n,) pairs that the law of contact was asked of
+    near : (n,) pairs that could touch so far: those that the law of contact was asked of
     contacts : names of all contacts, in order
     contact, node : (n,) contact and node of every pair
     posed : of every pair what the contacts themselves say, by name of an array of
@@ -84,7 +84,7 @@ class Checkpoint(Short):
         ----------
         model, interface, state : the model, its n pairs and where they stand
         standing, loading : what steps have set, and the most that was imposed so far
-        near : (n,) pairs that the law of contact was asked of
+        near : (n,) pairs that could touch so far
         """
         return Checkpoint(
             state=state,

@@ -11,7 +11,6 @@ import numpy as np
 
 from signorini.arrays import Array, extent
 from signorini.fem.space import Space
-from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface
 from signorini.model.model import Model
 from signorini.model.stage import Stage
@@ -25,7 +24,7 @@ class Scale:
     ----------
     force : the largest load of the history, or what the largest imposed displacement or overlap causes
     length : the displacement that goes with it
-    compressed : the displacement that goes with it where bodies are compressed and do not bend
+    stiffness : of the softest body where it is compressed and does not bend, force per length
     imposed : the largest displacement that is imposed, and overlap
     squeezed : in space, the largest load over the smallest modulus, area
     loaded : the largest load of the history
@@ -34,11 +33,16 @@ class Scale:
 
     force: float
     length: float
-    compressed: float
+    stiffness: float
     imposed: float = 0.0
     squeezed: float = 0.0
     loaded: float = 0.0
     size: float = 0.0
+
+    @property
+    def compressed(self) -> float:
+        """The displacement that goes with `force` where bodies are compressed and do not bend."""
+        return self.force / self.stiffness
 
     def bent(self, softness: float) -> Scale:
         """Sizes for slender bodies, which loads move farther than they compress them; softness: length per force."""
@@ -62,9 +66,13 @@ class Loading:
         """The most of both."""
         return Loading(force=max(self.force, other.force), imposed=max(self.imposed, other.imposed))
 
+    def times(self, factor: float) -> Loading:
+        """Of a history that imposes more of everything."""
+        return Loading(force=factor * self.force, imposed=factor * self.imposed)
+
 
 def loading_of(
-    stage: Stage, loads: Mapping[str, Array], constraints: Constraints, before: Loading | None = None
+    stage: Stage, loads: Mapping[str, Array], prescribed: Mapping[str, Array], before: Loading | None = None
 ) -> Loading:
     """The most that a history has imposed up to the end of a step.
 
@@ -72,12 +80,12 @@ def loading_of(
     ----------
     stage : the step
     loads : nodal forces at factor 1 by name, each (dofs,)
-    constraints : with what supports prescribe at factor 1
+    prescribed : what supports prescribe at factor 1 by name, each (dofs,)
     before : what it had imposed before the step
     """
     largest = {name: max(abs(end[name]) for end in stage.ends) for name in stage.ends[0]}
     force = sum((largest[name] * float(np.abs(f).sum()) for name, f in loads.items()), 0.0)
-    moved = [largest[name] * float(np.abs(u).max()) for name, u in constraints.prescribed.items()]
+    moved = [largest[name] * float(np.abs(u).max()) for name, u in prescribed.items()]
     own = Loading(force=force, imposed=max([*moved, *stage.interference.values()], default=0.0))
     return own.and_then(before or Loading())
 
@@ -99,11 +107,10 @@ def data_scale(space: Space, model: Model, loading: Loading, interface: Interfac
     stiffness = min(body.material.smallest_modulus * width for body, width in bodies)
     squeezed = loaded / min(body.material.smallest_modulus for body in model.bodies) if model.dimension == 3 else 0.0
     force = max(loaded, stiffness * imposed) or stiffness
-    length = force / stiffness
     return Scale(
         force=force,
-        length=length,
-        compressed=length,
+        length=force / stiffness,
+        stiffness=stiffness,
         imposed=imposed,
         squeezed=squeezed,
         loaded=loaded,
