@@ -15,6 +15,7 @@ from signorini.deck.tables import _CONTACT_KEYS, _OBSTACLE_KEYS
 from signorini.model.body import Body
 from signorini.model.conditions import Foundation, Load, Support
 from signorini.model.material import Elastic, Orthotropic
+from signorini.model.plastic import Plastic
 from signorini.model.step import Step
 from signorini.settings import SolverSettings
 
@@ -41,7 +42,7 @@ def test_every_key_is_explained() -> None:
     }
     keys |= {
         field.name
-        for kind in (Support, Foundation, Load, Step, Body, Elastic, Orthotropic, SolverSettings)
+        for kind in (Support, Foundation, Load, Step, Body, Elastic, Plastic, Orthotropic, SolverSettings)
         for field in fields(kind)
     }
     keys |= {name for generator in GENERATORS.values() for name in inspect.signature(generator).parameters}

@@ -80,7 +80,7 @@ def edited(folder: Path, old: str, new: str) -> Path:
 
 # what is changed, to what, how the line that is named begins, what is said
 WRONG = {
-    "plasticity": ("210000., .3\n", "210000., .3\n*PLASTIC\n300.\n", "*PLASTIC", r"\*PLASTIC: is not supported"),
+    "creep": ("210000., .3\n", "210000., .3\n*CREEP\n1.,2.,0.\n", "*CREEP", r"\*CREEP: is not supported"),
     "element": ("40, 12, 13, 16, 15", "40, 12,\n13,\n99, 15", "40, 12", r"\*ELEMENT: there is no node 99"),
     "twice": ("20, 2, 3, 6, 5", "10, 2, 3, 6, 5", "10, 2", "element 10 is there twice"),
     "counted from 0": ("20, 2, 3, 6, 5", "0, 2, 3, 6, 5", "0, 2", "element has the number 0; expected one >= 1"),

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -91,7 +91,7 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
     changes = [make_changes(step.cards, known, contacts) for step in steps]
     kind, thickness = known.grid.kind, _thickness(known.sections[0], known.grid.kind)
     made: dict[str, list[tuple[Any, Card]]] = {
-        "body": [(_body(section, thickness, kind), section.card) for section in known.sections],
+        "body": [(_body(section, known.grid, thickness), section.card) for section in known.sections],
         "support": [(support, conditions.cards[support.label]) for support in conditions.supports],
         "load": [(load, conditions.cards[load.label]) for load in conditions.loads],
         "contact": [(pair.contact, pair.card) for pair in contacts],
@@ -105,7 +105,10 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
         model = Model(_mesh(known), kind=kind, thickness=thickness, title=_title(outside), **parts)
     except InputError as error:
         raise _located_error(error, places, path, known.grid.card_of_cell) from error
-    notes = _notes(known.grid, steps, contacts, small_strain, deck_increments)
+    notes = [
+        *_notes(known.grid, steps, contacts, small_strain, deck_increments),
+        *_flow_notes(known.sections, model.bodies),
+    ]
     return KeywordDeck(
         model=model,
         path=path,
@@ -185,25 +188,33 @@ def _thickness(section: Section, kind: Kind) -> float:
     return 1.0 if kind in ("axisymmetric", "3d") else section.thickness  # CalculiX: the angle that it cuts out
 
 
-def _body(section: Section, usual: float, kind: Kind) -> Body:
+def _body(section: Section, grid: DeckGrid, usual: float) -> Body:
     """The body of a section, with a thickness of its own where that is not the usual one."""
-    substance, thickness = section.substance, _thickness(section, kind)
+    substance, thickness = section.substance, _thickness(section, grid.kind)
     elastic, alpha = substance.elastic, substance.expansion or 0.0
     assert elastic is not None
     given: dict[str, Any] = {"density": substance.density or 0.0}
     if isinstance(elastic, Orthotropic):
         given |= {"angle": section.angle, "expansion1": alpha, "expansion2": alpha, "expansion3": alpha}
     else:
-        given |= {"expansion": alpha}
+        given |= {"expansion": alpha, "plastic": substance.flow.law if substance.flow else None}
     try:
         return Body(
             section.name,
             replace(elastic, **given),
-            formulation="incompatible" if section.incompatible else "standard",
+            formulation=_formulation(section, grid),
             thickness=None if thickness == usual else thickness,
         )
     except InputError as error:
         raise substance.card.error(str(error)) from error
+
+
+def _formulation(section: Section, grid: DeckGrid) -> Literal["standard", "incompatible"] | None:
+    """Of elements that yield the body's own, which quadratic wedges do not have: they need none."""
+    if section.substance.flow is None:
+        return "incompatible" if section.incompatible else "standard"
+    wedges = [group.index for group in grid.groups if group.type.family == "wedge15"]
+    return "standard" if any(np.isin(index, section.elements).any() for index in wedges) else None
 
 
 def _step(
@@ -244,6 +255,16 @@ def _notes(
     if grid.nodes.shifted:
         notes.append("instances share node numbers: those of later instances are raised to be unique")
     return notes
+
+
+def _flow_notes(sections: Sequence[Section], bodies: Sequence[Body]) -> Iterator[str]:
+    """How bodies that yield differ from the deck."""
+    flows = [section.substance.flow for section in sections if section.substance.flow is not None]
+    if any(body.material.yields and body.formulation == "mean dilatation" for body in bodies):
+        modes = any(section.incompatible and section.substance.flow is not None for section in sections)
+        instead = ", in place of incompatible modes" if modes else ""
+        yield f"elements of bodies that yield have a mean dilatation, so that they do not lock{instead}"
+    yield from dict.fromkeys(note for flow in flows for note in flow.notes)
 
 
 def _ignored(first: Mapping[str, int]) -> Iterator[str]:

@@ -12,11 +12,12 @@ from signorini.arrays import IntArray, distinct
 from signorini.deck.inp.card import Card
 from signorini.deck.inp.grid import DeckGrid, nodes_of
 from signorini.deck.inp.keywords import collect, look_up, of_keyword
+from signorini.deck.inp.plasticity import Flow, make_flow, with_cyclic_hardening
 from signorini.deck.inp.sets import Sets, unique_label
 from signorini.errors import InputError, one_of
 from signorini.model.material import Elastic, Material, Orthotropic
 
-_MATERIAL_WORDS = ("ELASTIC", "DENSITY", "EXPANSION")
+_MATERIAL_WORDS = ("ELASTIC", "DENSITY", "EXPANSION", "PLASTIC", "CYCLIC HARDENING")
 """Keywords that belong to the ``*MATERIAL`` before them and that are read here."""
 
 
@@ -30,12 +31,14 @@ class Substance:
     elastic : None before ``*ELASTIC``
     density : mass per volume, None if not given
     expansion : thermal, per degree, None if not given
+    flow : None without ``*PLASTIC``
     """
 
     card: Card
     elastic: Material | None = None
     density: float | None = None
     expansion: float | None = None
+    flow: Flow | None = None
 
     @property
     def name(self) -> str:
@@ -74,7 +77,7 @@ def make_materials(cards: Sequence[Card]) -> dict[str, Substance]:
     Raises
     ------
     DeckError
-        For laws that are not linear elasticity with constant moduli.
+        For laws that are not linear elasticity with constant moduli, and von Mises' where they yield.
     """
     return collect(cards, "MATERIAL", _MATERIAL_WORDS, lambda card: Substance(card=card), _with)
 
@@ -86,6 +89,12 @@ def _with(substance: Substance, card: Card) -> Substance:
         card.refuse_unknown(("TYPE", "ZERO"))
         card.choice("TYPE", ("ISO",), "ISO")
         return replace(substance, expansion=_constant(card, "the coefficient of expansion"))
+    if card.keyword == "PLASTIC":
+        return replace(substance, flow=make_flow(card))
+    if card.keyword == "CYCLIC HARDENING":
+        if substance.flow is None:
+            raise card.error("stands before any *PLASTIC of its material")
+        return replace(substance, flow=with_cyclic_hardening(substance.flow, card))
     card.refuse_unknown(("TYPE", "MODULI"))
     card.choice("MODULI", ("LONG TERM", "INSTANTANEOUS"), "LONG TERM")
     kind = card.choice("TYPE", ("ISO", "ISOTROPIC", "ENGINEERING CONSTANTS"), "ISO")
@@ -149,6 +158,8 @@ def make_sections(
         substance = look_up(card, "MATERIAL", materials, "material")
         if substance.elastic is None:
             raise substance.card.error(f"'{card.value('MATERIAL')}' has no *ELASTIC")
+        if substance.flow is not None and isinstance(substance.elastic, Orthotropic):
+            raise substance.flow.card.error(f"'{substance.name}' is orthotropic; only isotropic materials yield here")
         name, members = elements.find(card.value("ELSET"), card)
         members = distinct(members)
         if not len(members):
