@@ -58,6 +58,7 @@ _FOLD_REACH = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)  # times the last increment: wher
 _FOLD, _TURNED = 1e-9, 0.3  # part of the way in which it is looked for, and what friction may turn in it
 _PATIENCE = 4  # tries
 _LOST = 1e-7  # part of the segment: where not even that has a solution nothing goes on gradually
+_SAME_END = 1e-5  # part of the segment: ways that are lost so near each other are lost in the same place
 _TRIES = 60  # at one increment
 _EVENT_WIDTH = 1e-6  # of the data: width of zero at an event that smooth sections make uncertain
 _QUICK_STEPS = 12  # of Newton's method, in an increment that may be shorter
@@ -83,6 +84,8 @@ class SpaceFollower(PathFollower):
         self.smooth = bool((problem.law.rubs & (problem.section.sides == 0)).any())
         self.refused: ContactAnswer | None = None
         self.limited = False  # whether the load has a limit where motions run away
+        self._barrier = np.inf  # part of the segment where the last increment was refused
+        self._lost_at = np.inf  # part of the segment where the way was lost before it was gone again
         self._searched = False  # long, once in vain: shorter increments are near where they begin, or there are none
         self._rate: Array | None = None  # of r - h in the last increment that was found, per part of the segment
         self._overloaded = False  # whether the pairs that are near hold the bodies no more
@@ -120,13 +123,15 @@ class SpaceFollower(PathFollower):
 
     def goes_back(self) -> bool:
         """Whether an increment has passed over something: back to its beginning, to go through it event by event."""
-        if self.limited or not self.settings.shortest:  # close to a limit of the load all increments miss energy
+        # close to a limit of the load all increments miss energy
+        if self.limited or not self.settings.shortest or abs(self.factor - self._lost_at) <= _SAME_END:
             return False
         k = first_missed_jump(self.problem, self.start, self.pieces, self.balanced, self.width)
         if k is None:
             return False
         self.careful = self.balanced = self.pieces[k].factor
         self.trusting, self.refused, self._overloaded, self._rate = False, None, False, None
+        self._lost_at, self._barrier = self.factor if self.factor < 1.0 else np.inf, np.inf
         self.pieces = self.pieces[:k]
         self.now, self.factor = self.pieces[-1].state or self.start, self.pieces[-1].factor
         self.last = self.careful - self.factor
@@ -233,7 +238,10 @@ class SpaceFollower(PathFollower):
         step = min(max(_PROBE * self.last, _LEAST_PROBE, shortest), left)
         tried, best = self.tried, None
         inner: SolvedIncrement | None = None
-        words, longest = "", left
+        words, longest, barrier = "", left, self._barrier - self.factor
+        if _LOST < barrier <= step:  # where the last one was refused is not tried again before it is near
+            step, longest = 0.5 * barrier, barrier
+        self._barrier = np.inf
         for number in range(_TRIES):
             late = _LATE_EVENT_TOL if self.smooth and number >= _PATIENCE else _EVENT_TOL
             longer = late * (_LOOSER ** (number - _PATIENCE) if late == _LATE_EVENT_TOL else 1.0)
@@ -242,7 +250,8 @@ class SpaceFollower(PathFollower):
                 ahead = self._counted(self.now.r) + step * self._rate
             trial = self._trial(step, shortest, ahead)
             if isinstance(trial, ContactAnswer):
-                words, longest = trial.message, step
+                words, longest, barrier = trial.message, step, step
+                self._barrier = self.factor + step
                 if not self._leaves:
                     self.refused = trial
                 if step <= _LOST or (best is not None and step <= best.step * (1.0 + _REFUSED)):
@@ -251,7 +260,10 @@ class SpaceFollower(PathFollower):
             elif trial.until >= 1.0 - late and trial.turn <= self._turn:
                 best, inner = trial, inner or trial
                 step = trial.step * self._room(trial, inner.after.state)
-                step = step if step < longest or longest >= left else 0.5 * (trial.step + longest)
+                if step >= longest and longest < left:
+                    if longest == barrier and longest <= trial.step * (1.0 + _REFUSED):
+                        break
+                    step = 0.5 * (trial.step + longest)
                 if min(step, left) <= trial.step * (1.0 + longer):
                     break
                 step = min(step, left)
