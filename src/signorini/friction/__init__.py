@@ -6,7 +6,7 @@ from signorini.friction.certificate import certify
 from signorini.friction.problem import ContactProblem
 from signorini.friction.result import ContactAnswer
 from signorini.friction.solve import solve_contact
-from signorini.friction.uniqueness import index, mu_low
+from signorini.friction.uniqueness import mu_low
 from signorini.law.states import OPEN, SLIP, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 __all__ = [
@@ -20,7 +20,6 @@ __all__ = [
     "ContactProblem",
     "MethodRun",
     "certify",
-    "index",
     "mu_low",
     "solve_contact",
 ]

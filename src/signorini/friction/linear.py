@@ -215,7 +215,11 @@ class LinearSystem:
 
     @property
     def index(self) -> int:
-        """Sign of the determinant relative to that of all pairs sticking; 0 where singular."""
+        """Sign of the determinant, +1 or -1, relative to that of all pairs sticking; 0 where singular.
+
+        For held bodies the indices of all solutions in the plane sum to +1 (none of them on a wall between states). So
+        a solution of index -1 proves at least two more; +1 proves nothing. The path method always ends at +1.
+        """
         if self.singular:
             return 0
         k = self.equilibrium.problem.motions.shape[1]

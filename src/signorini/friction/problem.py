@@ -16,6 +16,7 @@ from signorini.errors import InputError
 from signorini.law.bound import STICKING_FRICTION, Bound, FrictionBound
 from signorini.law.pair import PairLaw
 from signorini.law.section import FrictionSection
+from signorini.law.states import SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -217,6 +218,13 @@ class ContactProblem:
         drag = np.where(self.locked.all(axis=0), self.by_pair(self.b)[1:], 0.0) if self.guided else None
         dragged = drag is not None and drag.any()
         return PairLaw(bound=self.bound, section=self.section, drag=drag if dragged else None)
+
+    def closed_states(self, pair: int) -> list[int]:
+        """Codes that a pair of the plane can have where it is closed: stick, and slip on every branch of its bound."""
+        closed = int(self.law.closed[pair])
+        slips = (SLIP_PLUS, SLIP_MINUS) if closed == UNDECIDED else (closed,)
+        held = [STICK] if closed == UNDECIDED else []
+        return held + [code + 2 * j for j in range(self.pieces.branch_counts[pair]) for code in slips]
 
     @property
     def mu(self) -> Array:

@@ -182,7 +182,7 @@ def _by_program(problem: ContactProblem, load: Array, bound: FrictionBound) -> A
 def _resisted(bound: FrictionBound, normal: Array, tangential: Array, unit: float, strongest: float) -> float:
     """``sum max_p (F(p) |rho_t| - p rho_n)``, of forces over unit that sum up to the strongest."""
     n, across = len(normal), np.abs(tangential)
-    lasts = np.isfinite(bound.kinks).sum(axis=0) - 1
+    lasts = bound.branch_counts - 1
     endless = float(np.maximum(bound.slopes[lasts, np.arange(n)] * across - normal, 0.0).max(initial=0.0))
     corners = np.where(np.isfinite(bound.kinks[:-1]), bound.kinks[:-1], 0.0)
     work = np.array([bound.at(p) * across - p * normal for p in corners])

@@ -36,7 +36,7 @@ from signorini.friction.plane.state_tree import search_states
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import pulled_away
 from signorini.friction.result import ContactAnswer
-from signorini.friction.space.proximal import proximal_rounds, swept_rounds
+from signorini.friction.space.proximal import proximal_rounds
 from signorini.law.states import OPEN, SLIP_MINUS, UNDECIDED
 from signorini.settings import SolverSettings
 
@@ -230,8 +230,8 @@ def _rounds(task: Task) -> Iterator[Candidate]:
     problem, settings = task.problem, task.settings
     steps, tolerance = settings.searched_steps, settings.tolerance
     if problem.directions == 3 and problem.straight:
-        rounds, sweeps = settings.swept_rounds, _SWEEPS
-        yield from swept_rounds(problem, rounds=rounds, sweeps=sweeps, steps=steps, tolerance=tolerance)
+        rounds = settings.swept_rounds
+        yield from proximal_rounds(problem, rounds=rounds, steps=steps, tolerance=tolerance, sweeps=_SWEEPS)
     yield from proximal_rounds(problem, rounds=settings.proximal_rounds, steps=steps, tolerance=tolerance)
 
 

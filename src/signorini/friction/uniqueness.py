@@ -26,10 +26,10 @@ from signorini.condense.body_blocks import inverse_of
 from signorini.errors import InputError
 from signorini.friction.certificate import certify
 from signorini.friction.linear import Equilibrium
-from signorini.friction.newton import admissible, by_states, in_states, searched, y_in_states
+from signorini.friction.newton import by_states, in_states, searched, y_in_states
 from signorini.friction.plane.covering import follow_covering
 from signorini.friction.problem import ContactProblem
-from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
+from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK
 
 COUNTED_PAIRS = 6
 """Pairs whose 4^n states are tried one by one; fewer where their friction has further branches."""
@@ -43,29 +43,6 @@ _PATHS, _GUESSES = 4, 24  # in the plane: paths of each covering, and states at 
 _TURNS = 8  # directions of slip in which all pairs start in space
 _SMALL_PROBLEM, _SPATIAL_GUESSES = 10, (100, 24)  # pairs; states at random in space of so few of them, and of more
 _SLIPPING = 1e3  # of the size of data: y of a pair that slips
-
-
-def index(problem: ContactProblem, state: IntArray) -> int:
-    """Sign of the determinant of a state's system, relative to that of all pairs sticking: +1, -1, or 0 if singular.
-
-    For held bodies the indices of all solutions sum to +1 (none of them on a wall between states). So a solution of
-    index -1 proves at least two more; +1 proves nothing. The path method always ends at +1.
-
-    Parameters
-    ----------
-    problem : the problem
-    state : (n,) states, usually those of a solution
-
-    Examples
-    --------
-    One node with stiffness k_n = k_t = 2, coupling 1 and much friction: sliding with friction opposed is unstable.
-
-    >>> W = np.linalg.inv(np.array([[3.0, -1.0], [-1.0, 3.0]]))
-    >>> problem = ContactProblem.of(W=W, b=W @ [-1.0, 2.5], friction=[3.0], motions=np.zeros((2, 0)), scale=1.0)
-    >>> [index(problem, np.array([state])) for state in (0, 1, 3)]
-    [1, 1, -1]
-    """
-    return in_states(problem, admissible(problem, state)).index
 
 
 def mu_low(problem: ContactProblem) -> float | None:
@@ -212,12 +189,7 @@ def countable(problem: ContactProblem) -> bool:
 
 def _choices(problem: ContactProblem) -> list[list[int]]:
     """The states of every pair."""
-    found = []
-    for closed, branches in zip(problem.law.closed, np.isfinite(problem.pieces.kinks).sum(axis=0), strict=True):
-        slips = (SLIP_PLUS, SLIP_MINUS) if closed == UNDECIDED else (int(closed),)
-        held = [OPEN, STICK] if closed == UNDECIDED else [OPEN]
-        found.append(held + [code + 2 * j for j in range(branches) for code in slips])
-    return found
+    return [[OPEN, *problem.closed_states(pair)] for pair in range(problem.pairs)]
 
 
 def _states(problem: ContactProblem) -> Iterator[IntArray]:

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
@@ -139,6 +140,11 @@ class FrictionBound(Bound):
     def branches(self) -> int:
         """The most that a pair has."""
         return len(self.slopes)
+
+    @cached_property
+    def branch_counts(self) -> IntArray:
+        """(n,) Number of branches that every pair has."""
+        return np.asarray(np.isfinite(self.kinks).sum(axis=0), dtype=np.int64)
 
     def at(self, p: Array) -> Array:
         """(n,) F at normal forces p >= 0."""

@@ -90,11 +90,6 @@ def follow(
 
 
 def follower(problem: ContactProblem, start: PathState, b_end: Array, settings: PathSettings) -> PathFollower:
-    """What goes along the way of a problem from a state to a load.
-
-    Parameters
-    ----------
-    problem, start, b_end, settings : see `PathFollower`
-    """
+    """What goes along the way of a problem from ``start`` to ``b_end``, with its settings: see `PathFollower`."""
     way = SpaceFollower if problem.directions == 3 else PlaneFollower
     return way(problem, start, b_end, settings)

@@ -31,12 +31,10 @@ class Landing:
     Attributes
     ----------
     state : there; slip and dissipation are those of the curve that leads there
-    lowest : part of the segment to which the load went back on the way
     events : of the curve
     """
 
     state: PathState
-    lowest: float
     events: int
 
 
@@ -73,13 +71,13 @@ def land(
     >>> landed([[3.0, -1.0, 0.0], [-1.0, 3.0, 0.0], [0.0, 0.0, 3.0]], facets=8)
     ([0.333333333, 1.666666667, 0.0], 1.5)
     """
-    jump = segment.departure
-    if jump is None:
+    jump = segment.jump
+    if jump is None or jump.gross_sliding or jump.factor <= 0.0:
         return None
     settings = settings or PathSettings()
     limit = now = before = segment.end
     acting = np.array(jump.pairs, dtype=np.int64)
-    lowest, events = jump.factor, 0
+    events = 0
     for _ in range(TURNS * (problem.pairs + 1)):
         back = follower(problem, now, start.b, settings)
         back.acting = acting
@@ -87,7 +85,7 @@ def land(
         if departed:
             if back.factor >= 1.0:
                 return None
-            lowest, events, before = min(lowest, jump.factor * _left(back.now, limit, start)), events + 1, now
+            events, before = events + 1, now
         ahead = follower(problem, back.now, limit.b, settings)
         ahead.acting = back.acting
         if not departed and not ahead.crosses(before):
@@ -96,12 +94,6 @@ def land(
             pass
         events += len(ahead.events)
         if ahead.factor >= 1.0:
-            return Landing(state=ahead.now, lowest=lowest, events=events)
+            return Landing(state=ahead.now, events=events)
         now, acting = ahead.now, ahead.acting
     return None
-
-
-def _left(now: PathState, limit: PathState, start: PathState) -> float:
-    """Part of the way from the start of the segment to the limit load that is left now: three states of a history."""
-    way = limit.b - start.b
-    return float(way @ (now.b - start.b)) / (float(way @ way) or 1.0)

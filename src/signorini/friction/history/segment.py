@@ -110,9 +110,3 @@ class Segment:
     def followed(self) -> bool:
         """Whether the end of the segment was reached."""
         return self.outcome == Outcome.FOLLOWED
-
-    @property
-    def departure(self) -> Jump | None:
-        """The jump from which the load can go back to a landing; None where there is none, nor where bodies slide."""
-        gone = self.jump is None or self.jump.gross_sliding or self.jump.factor <= 0.0
-        return None if gone else self.jump

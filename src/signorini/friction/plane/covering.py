@@ -56,14 +56,12 @@ class PathEnd:
     end : ``"solution"`` (theta = 0), ``"ray"``, ``"budget spent"`` or ``"singular"``
     state : (n,) the last states
     y : (2, n) the last point
-    theta : what is left of the covering load there, 0 at a solution; in the units of b
     pivots : walls crossed
     """
 
     end: Literal["solution", "ray", "budget spent", "singular"]
     state: IntArray
     y: Array
-    theta: float
     pivots: int
 
 
@@ -150,12 +148,12 @@ def _walk(course: _Course, state: IntArray) -> PathEnd:
     try:
         ray = np.linalg.solve(course.jacobian(state), np.stack(course.load(state), axis=1))
     except np.linalg.LinAlgError:
-        return PathEnd(end="singular", state=state, y=np.zeros((2, n)), theta=np.inf, pivots=0)
+        return PathEnd(end="singular", state=state, y=np.zeros((2, n)), pivots=0)
     walls = course.walls(state)
     pair, slot, theta = _entry(course, walls, np.concatenate([ray, [[0.0, 1.0]]]))
     point, pivots = np.append(ray[:, 0] + max(theta, 0.0) * ray[:, 1], max(theta, 0.0)), 0
     if theta <= 0:
-        return PathEnd(end="solution", state=state, y=point[:-1].reshape(2, n), theta=0.0, pivots=0)
+        return PathEnd(end="solution", state=state, y=point[:-1].reshape(2, n), pivots=0)
     X = np.zeros((0, 0))
     while pivots < course.budget:
         before, at = state, walls[1][slot, pair]
@@ -166,20 +164,20 @@ def _walk(course: _Course, state: IntArray) -> PathEnd:
         fresh = _inverse(course, state, pair, -here) if updated is None else updated
         pivots += 1
         if fresh is None:
-            return PathEnd(end="singular", state=state, y=point[:-1].reshape(2, n), theta=point[-1], pivots=pivots)
+            return PathEnd(end="singular", state=state, y=point[:-1].reshape(2, n), pivots=pivots)
         X = fresh
         entry, way = X[:, :-1] @ course.load(state)[0] - at * X[:, -1], X[:, -1].copy()
         walls = course.walls(state)
         length, pair, slot = _next_wall(course, walls, entry, way, pair, slot)
         to_end = entry[-1] / -way[-1] if way[-1] < 0 else np.inf
         if not np.isfinite(min(length, to_end)):
-            return PathEnd(end="ray", state=state, y=way[:-1].reshape(2, n), theta=entry[-1], pivots=pivots)
+            return PathEnd(end="ray", state=state, y=way[:-1].reshape(2, n), pivots=pivots)
         point = entry + min(length, to_end) * way
         if np.abs(point[:-1]).max() > course.far:
-            return PathEnd(end="ray", state=state, y=point[:-1].reshape(2, n), theta=point[-1], pivots=pivots)
+            return PathEnd(end="ray", state=state, y=point[:-1].reshape(2, n), pivots=pivots)
         if to_end <= length:
-            return PathEnd(end="solution", state=state, y=point[:-1].reshape(2, n), theta=0.0, pivots=pivots)
-    return PathEnd(end="budget spent", state=state, y=point[:-1].reshape(2, n), theta=point[-1], pivots=pivots)
+            return PathEnd(end="solution", state=state, y=point[:-1].reshape(2, n), pivots=pivots)
+    return PathEnd(end="budget spent", state=state, y=point[:-1].reshape(2, n), pivots=pivots)
 
 
 def _entry(course: _Course, walls: tuple[Array, Array], ray: Array) -> tuple[int, int, float]:

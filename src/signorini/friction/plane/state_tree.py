@@ -129,7 +129,7 @@ class _Program:
 
 def _program(problem: ContactProblem) -> _Program:
     n, bound, unit = problem.pairs, problem.pieces, problem.scale or 1.0
-    lasts = np.isfinite(bound.kinks).sum(axis=0) - 1
+    lasts = bound.branch_counts - 1
     edge = bound.slopes[lasts, np.arange(n)]
     length = np.hypot(1.0, edge)
     corners = [np.where(np.isfinite(p), p, 0.0) for p in bound.kinks[1:-1]]
@@ -243,8 +243,4 @@ def _branches(problem: ContactProblem, pair: int, node: int, nearest: int) -> li
     """The branches of a pair, the likeliest last (it is taken first)."""
     if node == UNDECIDED:
         return [CLOSED, OPEN] if nearest == OPEN else [OPEN, CLOSED]
-    closed, last = int(problem.law.closed[pair]), int(np.isfinite(problem.pieces.kinks[:, pair]).sum())
-    slips = (SLIP_PLUS, SLIP_MINUS) if closed == UNDECIDED else (closed,)
-    choices = [STICK] if closed == UNDECIDED else []
-    choices += [code + 2 * j for j in range(last) for code in slips]
-    return sorted(choices, key=lambda state: state == nearest)
+    return sorted(problem.closed_states(pair), key=lambda state: state == nearest)

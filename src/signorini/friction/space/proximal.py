@@ -28,52 +28,33 @@ LEAST_LAYER, LARGEST_LAYER = 1e-7, 10.0  # in units of 1 / D
 EASY_STEPS = 6  # of a run: after as few the next layer is thinner
 
 
-def swept_rounds(
-    problem: ContactProblem, *, rounds: int, sweeps: int, steps: int, tolerance: float
+def proximal_rounds(
+    problem: ContactProblem, *, rounds: int, steps: int, tolerance: float, sweeps: int = 0
 ) -> Iterator[NewtonEnd]:
-    """Rounds of sweeps and one proximal Newton run, the next from the better of the two.
+    """Rounds of one proximal Newton run, each from where the last converged; or, with sweeps, from the better of both.
 
     Parameters
     ----------
-    problem : the problem, in space
-    rounds, sweeps, steps : most rounds, sweeps of each, and systems of each Newton run
-    tolerance : of `certify`; the runs go a hundred times closer
-    """
-    alpha, (r, a) = SWEPT_LAYER, _nothing(problem)
-    exact = Equilibrium(problem=problem)
-    for _ in range(rounds):
-        r, a = gauss_seidel(problem, r, a, count=sweeps)
-        y = r - exact.moved(r, a)
-        residual = certify(problem, y)
-        attempt = MethodRun(method="gauss-seidel", iterations=sweeps, end=f"residual {residual:.1e}")
-        yield NewtonEnd(force=r, rigid=a, y=y, residual=residual, attempt=attempt, converged=False)
-        end = _run(problem, alpha, r, a, steps, tolerance)
-        yield end
-        if end.residual < residual:
-            r, a = end.force, end.rigid
-        alpha = _next(alpha, end, thinner=3.0)
-
-
-def proximal_rounds(problem: ContactProblem, *, rounds: int, steps: int, tolerance: float) -> Iterator[NewtonEnd]:
-    """Proximal Newton runs alone, each from where the last converged.
-
-    Parameters
-    ----------
-    problem : the problem
+    problem : the problem; in space where sweeps go before
     rounds, steps : most rounds, and systems of each Newton run
     tolerance : of `certify`; the runs go a hundred times closer
+    sweeps : before each run
     """
-    alpha, (r, a) = FIRST_LAYER, _nothing(problem)
+    alpha, thinner = (SWEPT_LAYER, 3.0) if sweeps else (FIRST_LAYER, 2.0)
+    r, a = np.zeros((problem.directions, problem.pairs)), np.zeros(problem.motions.shape[1])
     for _ in range(rounds):
+        residual = 0.0
+        if sweeps:
+            r, a = gauss_seidel(problem, r, a, count=sweeps)
+            y = r - Equilibrium(problem=problem).moved(r, a)
+            residual = certify(problem, y)
+            attempt = MethodRun(method="gauss-seidel", iterations=sweeps, end=f"residual {residual:.1e}")
+            yield NewtonEnd(force=r, rigid=a, y=y, residual=residual, attempt=attempt, converged=False)
         end = _run(problem, alpha, r, a, steps, tolerance)
         yield end
-        if end.converged:
+        if end.residual < residual if sweeps else end.converged:
             r, a = end.force, end.rigid
-        alpha = _next(alpha, end, thinner=2.0)
-
-
-def _nothing(problem: ContactProblem) -> tuple[Array, Array]:
-    return np.zeros((problem.directions, problem.pairs)), np.zeros(problem.motions.shape[1])
+        alpha = _next(alpha, end, thinner)
 
 
 def _run(problem: ContactProblem, alpha: float, r: Array, a: Array, steps: int, tolerance: float) -> NewtonEnd:
@@ -91,7 +72,7 @@ def _run(problem: ContactProblem, alpha: float, r: Array, a: Array, steps: int, 
     )
 
 
-def _next(alpha: float, end: NewtonEnd, *, thinner: float) -> float:
+def _next(alpha: float, end: NewtonEnd, thinner: float) -> float:
     """A softer layer after a run that failed, a thinner one after an easy one."""
     if not end.converged:
         return min(3.0 * alpha, LARGEST_LAYER)

@@ -43,7 +43,7 @@ def drive(responses: Responses, law: RateLaw, load: Array, before: Rates, acting
             target = law.conditions(state, h0, r0)
             found = Rates(state=state, h=h0, r=r0)
             if last < 0 and target.min() >= -RATE * found.size:  # and so are all on the straight way there
-                return _refined(responses, load, found)
+                return responses.refined(found, load)
             extra = extra if len(extra) else responses.imposed(imposed_h, imposed_r)
             h1, r1 = responses.respond(state, extra)
         except SingularState:
@@ -61,18 +61,12 @@ def drive(responses: Responses, law: RateLaw, load: Array, before: Rates, acting
         which, pair = divmod(int(np.argmin(steps)), n)
         step = float(steps[which, pair])
         if way < 0 and step >= theta:
-            return _refined(responses, load, found) if target.min() >= -WRONG_RATE_TOL * found.size else None
+            return responses.refined(found, load) if target.min() >= -WRONG_RATE_TOL * found.size else None
         if not np.isfinite(step):
             return None
         theta, last, state = theta + way * step, pair, state.copy()
         state[last] = law.following(state, now.h[n:])[which, last]
     return None
-
-
-def _refined(responses: Responses, load: Array, rates: Rates) -> Rates:
-    """Events come where rates say: a pair at a steep part of its bound sees the last digits of where."""
-    h, r = responses.balanced(rates.state, load, rates.h, rates.r)
-    return Rates(state=rates.state, h=h, r=r)
 
 
 def _imposed(law: RateLaw, before: Rates, acting: IntArray) -> tuple[IntArray, Array, Array]:

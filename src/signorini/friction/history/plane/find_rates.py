@@ -61,18 +61,12 @@ def find_rates(
     return _enumerate(responses, law, load, state, ending)
 
 
-def _responding(responses: Responses, state: IntArray, load: Array) -> Rates:
-    """The rates of a state, (n,) codes, under a load rate, refined; raises SingularState."""
-    h, r = responses.balanced(state, load, *responses.respond(state, responses.free(load)))
-    return Rates(state=state, h=h, r=r)
-
-
 def _newton(responses: Responses, law: RateLaw, load: Array, guess: IntArray, limit: int = 200) -> Rates | None:
     state, seen = guess, set()
     for _ in range(limit):
         seen.add(state.tobytes())
         try:
-            rates = _responding(responses, state, load)
+            rates = responses.rates(state, load)
         except SingularState:
             return None
         state = law.proposal(rates)
@@ -106,7 +100,7 @@ def _lemke(
         return np.array([r[k] if not s else mu[k] * r[k] + s * r[n + k] for k, _, s in columns])
 
     try:
-        q[:] = forces(_responding(responses, base, load).r)
+        q[:] = forces(responses.rates(base, load).r)
         for j, (_, dof, sign) in enumerate(columns):
             motion = np.zeros(2 * n)
             motion[dof] = sign or 1.0
@@ -121,7 +115,7 @@ def _lemke(
             slips = law.kind[k] if law.kind[k] > CORNER else SLIP_MINUS if sign > 0 else SLIP_PLUS
             base[k] = OPEN if dof < n else slips if law.forced[k] == UNDECIDED else law.forced[k]
     try:
-        found = _responding(responses, base, load)
+        found = responses.rates(base, load)
     except SingularState:
         found = None
     lawful = found is not None and whole.violation(found) <= 10.0 * RATE
@@ -164,7 +158,7 @@ def _lacking(responses: Responses, law: RateLaw, load: Array, state: IntArray, l
     least that is lacking, of the load, up to `RUNAWAY_RATE` times the load. Not where nothing is left to prove.
     """
     try:
-        rates = _responding(responses, state, load)
+        rates = responses.rates(state, load)
     except SingularState:
         rates = None
     if rates is not None:

@@ -46,10 +46,6 @@ class PlaneFollower(PathFollower):
     Every end of a piece is certified as an increment that starts at the end before, and solved for afresh where its
     equilibrium lacks more than rounding, so that no error adds up.
 
-    Parameters
-    ----------
-    problem, start, b_end, settings : see `PathFollower`
-
     Attributes
     ----------
     load : (2n,) rate of b

@@ -14,6 +14,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.friction.history.plane.state_inverse import StateInverse
+from signorini.friction.history.rates import Rates
 from signorini.friction.problem import ContactProblem
 
 MISFIT_ROUNDING = 2e-15
@@ -85,6 +86,16 @@ class Responses:
         r[n:] += self.inverse.slope * r[:n]
         seen[unknowns] = 0.0
         return seen[: 2 * n], r
+
+    def rates(self, state: IntArray, load: Array) -> Rates:
+        """The rates of a state, (n,), under a load rate, (2n,), refined; raises SingularState."""
+        h, r = self.respond(state, self.free(load))
+        return self.refined(Rates(state=state, h=h, r=r), load)
+
+    def refined(self, rates: Rates, load: Array) -> Rates:
+        """Rates under a load rate, (2n,), to the last digits: a steep part of a bound sees those in its events."""
+        h, r = self.balanced(rates.state, load, rates.h, rates.r)
+        return Rates(state=rates.state, h=h, r=r)
 
     def balanced(self, state: IntArray, b: Array, h: Array, r: Array) -> tuple[Array, Array]:
         """A response to b with one step of refinement, where equilibrium lacks more than rounding.

@@ -72,11 +72,8 @@ def find_rates(problem: ContactProblem, now: PathState, width: float) -> Rates |
 def departures(problem: ContactProblem, now: PathState, width: float) -> Iterator[Rates]:
     """Rates in which acting pairs leave their state, all of them first, then only some; others slip on, or may stick.
 
-    Where no pair acts, in the middle of a curve, those in which every pair stays in its state.
-
-    Parameters
-    ----------
-    problem, now, width : see `find_rates`
+    Where no pair acts, in the middle of a curve, those in which every pair stays in its state. For problem, now and
+    width see `find_rates`.
     """
     whole = RateProblem.at(problem, now, width)
     if isinstance(whole, str):
@@ -105,12 +102,7 @@ def departures(problem: ContactProblem, now: PathState, width: float) -> Iterato
 
 
 def acting_pairs(problem: ContactProblem, now: PathState, width: float) -> IntArray:
-    """Pairs that may not go on as they are, see `RateProblem`; none where that is not known.
-
-    Parameters
-    ----------
-    problem, now, width : see `find_rates`
-    """
+    """Pairs of a problem that may not go on as they are now, to a width, see `RateProblem`; none where not known."""
     choice = RateProblem.at(problem, now, width)
     return np.array([] if isinstance(choice, str) else choice.acting, dtype=np.int64)
 

@@ -65,12 +65,7 @@ _QUICK_STEPS = 12  # of Newton's method, in an increment that may be shorter
 
 
 class SpaceFollower(PathFollower):
-    """A straight way of the load in space, gone increment by increment.
-
-    Parameters
-    ----------
-    problem, start, b_end, settings : see `PathFollower`
-    """
+    """A straight way of the load in space, gone increment by increment."""
 
     def __init__(self, problem: ContactProblem, start: PathState, b_end: Array, settings: PathSettings) -> None:
         super().__init__(problem, start, b_end, settings)
