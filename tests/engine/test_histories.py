@@ -7,7 +7,10 @@ import numpy as np
 import pytest
 
 import signorini as sg
+from signorini.engine.contact_changes import relaxed
 from signorini.engine.examine import examine
+from signorini.engine.prepare import prepare
+from signorini.engine.solve import solve_prepared
 from signorini.gallery.blocks import dragged_block
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit
@@ -168,6 +171,23 @@ def test_lower_friction_lets_go_at_once():
     rough = sg.solve(block(higher, friction=0.6))
     assert rough.last.released == 0.0
     assert balance(rough) < 1e-10
+
+
+def test_what_slips_at_once_is_shown_with_the_bodies_where_all_events_are():
+    steps = [PRESS, sg.Step(scale={"pull": 1.0}), sg.Step(scale={}, friction={"floor": 0.05}, at="events")]
+    first = sg.solve(block(steps)).last.instants[0]
+    assert first.what == "change"
+    assert np.abs(first.displacement).max() > 0.0
+
+
+def test_rounding_of_forces_is_no_friction_that_lets_go():
+    """A body that nothing touches any more: what its pairs carry is what digits leave of the loads before."""
+    prepared = prepare(block([sg.Step(scale={"press": 1.0, "pull": 0.0})]))
+    state = solve_prepared(prepared).end.state
+    left = np.full_like(state.forces, 1e-15 * prepared.scale.force)
+    left[: len(prepared.interface)] = 0.0
+    assert relaxed(prepared, replace(state, forces=left), "step 2") is None
+    assert relaxed(prepared, replace(state, forces=1e6 * left), "step 2") is not None
 
 
 def test_what_floats_keeps_its_energy_balance_through_cycles():

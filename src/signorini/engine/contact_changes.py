@@ -23,6 +23,7 @@ from signorini.solution.scale import Loading
 from signorini.solution.state import State
 
 _BOUND_TOL = 1e-9  # of the friction bound: what counts as beyond it
+_UNLOADED_FRICTION = 1e-12  # of the size of forces: what rounding leaves of friction where nothing presses
 
 
 def switched(prepared: Prepared, state: State, absent: BoolArray) -> State:
@@ -69,8 +70,9 @@ def relaxed(prepared: Prepared, state: State, where: str) -> tuple[State, Certif
     n, interface = len(prepared.interface), prepared.interface
     tangential, bound = interface.effort(state.forces[n:]), interface.most(state.forces[:n])
     bound[interface.friction.sticks] = np.inf
-    size = float(np.abs(state.forces).max(initial=0.0))
-    if not (~prepared.absent & (tangential > (1.0 + _BOUND_TOL) * bound + 1e-12 * size)).any():
+    if not (
+        ~prepared.absent & (tangential > (1.0 + _BOUND_TOL) * bound + _UNLOADED_FRICTION * prepared.scale.force)
+    ).any():
         return None
     after, certificate, tried = advance(prepared, state, state.point, f"{where}, friction lowered")
     spent = 0.5 * (state.forces + after.forces)[n:] * (after.slip - state.slip)

@@ -238,20 +238,22 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[FollowedPart,
     behind: list[FollowedPart] = []
     cycle_ends: list[float] = []
     begin = float(stage.number - 1)
+    at_events = stage.step.at == "events"
+    # the work of temperatures needs the displacements, see signorini.engine.energy
+    heated = any(load.temperature is not None for load in prepared.model.loads)
     change = relaxed(prepared, state, stage.name)
     if change is not None:
         after, certificate, trace = change
-        behind.append(
-            FollowedPart(
-                path="single",
-                before=state,
-                after=after,
-                certificates=(certificate,),
-                trace=(trace,),
-                snapshots=(Snapshot(load_factor=begin, what="change", state=after),),
-                notes=(RELAXED,),
-            )
+        slipped = FollowedPart(
+            path="single",
+            before=state,
+            after=after,
+            certificates=(certificate,),
+            trace=(trace,),
+            snapshots=(Snapshot(load_factor=begin, what="change", state=after),),
+            notes=(RELAXED,),
         )
+        behind.append(lightened(slipped, every=at_events, end=False, heated=heated))
         state = after
     reaction, offset = at_the_end(prepared, stage, state.point)
     end = LoadPoint(
@@ -261,9 +263,6 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[FollowedPart,
         reaction=reaction,
         offset=offset,
     )
-    at_events = stage.step.at == "events"
-    # the work of temperatures needs the displacements, see signorini.engine.energy
-    heated = any(load.temperature is not None for load in prepared.model.loads)
     for interval, point in straight_parts(stage, state.point, end):
         part = StepPart(
             prepared=prepared, where=stage.name, interval=interval, before=state, end=point, whole=at_events
