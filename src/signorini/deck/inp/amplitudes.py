@@ -45,13 +45,7 @@ class Amplitude:
 
 
 def make_amplitudes(cards: Sequence[Card]) -> Mapping[str, Amplitude]:
-    """Read all ``*AMPLITUDE`` keywords, by name in capitals.
-
-    Raises
-    ------
-    DeckError
-        If times do not ascend, the factor is not given as a table, or a name is given twice.
-    """
+    """Read all ``*AMPLITUDE`` keywords, by name in capitals."""
     amplitudes = {}
     for card in of_keyword(cards, "AMPLITUDE"):
         card.refuse_unknown(("NAME", "TIME", "DEFINITION", "VALUE", "INPUT"))

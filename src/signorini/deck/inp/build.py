@@ -72,11 +72,6 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
     reach : files that it may include
     small_strain : solve with small displacements what asks for large ones (NLGEOM)
     deck_increments : follow the deck's increments instead of the package's rule
-
-    Raises
-    ------
-    DeckError
-        With file and line, for what is wrong, or would change the answer and is not supported.
     """
     cards = flatten(read_cards(path, reach))
     outside, steps = split_steps(cards)

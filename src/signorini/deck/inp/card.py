@@ -78,11 +78,6 @@ class Row:
         i : from 0
         what : is expected there, in words
         default : where the field is empty
-
-        Raises
-        ------
-        DeckError
-            If it is none, or missing and there is no default.
         """
         if default is not None and (i >= len(self.fields) or not self.fields[i]):
             return default

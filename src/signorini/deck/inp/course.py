@@ -107,12 +107,7 @@ class Course:
         label : what the deck calls the place
         card : the keyword, at its line
         amplitude : that the value follows, or None
-        adds : the value is added to what was set in this step, otherwise it replaces that
-
-        Raises
-        ------
-        DeckError
-            If both act, but with different amplitudes.
+        adds : the value is added to what was set in this step with the same amplitude, otherwise it replaces that
         """
         source = self._source(label, card)
         index = self._amplitude(amplitude)

@@ -102,13 +102,7 @@ class ElementType:
 
 
 def element_type(card: Card) -> ElementType:
-    """The type of an ``*ELEMENT`` keyword.
-
-    Raises
-    ------
-    DeckError
-        For types that this version does not have.
-    """
+    """The type of an ``*ELEMENT`` keyword."""
     name = card.value("TYPE", "an element type").upper()
     if name.rstrip("R") in _SHAPES:
         return ElementType(name=name, family=_SHAPES[name.rstrip("R")], kind=None)
@@ -202,13 +196,7 @@ class ElementGroup:
 
 
 def make_grid(cards: Sequence[Card]) -> DeckGrid:
-    """Read all ``*NODE`` and ``*ELEMENT`` keywords.
-
-    Raises
-    ------
-    DeckError
-        For a number that is used twice or for nothing, a type that is not supported, or a mesh that is not plane.
-    """
+    """Read all ``*NODE`` and ``*ELEMENT`` keywords; those of a plane mesh lie in a plane of constant z."""
     nodes, points = _nodes(cards)
     elements, groups = Numbering("element"), []
     for scope, own in _by_scope(cards, "ELEMENT"):

@@ -41,13 +41,7 @@ class Interaction:
 
 
 def make_interactions(cards: Sequence[Card]) -> dict[str, Interaction]:
-    """Read all ``*SURFACE INTERACTION`` keywords with what follows them, by name in capitals.
-
-    Raises
-    ------
-    DeckError
-        For laws that are not Signorini's and Coulomb's, possibly with a linear compliance.
-    """
+    """Read all ``*SURFACE INTERACTION`` keywords, of Signorini's and Coulomb's law, by name in capitals."""
     return collect(cards, "SURFACE INTERACTION", _INTERACTION_WORDS, _begun, _with)
 
 

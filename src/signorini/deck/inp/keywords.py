@@ -86,11 +86,6 @@ def look_up(card: Card, key: str, found: Mapping[str, Named], what: str) -> Name
     card, key : the keyword and its parameter
     found : what there is, by name in capitals
     what : a word for it in messages
-
-    Raises
-    ------
-    DeckError
-        If there is nothing of that name.
     """
     name = card.value(key)
     if name.upper() not in found:
@@ -99,21 +94,12 @@ def look_up(card: Card, key: str, found: Mapping[str, Named], what: str) -> Name
 
 
 def refuse_unsupported(cards: Sequence[Card], known: Sequence[str], where: str) -> dict[str, int]:
-    """Stop at the first keyword among the cards that changes the answer and is not read.
+    """Keywords among the cards that are left out, with the line of the first of each; what changes the answer stops.
 
     Parameters
     ----------
     known : keywords that are read here
     where : words for the place, as "in a step"
-
-    Returns
-    -------
-    Keywords that are left out and the line of the first of each
-
-    Raises
-    ------
-    DeckError
-        With the line of the keyword.
     """
     ignored: dict[str, int] = {}
     for card in cards:
@@ -145,11 +131,6 @@ def collect(
     words : keywords that belong to the last one before them
     begun : what the keyword alone says
     extended : what it says with one of the words
-
-    Raises
-    ------
-    DeckError
-        Where a name is given twice, or a word stands before anything that it could belong to.
     """
     found: dict[str, Named] = {}
     current = ""

@@ -98,18 +98,7 @@ class Known:
 
 
 def make_known(cards: Sequence[Card], outside: Sequence[Card]) -> Known:
-    """Read nodes, elements, sets, materials, sections, surfaces, laws of contact and amplitudes.
-
-    Parameters
-    ----------
-    cards : of the deck; sets and amplitudes stand in steps too
-    outside : those outside the steps
-
-    Raises
-    ------
-    DeckError
-        For what is malformed, is there twice, or refers to what is not there.
-    """
+    """Read all that cards outside the steps name or number; sets and amplitudes stand among all cards."""
     grid = make_grid(outside)
     nodes, elements = make_sets(cards, grid)
     materials = make_materials(outside)

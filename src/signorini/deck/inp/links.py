@@ -114,13 +114,7 @@ def rigid_motion(axis: int, dimension: int) -> int | None:
 
 
 def make_rigid_bodies(cards: Sequence[Card], known: Known) -> list[DeckRigid]:
-    """Read all ``*RIGID BODY`` keywords.
-
-    Raises
-    ------
-    DeckError
-        For an unknown set or node, a reference node that two bodies have, or a position that is to be computed.
-    """
+    """Read all ``*RIGID BODY`` keywords."""
     found: list[DeckRigid] = []
     for card in of_keyword(cards, "RIGID BODY"):
         card.refuse_unknown((*_MEMBERS, "REF NODE", "ROT NODE", "POSITION"), ("ISOTHERMAL",))
@@ -195,11 +189,6 @@ def make_equations(cards: Sequence[Card], known: Known, rigid: Sequence[DeckRigi
     ----------
     known : nodes and their sets
     rigid : rigid bodies, whose reference nodes may be in equations
-
-    Raises
-    ------
-    DeckError
-        For what is malformed: numbers of terms, directions, sets of different sizes.
     """
     found: list[DeckEquation] = []
     for card in of_keyword(cards, "EQUATION"):
@@ -283,19 +272,10 @@ def make_deck_links(cards: Sequence[Card], known: Known) -> tuple[list[DeckRigid
 def _couplings(
     cards: Sequence[Card], known: Known, rigid: Sequence[DeckRigid]
 ) -> tuple[list[DeckRigid], list[DeckEquation]]:
-    """Read all ``*COUPLING`` keywords: rigid bodies where they couple all directions, otherwise equations too.
+    """All rigid bodies, those of the deck first, with ``*COUPLING`` as more of them; equations where it couples a few.
 
     ``u_i(x) = u_i + (theta x (x - point))_i`` in every direction i that is coupled, with the displacement u and the
     rotation theta of the reference node at ``point``.
-
-    Returns
-    -------
-    All rigid bodies, those of the deck first, and the equations
-
-    Raises
-    ------
-    DeckError
-        For an unknown surface or node, directions that there are not, or another kind of coupling.
     """
     bodies = list(rigid)
     equations: list[DeckEquation] = []

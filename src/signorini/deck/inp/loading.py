@@ -165,11 +165,6 @@ def follow_steps(
     steps : in order
     known : nodes, elements, sections, surfaces, amplitudes
     rigid : what has reference nodes
-
-    Raises
-    ------
-    DeckError
-        For what is not supported, with its line.
     """
     courses = Courses(rigid=rigid, initial=_initial_temperatures(outside, known))
     for card in outside:

@@ -72,13 +72,7 @@ class Section:
 
 
 def make_materials(cards: Sequence[Card]) -> dict[str, Substance]:
-    """Read all ``*MATERIAL`` keywords with what follows them, by name in capitals.
-
-    Raises
-    ------
-    DeckError
-        For laws that are not linear elasticity with constant moduli, and von Mises' where they yield.
-    """
+    """Read all ``*MATERIAL`` keywords, linear elasticity and von Mises' law with constant moduli, by name in capitals."""
     return collect(cards, "MATERIAL", _MATERIAL_WORDS, lambda card: Substance(card=card), _with)
 
 
@@ -144,11 +138,6 @@ def make_sections(
     cards : of the deck, outside its steps
     grid, elements : nodes and elements, and sets of these
     materials : by name in capitals
-
-    Raises
-    ------
-    DeckError
-        For an unknown set or material, an element with two sections or none, a section of faces.
     """
     sections: list[Section] = []
     angles = _orientations(cards)

@@ -62,11 +62,6 @@ def number_table(card: Card, what: str, *, least: int, most: int) -> Array:
     card : of which the lines are
     what : what a line should hold, for messages
     least, most : numbers of a line
-
-    Raises
-    ------
-    DeckError
-        At the first line that does not hold so many numbers.
     """
     tables = []
     for part in _parts(card):
@@ -87,11 +82,6 @@ def record_table(card: Card, size: int, what: str) -> IntArray:
     card : of which the lines are
     size : numbers of a record
     what : what a record should hold, for messages
-
-    Raises
-    ------
-    DeckError
-        At the first line that holds anything else, or where a record ends inside a line or not at all.
     """
     tables = []
     for part in _parts(card):
@@ -198,13 +188,7 @@ class Numbering:
         return index[at[found]], np.nonzero(~found)[0]
 
     def index(self, scope: Scope, numbers: IntArray, at: Card | Row | Callable[[int], Card]) -> IntArray:
-        """Indices of numbers of a scope, all of which must be there; else ``at`` is blamed, or gives by place what is.
-
-        Raises
-        ------
-        DeckError
-            If one of them is not there.
-        """
+        """Indices of numbers of a scope, all of which must be there; else ``at`` is blamed, or gives who is."""
         found, missing = self.find(scope.name, numbers)
         if len(missing):
             inside = f" in instance '{scope.name}'" if scope.name else ""

@@ -38,13 +38,7 @@ class Pair:
 
 
 def make_contacts(cards: Sequence[Card], known: Known) -> list[Pair]:
-    """Read all ``*CONTACT PAIR`` keywords, whose slave side is nonmortar, and then all ``*TIE`` keywords.
-
-    Raises
-    ------
-    DeckError
-        For an unknown surface or interaction, a surface without edges, or what is not tied by its edges.
-    """
+    """Read all ``*CONTACT PAIR`` keywords, whose slave side is nonmortar, and then all ``*TIE`` keywords."""
     clearances = _clearances(cards, known)
     found: list[Pair] = []
     for card in of_keyword(cards, "CONTACT PAIR"):
@@ -163,11 +157,6 @@ def pairs_between(pairs: Sequence[Pair], sides: tuple[str, str], at: Card | Row)
     pairs : all contacts
     sides : names of the surfaces
     at : what is blamed where there is none
-
-    Raises
-    ------
-    DeckError
-        If there is none.
     """
     found = [i for i, pair in enumerate(pairs) if (pair.contact.nonmortar, pair.contact.mortar) == sides]
     if not found:
@@ -180,22 +169,13 @@ def _no_pair(at: Card | Row, sides: tuple[str, str]) -> DeckError:
 
 
 def make_changes(cards: Sequence[Card], known: Known, pairs: Sequence[Pair]) -> dict[str, Any]:
-    """Read ``*CHANGE FRICTION`` with its ``*FRICTION``, and ``*MODEL CHANGE`` or ``*CHANGE CONTACT PAIR`` of a step.
+    """What ``*CHANGE FRICTION``, ``*MODEL CHANGE`` and ``*CHANGE CONTACT PAIR`` change, by keys of the model's step.
 
     Parameters
     ----------
     cards : of the step
     known : surfaces and laws of contact
     pairs : all contacts
-
-    Returns
-    -------
-    Keywords of the model's step
-
-    Raises
-    ------
-    DeckError
-        For unknown interactions and surfaces, and changes of anything else.
     """
     friction: dict[str, Any] = {}
     switched: dict[str, bool] = {}

@@ -42,11 +42,6 @@ def make_prints(
     known : nodes and elements with their sets, surfaces
     contacts, rigid : contact pairs before ties, and what has reference nodes
     mesh : of the model, whose cells are elements in another order
-
-    Raises
-    ------
-    DeckError
-        For a set or a contact pair that does not exist.
     """
     labels, cells = known.elements.numbering.labels, mesh.cell_labels
     order = np.argsort(cells)

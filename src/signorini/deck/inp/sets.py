@@ -62,13 +62,7 @@ class Sets:
         return next((name for name in (inner, word) if name in self), None)
 
     def find(self, word: str, at: Card | Row) -> tuple[str, IntArray]:
-        """Label and members of a set or a single number that a card names; instances go before a dot: ``PART-1.7``.
-
-        Raises
-        ------
-        DeckError
-            If there is no such set or number.
-        """
+        """Label and members of a set or a single number that a card names; instances go before a dot: ``PART-1.7``."""
         name = self.key(word, at.scope)
         if name is not None:
             return self.spelled(name), self[name]

@@ -45,13 +45,7 @@ class DeckStep:
 
 
 def split_steps(cards: list[Card]) -> tuple[list[Card], list[DeckStep]]:
-    """Keywords before and between the steps, and the steps.
-
-    Raises
-    ------
-    DeckError
-        If a step is not ended or is anything but static.
-    """
+    """Keywords before and between the steps, and the steps."""
     outside: list[Card] = []
     inside: list[tuple[Card, list[Card]]] = []
     members = outside

@@ -66,13 +66,7 @@ class ElementFaces:
         ]
 
     def keys(self, elements: IntArray, face: str, at: Row, name: str) -> IntArray:
-        """Keys of one face, as ``S2`` or ``P2``, of elements.
-
-        Raises
-        ------
-        DeckError
-            At the line ``at`` of the keyword ``name``, if they have no such face.
-        """
+        """Keys of one face, as ``S2`` or ``P2``, of elements."""
         number = int(face[1:]) if face[1:].isdigit() else 0
         keys: IntArray = FACES * elements + min(number, FACES) - 1
         if not 1 <= number <= FACES or (self.ends[keys, 0] < 0).any():
@@ -160,13 +154,7 @@ class Surfaces:
         self._by_name[surface.name.upper()] = surface
 
     def find(self, word: str, at: Card | Row) -> DeckSurface:
-        """The surface that a card or one of its lines calls ``word``.
-
-        Raises
-        ------
-        DeckError
-            If there is no such surface.
-        """
+        """The surface that a card or one of its lines calls ``word``."""
         for name in (at.scope.prefixed(word).upper(), word.upper()):
             if name in self._by_name:
                 return self._by_name[name]
@@ -185,11 +173,6 @@ def make_surfaces(cards: Sequence[Card], faces: ElementFaces, nodes: Sets, eleme
     ----------
     faces : of all elements of the deck
     nodes, elements : sets that surfaces are made of
-
-    Raises
-    ------
-    DeckError
-        For faces that do not exist, or a kind of surface that is not supported.
     """
     surfaces = Surfaces()
     for card in of_keyword(cards, "SURFACE"):

@@ -28,18 +28,7 @@ _SHOWN_CHARACTERS = 60  # of a line, in messages
 
 
 def read_cards(path: Path, reach: Reach | None = None) -> list[Card]:
-    """All keywords of a deck in order, with those of the files that it includes.
-
-    Parameters
-    ----------
-    path : the deck
-    reach : files that it may include, by default those near it; their names are relative to its folder
-
-    Raises
-    ------
-    DeckError
-        If a file is missing or unreadable, or a keyword line is malformed.
-    """
+    """All keywords of a deck in order, with those of the files within reach, by default near it, that it includes."""
     cards: list[Card] = []
     _read(path, reach or Reach.of(path), cards, [], 0, None)
     return cards
@@ -177,13 +166,7 @@ _OUTSIDE = ("ASSEMBLY", "END ASSEMBLY", "END PART", "END INSTANCE")
 
 
 def flatten(cards: list[Card]) -> list[Card]:
-    """Put the keywords of a part wherever an instance of it stands.
-
-    Raises
-    ------
-    DeckError
-        If an instance names no part, a part or an instance is not ended, or its motion is malformed.
-    """
+    """Put the keywords of a part wherever an instance of it stands."""
     parts: dict[str, list[Card]] = {}
     flat: list[Card] = []
     stream = iter(cards)
