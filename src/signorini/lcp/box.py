@@ -110,14 +110,16 @@ class BoxLCP:
         problem, lower, upper = self._read()
         reduced = Reduction.of(problem, lower, upper)
         if reduced is None:
-            return _no_reduction()
+            message = f"{Status.SINGULAR.value} Here it is the block of the free variables."
+            return _reduced_away(Status.SINGULAR, message, "reduction: SINGULAR")
         if len(reduced.inner.q):
             solution = solve(reduced.inner.M, reduced.inner.q, method=method, tolerance=tolerance)
             if solution.z is None:
                 return replace(solution, candidate=None)
             z = reduced.back(solution.z)
         else:
-            solution, z = _trivial(), reduced.back(np.zeros(0))
+            line, z = "none: all variables are free or fixed", reduced.back(np.zeros(0))
+            solution = _reduced_away(Status.SOLVED, Status.SOLVED.value, line)
         residual = box_residual(problem, lower, upper, z)
         if residual.worst <= tolerance:
             return replace(solution, z=frozen(z), w=frozen(problem.M @ z + problem.q), residual=residual)
@@ -228,23 +230,6 @@ def box_residual(problem: LCP, lower: Array, upper: Array, z: Array) -> Residual
     )
 
 
-def _trivial() -> LCPSolution:
-    """Nothing was left to choose."""
-    return LCPSolution(
-        z=None,
-        w=None,
-        status=Status.SOLVED,
-        iterations=0,
-        residual=None,
-        candidate=None,
-        message=Status.SOLVED.value,
-        method="none",
-        chain=("none: all variables are free or fixed",),
-        ray=None,
-    )
-
-
-def _no_reduction() -> LCPSolution:
-    """The free variables are not determined by their own equations."""
-    message = f"{Status.SINGULAR.value} Here it is the block of the free variables."
-    return replace(_trivial(), status=Status.SINGULAR, message=message, chain=("reduction: SINGULAR",))
+def _reduced_away(status: Status, message: str, line: str) -> LCPSolution:
+    """Nothing was left to choose, or to solve for."""
+    return LCPSolution(status=status, message=message, method="none", chain=(line,))

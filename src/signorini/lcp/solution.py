@@ -119,16 +119,16 @@ class LCPSolution(Short):
     ray : Lemke's ray, where the status is ``RAY_TERMINATION``
     """
 
-    z: Array | None
-    w: Array | None
+    z: Array | None = None
+    w: Array | None = None
     status: Status
-    iterations: int
-    residual: Residual | None
-    candidate: Array | None
+    iterations: int = 0
+    residual: Residual | None = None
+    candidate: Array | None = None
     message: str
     method: str
     chain: tuple[str, ...]
-    ray: Ray | None
+    ray: Ray | None = None
 
     @property
     def solved(self) -> bool:
