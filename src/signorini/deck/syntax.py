@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -165,34 +166,27 @@ class _Scanner:
     def _value(self, path: Where) -> None:
         character = self._text[self._at]
         if character == "[":
-            self._array(path)
+            for number in self._members("]"):
+                self._lines[(*path, number)] = self._line()
+                self._value((*path, number))
         elif character == "{":
-            self._inline_table(path)
+            for _ in self._members("}"):
+                self._pair(path)
         else:
             pattern = _TEXT if character in "\"'" else _BARE
             found = pattern.match(self._text, self._at)
             assert found, f"no value at character {self._at} of a document that was said to be valid"
             self._at = found.end()
 
-    def _array(self, path: Where) -> None:
-        self._at += 1
-        number = 0
-        while self._next() != "]":
-            if self._text[self._at] == ",":
-                self._at += 1
-                continue
-            self._lines[(*path, number)] = self._line()
-            self._value((*path, number))
-            number += 1
-        self._at += 1
-
-    def _inline_table(self, path: Where) -> None:
-        self._at += 1
-        while self._next() != "}":
-            if self._text[self._at] == ",":
-                self._at += 1
-                continue
-            self._pair(path)
+    def _members(self, end: str) -> Iterator[int]:
+        """Stand at every member of an array or an inline table in turn, numbered from 0, and at last behind its end."""
+        for number in itertools.count():
+            self._at += 1  # the bracket, or the comma
+            if self._next() == end:
+                break
+            yield number
+            if self._next() == end:
+                break
         self._at += 1
 
     def _line(self) -> int:

@@ -85,28 +85,29 @@ def record_table(card: Card, size: int, what: str) -> IntArray:
     """
     tables = []
     for part in _parts(card):
-        found = bulk(part.chunks[0][2])
-        if found is None or len(found[0]) % size or (found[0] != np.rint(found[0])).any():
+        found = _bulk_of_whole(part)
+        if found is None or len(found[0]) % size:
             return _records(card, size, what)
-        ends = np.cumsum(found[1])
-        if (
-            not np.isin(np.arange(size, len(found[0]) + 1, size), ends).all()
-            or np.abs(found[0]).max(initial=0) >= NUMBER_LIMIT
-        ):
+        if not np.isin(np.arange(size, len(found[0]) + 1, size), np.cumsum(found[1])).all():
             return _records(card, size, what)
-        tables.append(found[0].astype(np.int64).reshape(-1, size))
+        tables.append(found[0].reshape(-1, size))
     return np.vstack(tables) if tables else np.empty((0, size), np.int64)
 
 
 def whole_numbers(card: Card) -> IntArray | None:
     """All data as whole numbers in one list; None if anything else is there (names, in sets)."""
-    lists = []
-    for part in _parts(card):
-        found = bulk(part.chunks[0][2])
-        if found is None or (found[0] != np.rint(found[0])).any() or np.abs(found[0]).max(initial=0) >= NUMBER_LIMIT:
-            return None
-        lists.append(found[0].astype(np.int64))
-    return np.concatenate(lists) if lists else np.empty(0, np.int64)
+    found = [_bulk_of_whole(part) for part in _parts(card)]
+    if any(part is None for part in found):
+        return None
+    return np.concatenate([np.empty(0, np.int64), *(part[0] for part in found if part is not None)])
+
+
+def _bulk_of_whole(part: Card) -> tuple[IntArray, IntArray] | None:
+    """`bulk` of one piece of data where all numbers are whole and have at most ten digits."""
+    found = bulk(part.chunks[0][2])
+    if found is None or (found[0] != np.rint(found[0])).any() or np.abs(found[0]).max(initial=0) >= NUMBER_LIMIT:
+        return None
+    return found[0].astype(np.int64), found[1]
 
 
 def _parts(card: Card) -> Iterator[Card]:
