@@ -72,7 +72,7 @@ class Section:
 
 
 def make_materials(cards: Sequence[Card]) -> dict[str, Substance]:
-    """Read all ``*MATERIAL`` keywords, linear elasticity and von Mises' law with constant moduli, by name in capitals."""
+    """Read all ``*MATERIAL`` keywords, elasticity and von Mises' law with constant moduli, by name in capitals."""
     return collect(cards, "MATERIAL", _MATERIAL_WORDS, lambda card: Substance(card=card), _with)
 
 
