@@ -66,7 +66,7 @@ class ElementFaces:
         ]
 
     def keys(self, elements: IntArray, face: str, at: Row, name: str) -> IntArray:
-        """Keys of one face, as ``S2`` or ``P2``, of elements."""
+        """Keys of one face, as ``S2`` or ``P2``, of elements; the line ``at`` of the keyword ``name`` asks for it."""
         number = int(face[1:]) if face[1:].isdigit() else 0
         keys: IntArray = FACES * elements + min(number, FACES) - 1
         if not 1 <= number <= FACES or (self.ends[keys, 0] < 0).any():
