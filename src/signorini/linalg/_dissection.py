@@ -161,13 +161,7 @@ def _best_cut(
 
 @njit(cache=True)
 def _separate(
-    graph: Graph,
-    line: Int32Array,
-    cut: int,
-    thinner: int,
-    label: Int32Array,
-    base: int,
-    separator: Int32Array,
+    graph: Graph, line: Int32Array, cut: int, thinner: int, label: Int32Array, base: int, separator: Int32Array
 ) -> int:
     """Label a piece by the sides of its cut and by the separator, which is listed; gives its size."""
     indptr, indices = graph
@@ -225,13 +219,7 @@ def _refine(
 
 @njit(cache=True)
 def _pass(
-    graph: Graph,
-    label: Int32Array,
-    base: int,
-    sides: IntArray,
-    separator: Int32Array,
-    moves: Moves,
-    stamp: int,
+    graph: Graph, label: Int32Array, base: int, sides: IntArray, separator: Int32Array, moves: Moves, stamp: int
 ) -> int:
     """Move vertices out of the separator, best first and each once; undo what came after the best; gives what is kept.
 
@@ -280,14 +268,7 @@ def _next_move(label: Int32Array, base: int, sides: IntArray, most: int, moves: 
 
 @njit(cache=True)
 def _move(
-    graph: Graph,
-    label: Int32Array,
-    base: int,
-    v: int,
-    side: int,
-    sides: IntArray,
-    moves: Moves,
-    stamp: int,
+    graph: Graph, label: Int32Array, base: int, v: int, side: int, sides: IntArray, moves: Moves, stamp: int
 ) -> int:
     """Move a vertex of the separator to a side; gives by how much the separator grows."""
     indptr, indices = graph

@@ -72,16 +72,17 @@ def factorise_fronts(
     count, top = np.zeros(2, np.int64), np.zeros(2, np.int64)
     for t in range(len(fronts.parent)):
         a = fronts.unknown[fronts.first[t]]
-        k = fronts.unknown[fronts.first[t + 1]] - a
-        r = fronts.below[t]
+        k, r = fronts.unknown[fronts.first[t + 1]] - a, fronts.below[t]
         ld = k + r
         panel = factor[fronts.panel[t] : fronts.panel[t + 1]]
         panel[:] = 0.0
         own, other = fronts.side[t], 1 - fronts.side[t]
         left = stacks[own][top[own] : top[own] + r * r]
-        _number_rows(fronts, t, k, local)
+        _list_below(fronts, t, target)
         for j in range(k):
             local[a + j] = j
+        for i in range(r):
+            local[target[i]] = k + i
         _add_matrix(K, elimination, a, k, local, panel, ld)
         for j in range(k):
             diagonal[a + j] = panel[j * (ld + 1)]
@@ -124,23 +125,21 @@ def factorise_fronts(
 
 
 @njit(cache=True)
-def _number_rows(fronts: Fronts, t: int, k: int, local: Int32Array) -> None:
-    """Note where the unknowns below front t stand in it."""
-    at = k
+def _list_below(fronts: Fronts, t: int, below: Int32Array) -> None:
+    """List the unknowns below front t."""
+    at = 0
     for p in range(fronts.begin[t], fronts.begin[t + 1]):
         for u in range(fronts.unknown[fronts.row[p]], fronts.unknown[fronts.row[p] + 1]):
-            local[u] = at
+            below[at] = u
             at += 1
 
 
 @njit(cache=True)
 def _list_rows(fronts: Fronts, t: int, local: Int32Array, target: Int32Array) -> None:
     """List where the unknowns below front t stand in its parent."""
-    at = 0
-    for p in range(fronts.begin[t], fronts.begin[t + 1]):
-        for u in range(fronts.unknown[fronts.row[p]], fronts.unknown[fronts.row[p] + 1]):
-            target[at] = local[u]
-            at += 1
+    _list_below(fronts, t, target)
+    for i in range(fronts.below[t]):
+        target[i] = local[target[i]]
 
 
 @njit(cache=True)
@@ -243,6 +242,7 @@ def forward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) ->
     s : of BLAS
     """
     columns, n = y.shape
+    rows = np.empty(fronts.below.max() if len(fronts.below) else 0, np.int32)
     for t in range(len(fronts.parent)):
         a = fronts.unknown[fronts.first[t]]
         k = fronts.unknown[fronts.first[t + 1]] - a
@@ -256,12 +256,10 @@ def forward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) ->
         if r == 0:
             continue
         gemm(False, r, columns, k, below, x, False, gathered, s)
+        _list_below(fronts, t, rows)
         for c in range(columns):
-            at = c * r
-            for p in range(fronts.begin[t], fronts.begin[t + 1]):
-                for u in range(fronts.unknown[fronts.row[p]], fronts.unknown[fronts.row[p] + 1]):
-                    y[c, u] += work[at]
-                    at += 1
+            for i in range(r):
+                y[c, rows[i]] += work[c * r + i]
 
 
 @njit(cache=True)
@@ -273,6 +271,7 @@ def backward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) -
     fronts, factor, y, work, s : see `forward`
     """
     columns, n = y.shape
+    rows = np.empty(fronts.below.max() if len(fronts.below) else 0, np.int32)
     for t in range(len(fronts.parent) - 1, -1, -1):
         a = fronts.unknown[fronts.first[t]]
         k = fronts.unknown[fronts.first[t + 1]] - a
@@ -281,12 +280,10 @@ def backward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) -
         own, below = StoredMatrix(top, k + r), StoredMatrix(top + 8 * k, k + r)
         x, gathered = StoredMatrix(y.ctypes.data + 8 * a, n), StoredMatrix(work.ctypes.data, r)
         if r > 0:
+            _list_below(fronts, t, rows)
             for c in range(columns):
-                at = c * r
-                for p in range(fronts.begin[t], fronts.begin[t + 1]):
-                    for u in range(fronts.unknown[fronts.row[p]], fronts.unknown[fronts.row[p] + 1]):
-                        work[at] = y[c, u]
-                        at += 1
+                for i in range(r):
+                    work[c * r + i] = y[c, rows[i]]
             gemm(True, k, columns, r, below, gathered, True, x, s)
         trsm(False, True, k, columns, own, x, s)
 

@@ -146,10 +146,7 @@ def supernodes(parent: Int32Array, count: Int32Array, relax: tuple[int, float, i
 
 @njit(cache=True)
 def front_rows(
-    graph: Graph,
-    elimination: Elimination,
-    first: Int32Array,
-    count: Int32Array,
+    graph: Graph, elimination: Elimination, first: Int32Array, count: Int32Array
 ) -> tuple[IntArray, Int32Array, Int32Array]:
     """Give the rows below every supernode, sorted, and the supernode that they join next (-1: the interface).
 

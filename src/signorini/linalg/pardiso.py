@@ -143,21 +143,7 @@ def _first_solver() -> Any:
 
 def _upper(system: System, lift: Array) -> sparse.csr_array:
     """Give the upper triangle of ``K + diag(lift)`` with sorted rows and a full diagonal."""
-    indptr, indices, entries = system.rows
-    row = np.repeat(np.arange(system.n, dtype=np.int32), np.diff(indptr))
-    kept = indices >= row
-    row, column, data = row[kept], indices[kept], entries[kept]
-    diagonal = np.flatnonzero(column == row)
-    if len(diagonal) == system.n:
-        data[diagonal] += lift
-    else:  # an interface without stiffness of its own
-        row, column = np.append(row, system.interface), np.append(column, system.interface)
-        data = np.append(data, lift[system.interface])
-        return sparse.coo_array((data, (row, column)), shape=(system.n, system.n)).tocsr()
-    begin = np.concatenate([[0], np.cumsum(np.bincount(row, minlength=system.n))]).astype(np.int32)
-    upper = sparse.csr_array((data, column, begin), shape=(system.n, system.n))
-    upper.sort_indices()
-    return upper
+    return sparse.csr_array(sparse.triu(system.matrix + sparse.diags_array(lift), format="csr"))
 
 
 def _in_order(condensed: Array, interface: IntArray, lift: Array) -> Array:

@@ -252,24 +252,21 @@ def join(meshes: Mapping[str, Mesh]) -> Mesh:
     >>> join({"left": one, "right": one})
     Mesh(6 nodes, 2 triangles; bodies: left, right; boundaries: left.bottom, right.bottom)
     """
-    families = [family for family in NODES_PER_CELL if any(family in mesh.cells for mesh in meshes.values())]
     point_shift = np.cumsum([0] + [len(mesh.points) for mesh in meshes.values()])
-    blocks: dict[str, list[IntArray]] = {family: [] for family in families}
-    cell_number: list[IntArray] = [np.empty(mesh.number_of_cells, np.int64) for mesh in meshes.values()]
+    blocks: dict[str, list[IntArray]] = {}
+    cell_numbers: list[dict[str, IntArray]] = [{} for _ in meshes]
     count = 0
-    for family in families:
-        for mesh, shift, numbers in zip(meshes.values(), point_shift, cell_number, strict=False):
-            start = 0
-            for other, nodes in mesh.cells.items():
-                if other == family:
-                    blocks[family].append(nodes + shift)
-                    numbers[start : start + len(nodes)] = count + np.arange(len(nodes))
-                    count += len(nodes)
-                start += len(nodes)
+    for family in NODES_PER_CELL:
+        for mesh, shift, own in zip(meshes.values(), point_shift, cell_numbers, strict=False):
+            if family in mesh.cells:
+                blocks.setdefault(family, []).append(mesh.cells[family] + shift)
+                own[family] = count + np.arange(len(mesh.cells[family]))
+                count += len(own[family])
     bodies: dict[str, IntArray] = {}
     boundaries: dict[str, Facets] = {}
     nodes_named: dict[str, IntArray] = {}
-    for (key, mesh), shift, numbers in zip(meshes.items(), point_shift, cell_number, strict=False):
+    for (key, mesh), shift, own in zip(meshes.items(), point_shift, cell_numbers, strict=False):
+        numbers = np.concatenate([own[family] for family in mesh.cells])
         for name, index in mesh.bodies.items():
             bodies[key if len(mesh.bodies) == 1 else f"{key}.{name}"] = numbers[index]
         boundaries |= {
