@@ -129,8 +129,7 @@ def test_it_is_neither_coulombs_law_nor_a_limit():
 def test_frozen_at_its_own_forces_it_is_trescas_law(seed, directions):
     problem = posed(seed, directions)
     answer = solve_contact(problem)
-    frozen = problem.friction.frozen(answer.r[0])
-    assert isinstance(frozen, FrictionBound)
+    frozen = FrictionBound.constant(problem.friction.at(answer.r[0]))
     y = answer.y.copy()
     other = ContactProblem(image=problem.image, b=problem.b, friction=frozen, scale=1.0)
     assert certify(other, y) <= 1e-9

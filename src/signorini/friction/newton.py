@@ -237,7 +237,7 @@ def searched(
         r, a, h, violation = _shortened(equilibrium, (r, a, h), found, max(history[-MEMORY:]))
         history.append(violation)
         following = problem.law.tangent(r - h)
-        changes.append(int(np.count_nonzero(~following.same_states(law))))
+        changes.append(int(np.count_nonzero((following.closed != law.closed) | (following.left != law.left))))
         law = following
         done = converged  # the step after the first certified one squares its error
         lacking = _lacking(equilibrium, r, h, violation)

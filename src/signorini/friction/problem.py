@@ -261,10 +261,12 @@ class ContactProblem:
         n, rows = self.pairs, len(self.motions)
         if rows not in (2 * n, 3 * n):
             raise InputError(f"has {rows} rows; expected {2 * n} or {3 * n} for {n} pairs", where=("W",))
-        data: list[tuple[str, Array, list[tuple[int, ...]]]] = [("b", self.b, [(rows,)])]
+        data: list[tuple[str, Array | BoolArray, list[tuple[int, ...]]]] = [("b", self.b, [(rows,)])]
         if not isinstance(self.friction, Bound):
             tangents = (rows // n - 1,) if n else (1, 2)  # without a pair nothing tells the plane from space
             data.append(("friction", self.friction, [(n,), *((k, n) for k in tangents)]))
+            others = (("adhesion", self.adhesion), ("limit", self.limit), ("tresca", self.tresca))
+            data += [(name, given, [(n,)]) for name, given in others if given is not None]
         for name, found, expected in data:
             if found.shape not in expected:
                 said = " or ".join(map(str, expected))
@@ -283,20 +285,14 @@ class ContactProblem:
         """Refuse friction that is none, and pairs without bound on it that supports pull along."""
         if isinstance(self.friction, Bound):
             return
-        n, friction = self.pairs, self.friction
+        friction = self.friction
         if not (friction >= 0).all():
             raise InputError(
                 "has negative entries or NaN; expected mu >= 0, inf for pairs that stick", where=("friction",)
             )
         for name, given in (("adhesion", self.adhesion), ("limit", self.limit)):
-            if given is None:
-                continue
-            if given.shape != (n,):
-                raise InputError(f"has shape {given.shape}; expected {(n,)}", where=(name,))
-            if not (given >= 0).all() or (name == "adhesion" and not np.isfinite(given).all()):
+            if given is not None and not ((given >= 0) & (np.isfinite(given) | (name == "limit"))).all():
                 raise InputError("has negative entries or NaN; expected scaled forces >= 0", where=(name,))
-        if self.tresca is not None and self.tresca.shape != (n,):
-            raise InputError(f"has shape {self.tresca.shape}; expected {(n,)}", where=("tresca",))
         if self.tresca is not None and not np.isfinite(friction[..., self.tresca]).all():
             raise InputError("is infinite at a pair in Tresca's law; expected a force", where=("friction",))
         endless = np.isinf(friction) if self.limit is None else np.isinf(friction) & np.isinf(self.limit)

@@ -15,6 +15,9 @@ from signorini.law.section import FrictionSection
 
 _ROUNDS = 60  # of edges added to the least squares problem, which takes some ten
 
+PROGRAM_TOL = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
+"""Of the data: what linear programs may lack, as HiGHS is told."""
+
 GAIN = 1e-9
 """Size of the unresisted load, relative to scale, above which it counts."""
 
@@ -170,7 +173,7 @@ def _by_program(problem: ContactProblem, load: Array, bound: FrictionBound) -> A
         b_eq=-load,
         bounds=[(0.0, None)] * n + [(None, None)] * n + [(0.0, None)] * (2 * k),
         method="highs",
-        options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
+        options=PROGRAM_TOL,
     )
     if answer.status != 0 or answer.fun <= GAIN * np.sqrt(n) * size_of(load):
         return None

@@ -57,10 +57,6 @@ class Bound(ABC):
     def among(self, kept: BoolArray) -> Self:
         """The bound of the kept pairs, (n,)."""
 
-    def frozen(self, p: Array) -> FrictionBound:
-        """The bound that stays what it is at normal forces p, as in Tresca's law."""
-        return FrictionBound.constant(self.at(p))
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FrictionBound(Bound):

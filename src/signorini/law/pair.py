@@ -60,11 +60,6 @@ class Tangent:
             kappa=none[0],
         )
 
-    def same_states(self, other: Tangent) -> BoolArray:
-        """(n,) Pairs that are open, stick or slip in both."""
-        alike = (self.closed == other.closed) & (self.left == other.left)
-        return np.asarray(alike, dtype=np.bool_)
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PairLaw:

@@ -11,6 +11,7 @@ from scipy.optimize import linprog
 
 from signorini.arrays import Array, IntArray
 from signorini.friction.problem import ContactProblem
+from signorini.friction.pull_away import PROGRAM_TOL
 
 MARGIN = 1e-6
 """Of the data: what every state must lack for a proof that there are no rates; rates that are accepted lack 1e-9."""
@@ -22,7 +23,6 @@ RAY = "ray termination"
 
 _KINK_WIDTH = 1e-2  # of the first kink of a bound: what counts as zero beside it
 _DATA_ROUNDING = 1e-14  # of the data
-_PROGRAM_TOL = 1e-10  # of the data, that linear programs are solved to
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,7 +106,6 @@ def least_lacking(
     low, high : (N,) finite
     pivots : most of the linear program; t is NaN where they were not enough
     """
-    options = {"primal_feasibility_tolerance": _PROGRAM_TOL, "dual_feasibility_tolerance": _PROGRAM_TOL}
     size = len(low)
     found = linprog(
         np.append(np.zeros(size), 1.0),
@@ -114,7 +113,7 @@ def least_lacking(
         b_ub=right,
         bounds=np.column_stack([np.append(low, 0.0), np.append(high, np.inf)]),
         method="highs",
-        options=options if pivots is None else options | {"maxiter": pivots},
+        options=PROGRAM_TOL if pivots is None else PROGRAM_TOL | {"maxiter": pivots},
     )
     if found.status != 0:
         return float("nan"), np.zeros(size), int(found.nit)

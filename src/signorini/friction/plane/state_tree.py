@@ -20,6 +20,7 @@ from scipy.optimize import linprog
 
 from signorini.arrays import Array, IntArray
 from signorini.friction.problem import ContactProblem
+from signorini.friction.pull_away import PROGRAM_TOL
 from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 CLOSED = -2
@@ -165,7 +166,7 @@ def _relaxed(program: _Program, node: IntArray) -> tuple[float, float, Array, Ar
         b_eq=program.rhs,
         bounds=[*zip(low, high, strict=True), *[(0.0, np.inf)] * (4 * n)],
         method="highs",
-        options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
+        options=PROGRAM_TOL,
     )
     x, lacking = answer.x, answer.fun
     if answer.status != 0 or x is None or lacking is None:

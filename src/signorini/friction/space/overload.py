@@ -10,18 +10,12 @@ from scipy.optimize import linprog
 
 from signorini.arrays import Array, BoolArray
 from signorini.friction.problem import ContactProblem
-from signorini.friction.pull_away import GAIN, STRONGEST_FORCES, strongest_edges, unit_edges, work_of
+from signorini.friction.pull_away import GAIN, PROGRAM_TOL, STRONGEST_FORCES, strongest_edges, unit_edges, work_of
 from signorini.law.section import FrictionSection
 
 _MAX_ROUNDS = 60
 _DIRECTIONS = 8  # of friction on every pair that the first linear programme knows
 _MAX_PIVOTS = 20_000  # of one linear programme, which takes some hundreds
-_PROGRAM_TOL = 1e-10  # of the loads: what a linear programme may lack
-_PROGRAM = {
-    "primal_feasibility_tolerance": _PROGRAM_TOL,
-    "dual_feasibility_tolerance": _PROGRAM_TOL,
-    "maxiter": _MAX_PIVOTS,
-}
 _TILT_TOL = 1e-3  # of unit motions: what sliding may lift or press, by normals that are not quite alike
 _RESISTED_WORK = 1e-2  # of the work of the loads that grow: what the largest forces may do by a motion's rounding
 
@@ -107,7 +101,7 @@ def overload(problem: ContactProblem, held: Array, b_end: Array, *, near: BoolAr
             b_eq=-load / unit,
             bounds=[(0.0, 1.0)] + [(0.0, None)] * columns.shape[1],
             method="highs",
-            options=_PROGRAM,
+            options=PROGRAM_TOL | {"maxiter": _MAX_PIVOTS},
         )
         if answer.status != 0 or answer.x[0] >= 1.0 - GAIN:
             return None

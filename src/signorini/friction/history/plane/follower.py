@@ -154,25 +154,20 @@ class PlaneFollower(PathFollower):
         )
 
     def _enter(self, rates: Rates) -> None:
-        """Go on with these rates; what changes its state is an event."""
-        self._change(rates.state)
-        self.rates = rates
+        """Go on with these rates; what changes its state at the present load is an event."""
+        self.rates, state = rates, rates.state
+        now, old = self.now, self.now.state
+        if np.array_equal(state, old):
+            return
+        sticking = (state == STICK) & (old != STICK)
+        self.now = replace(now, state=state, anchor=np.where(sticking, now.h[len(state) :], now.anchor))
+        self.happens(old, self.now, free=self.forced == UNDECIDED)
 
     def _guesses(self, law: RateLaw) -> list[IntArray]:
         """The acting pairs in their natural next state, the others as before; and every pair at a corner sticking."""
         hold = np.where(law.forced == UNDECIDED, STICK, law.forced)
         natural, stuck = next(self._next_states(law)), np.where(law.kind == CORNER, hold, self.now.state)
         return [stuck, natural] if (self.now.state == OPEN).all() else [natural, stuck]
-
-    def _change(self, state: IntArray) -> None:
-        """Enter new states at the present load."""
-        now, old = self.now, self.now.state
-        if np.array_equal(state, old):
-            return
-        sticking = (state == STICK) & (old != STICK)
-        anchor = np.where(sticking, now.h[len(state) :], now.anchor)
-        self.now = replace(now, state=state, anchor=anchor)
-        self.happens(old, self.now, free=self.forced == UNDECIDED)
 
     def _advance(self) -> NoRates | None:
         """Go on to the next event or the end, and certify it."""
@@ -230,12 +225,9 @@ class PlaneFollower(PathFollower):
         times = np.divide(np.maximum(value, 0.0), -rate, out=np.full(value.shape, np.inf), where=falls)
         return np.asarray(times.min(axis=0))
 
-    def _load_at(self, factor: float) -> Array:
-        return self.b_end if factor == 1.0 else self.start.b + factor * self.load
-
     def _reached(self, factor: float, rates: Rates) -> tuple[PathState, float]:
         """The state at a load, solved for afresh where it lacks more than rounding, and its certificate."""
-        b, step = self._load_at(factor), factor - self.factor
+        b, step = self.b_end if factor == 1.0 else self.start.b + factor * self.load, factor - self.factor
         h, r = self.now.h + step * rates.h, self.now.r + step * rates.r
         after = self._lawful(b, h, r)
         residual = self._certificate(after)

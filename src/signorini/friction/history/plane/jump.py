@@ -14,6 +14,7 @@ from signorini.friction.history.segment import Jump
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import pulled_away
+from signorini.law.bound import FrictionBound
 
 STEP_BEYOND = 1e-4
 """Part of what is left of the segment, past the jump, at which the loads are asked whether they pull bodies away."""
@@ -47,7 +48,7 @@ def explain(
     pressed = now.r[:n] > width
     slides = problem.floating and bool(pressed.any() and spent[pressed].all())
     # friction that is not in proportion to the pressures depends on how they are shared
-    limit = pulled_away(further, problem.bound.frozen(now.r[:n])) if slides and not leaves else None
+    limit = pulled_away(further, FrictionBound.constant(problem.bound.at(now.r[:n]))) if slides and not leaves else None
     pairs = acting if len(acting) else np.flatnonzero(spent)
     reason = (SLIDING if slides else LEAVING) if leaves else LIMITED if limit is not None else ""
     shown = limit if pull is None else pull
