@@ -153,6 +153,7 @@ WRONG = {  # the law, how the line that is named begins, what is said
         "*PLASTIC",
         "the yield stress is 0.0",
     ),
+    "twice": (f"{TABLE}*PLASTIC,\n.03,0.\n", "*PLASTIC,", "'M' has another one in line 17; expected one"),
     "cyclic alone": ("*CYCLIC HARDENING\n.02,0.\n", "*CYCLIC", "stands before any *PLASTIC of its material"),
     "cyclic, isotropic": (f"{TABLE}*CYCLIC HARDENING\n.02,0.\n", "*CYCLIC", "belongs to *PLASTIC, HARDENING=COMBINED"),
     "two beginnings": (

@@ -84,6 +84,8 @@ def _with(substance: Substance, card: Card) -> Substance:
         card.choice("TYPE", ("ISO",), "ISO")
         return replace(substance, expansion=_constant(card, "the coefficient of expansion"))
     if card.keyword == "PLASTIC":
+        if substance.flow is not None:
+            raise card.error(f"'{substance.name}' has another one in line {substance.flow.card.line}; expected one")
         return replace(substance, flow=make_flow(card))
     if card.keyword == "CYCLIC HARDENING":
         if substance.flow is None:
