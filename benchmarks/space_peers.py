@@ -23,8 +23,14 @@ from benchmarks.peers import run_calculix, run_getfem
 from signorini.arrays import Array, IntArray
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
-from signorini.gallery.cubes import cube_on_block
+from signorini.meshing.solid import box
+from signorini.model.body import Body
+from signorini.model.conditions import Support
+from signorini.model.contact import Contact
+from signorini.model.material import Elastic
+from signorini.model.mesh import join
 from signorini.model.model import Model
+from signorini.model.step import Step
 
 FRICTION = 0.2
 PENALTY = 1e5
@@ -54,11 +60,31 @@ class Found:
     shear: Array
 
 
+def cube_on_block(n: int, m: int, layers: int, *, friction: float = FRICTION) -> Model:
+    """A unit cube on a block 2 x 2 x 1, its top lowered by 0.01 and held sideways: other codes solve the same.
+
+    Parameters
+    ----------
+    n : cells along every edge of the cube
+    m, layers : cells of the block along x and y, and along z
+    friction : Coulomb's coefficient
+    """
+    x, wide = np.linspace(0.0, 1.0, n + 1), np.linspace(-0.5, 1.5, m + 1)
+    return Model(
+        join({"cube": box(x=x, y=x, z=x), "block": box(x=wide, y=wide, z=np.linspace(-1.0, 0.0, layers + 1))}),
+        title="A cube on a block",
+        bodies=[Body(name, Elastic(E=200.0, nu=0.3)) for name in ("cube", "block")],
+        supports=[Support("block.bottom", u=(0.0, 0.0, 0.0)), Support("cube.top", u=(0.0, 0.0, -0.01))],
+        contacts=[Contact("cube.bottom", "block.top", friction=friction, name="contact")],
+        steps=[Step(name="press", increments=1)],
+    )
+
+
 def main() -> None:
     parser = command.parser(__doc__, dry=True)
     parser.add_argument("--cells", type=int, nargs=3, default=[14, 17, 10], help="of the cube; of the block, layers")
     options = parser.parse_args()
-    model = cube_on_block(*options.cells, friction=FRICTION)
+    model = cube_on_block(*options.cells)
     found, said = [with_signorini(model)], []
     for reason, run in ((run_calculix.missing(), with_calculix), (run_getfem.missing(), with_getfem)):
         if reason is None:

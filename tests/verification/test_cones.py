@@ -9,12 +9,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import signorini as sg
+from benchmarks.space_peers import cube_on_block
 from signorini.deck.write import write_deck
 from signorini.engine.increments import measured
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve, solve_prepared
 from signorini.errors import InputError
-from signorini.gallery.cubes import cube_on_block, cubes
+from signorini.gallery.cubes import cubes
 from signorini.meshing.solid import box
 from signorini.model.mesh import join
 from signorini.output.dataclasses_json import from_plain, to_plain

@@ -9,11 +9,12 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import signorini as sg
+from benchmarks.space_peers import cube_on_block
 from signorini.engine.increments import free_load
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve
 from signorini.friction.solve import solve_contact
-from signorini.gallery.cubes import cube_on_block, cubes
+from signorini.gallery.cubes import cubes
 from signorini.model.conditions import Support
 from signorini.solution.state import LoadPoint
 

@@ -40,7 +40,7 @@ def step_result(
     cycle_ends : load factors at which its cycles end; one where it does not repeat
     finished : whether it goes to the end of the step
     """
-    before, state, certificates = followed.before, followed.after, followed.certificates
+    before, state = followed.before, followed.after
     heat = thermal_energy(prepared)
     instants = tuple(_instants(prepared, followed, cycle_ends, heat))
     cycles = make_cycles(followed, cycle_ends) if len(cycle_ends) > 1 else ()
@@ -55,12 +55,9 @@ def step_result(
     return StepResult(
         name=stage.title,
         path=followed.path,
-        load_factor=followed.snapshots[-1].load_factor,
         finished=finished,
-        increments=0 if followed.path == "exact" else len(followed.trace),
         events=followed.events,
         displacement=frozen(prepared.space.at_nodes(state.displacement)),
-        factors=dict(state.point.factors),
         external=frozen(_external(prepared, state, loads, held)),
         obstacles={
             obstacle.name: _rigid_result(prepared, j, state, state.external)
@@ -77,9 +74,8 @@ def step_result(
         released=state.released - before.released,
         energy_defect=state.work - before.work - spent,
         certificate=Certificate(
-            **{key: max(getattr(c, key) for c in certificates) for key in Certificate.__dataclass_fields__}
+            **{key: max(getattr(c, key) for c in followed.certificates) for key in Certificate.__dataclass_fields__}
         ),
-        contacts=instants[-1].contacts,
         trace=followed.trace,
         instants=instants,
         cycles=cycles,

@@ -22,7 +22,6 @@ from signorini.solution.results import OPEN, SLIP, STICK
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _FRAMES_PER_SECOND = 12
@@ -149,7 +148,10 @@ def _scene(film: ContactFilm, title: str) -> tuple[Figure, Callable[[float], lis
     (slip,) = slips.plot([], [], color=INK, lw=1.5)
     forces.plot(film.load, film.force[:, 0], color=TRACTION, lw=1.2)
     (here,) = forces.plot([], [], "o", color=INK, ms=6)
-    _label(film, tractions, slips, forces)
+    forces.set_xlim(film.load[0], film.load[-1])
+    dress(tractions, y="force per area")
+    dress(slips, x=f"{film.axis} along '{film.name}', undeformed", y="slip")
+    dress(forces, x="segment of the loads", y="friction force")
     shown = {name: STATUS_COLOURS[name] for name in (STICK, SLIP)}
     patches = [Patch(color=colour, label=name) for name, colour in shown.items()]
     handles = [pressure, traction, *bounds[:1], *patches]
@@ -175,18 +177,6 @@ def _scene(film: ContactFilm, title: str) -> tuple[Figure, Callable[[float], lis
         return []
 
     return figure, draw
-
-
-def _label(film: ContactFilm, tractions: Axes, slips: Axes, forces: Axes) -> None:
-    tractions.set_ylabel("force per area", fontsize=9.5, color=INK)
-    slips.set_ylabel("slip", fontsize=9.5, color=INK)
-    slips.set_xlabel(f"{film.axis} along '{film.name}', undeformed", fontsize=9.5, color=INK)
-    forces.set_ylabel("friction force", fontsize=9.5, color=INK)
-    forces.set_xlabel("segment of the loads", fontsize=9.5, color=INK)
-    forces.set_xlim(film.load[0], film.load[-1])
-    for axes in (tractions, slips, forces):
-        axes.axhline(0.0, color=INK, lw=0.7)
-        dress(axes)
 
 
 def _widest(film: ContactFilm) -> float:

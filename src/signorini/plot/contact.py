@@ -14,7 +14,7 @@ from signorini.arrays import Array
 from signorini.plot.curve import Curve, closed_range
 from signorini.plot.patch import draw_patches
 from signorini.plot.picture_data import PictureData
-from signorini.plot.style import BOUND, INK, PRESSURE, STATUS_COLOURS, TRACTION, dress, entitle, label
+from signorini.plot.style import BOUND, PRESSURE, STATUS_COLOURS, TRACTION, dress, entitle
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -46,7 +46,6 @@ def _draw(axes: Axes, curve: Curve) -> None:
     from matplotlib.patches import Patch
 
     shade_status(axes, curve.s, curve.status, STATUS_COLOURS)
-    single = len(curve.s) == 1
     dots, squares = ("o-", "s-") if len(curve.s) <= _MAX_DOTS else ("-", "-")
     lines = axes.plot(curve.s, curve.pressure, dots, color=PRESSURE, ms=4, lw=1.8, label="pressure p")
     if curve.friction > 0:
@@ -60,11 +59,9 @@ def _draw(axes: Axes, curve: Curve) -> None:
             line = axes.plot(curve.s, sign * bound, "--", color=BOUND, lw=1.0, alpha=0.8)
         line[0].set_label(f"{name}, μ = {curve.friction:g}")
         lines += line
-    axes.axhline(0.0, color=INK, lw=0.8)
-    if not single:
+    if len(curve.s) > 1:
         axes.set_xlim(*closed_range(curve))
-    label(axes, x=curve.place, y="force per area", title=f"{curve.contact}, end of step '{curve.step}'")
-    dress(axes)
+    dress(axes, x=curve.place, y="force per area", title=f"{curve.contact}, end of step '{curve.step}'")
     states = [Patch(color=colour, label=words) for words, colour in STATUS_COLOURS.items() if words in curve.status]
     axes.legend(handles=[*lines, *states], fontsize=8.5, frameon=True, framealpha=0.92, edgecolor="none", loc="best")
 

@@ -108,9 +108,7 @@ def _contact_forces(history: History, i: int) -> _ContactForces:
 def _largest_pressure(axes: Axes, forces: _ContactForces, name: str) -> None:
     axes.plot(forces.load, forces.largest, "-", color=PRESSURE, lw=1.5)
     axes.plot(forces.load[forces.ends], forces.largest[forces.ends], "o", color=PRESSURE, ms=5)
-    axes.axhline(0.0, color=INK, lw=0.8)
-    label(axes, y=f"largest pressure of '{name}', force per area")
-    dress(axes)
+    dress(axes, y=f"largest pressure of '{name}', force per area")
 
 
 def _nodes(axes: Axes, forces: _ContactForces, name: str) -> None:
@@ -119,8 +117,7 @@ def _nodes(axes: Axes, forces: _ContactForces, name: str) -> None:
     for low, high, status in ((0.0 * stick, stick, STICK), (stick, stick + slip, SLIP)):
         axes.fill_between(forces.load, low, high, step="pre", color=STATUS_INK[status], alpha=0.6, lw=0.0, label=status)
     axes.set_ylim(0.0, 1.15 * max(1.0, float((stick + slip).max())))
-    label(axes, y=f"nodes of '{name}', of {forces.counts[:, 0].sum():.0f}")
-    dress(axes)
+    dress(axes, y=f"nodes of '{name}', of {forces.counts[:, 0].sum():.0f}")
     axes.legend(fontsize=8.5, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
 
 
@@ -133,10 +130,8 @@ def _profiles(axes: Axes, curves: list[Curve], what: str) -> None:
     ranges = np.array([closed_range(curve) for curve in curves])
     if len(curves[0].s) > 1:
         axes.set_xlim(ranges[:, 0].min(), ranges[:, 1].max())
-    axes.axhline(0.0, color=INK, lw=0.8)
     words = "pressure" if what == "pressure" else "friction along the tangent"
-    label(axes, x=curves[0].place, y=f"{words}, force per area")
-    dress(axes)
+    dress(axes, x=curves[0].place, y=f"{words}, force per area")
 
 
 def _resultants(axes: Axes, forces: _ContactForces, solid: bool) -> None:
@@ -152,9 +147,7 @@ def _resultants(axes: Axes, forces: _ContactForces, solid: bool) -> None:
     across = np.linalg.norm(forces.friction - np.outer(forces.friction @ along, along), axis=1)
     if across.max() > _MIN_SHARE * np.abs(forces.friction).max():
         axes.plot(forces.load, across, ":", color=TRACTION, lw=1.5, label="friction force across that")
-    axes.axhline(0.0, color=INK, lw=0.8)
-    label(axes, y="force on the nonmortar body")
-    dress(axes)
+    dress(axes, y="force on the nonmortar body")
     handles, labels = axes.get_legend_handles_labels()
     if forces.dissipation.max() > 0.0:
         beside = axes.twinx()

@@ -33,8 +33,10 @@ def status_words(contact: ContactResult) -> NDArray[np.str_]:
     return np.where(plain, PLAIN, contact.status)
 
 
-def dress(axes: Axes) -> None:
-    """Thin spines below and left, a light grid behind."""
+def dress(axes: Axes, *, x: str = "", y: str = "", title: str = "") -> None:
+    """Thin spines below and left, a light grid behind, a line at y = 0, and words as of :func:`label`."""
+    label(axes, x=x, y=y, title=title)
+    axes.axhline(0.0, color=INK, lw=0.8)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
     for side in ("bottom", "left"):

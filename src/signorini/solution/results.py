@@ -227,15 +227,12 @@ class StepResult(Short):
     Attributes
     ----------
     name, path : of the step; path is "single" (one increment), "increments" or "exact"
-    load_factor : step k ends at k; one that is not finished before
     finished : whether it was solved to its end; only the last step of a history may not be
-    increments : solved in this step; 0 on an exact path
     events : of an exact path, in order
     displacement : (nodes, d) length
     external : (nodes, d) loads and reactions of supports, force
     obstacles : moving obstacles by name
     rigid_bodies : the same of rigid bodies
-    factors : load factors at its end, by name
     reactions : support or elastic foundation to its force on the bodies, (d,); on a rigid body with its moments
     strain_energy : of the bodies
     interface_energy : of compliant interfaces and elastic foundations
@@ -243,7 +240,6 @@ class StepResult(Short):
     released : energy set free at once in this step: in jumps, by changes of the law, by contacts switched off
     energy_defect : work less what is stored, dissipated and released; rounding on an exact path
     certificate : the worst of every increment, or the end of an exact path
-    contacts : in the order of the model
     trace : for every increment the methods tried, in order: iterations, status changes, how each ended
     instants : on the way, in order; the end of the step is the last
     cycles : of a step that repeats
@@ -253,15 +249,12 @@ class StepResult(Short):
 
     name: str
     path: str
-    load_factor: float
     finished: bool
-    increments: int
     events: tuple[PairEvent, ...]
     displacement: Array
     external: Array
     obstacles: Mapping[str, ObstacleResult]
     rigid_bodies: Mapping[str, ObstacleResult]
-    factors: Mapping[str, float]
     reactions: Mapping[str, Array]
     strain_energy: float
     interface_energy: float
@@ -269,12 +262,31 @@ class StepResult(Short):
     released: float
     energy_defect: float
     certificate: Certificate
-    contacts: tuple[ContactResult, ...]
     trace: tuple[tuple[MethodRun, ...], ...]
     instants: tuple[Instant, ...]
     cycles: tuple[Cycle, ...]
     steadiness: str
     notes: tuple[str, ...]
+
+    @property
+    def load_factor(self) -> float:
+        """Step k ends at k; one that is not finished before."""
+        return self.instants[-1].load_factor
+
+    @property
+    def factors(self) -> Mapping[str, float]:
+        """Load factors at its end, by name."""
+        return self.instants[-1].factors
+
+    @property
+    def contacts(self) -> tuple[ContactResult, ...]:
+        """At its end, in the order of the model."""
+        return self.instants[-1].contacts
+
+    @property
+    def increments(self) -> int:
+        """Solved in this step; 0 on an exact path."""
+        return 0 if self.path == "exact" else len(self.trace)
 
     @property
     def methods(self) -> tuple[str, ...]:
