@@ -34,7 +34,7 @@ def status_words(contact: ContactResult) -> NDArray[np.str_]:
 
 
 def dress(axes: Axes, *, x: str = "", y: str = "", title: str = "") -> None:
-    """Thin spines below and left, a light grid behind, a line at y = 0, and words as of :func:`label`."""
+    """Give axes thin spines, a light grid and a line at y = 0; x, y and title are words as of :func:`label`."""
     label(axes, x=x, y=y, title=title)
     axes.axhline(0.0, color=INK, lw=0.8)
     for side in ("top", "right"):
