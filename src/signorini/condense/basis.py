@@ -9,9 +9,7 @@ import numpy as np
 import scipy.linalg
 
 from signorini.arrays import Array
-from signorini.condense.body_blocks import mirror
-
-_DEPENDENT = 1e-10  # of the largest: what is left of a motion that follows from the others
+from signorini.condense.body_blocks import DEPENDENT, mirror
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -70,7 +68,7 @@ def make_basis(motions: Array) -> Basis:
     """
     R, triangle = scipy.linalg.qr(motions, mode="economic") if motions.size else (motions.copy(), np.zeros((0, 0)))
     size = np.abs(np.diag(triangle))
-    if len(size) < motions.shape[1] or size.min(initial=1.0) <= _DEPENDENT * size.max(initial=0.0):
+    if len(size) < motions.shape[1] or size.min(initial=1.0) <= DEPENDENT * size.max(initial=0.0):
         raise np.linalg.LinAlgError("the pairs do not see a rigid motion")
     R[~motions.any(axis=1)] = 0.0
     return Basis(R=R, triangle=triangle)

@@ -19,7 +19,7 @@ from scipy.linalg import lapack
 
 from signorini.arrays import Array, IntArray
 
-_VANISHES = 1e-10  # of the largest: size of what is left of a motion that follows from the others
+DEPENDENT = 1e-10  # of the largest: what is left of a motion that follows from the others
 _TILE = 64  # rows and columns mirrored at a time
 
 
@@ -146,7 +146,7 @@ def _block(stiffness: Array, dofs: IntArray, rigid: Array, size: float) -> BodyB
     if rigid.any():
         Q, triangle, _ = scipy.linalg.qr(rigid, mode="economic", pivoting=True)
         left = np.abs(np.diag(triangle))
-        Q = Q[:, : np.count_nonzero(left > _VANISHES * left[0])]
+        Q = Q[:, : np.count_nonzero(left > DEPENDENT * left[0])]
         matrix += size * (Q @ Q.T)
     cholesky, _ = scipy.linalg.cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)
     return BodyBlock(dofs=dofs, cholesky=cholesky)

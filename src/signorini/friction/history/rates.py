@@ -19,6 +19,9 @@ MARGIN = 1e-6
 RUNAWAY_RATE = 1e6
 """Of the data: rates larger than that are none that equilibrium goes on with."""
 
+RATE_TOL = 1e-9
+"""Of the largest rate: one below it is none, and what rates may lack of the law."""
+
 RAY = "ray termination"
 
 _KINK_WIDTH = 1e-2  # of the first kink of a bound: what counts as zero beside it

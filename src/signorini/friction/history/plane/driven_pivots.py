@@ -14,11 +14,8 @@ from signorini.arrays import Array, IntArray
 from signorini.friction.history.plane.rate_law import CORNER, INSIDE, RATE, RateLaw
 from signorini.friction.history.plane.responses import Responses
 from signorini.friction.history.plane.state_inverse import SingularState
-from signorini.friction.history.rates import Rates
+from signorini.friction.history.rates import RATE_TOL, Rates
 from signorini.law.states import OPEN, STICK
-
-WRONG_RATE_TOL = 1e-9
-"""Violation of the law, relative to the largest rate, above which rates are none."""
 
 
 def drive(responses: Responses, law: RateLaw, load: Array, before: Rates, acting: IntArray) -> Rates | None:
@@ -61,7 +58,7 @@ def drive(responses: Responses, law: RateLaw, load: Array, before: Rates, acting
         which, pair = divmod(int(np.argmin(steps)), n)
         step = float(steps[which, pair])
         if way < 0 and step >= theta:
-            return responses.refined(found, load) if target.min() >= -WRONG_RATE_TOL * found.size else None
+            return responses.refined(found, load) if target.min() >= -RATE_TOL * found.size else None
         if not np.isfinite(step):
             return None
         theta, last, state = theta + way * step, pair, state.copy()

@@ -24,7 +24,7 @@ from signorini.friction.history.plane.jump import explain
 from signorini.friction.history.plane.rate_law import CORNER, INSIDE, RateLaw, weight
 from signorini.friction.history.plane.responses import MISFIT_ROUNDING, Responses
 from signorini.friction.history.plane.state_inverse import SingularState
-from signorini.friction.history.rates import MARGIN, NoRates, Rates, widths_of_zero
+from signorini.friction.history.rates import MARGIN, RATE_TOL, NoRates, Rates, widths_of_zero
 from signorini.friction.history.segment import Breakpoint, Segment
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
@@ -34,7 +34,6 @@ from signorini.outcome import Outcome
 
 _SAME_EVENT = 1e-12  # part of the segment: events closer than that act together
 _STANDSTILL = 50  # events at one load, after which the path is given up
-_LAWLESS = 1e-9  # of the largest rate: what rates of a next state may lack of the law
 
 LET_GO = "a pair of infinite friction holds back a tangential force until it loses its pressure, and lets go at once"
 """A jump that the law itself makes."""
@@ -100,7 +99,7 @@ class PlaneFollower(PathFollower):
         held = replace(law, kind=np.where(acts, INSIDE, law.kind), kink=law.kink & ~acts)
         for state in self._next_states(law):
             found = find_rates(self.responses, held, self.load, state, [state])
-            if isinstance(found, Rates) and law.violation(found) <= _LAWLESS:
+            if isinstance(found, Rates) and law.violation(found) <= RATE_TOL:
                 self._enter(found)
                 return self._advance() is None
         return False

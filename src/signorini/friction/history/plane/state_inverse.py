@@ -12,18 +12,15 @@ from scipy.linalg import blas, lapack
 
 from signorini.arrays import Array, IntArray
 from signorini.condense.body_blocks import inverse_of
+from signorini.friction.linear import SINGULAR
 from signorini.friction.problem import ContactProblem
 from signorini.law.states import OPEN, STICK
-
-SINGULAR = 1e-13
-"""Reciprocal condition below which a state counts as singular."""
 
 PIVOT_TOL = 1e-9
 """Pivot, relative to what cancels in it, below which the system is inverted afresh."""
 
 REFRESH = 400
 """Changes of state after which the system is inverted afresh."""
-
 
 ROOM = 64
 """Unknowns that an inverse may grow by before it is moved to larger memory."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini import lcp
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.friction.history.rates import NoRates, Rates, evidence, refused
+from signorini.friction.history.rates import RATE_TOL, NoRates, Rates, evidence, refused
 from signorini.friction.history.space.no_rates_proof import Exhausted, search_regions
 from signorini.friction.history.space.rate_problem import CONE, FACET, GAP, KINK, RateProblem
 from signorini.friction.history.space.smooth_cones import ConeProblem
@@ -23,7 +23,6 @@ ENUMERATED = 16
 """Most complementary numbers of which every combination is tried."""
 
 _DEPARTURES = 64  # most combinations of next states of the acting pairs
-_RATE_TOL = 1e-9  # of the largest rate: a rate that is none
 
 Departure = tuple[tuple[int, bool], ...] | Literal["opens", "closes", "stays"]
 """How a pair leaves its state: some of its complementary numbers move, or do not; or it opens, closes, or stays."""
@@ -118,13 +117,9 @@ def _ways(choice: RateProblem, k: int, state: int) -> list[Departure]:
         meets = ((int(np.flatnonzero(kind == GAP)[0]), False),)
         return [meets if state == OPEN else _OPENS, _STAYS]
     turns = [((place, moving),) for place in kinks for moving in (True, False)] if state == SLIP and kinks else [()]
-    slips = [tuple((facet, facet in some) for facet in facets) for some in _some(facets)]
+    sliding = [facets, *([facet] for facet in facets if len(facets) > 1)]  # all that it touches, two at most, or one
+    slips = [tuple((facet, facet in some) for facet in facets) for some in sliding]
     return [*((*turn, *slip) for turn in turns for slip in slips), _STAYS]
-
-
-def _some(facets: list[int]) -> list[tuple[int, ...]]:
-    """All of the facets that a pair touches, which are two at most, and each of them."""
-    return [tuple(facets)] + [(facet,) for facet in facets if len(facets) > 1]
 
 
 def _solved(
@@ -152,14 +147,14 @@ def _solved(
     z[free], z[given] = found, -(answer[:, :-1] @ found + answer[:, -1])
     one = choice.kind != CONE
     w = M @ z + q
-    rounding = _RATE_TOL * np.maximum(np.abs(M) @ np.abs(z) + np.abs(q), np.abs(q).max(initial=0.0))
+    rounding = RATE_TOL * np.maximum(np.abs(M) @ np.abs(z) + np.abs(q), np.abs(q).max(initial=0.0))
     h, r = choice.rates(z)
     size = max(np.abs(h).max(initial=0.0), np.abs(r).max(initial=0.0))
     off = np.abs(choice.held.problem.misfit(h, r)).max(initial=0.0)
-    none = _RATE_TOL * np.abs(z).max(initial=0.0)
-    if (w < -rounding)[one].any() or z[one].min(initial=0.0) < -none or off > _RATE_TOL * size:
+    none = RATE_TOL * np.abs(z).max(initial=0.0)
+    if (w < -rounding)[one].any() or z[one].min(initial=0.0) < -none or off > RATE_TOL * size:
         return NoRates(proof="the rates found do not obey the law", proved=False)
-    return Rates(state=_states(choice, h, r, _RATE_TOL * size), h=h, r=r)
+    return Rates(state=_states(choice, h, r, RATE_TOL * size), h=h, r=r)
 
 
 def _with_cones(problem: ConeProblem, size: float) -> Array | NoRates:

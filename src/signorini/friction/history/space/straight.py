@@ -19,6 +19,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.friction.history.rates import RATE_TOL
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
 from signorini.friction.result import ContactAnswer
@@ -26,7 +27,6 @@ from signorini.law.states import OPEN, STICK
 
 END_ROUNDING = 1e-9  # part of an increment: what comes so late does not happen in it
 _IDLE = 1e-12  # of the data: a normal force that rounding leaves, under which nothing slips
-_RATE_TOL = 1e-9  # of the largest rate: a rate that is none
 _VALUE_ROUNDING = 1e-12  # of the values that a rate is the difference of
 
 
@@ -119,7 +119,7 @@ def extrapolated_length(problem: ContactProblem, start: PathState, end: PathStat
     n, h, r = problem.pairs, end.h, end.r
     dh, dr = h - start.h, r - start.r
     size = max(np.abs(dh).max(initial=0.0), np.abs(dr).max(initial=0.0))
-    least = _RATE_TOL * size + _VALUE_ROUNDING * max(np.abs(h).max(initial=0.0), np.abs(r).max(initial=0.0))
+    least = RATE_TOL * size + _VALUE_ROUNDING * max(np.abs(h).max(initial=0.0), np.abs(r).max(initial=0.0))
     times = [np.inf]
 
     def vanish(which: BoolArray, value: Array, rate: Array) -> None:
