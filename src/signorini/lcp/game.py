@@ -11,9 +11,8 @@ import numpy as np
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.lcp.lemke import Lemke, Path
 from signorini.lcp.problem import LCP
-from signorini.lcp.scaling import Equilibrated, equilibrate
 from signorini.lcp.solution import Attempt, Status
-from signorini.lcp.tableau import Tableau
+from signorini.lcp.tableau import Equilibrated, Tableau, equilibrate
 
 
 @dataclass(frozen=True, kw_only=True)

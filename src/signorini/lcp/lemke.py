@@ -15,9 +15,8 @@ from signorini.lcp.active import polish
 from signorini.lcp.delayed import DOUBT, RAY, SOLVED, Tolerances
 from signorini.lcp.linear import factorised
 from signorini.lcp.problem import LCP, read_vector
-from signorini.lcp.scaling import Equilibrated, equilibrate
 from signorini.lcp.solution import Attempt, Ray, Status
-from signorini.lcp.tableau import Tableau
+from signorini.lcp.tableau import Equilibrated, Tableau, equilibrate
 
 NOISE = 1e-14  # of the largest basic variable: less is rounding
 HIDDEN_TIE = 1e-6  # of its largest value: theta below it at the end of a path may be 0, hidden by a tie

@@ -11,9 +11,8 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.lcp.active import polish
 from signorini.lcp.problem import LCP
-from signorini.lcp.scaling import equilibrate
 from signorini.lcp.solution import Attempt, Status
-from signorini.lcp.tableau import Tableau
+from signorini.lcp.tableau import Tableau, equilibrate
 
 
 @dataclass(frozen=True, kw_only=True)
