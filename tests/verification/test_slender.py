@@ -34,6 +34,12 @@ def test_a_cantilever_hundreds_of_times_as_long_as_high(length):
     assert end.displacement[:, 1].min() == pytest.approx(-4.0 * force * length**3 / STEEL.E, rel=1e-2)
 
 
+@pytest.mark.parametrize("length", [4e3, 1e5])
+def test_a_body_too_slender_for_the_digits_is_told_so(length):
+    with pytest.raises(sg.InputError, match=r"body 'block' is too slender for double precision: what resists the mo"):
+        prepare(cantilever(length, 1e-5))
+
+
 @pytest.mark.skipif(np.finfo(np.longdouble).eps > 1e-18, reason="no numbers of more digits here")
 def test_a_cantilever_keeps_the_digits_of_its_displacements():
     """Against the same stiffness solved with a factor and residuals in numbers of more digits."""

@@ -21,6 +21,7 @@ from signorini.engine.memory_check import iterates, refuse_unassembled
 from signorini.engine.multipliers import MAX_ENTRIES, PATIENCE, MultiplierSolver, make_multipliers
 from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.errors import InputError
+from signorini.fem.rigid import hinged
 from signorini.fem.stiffness import reduced_stiffness, stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.active import FreeBodies
@@ -367,14 +368,20 @@ def _with_ties(examined: Examined, ties: Ties) -> Constraints:
 
 def _singular(examined: Examined, error: NotPositiveDefinite) -> InputError:
     node = examined.constraints.nodes[error.dof]
-    label = next((part.label for part in examined.parts if node in part.nodes), "")
-    if not label:
+    part = next((part for part in examined.parts if node in part.nodes), None)
+    if part is None:
         return InputError(
             "a rigid body or obstacle has no stiffness against some motion; expected a support or contact"
         )
     at = tuple(float(x) for x in examined.model.mesh.points[node].round(6))
-    number = examined.model.mesh.labels[node]
+    moving = f"node {examined.model.mesh.labels[node]} at {at}"
+    if part.kind == "body" and not hinged(examined.space, part):
+        return InputError(
+            f"{part.label} is too slender for double precision: what resists the motion of {moving} is less than the "
+            "rounding of its stiffness; expected bodies shorter for their height, and moduli that are not extremely "
+            "apart"
+        )
     return InputError(
-        f"{label} has no stiffness against some motion of node {number} at {at}, though no rigid motion is free; "
-        "expected cells that are joined by edges (a hinge at a single node?) and moduli that are not extremely apart"
+        f"{part.label} has no stiffness against some motion of {moving}, though no rigid motion is free; expected "
+        "cells that are joined by edges (a hinge at a single node?) and moduli that are not extremely apart"
     )

@@ -70,6 +70,27 @@ def connected_bodies(space: Space, model: Model) -> tuple[ConnectedBody, ...]:
     return (*_pieces(space, model), *_rigid(model), *_loose_nodes(space))
 
 
+def hinged(space: Space, part: ConnectedBody) -> bool:
+    """Whether cells of a piece of the mesh are joined without a common facet, so that they can turn about a node.
+
+    Parameters
+    ----------
+    space : the mesh
+    part : the piece
+    """
+    own = np.isin(np.concatenate([block.cells[:, 0] for block in space.blocks]), part.nodes)
+    pairs = [(f.cell[:-1][same], f.cell[1:][same]) for f in space.facets.values() if len(same := _twice(f.key))]
+    one, two = (np.concatenate(cells) for cells in zip(*pairs, strict=True)) if pairs else (np.zeros(0, int),) * 2
+    graph = sp.csr_array((np.ones(len(one), np.int8), (one, two)), shape=(len(own), len(own)))
+    _, joined = connected_components(graph, directed=False)
+    return len(np.unique(joined[own])) > 1
+
+
+def _twice(key: IntArray) -> IntArray:
+    """Where a sorted number stands before an equal one."""
+    return np.flatnonzero(key[1:] == key[:-1])
+
+
 def _freedom(model: Model) -> dict[str, Any]:
     """Axes along which a body can move, and the number of those about which it can rotate."""
     d = model.dimension
