@@ -32,11 +32,9 @@ def mesh_notes(model: Model) -> Iterator[str]:
     loose = np.setdiff1d(np.arange(len(mesh.points)), np.concatenate([used, *rigid]))
     if len(loose):
         yield f"{len(loose)} nodes belong to no element: {_some(labels[loose])}"
-    owner, first = model.body_of_cells(), 0
     body = np.full(len(mesh.points), -1)
-    for cells in mesh.cells.values():
-        body[cells] = owner[first : first + len(cells), None]
-        first += len(cells)
+    for cells, owner in zip(mesh.cells.values(), mesh.by_family(model.body_of_cells()), strict=True):
+        body[cells] = owner[:, None]
     size = float(np.ptp(mesh.points, axis=0).max())
     pairs = KDTree(mesh.points[used]).query_pairs(_SAME_PLACE_TOL * size, output_type="ndarray")
     pairs = used[pairs[body[used[pairs[:, 0]]] == body[used[pairs[:, 1]]]]] if len(pairs) else pairs

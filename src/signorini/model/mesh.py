@@ -195,6 +195,10 @@ class Mesh:
         """What results call the cells, (m,)."""
         return np.arange(1, self.number_of_cells + 1) if self.cell_numbers is None else self.cell_numbers
 
+    def by_family(self, values: IntArray) -> list[IntArray]:
+        """Values of all cells, (m,), in parts for the families."""
+        return np.split(values, np.cumsum([len(nodes) for nodes in self.cells.values()])[:-1])
+
     def cell_name(self, cell: int) -> str:
         """What messages call a cell: ``"cell 12 (quad)"``."""
         counts = np.cumsum([len(nodes) for nodes in self.cells.values()])

@@ -86,18 +86,16 @@ class Fields:
         assert state.displacement is not None
         stresses, mesh = self.stresses(state), self.model.mesh
         nodes = np.concatenate([part.nodes for part in stresses])
-        owner = self.model.body_of_cells()
+        owners = mesh.by_family(self.model.body_of_cells())
         families, cells, body = [], [], []
         start = 0
         for i, part in enumerate(stresses):
-            first = 0
-            for family, block in mesh.cells.items():
-                own = block[owner[first : first + len(block)] == i]
+            for (family, block), owner in zip(mesh.cells.items(), owners, strict=True):
+                own = block[owner == i]
                 if len(own):
                     families.append(family)
                     cells.append(start + np.searchsorted(part.nodes, own))
                     body.append(np.full(len(own), i))
-                first += len(block)
             start += len(part.nodes)
         return BodyFields(
             points=mesh.points[nodes],

@@ -81,16 +81,16 @@ def _document(history: History, fields: Fields, times: Sequence[float]) -> Itera
 
 
 def _elements(model: Model) -> Iterator[str]:
-    labels, owner, first = model.mesh.cell_labels, model.body_of_cells() + 1, 0
-    for family, cells in model.mesh.cells.items():
+    mesh = model.mesh
+    numbers, owners = mesh.by_family(mesh.cell_labels), mesh.by_family(model.body_of_cells() + 1)
+    for (family, cells), labels, owner in zip(mesh.cells.items(), numbers, owners, strict=True):
         kind, width = _TYPES[family]
-        nodes = model.mesh.labels[cells[:, _UPRIGHT.get(width, slice(width))]]
+        nodes = mesh.labels[cells[:, _UPRIGHT.get(width, slice(width))]]
         lines = []
-        for row, cell in enumerate(nodes.tolist(), start=first):
-            lines.append(f" -1{labels[row]:10d}{kind:5d}    0{owner[row]:5d}\n")
+        for label, body, cell in zip(labels, owner, nodes.tolist(), strict=True):
+            lines.append(f" -1{label:10d}{kind:5d}    0{body:5d}\n")
             words = [f"{node:10d}" for node in cell]
             lines += [f" -2{''.join(words[start : start + 10])}\n" for start in range(0, len(words), 10)]
-        first += len(cells)
         yield "".join(lines)
 
 

@@ -71,11 +71,8 @@ def _solid(axes: Axes, history: History, points: Array, motion: Array) -> tuple[
     """The skin of the bodies where they go, and the edges of those that go where they are."""
     from matplotlib.collections import LineCollection
 
-    owner, first, blocks = history.model.body_of_cells(), 0, []
-    for family, cells in history.model.mesh.cells.items():
-        blocks.append((family, cells, owner[first : first + len(cells)]))
-        first += len(cells)
-    skin = make_skin(points, blocks)
+    mesh, owner = history.model.mesh, history.model.body_of_cells()
+    skin = make_skin(points, list(zip(mesh.cells, mesh.cells.values(), mesh.by_family(owner), strict=True)))
     camera = best_view(skin.spans(skin.points), np.ones(len(skin.body)))
     moved = skin.points + skin.values(motion)
     seen = camera.across(np.concatenate([skin.points, moved]))
