@@ -52,12 +52,8 @@ def block(cells: tuple[int, ...]) -> tuple[sparse.csr_array, np.ndarray, np.ndar
     gradients = np.stack([element.lbasis(X, i)[1] for i in range(2**d)])
     K = stiffness(
         basis.doflocs.T,
-        Cells(
-            nodes=basis.element_dofs.T,
-            shape_gradients=np.moveaxis(gradients, 2, 0),
-            weights=weights,
-            law=law_tensor(isotropic(0.58, 0.38)[None, : 2 * d, : 2 * d]),
-        ),
+        Cells(nodes=basis.element_dofs.T, shape_gradients=np.moveaxis(gradients, 2, 0), weights=weights),
+        law_tensor(isotropic(0.58, 0.38)[None, : 2 * d, : 2 * d]),
     )
     height = np.repeat(basis.doflocs[-1], d)
     free = np.flatnonzero(height > 0)

@@ -86,11 +86,11 @@ def gmsh_mesh(shape: Callable[[Any], None], dimension: int, size: float) -> tupl
 
 def system(mesh: Any, element: Any) -> System:
     """Stiffness with the highest nodes held; no interface."""
-    points, cells = cells_of(mesh, element)
+    points, cells, law = cells_of(mesh, element)
     d = points.shape[1]
     free = np.flatnonzero(np.repeat(points[:, -1] < points[:, -1].max() - 1e-9, d))
     return checked_system(
-        stiffness(points, cells)[free][:, free], [], np.repeat(np.arange(len(points)), d)[free], points
+        stiffness(points, cells, law)[free][:, free], [], np.repeat(np.arange(len(points)), d)[free], points
     )
 
 

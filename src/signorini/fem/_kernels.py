@@ -88,39 +88,30 @@ def unknown_pattern(rows: IntArray, columns: Int32Array, d: int) -> tuple[Int32A
     return indptr, indices
 
 
-class Reference(NamedTuple):
-    """A reference element at the nq points of its quadrature.
+class Cells(NamedTuple):
+    """Elements of one kind; what stands here without a dimension goes for all of them.
 
     Attributes
     ----------
-    gradients : (nq, k, d) of the shape functions
-    values : (nq, k) the shape functions, where the body is axisymmetric: ``N_a / r`` joins the gradients as a further
-        component; otherwise (0, 0)
-    weights : (nq,)
-    pressures : (nq, p) functions that the dilatation of an element without modes is projected on; none with p = 0
+    nodes : (M, k) the nodes of every element
+    shape_gradients : (nq, k, d) reference gradients of the shape functions at the points of a quadrature
+    weights : (nq,) weights of the quadrature on the reference element
+    material : (M,) which of the laws is each element's, or one number
+    measure : (M, nq), (M, 1) or one number, what a point of the plane stands for: thickness or circumference, length
+    shape_values : (nq, k) the shape functions themselves; axisymmetric bodies need them: ``N_a / r`` joins the
+        gradients as a further component
+    modes : (M, nq, k', e) gradients of internal modes of each element, which are eliminated
+    pressures : (nq, p) functions that the dilatation of every element without modes is projected on; with none it stays
     """
 
-    gradients: Array
-    values: Array
+    nodes: IntArray
+    shape_gradients: Array
     weights: Array
-    pressures: Array
-
-
-class Elements(NamedTuple):
-    """Elements of one kind.
-
-    Attributes
-    ----------
-    nodes : (M, k)
-    measure : (M, nq) thickness or circumference, length
-    modes : (M, nq, k', e) gradients of k' internal modes, eliminated element by element
-    material : (M,) number of its law
-    """
-
-    nodes: Int32Array
-    measure: Array
-    modes: Array
-    material: IntArray
+    material: IntArray = np.zeros(1, np.int64)
+    measure: Array = np.ones(1)
+    shape_values: Array = np.empty((0, 0))
+    modes: Array = np.empty((0, 0, 0, 0))
+    pressures: Array = np.empty((0, 0))
 
 
 class Laws(NamedTuple):
@@ -147,9 +138,7 @@ class SparsityPattern(NamedTuple):
 
 
 @njit(cache=True)
-def add_block(
-    points: Array, elements: Elements, reference: Reference, laws: Laws, pattern: SparsityPattern
-) -> tuple[int, int]:
+def add_block(points: Array, elements: Cells, laws: Laws, pattern: SparsityPattern) -> tuple[int, int]:
     """Add the stiffness of the elements of one kind; give (-1, 0), or the first bad element and what is wrong with it.
 
     The products ``C = sum_q w g g^T`` of all gradient components are summed first, which is one rank-one update per
@@ -159,11 +148,10 @@ def add_block(
     Parameters
     ----------
     points : (N, d) of all nodes, length
-    elements, reference, laws : of this kind
+    elements, laws : of one kind, arrays of full shapes
     pattern : added to
     """
-    cells, measure, modes, material = elements
-    gradients, values, weights, pressures = reference
+    cells, gradients, weights, material, measure, values, modes, pressures = elements
     entries, law, bulk = laws
     rows, columns, data = pattern
     nodes, d = cells.shape[1], points.shape[1]

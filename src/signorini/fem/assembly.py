@@ -11,7 +11,6 @@ higher nodes on them. SparsityPattern and values are written once, in rows; no l
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,39 +19,14 @@ from scipy import sparse
 from signorini.arrays import Array, Int32Array
 from signorini.errors import InputError
 from signorini.fem import _kernels
+from signorini.fem._kernels import Cells
+
+__all__ = ["Cells", "stiffness"]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Cells:
-    """Elements of one kind, with their material.
-
-    Attributes
-    ----------
-    nodes : (M, k) the nodes of every element
-    shape_gradients : (nq, k, d) reference gradients of the shape functions at the points of a quadrature
-    weights : (nq,) weights of the quadrature on the reference element
-    law : (n, d, e, d, e) c_risj of the materials, force / length^2, see :func:`signorini.fem.elasticity.law_tensor`
-    material : (M,) which of the laws is each element's, or one number
-    measure : (M, nq), (M, 1) or one number, what a point of the plane stands for: thickness or circumference, length
-    shape_values : (nq, k) the shape functions themselves; axisymmetric bodies need them for the hoop strain
-    modes : (M, nq, k', e) gradients of internal modes of each element, which are eliminated; None without
-    pressures : (nq, p) functions that the dilatation of every element is projected on; None: it stays as it is
-    bulk : (n,) bulk moduli of the materials, force / length^2, for that
-    """
-
-    nodes: ArrayLike
-    shape_gradients: Array
-    weights: Array
-    law: Array
-    material: ArrayLike = 0
-    measure: ArrayLike = 1.0
-    shape_values: Array | None = None
-    modes: Array | None = None
-    pressures: Array | None = None
-    bulk: Array | None = None
-
-
-def stiffness(points: Array, blocks: Cells | Sequence[Cells], *, axisymmetric: bool = False) -> sparse.csr_array:
+def stiffness(
+    points: Array, blocks: Cells | Sequence[Cells], law: Array, *, bulk: ArrayLike = (), axisymmetric: bool = False
+) -> sparse.csr_array:
     """Assemble the stiffness matrix.
 
     Elements may be numbered in either orientation; scikit-fem's own meshes mix both.
@@ -61,6 +35,8 @@ def stiffness(points: Array, blocks: Cells | Sequence[Cells], *, axisymmetric: b
     ----------
     points : (N, d) coordinates of the nodes, length; axisymmetric: (radius, height)
     blocks : the elements, one block per kind; all share the numbering of the nodes
+    law : (n, d, e, d, e) c_risj of the materials, force / length^2, see :func:`signorini.fem.elasticity.law_tensor`
+    bulk : (n,) bulk moduli of the materials, force / length^2, for what is projected on pressures
     axisymmetric : with the hoop strain u_r / r
 
     Returns
@@ -81,9 +57,8 @@ def stiffness(points: Array, blocks: Cells | Sequence[Cells], *, axisymmetric: b
     >>> from signorini.fem.elasticity import isotropic, law_tensor
     >>> corner = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     >>> gradients = np.array([[[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]]])
-    >>> triangle = Cells(nodes=[[0, 1, 2]], shape_gradients=gradients, weights=np.array([0.5]),
-    ...                  law=law_tensor(isotropic(0.0, 0.5)[None, :4, :4]))
-    >>> K = stiffness(corner, triangle)
+    >>> triangle = Cells(nodes=np.array([[0, 1, 2]]), shape_gradients=gradients, weights=np.array([0.5]))
+    >>> K = stiffness(corner, triangle, law_tensor(isotropic(0.0, 0.5)[None, :4, :4]))
     >>> u = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
     >>> float(u @ K @ u)
     0.5
@@ -98,34 +73,29 @@ def stiffness(points: Array, blocks: Cells | Sequence[Cells], *, axisymmetric: b
     if len(columns) * d * d >= 2**31:
         raise InputError(f"the stiffness matrix would have {len(columns) * d * d} entries; expected fewer than 2^31")
     indptr, indices = _kernels.unknown_pattern(rows, columns, d)
-    data = np.zeros(len(indices))
+    data, e = np.zeros(len(indices)), d + 1 if axisymmetric else d
+    if law.ndim != 5 or law.shape[1:] != (d, e, d, e):
+        raise InputError(f"law has shape {law.shape}; expected (n, {d}, {e}, {d}, {e})")
+    entries = np.argwhere((law != 0.0).any(axis=0))
+    laws = _kernels.Laws(
+        np.column_stack([entries[:, 0] * d + entries[:, 2], entries[:, 1], entries[:, 3]]).astype(np.uint32),
+        np.ascontiguousarray(law[:, *entries.T]),
+        np.asarray(bulk, dtype=np.float64),
+    )
+    pattern = _kernels.SparsityPattern(rows, columns, data)
     for number, (block, cells) in enumerate(zip(blocks, nodes, strict=True)):
-        law, e = np.ascontiguousarray(block.law, dtype=np.float64), d + 1 if axisymmetric else d
-        if law.ndim != 5 or law.shape[1:] != (d, e, d, e):
-            raise InputError(f"block {number}: law has shape {law.shape}; expected (n, {d}, {e}, {d}, {e})")
-        entries = np.argwhere((law != 0.0).any(axis=0))
-        points_per_cell = (len(cells), len(block.weights))
-        modes = np.empty((*points_per_cell, 0, e)) if block.modes is None else block.modes
-        elements = _kernels.Elements(
-            cells,
-            np.ascontiguousarray(np.broadcast_to(block.measure, points_per_cell), dtype=np.float64),
-            np.ascontiguousarray(modes, dtype=np.float64),
-            np.ascontiguousarray(np.broadcast_to(block.material, len(cells)), dtype=np.int64),
+        at = (len(cells), len(block.weights))
+        made = Cells(
+            nodes=cells,
+            shape_gradients=np.ascontiguousarray(block.shape_gradients, dtype=np.float64),
+            weights=np.ascontiguousarray(block.weights, dtype=np.float64),
+            material=np.ascontiguousarray(np.broadcast_to(block.material, at[0]), dtype=np.int64),
+            measure=np.ascontiguousarray(np.broadcast_to(block.measure, at), dtype=np.float64),
+            shape_values=_values(block, number) if axisymmetric else np.empty((0, 0)),
+            modes=np.ascontiguousarray(block.modes) if block.modes.size else np.empty((*at, 0, e)),
+            pressures=block.pressures if block.pressures.size else np.empty((at[1], 0)),
         )
-        reference = _kernels.Reference(
-            np.ascontiguousarray(block.shape_gradients, dtype=np.float64),
-            _values(block, number) if axisymmetric else np.empty((0, 0)),
-            np.ascontiguousarray(block.weights, dtype=np.float64),
-            np.empty((len(block.weights), 0)) if block.pressures is None else block.pressures,
-        )
-        laws = _kernels.Laws(
-            np.column_stack([entries[:, 0] * d + entries[:, 2], entries[:, 1], entries[:, 3]]).astype(np.uint32),
-            np.ascontiguousarray(law[:, *entries.T]),
-            np.empty(0) if block.bulk is None else block.bulk,
-        )
-        element, wrong = _kernels.add_block(
-            points, elements, reference, laws, _kernels.SparsityPattern(rows, columns, data)
-        )
+        element, wrong = _kernels.add_block(points, made, laws, pattern)
         if wrong:
             raise InputError(_complaint(element, number, wrong, points[cells[element]]))
     return sparse.csr_array((data, indices, indptr), shape=(count * d, count * d))
@@ -147,7 +117,7 @@ def _nodes(block: Cells, points: Array, number: int) -> Int32Array:
 
 def _values(block: Cells, number: int) -> Array:
     expected = block.shape_gradients.shape[:2]
-    if block.shape_values is None or block.shape_values.shape != expected:
+    if block.shape_values.shape != expected:
         raise InputError(f"block {number}: an axisymmetric body needs shape_values of shape {expected}")
     return np.ascontiguousarray(block.shape_values, dtype=np.float64)
 

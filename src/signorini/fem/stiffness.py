@@ -26,26 +26,25 @@ def stiffness(space: Space, model: Model) -> sp.csr_array:
     With a mean dilatation the volume strain is projected on few functions in every cell (Simo, Taylor, Pister 1985).
     """
     law = law_tensor(elasticities(model), hoop=model.axisymmetric)
-    bulk = np.array([body.material.bulk_modulus for body in model.bodies])
     blocks = []
     for group in straining_groups(space, model):
         block = group.block
         at = np.einsum("qk,mki->mqi", block.values, space.mesh.points[group.cells])
-        blocks.append(
-            Cells(
-                nodes=group.cells,
-                shape_gradients=block.gradients,
-                weights=block.weights,
-                law=law,
-                material=group.body,
-                measure=measure(model, at, group.numbers),
-                shape_values=block.values,
-                modes=mode_gradients(space, model, group) if group.formulation == "incompatible" else None,
-                pressures=block.pressures if group.formulation == "mean dilatation" else None,
-                bulk=bulk,
-            )
+        cells = Cells(
+            nodes=group.cells,
+            shape_gradients=block.gradients,
+            weights=block.weights,
+            material=group.body,
+            measure=measure(model, at, group.numbers),
+            shape_values=block.values,
         )
-    K = assemble(space.mesh.points, blocks, axisymmetric=model.axisymmetric)
+        if group.formulation == "incompatible":
+            cells = cells._replace(modes=mode_gradients(space, model, group))
+        elif group.formulation == "mean dilatation":
+            cells = cells._replace(pressures=block.pressures)
+        blocks.append(cells)
+    bulk = [body.material.bulk_modulus for body in model.bodies]
+    K = assemble(space.mesh.points, blocks, law, bulk=bulk, axisymmetric=model.axisymmetric)
     K.resize((space.number_of_dofs, space.number_of_dofs))  # rigid obstacles have no stiffness
     return K
 
