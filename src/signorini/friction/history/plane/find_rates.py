@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 
 import numpy as np
 
 from signorini import lcp
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.friction.history.plane.rate_law import CORNER, RATE, RateLaw
 from signorini.friction.history.plane.responses import Responses
 from signorini.friction.history.plane.state_inverse import SingularState
@@ -27,6 +28,8 @@ from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 COMBINATIONS = 4096
 """Most combinations of states that are tried one by one."""
+
+_BOUNDED = 16  # combinations that one linear program is asked to rule out at once; fewer are solved as fast
 
 KINKS = 4
 """Most pairs at kinks of their bound whose branches are chosen in all ways before Lemke's method."""
@@ -135,20 +138,36 @@ def _moves(law: RateLaw, k: int) -> list[tuple[int, float]]:
 
 
 def _enumerate(responses: Responses, law: RateLaw, load: Array, state: IntArray, ending: str) -> Rates | NoRates:
-    undecided = np.flatnonzero(law.undecided).tolist()
-    choices = [_choices(law, k) for k in undecided]
-    count = int(np.prod([float(len(choice)) for choice in choices]).clip(max=1e9))
+    """Every combination of states, but for those that a linear program of what they have in common rules out."""
+    undecided = law.undecided
+    choices = [_choices(law, k) if undecided[k] else (int(code),) for k, code in enumerate(state)]
+    count = _number(choices)
     if count > COMBINATIONS:
         return evidence(ending, f"{count} combinations of states")
-    margin = np.inf
-    for combination in itertools.product(*choices):
-        tried = state.copy()
-        tried[undecided] = combination
-        lacking = _lacking(responses, law, load, tried, margin)
-        if isinstance(lacking, Rates):
-            return lacking
-        margin = min(margin, lacking)
-    return refused(f"{ending}; none of the {count} combinations of states has rates that obey the law", margin)
+    margin, programs, nodes = np.inf, 0, [choices]
+    while nodes:
+        node = nodes.pop()
+        several = next((k for k, states in enumerate(node) if len(states) > 1), None)
+        if several is None:
+            lacking = _lacking(responses, law, load, np.array([code for code, *_ in node], dtype=np.int64), margin)
+            if isinstance(lacking, Rates):
+                return lacking
+            margin = min(margin, lacking)
+            continue
+        if _number(node) >= _BOUNDED:
+            programs += 1
+            lacking = _by_program(responses, law, load, node)
+            if lacking > MARGIN:
+                margin = min(margin, lacking)
+                continue
+        nodes += [[*node[:several], (code,), *node[several + 1 :]] for code in reversed(node[several])]
+    by = f", by {programs} linear program{'s' if programs > 1 else ''} of many at once" if programs else ""
+    return refused(f"{ending}; none of the {count} combinations of states has rates that obey the law{by}", margin)
+
+
+def _number(choices: Sequence[tuple[int, ...]]) -> int:
+    """Of combinations."""
+    return int(np.prod([float(len(states)) for states in choices]).clip(max=1e9))
 
 
 def _lacking(responses: Responses, law: RateLaw, load: Array, state: IntArray, least: float) -> Rates | float:
@@ -167,29 +186,39 @@ def _lacking(responses: Responses, law: RateLaw, load: Array, state: IntArray, l
             return rates
         if rates.size <= RUNAWAY_RATE * np.abs(load).max(initial=0.0):
             return lacking
-    return _by_program(responses, law, load, state) if least > MARGIN else 0.0
+    return _by_program(responses, law, load, [(int(code),) for code in state]) if least > MARGIN else 0.0
 
 
-def _by_program(responses: Responses, law: RateLaw, load: Array, state: IntArray) -> float:
-    """The least t for which rates of a state are within t of equilibrium and of the law, relative to the load."""
-    problem, n = responses.problem, len(state)
-    closed, sticks, slips = state != OPEN, state == STICK, state > STICK
-    free, presses = np.concatenate([~closed, ~sticks]), np.flatnonzero(closed)
-    unit = float(np.abs(load).max(initial=0.0)) or 1.0
+def _by_program(responses: Responses, law: RateLaw, load: Array, choices: Sequence[tuple[int, ...]]) -> float:
+    """The least t for which rates are within t of equilibrium and of the law, relative to the load.
+
+    Of pairs that may be in several states only what all of these ask: no overlap, no tension, friction in its bound.
+    """
+    problem, n = responses.problem, len(choices)
+    one = np.array([len(states) == 1 for states in choices])
+    first, last = (np.array([f(states) for states in choices], dtype=np.int64) for f in (min, max))
+    presses, slides = np.flatnonzero(last != OPEN), np.flatnonzero(one & (last > STICK))
+    holds = np.setdiff1d(presses, slides)
+    unit, nothing = float(np.abs(load).max(initial=0.0)) or 1.0, np.zeros(2 * n)
     forces = np.zeros((2 * n, 2 * n))  # of the normal ones, and of the tangential ones that are free
-    forces[presses, presses] = 1.0
-    forces[n + presses, presses] = np.where(slips, problem.pieces.slope(state), 0.0)[presses]
-    forces[n + np.flatnonzero(sticks), n + np.flatnonzero(sticks)] = 1.0
-    motions = np.diag(free.astype(np.float64))
-    at_rest, nothing = law.conditions(state, np.zeros(2 * n), np.zeros(2 * n)), np.zeros(2 * n)
-    asked = np.isfinite(at_rest)
-    columns = [law.conditions(state, motion, nothing)[asked] for motion in motions.T]
-    columns += [law.conditions(state, nothing, force)[asked] for force in forces.T]
-    needs = -np.array(columns).T
+    forces[presses, presses] = forces[n + holds, n + holds] = 1.0
+    forces[n + slides, slides] = problem.pieces.slope(last)[slides]
+    motions = np.diag(np.concatenate([first == OPEN, (first == OPEN) | (last > STICK)]).astype(np.float64))
+
+    def needs(state: IntArray, which: BoolArray) -> Array:
+        asked = np.isfinite(law.conditions(state, nothing, nothing)) & which
+        columns = [law.conditions(state, motion, nothing)[asked] for motion in motions.T]
+        return -np.array([*columns, *(law.conditions(state, nothing, force)[asked] for force in forces.T)]).T
+
     balance = np.hstack([motions - problem.W @ motions, -problem.W @ forces])
-    rows = np.concatenate([balance, -balance, needs])
-    right = np.concatenate([load, -load, np.zeros(len(needs))]) / unit
-    most = np.full(4 * n, RUNAWAY_RATE)
+    closed, open_ = (
+        needs(np.where(one, last, STICK), np.ones(n, dtype=np.bool_)),
+        needs(np.full(n, OPEN), ~one & (first == OPEN)),
+    )
+    rows = np.concatenate([balance, -balance, closed, open_])
+    right = np.concatenate([load, -load, np.zeros(len(closed) + len(open_))]) / unit
+    rows = rows[:, rows.any(axis=0)]
+    most = np.full(rows.shape[1], RUNAWAY_RATE)
     lacking = least_lacking(rows, right, -most, most)[0]
     return 0.0 if np.isnan(lacking) else lacking
 
