@@ -125,7 +125,13 @@ def _beyond_jumps(part: StepPart, how: str, *, jumps: bool, stops: PathSettings 
         if jumps and len(behind) < _JUMPS:
             landing = part.prepared.paths.land(path.start, path.segment, stops)
         if jump is None or landing is None:
-            if jumps and jump is not None and not lost.hopeless:
+            if jumps and len(behind) >= _JUMPS:
+                lost = SolveFailed(
+                    f"{lost.sentence}; {_JUMPS} parts between jumps, as many as are followed, are behind{lost.details}",
+                    status=lost.status,
+                    motion=lost.motion,
+                )
+            elif jumps and jump is not None and not lost.hopeless:
                 lost = SolveFailed(
                     f"{lost.sentence}; {_NO_LANDING}{lost.details}", status=Outcome.JUMP, motion=lost.motion
                 )

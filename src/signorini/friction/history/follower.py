@@ -22,6 +22,8 @@ from signorini.settings import SolverSettings
 ZERO_WIDTH = 1e-10
 """Of zero for a gap, a force or the friction to spare, relative to the data; events are alike from 1e-12 to 1e-7."""
 
+_EVENTS_PER_PAIR = 100  # of a straight way in the plane, at most, where pairs are many; a few are usual
+
 
 @dataclass(frozen=True, kw_only=True)
 class PathSettings:
@@ -32,7 +34,7 @@ class PathSettings:
     shortest : in space, part of the segment that an increment need not undercut whatever happens in it, less of it at
         the beginning; 0: every event ends one
     turn : in space, largest angle by which friction on a smooth section turns in an increment longer than that
-    solver : limits of the methods: the tolerance of certificates, and the number of increments in space
+    solver : limits of the methods: the tolerance of certificates, and the number of increments, in the plane of events
     behind : in space, of a longer straight way that the segment ends, in lengths of the segment, see `Bearing`
     """
 
@@ -76,10 +78,21 @@ class PathFollower(ABC):
         self.events: list[Event] = []
         self.pieces = [Breakpoint(factor=0.0, h=start.h, r=start.r)]
         self.acting: IntArray = np.zeros(0, dtype=np.int64)
+        most = self.settings.solver.path_increments
+        self._most = most if problem.directions == 3 else max(most, _EVENTS_PER_PAIR * problem.pairs)
+        self._gone = 0  # pieces, those included that are gone again
 
-    @abstractmethod
     def go_on(self) -> NoRates | None:
         """One piece up to the next event or the end, certified; why there is none, or None."""
+        if self._gone >= self._most:
+            words = f"all {self._most} increments that may be followed are behind"
+            return NoRates(proof=words, proved=False)
+        self._gone += 1
+        return self._piece()
+
+    @abstractmethod
+    def _piece(self) -> NoRates | None:
+        """One piece, see `go_on`."""
 
     def goes_back(self) -> bool:
         """Whether a piece has passed over something: back to its beginning, to go through it event by event."""

@@ -89,8 +89,8 @@ class PlaneFollower(PathFollower):
         meant = np.abs(given - self.bound.at(p)) <= self.width * weight(self.problem.mu)
         return np.where((state > STICK) & meant, state, here)
 
-    def go_on(self) -> NoRates | None:
-        """One piece up to the next event or the end, certified; why there is none, or None."""
+    def _piece(self) -> NoRates | None:
+        """The rates from here on, up to the next event or the end; why there are none, or None."""
         return self._turn() or self._advance()
 
     def departs(self) -> bool:

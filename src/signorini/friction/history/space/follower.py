@@ -89,7 +89,7 @@ class SpaceFollower(PathFollower):
         self.rate_problem = replace(problem, b=frozen(self.b_end - start.b))
         self.near, self._astray = (_EVENT_WIDTH * (problem.scale or 1.0), 0.5) if self.smooth else (self.width, 1e-6)
 
-    def go_on(self) -> NoRates | None:
+    def _piece(self) -> NoRates | None:
         """One increment, found as it comes or by the rates; why there is none, or None."""
         if self.factor >= self.reach and not self._crosses():
             self._overloaded = True
@@ -112,7 +112,7 @@ class SpaceFollower(PathFollower):
         words = self._advance(patience=_TRIES)  # also where increments do not go along the rates, one of several
         if words and self.careful > self.factor:
             self.careful, self.trusting = 0.0, True
-            return self.go_on()
+            return self._piece()
         rest = f"; {found.proof}" if isinstance(found, NoRates) else ", though there are rates"
         return NoRates(proof=f"{words}{rest}", proved=False) if words else None
 
@@ -225,8 +225,6 @@ class SpaceFollower(PathFollower):
 
     def _advance(self, *, patience: int) -> str:
         """One increment; why there is none, or nothing. Given up where so many were tried, and pairs act in all."""
-        if len(self.pieces) > self.settings.solver.path_increments:
-            return f"{self.settings.solver.path_increments} increments end at factor {self.factor:.12g}"
         self.refused = None
         shortest = self._shortest
         left = self.reach - self.factor
@@ -277,7 +275,8 @@ class SpaceFollower(PathFollower):
             if step < LEAST_STEP:
                 break
         if best is None or inner is None:
-            return f"at factor {self.factor:.12g}: no increment, however short, goes on gradually ({words})"
+            tries = f"{self.tried - tried} tried"
+            return f"at factor {self.factor:.12g}: no increment, however short, goes on gradually ({tries}: {words})"
         exact = best.until >= 1.0 - END_ROUNDING
         after = settled(self.problem, self.now, best, inner.after.state if exact else best.after.state)
         self._enter(best, after, self.tried - tried)
