@@ -106,6 +106,15 @@ class Interrupted(KeyboardInterrupt):
         super().__init__(message)
 
 
+def spell_point(point: Iterable[float], digits: int = 5) -> str:
+    """Coordinates in words.
+
+    >>> spell_point((0.0, 2 / 3))
+    '(0, 0.66667)'
+    """
+    return f"({', '.join(f'{part:.{digits}g}' for part in point)})"
+
+
 def spell(where: Where) -> str:
     """A path as a deck spells it.
 

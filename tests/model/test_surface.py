@@ -63,7 +63,7 @@ def test_a_plane_of_any_triangles_is_the_plane():
     x = rng.uniform(-3, 3, (300, 3)) @ turn.T
     for found, exact in zip(surface.nearest(x), plane.nearest(x), strict=True):
         np.testing.assert_allclose(found, exact, atol=1e-12)
-    distance, normals = surface.turned().nearest(x)
+    distance, normals = surface.reverse().nearest(x)
     np.testing.assert_allclose(distance, -plane.nearest(x)[0], atol=1e-12)
     np.testing.assert_allclose(normals, -plane.nearest(x)[1], atol=1e-12)
 

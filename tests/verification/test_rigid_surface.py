@@ -281,7 +281,7 @@ def test_round_shapes_survive_their_deck(tmp_path, shape):
 
 
 def test_a_surface_turned_over_is_told_so():
-    model = block(contacts=[sg.Contact("top", sphere(1, 4.0, (0, 0, 4.0)).turned())])
+    model = block(contacts=[sg.Contact("top", sphere(1, 4.0, (0, 0, 4.0)).reverse())])
     with pytest.raises(InputError, match=r"contact\[0\]\.surface: 'top' faces away from a closed surface of 32 triang"):
         sg.solve(model)
 

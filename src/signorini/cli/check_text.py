@@ -112,7 +112,7 @@ def _obstacles(model: Model) -> Rows:
     rows: Rows = []
     for obstacle in model.obstacles:
         parts = ", ".join("free" if part is None else f"{part:g}" for part in obstacle.u)
-        turn = _alike(["free" if turn is None else f"{turn:g}" for turn in obstacle.turns])
+        turn = _alike(["free" if turn is None else f"{turn:g}" for turn in obstacle.rotations])
         force = spell_vector([part or 0.0 for part in obstacle.force or (0.0,) * model.dimension])
         moment = _alike([f"{moment:g}" for moment in obstacle.moments])
         way = (f"u = ({parts})", f"rotation {turn}", f"force {force}", f"moment {moment}")

@@ -40,7 +40,7 @@ def carried(model: Model, points: Array, about: Array) -> Array:
 def driven(model: Model, j: int) -> tuple[BoolArray, Array]:
     """Which unknowns of obstacle j are prescribed, and their values at factor 1, (2 d,) each."""
     obstacle = model.obstacles[j]
-    turns = tuple(None if turn is None else turn * arm(model) for turn in obstacle.turns)
+    turns = tuple(None if turn is None else turn * arm(model) for turn in obstacle.rotations)
     given = (*obstacle.u, *turns, *((0.0,) if model.dimension == 2 else ()))
     return np.array([part is not None for part in given]), np.array([part or 0.0 for part in given])
 

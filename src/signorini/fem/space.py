@@ -11,7 +11,7 @@ import numpy as np
 import skfem
 
 from signorini.arrays import Array, BoolArray, IntArray, among, extent
-from signorini.errors import InputError
+from signorini.errors import InputError, spell_point
 from signorini.fem.jacobian import determinants, jacobians
 from signorini.fem.wedge import QuadraticWedge
 from signorini.meshing.facets import HEXAHEDRON, CellFacets, check_conforming, make_facets, refuse_folded
@@ -314,20 +314,16 @@ def _check_extent(space: Space) -> None:
         if shortest < float(np.median(away)) / _DIGITS:
             raise InputError(
                 f"{name} has an edge of length {shortest:.3g}, from node {labels[one]} to node {labels[two]} at "
-                f"{_spelled(points[one])}; expected corners at places of their own",
+                f"{spell_point(points[one], 6)}; expected corners at places of their own",
                 where=("mesh",),
                 cell=block.first + cell,
             )
         far = space.used_nodes[np.argmax(away)]
         raise InputError(
-            f"node {labels[far]} at {_spelled(points[far])} is more than {_DIGITS:.0e} times as far away as "
+            f"node {labels[far]} at {spell_point(points[far], 6)} is more than {_DIGITS:.0e} times as far away as "
             f"{name} is long ({shortest:.3g}); expected nodes whose places differ in the digits that numbers have",
             where=("mesh",),
         )
-
-
-def _spelled(point: Array) -> str:
-    return "(" + ", ".join(f"{part:.6g}" for part in point) + ")"
 
 
 def _check_shapes(space: Space) -> None:

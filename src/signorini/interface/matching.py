@@ -9,6 +9,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from signorini.arrays import Array, IntArray
+from signorini.errors import spell_point
 from signorini.fem.boundary import Boundary
 
 # of the tributary length: how far a partner may lie beside the normal
@@ -58,16 +59,16 @@ def match_nodes(
     if wrong.any():
         worst = int(np.argmax(np.where(wrong, beside, -1.0)))
         return partner, (
-            f"node {labels[first[worst]]} at {_spell(points[first[worst]])} has no partner across the gap: the "
-            f"nearest, node {labels[partner[worst]]} at {_spell(points[partner[worst]])}, lies {beside[worst]:.2g} of "
-            "a node distance beside it. Expected matching meshes, node opposite node"
+            f"node {labels[first[worst]]} at {spell_point(points[first[worst]], 6)} has no partner across the gap: the "
+            f"nearest, node {labels[partner[worst]]} at {spell_point(points[partner[worst]], 6)}, lies "
+            f"{beside[worst]:.2g} of a node distance beside it. Expected matching meshes, node opposite node"
         )
     facing = np.sum(own * other, axis=1)
     if (facing > 0).any():
         worst = int(np.argmax(facing))
         return partner, (
-            f"the surfaces do not face each other at node {labels[first[worst]]}, {_spell(points[first[worst]])}: both "
-            "outward normals point the same way"
+            f"the surfaces do not face each other at node {labels[first[worst]]}, "
+            f"{spell_point(points[first[worst]], 6)}: both outward normals point the same way"
         )
     if faces and not _same_faces(nonmortar, mortar, partner):
         return partner, "nodes are opposite nodes, but not faces opposite faces; expected meshes that match"
@@ -110,7 +111,3 @@ def _tangential(vectors: Array, normals: Array) -> Array:
     across = np.sum(vectors * normals, axis=1)[:, None] * normals
     size: Array = np.linalg.norm(vectors - across, axis=1)
     return size
-
-
-def _spell(point: Array) -> str:
-    return "(" + ", ".join(f"{part:.6g}" for part in point) + ")"

@@ -82,4 +82,4 @@ def _surface(points: Array, parts: Sequence[IntArray], flip: bool) -> Surface:
     # writers of STL round points of small triangles into one; those triangles are lines and leave no hole
     lines = (a == b).all(axis=1) | (b == c).all(axis=1) | (c == a).all(axis=1)
     surface = Surface(points, triangles[~lines])
-    return surface.turned() if flip else surface
+    return surface.reverse() if flip else surface

@@ -12,7 +12,7 @@ import numpy as np
 
 from signorini.arrays import Array, frozen
 from signorini.checks import number, vector
-from signorini.errors import InputError
+from signorini.errors import InputError, spell_point
 from signorini.model.revolved import Cone, Cylinder, Torus
 from signorini.model.triangulated import Surface
 
@@ -44,7 +44,7 @@ class Plane:
         object.__setattr__(self, "normal", tuple(part / size for part in normal))
 
     def __str__(self) -> str:
-        return f"a plane through {_spell(self.point)}, normal {_spell(self.normal)}"
+        return f"a plane through {spell_point(self.point)}, normal {spell_point(self.normal)}"
 
     @property
     def dimension(self) -> int:
@@ -85,7 +85,7 @@ class Circle:
 
     def __str__(self) -> str:
         hole = "a round hole" if self.inside else "a circle" if self.dimension == 2 else "a sphere"
-        return f"{hole} of radius {self.radius:.5g} about {_spell(self.centre)}"
+        return f"{hole} of radius {self.radius:.5g} about {spell_point(self.centre)}"
 
     @property
     def dimension(self) -> int:
@@ -145,7 +145,7 @@ class Profile:
         self._check(self._corners)
 
     def __str__(self) -> str:
-        ends = f"from {_spell(self.points[0])} to {_spell(self.points[-1])}"
+        ends = f"from {spell_point(self.points[0])} to {spell_point(self.points[-1])}"
         return f"a {'closed ' if self.closed else ''}profile of {len(self.points)} points {ends}"
 
     def nearest(self, points: Array) -> tuple[Array, Array]:
@@ -250,7 +250,3 @@ Sphere = Circle
 """In space a circle is a sphere."""
 
 Obstacle = Plane | Circle | Profile | Cylinder | Cone | Torus | Surface
-
-
-def _spell(vector: tuple[float, ...]) -> str:
-    return f"({', '.join(f'{x:.5g}' for x in vector)})"

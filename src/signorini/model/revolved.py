@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.checks import number, vector
-from signorini.errors import InputError
+from signorini.errors import InputError, spell_point
 
 _TIP = 1e-12  # of the farthest point: that near to the apex of a cone a point is at it
 
@@ -171,5 +171,4 @@ class Torus(_Revolved):
 
 
 def _axis(shape: _Revolved) -> str:
-    point, axis = ("(" + ", ".join(f"{part:.5g}" for part in place) + ")" for place in (shape.point, shape.axis))
-    return f"the axis through {point} along {axis}"
+    return f"the axis through {spell_point(shape.point)} along {spell_point(shape.axis)}"

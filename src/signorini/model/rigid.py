@@ -72,7 +72,7 @@ class Rigid:
                 'None (in a deck "free") in u',
                 where=("force",),
             )
-        if any(part and held is not None for part, held in zip(self.moments, self.turns, strict=True)):
+        if any(part and held is not None for part, held in zip(self.moments, self.rotations, strict=True)):
             raise InputError(
                 'acts on a prescribed rotation; expected rotation None (in a deck "free")', where=("moment",)
             )
@@ -104,7 +104,7 @@ class Rigid:
         return self.shape.point
 
     @property
-    def turns(self) -> tuple[float | None, ...]:
+    def rotations(self) -> tuple[float | None, ...]:
         """The prescribed rotations, radians, None where it is free: one in the plane, three in space."""
         every = 1 if self.shape.dimension == 2 else 3
         if self.rotation is None or isinstance(self.rotation, str):
@@ -121,4 +121,4 @@ class Rigid:
     @property
     def acts(self) -> bool:
         """Whether it is moved or loaded, so that steps can scale it."""
-        return any(part for part in (*self.u, *self.turns, *(self.force or ()), *self.moments))
+        return any(part for part in (*self.u, *self.rotations, *(self.force or ()), *self.moments))

@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray, frozen
 from signorini.checks import rows
-from signorini.errors import InputError
+from signorini.errors import InputError, spell_point
 from signorini.model.boxes import BoxTree
 
 _ON = 1e-12  # of the size of the surface: a point so near lies on it
@@ -77,7 +77,7 @@ class Surface:
         """Whether it has a border."""
         return bool(self._border.any())
 
-    def turned(self) -> Surface:
+    def reverse(self) -> Surface:
         """This surface with the obstacle on its other side."""
         return Surface(self.points, self.triangles[:, ::-1])
 
@@ -124,7 +124,7 @@ class Surface:
 
     def _place(self, triangle: int) -> str:
         """The middle of a triangle in words."""
-        return f"({', '.join(f'{x:.5g}' for x in self._corners[triangle].mean(axis=0))})"
+        return spell_point(self._corners[triangle].mean(axis=0))
 
     @cached_property
     def _corners(self) -> Array:
