@@ -18,12 +18,13 @@ from signorini.fem.rigid import describe_motion
 from signorini.law.states import OPEN, STICK
 from signorini.linalg import NotPositiveDefinite
 from signorini.outcome import Outcome
-from signorini.solution.certificate import Certificate, certify
+from signorini.solution.certificate import TOLERANCE, Certificate, certify
 from signorini.solution.state import LoadPoint, State, next_state
 
 _LOST_DIGITS = 1e-10  # of how far bodies move: by how much motions of pairs may differ from those of the bodies
 _POLISHING_ROUNDS = 3  # without progress from what is right but for rounding: one round is the rule
 _SAID_FROM = 1e-3  # of a rigid motion: what words leave out of it
+_BENT = 10.0  # times as far as loads bend bodies: what an answer may move them by for its rounding to be theirs
 _UNLOADED = 1e-12  # of the size of forces: a normal force that rounding leaves where nothing presses
 _CANCELLED = 1e-14  # of the largest displacement that supports impose: less between two sides is rounding
 
@@ -289,6 +290,12 @@ def certified(prepared: Prepared, state: State, before: Array, where: str) -> Ce
         return certificate
     words = f"{where}: the solver's answer did not pass the certificate"
     remedy = "look for extreme ratios of moduli, sizes or compliances, which are the usual cause"
+    if certificate.rounding > TOLERANCE and np.abs(state.displacement).max() <= _BENT * prepared.scale.length:
+        words = (
+            f"{where}: bodies are too slender for double precision: rounding of their displacements alone takes "
+            f"{certificate.rounding:.1e} of the loads from equilibrium"
+        )
+        remedy = "bodies shorter for their height, cells that are less flat, or moduli less far apart"
     verge = np.flatnonzero(prepared.interface.friction.sticks & ~prepared.absent & (state.status > STICK))
     if len(verge):
         pair = int(verge[0])
