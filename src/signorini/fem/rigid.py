@@ -207,7 +207,6 @@ def describe_motion(parts: tuple[ConnectedBody, ...], motion: Array) -> str:
 
     Examples
     --------
-
     >>> block = ConnectedBody(bodies=("block",), nodes=np.arange(4), centre=np.array([1.0, 0.5]), size=1.0)
     >>> describe_motion((block,), np.array([1.0, 0.0, 0.0]))
     "body 'block' can move along x"
@@ -224,7 +223,6 @@ def describe_motions(parts: tuple[ConnectedBody, ...], motions: Array) -> list[s
 
     Examples
     --------
-
     >>> block = ConnectedBody(bodies=("block",), nodes=np.arange(4), centre=np.array([1.0, 0.5]), size=1.0)
     >>> describe_motions((block,), np.eye(3))
     ["body 'block' can move along x and y, and rotate about (1, 0.5)"]
@@ -245,7 +243,6 @@ def describe_approach(parts: tuple[ConnectedBody, ...], motion: Array, loose: Ar
 
     Examples
     --------
-
     >>> block = ConnectedBody(bodies=("block",), nodes=np.arange(4), centre=np.array([1.0, 0.5]), size=2.0)
     >>> describe_approach((block,), np.array([0.0, -0.25, 0.002]), np.zeros(3))
     ["body 'block' approaches by 0.25 along -y and turns by 0.001 before contact can hold it"]

@@ -72,7 +72,7 @@ def read_mesh(path: str | Path) -> Mesh:
         points=points,
         cells=families,
         bodies={name: np.concatenate(parts) for name, parts in bodies.items()} or {"body": np.arange(start)},
-        boundaries=_surfaces(named, cells) if solid else _boundaries(named, cells),
+        boundaries=_boundaries(named, cells, solid=solid),
         nodes=_nodes(found, named, cells),
         node_numbers=found.point_data.get(NODE_NUMBER),
         cell_numbers=_cell_numbers(found, families),
@@ -159,25 +159,16 @@ def _groups(found: meshio.Mesh) -> list[IntArray]:
     return [np.zeros(len(block.data), np.int64) for block in found.cells]
 
 
-def _boundaries(named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntArray]]) -> dict[str, IntArray]:
-    """Edges by name; where edges with and without a middle node bear one name, the ends alone say which they are."""
-    found: dict[str, list[IntArray]] = defaultdict(list)
-    for family in _LINES:
-        for name, index in named[family].items():
-            found[name].append(np.vstack(cells[family])[index])
-    shared = {name: np.vstack([part[:, :2] for part in parts]) for name, parts in found.items() if len(parts) > 1}
-    return {name: parts[0] for name, parts in found.items()} | shared
-
-
-def _surfaces(
-    named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntArray]]
+def _boundaries(
+    named: dict[str, dict[str, IntArray]], cells: dict[str, list[IntArray]], *, solid: bool
 ) -> dict[str, tuple[IntArray, ...]]:
-    """Faces by name, those of every kind apart."""
+    """Facets by name, every kind apart; where edges with and without a middle node bear one name, the ends alone."""
     found: dict[str, tuple[IntArray, ...]] = defaultdict(tuple)
-    for family in NODES_PER_PLANE_CELL:
+    for family in NODES_PER_PLANE_CELL if solid else _LINES:
         for name, index in named[family].items():
             found[name] = (*found[name], np.vstack(cells[family])[index])
-    return found
+    mixed = [] if solid else [name for name, parts in found.items() if len(parts) > 1]
+    return found | {name: (np.vstack([part[:, :2] for part in found[name]]),) for name in mixed}
 
 
 def _named_parts(found: meshio.Mesh, path: Path) -> tuple[dict[str, dict[str, IntArray]], dict[str, list[IntArray]]]:
