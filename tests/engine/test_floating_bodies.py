@@ -170,3 +170,30 @@ def test_a_support_that_pushes_a_loose_block_takes_it_along():
     touches, rests = step.events[0], step.events[1]
     assert (touches.contact, rests.contact) == ("upper", "lower")
     np.testing.assert_allclose([touches.load_factor, rests.load_factor], [0.125 / 0.3, 0.25 / 0.3], rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("kind", "how"), [("plane strain", "pressed"), ("plane strain", "squeezed"), ("space", "pressed")]
+)
+def test_an_unloaded_body_is_pushed_along_without_force(kind, how):
+    """It lies on a block that sinks or bulges: the way is exact and takes no energy."""
+    model = stack(0.0, kind)
+    force = model.loads[0].force
+    loads = {
+        "pressed": [sg.Load("middle.top", force=force, name="first")],
+        "squeezed": [sg.Load(f"middle.{side}", pressure=20.0, name=side) for side in ("left", "right")],
+    }[how]
+    first = sg.Step(scale={load.label: 1.0 for load in loads})
+    press = sg.Step(name="press", scale={"press": 1.0})
+    solution = sg.solve(replace(model, loads=[*loads, *model.loads], steps=[first, press]))
+    step = solution.steps[0]
+    upper = step.contacts[1]
+    assert (upper.gap > -1e-9 * np.abs(step.displacement).max()).all()
+    assert not upper.pressure.any()
+    assert not any("candidate" in note for step in solution.steps for note in step.notes)
+    assert solution.steps[1].contacts[1].normal_force[-1] == pytest.approx(-force[-1], rel=1e-8)
+    size = 1e-8 if kind == "plane strain" else 1e-4  # of increments on the circular cone
+    small = size * solution.steps[1].strain_energy
+    np.testing.assert_allclose([step.energy_defect for step in solution.steps], 0.0, atol=small)
+    if kind == "plane strain":
+        assert [step.path for step in solution.steps] == ["exact", "exact"]

@@ -94,6 +94,7 @@ def _lemke(
     undecided = np.flatnonzero(law.undecided).tolist()
     base = state.copy()
     base[undecided] = np.where(law.forced[undecided] == UNDECIDED, STICK, law.forced[undecided])
+    held = base.copy()
     columns = [(k, *moving) for k in undecided for moving in _moves(law, k)]
     if not columns:
         return None, "no pair can change its state"
@@ -121,8 +122,27 @@ def _lemke(
         found = responses.rates(base, load)
     except SingularState:
         found = None
-    lawful = found is not None and whole.violation(found) <= 10.0 * RATE
-    return found if lawful else None, "Lemke's method: its answer does not obey the law"
+    if found is None or whole.violation(found) > 10.0 * RATE:
+        motion = np.zeros(2 * n)
+        for (_, dof, sign), rate in zip(columns, answer.z * (np.abs(q).max() or 1.0), strict=True):
+            motion[dof] += (sign or 1.0) * rate
+        slips = (law.kind == CORNER) & (base > STICK)  # without pressure both ways may be in the answer
+        found = _moving(responses, held, np.where(slips, law.touching(motion[n:]), base), load, motion)
+    return found if whole.violation(found) <= 10.0 * RATE else None, "Lemke's method: its answer does not obey the law"
+
+
+def _moving(responses: Responses, held: IntArray, state: IntArray, load: Array, motion: Array) -> Rates:
+    """Rates with given motions of the pairs, in a state that leaves a body free which nothing presses.
+
+    Parameters
+    ----------
+    held, state : (n,) the state in which the pairs hold, and that in which they move
+    load : (2n,) rate of b
+    motion : (2n,) rates of the motions that the pairs make from the first
+    """
+    h, r = responses.respond(held, responses.free(load) + responses.imposed(motion, np.zeros(len(load))))
+    h, r = responses.balanced(held, load, h + motion, r)
+    return Rates(state=state, h=h, r=r)
 
 
 def _moves(law: RateLaw, k: int) -> list[tuple[int, float]]:
