@@ -41,7 +41,8 @@ class SolverSettings:
     tree_pairs, tree_programs : most pairs, and most linear programs, of the proof by a tree of states in the plane
     swept_rounds, proximal_rounds : most rounds of sweeps with proximal Newton steps, and of these alone, in space
     multiplier_rounds : most rounds of multipliers on the bodies as they are
-    path_increments : most increments to events of one straight part of a step in space
+    path_increments : most increments to events of one straight part of a step in space, and in the plane of events,
+        where 100 a pair are no more
     automatic_increments : most increments of one straight part of a step with ``increments = "auto"``
 
     Raises
