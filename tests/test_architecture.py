@@ -37,7 +37,20 @@ BASE = {
     "sources",
     "_version",
 }
-CORE = {"law", "model", "meshing", "linalg", "lcp", "fem", "interface", "condense", "iterative", "friction", "solution"}
+CORE = {
+    "law",
+    "model",
+    "meshing",
+    "linalg",
+    "lcp",
+    "fem",
+    "interface",
+    "condense",
+    "iterative",
+    "friction",
+    "plasticity",
+    "solution",
+}
 BELOW_CLI = BASE | CORE | {"engine", "deck", "output", "plot", "reference"}
 
 # folder or file: what it may import besides itself and the base
@@ -52,7 +65,8 @@ ALLOWED = {
     "condense": {"linalg", "interface"},
     "iterative": {"law", "linalg", "interface"},
     "friction": {"law", "linalg", "lcp", "condense"},
-    "solution": {"law", "model", "fem", "interface"},
+    "plasticity": {"model", "fem"},
+    "solution": {"law", "model", "fem", "interface", "plasticity"},
     "engine": CORE,
     "deck": {"law", "model", "meshing", "fem"},
     "output": {"solution", "law", "model", "meshing", "fem"},

@@ -195,7 +195,7 @@ def _stepping(step: Step, dimension: int) -> str:
 
 def _way(step: Step, dimension: int) -> str:
     if step.increments == "auto":
-        return f"increments until forces change less than {step.tolerance:g}"
+        return f"increments until forces change less than {step.tolerance or 1e-3:g}"
     if step.increments is not None:
         return "1 increment" if step.increments == 1 else f"{step.increments} increments"
     if step.path is None:

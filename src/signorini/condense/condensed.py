@@ -20,6 +20,7 @@ from signorini.condense.response import ByNodes, Response, keep_pairs
 from signorini.condense.ties import Ties, make_ties
 from signorini.interface.active import FreeBodies, active_pairs, with_supple
 from signorini.interface.interface import Interface
+from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import Factorisation, NotPositiveDefinite, Reduced
 from signorini.linalg.registry import factorise, takes_borders
 
@@ -175,6 +176,7 @@ def condense(
     stiffness: float,
     backend: str,
     clock: Clock,
+    plans: Plans | None = None,
 ) -> Condensed:
     """Factorise the bodies once and condense them onto the contact pairs.
 
@@ -187,6 +189,7 @@ def condense(
     stiffness : of the size of the data, force per length: what pairs count with whose sides are both rigid
     backend : of the factorisation, "auto" or a name
     clock : counts the factorisation and the condensation apart
+    plans : see :func:`signorini.linalg.registry.factorise`
 
     Raises
     ------
@@ -206,9 +209,9 @@ def condense(
             at = points[interface.node[active]]
             with suppress(NotPositiveDefinite):  # the contact may still hold what moves
                 kept = bodies._replace(B=B)
-                response = keep_pairs(kept, at=at, rigid=rigid, stiffness=stiffness, backend=backend)
+                response = keep_pairs(kept, at=at, rigid=rigid, stiffness=stiffness, backend=backend, plans=plans)
         if response is None:
-            factorisation = factorise(K, dofs, nodes=nodes, points=points, backend=backend)
+            factorisation = factorise(K, dofs, nodes=nodes, points=points, backend=backend, plans=plans)
     with clock.phase("condensation"):
         B_c, K_c = sp.csr_array(B[:, dofs]), sp.csr_array(K[dofs][:, dofs])
         root = np.sqrt(_interface_stiffness(K_c, B_c, interface, np.flatnonzero(active), stiffness))

@@ -28,6 +28,7 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.condense.body_blocks import BodyBlocks
 from signorini.interface.active import FreeBodies
 from signorini.linalg.border import bordered
+from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import Factorisation, Reduced
 from signorini.linalg.registry import factorise
 
@@ -166,7 +167,9 @@ class ByPairs(Response):
         return replace(super().among(rows), rows=self.rows[rows])
 
 
-def keep_pairs(bodies: FreeBodies, *, at: Array, rigid: Array, stiffness: float, backend: str) -> ByPairs:
+def keep_pairs(
+    bodies: FreeBodies, *, at: Array, rigid: Array, stiffness: float, backend: str, plans: Plans | None = None
+) -> ByPairs:
     """Factorise bodies that are not tied.
 
     Parameters
@@ -176,6 +179,7 @@ def keep_pairs(bodies: FreeBodies, *, at: Array, rigid: Array, stiffness: float,
     rigid : (z, k) rigid motions that supports do not resist
     stiffness : of the size of the data, force per length, of the springs where nothing deforms
     backend : of the factorisation, "auto" or a name
+    plans : see :func:`signorini.linalg.registry.factorise`
 
     Raises
     ------
@@ -201,6 +205,7 @@ def keep_pairs(bodies: FreeBodies, *, at: Array, rigid: Array, stiffness: float,
         nodes=np.concatenate([nodes, pair]),
         points=np.concatenate([points, at]),
         backend=backend,
+        plans=plans,
     )
     return ByPairs(factorisation=factorisation, rows=np.arange(m), B=B, rigid=rigid)
 
@@ -211,6 +216,7 @@ def _held(K: sp.csr_array, rigid: Array, stiffness: float) -> sp.csr_array:
         return K
     basis = scipy.linalg.qr(rigid, mode="economic")[0]
     dofs = scipy.linalg.qr(basis.T, mode="economic", pivoting=True)[2][: rigid.shape[1]]
-    springs = np.zeros(K.shape[0])
+    springs, held = np.zeros(K.shape[0]), K.copy()
     springs[dofs] = K.diagonal().mean() if K.nnz else stiffness
-    return sp.csr_array(K + sp.diags_array(springs))
+    held.setdiag(K.diagonal() + springs)  # keeps the pattern, which a sum would thin out
+    return held

@@ -11,6 +11,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.engine.prepare import Prepared
 from signorini.fem.thermal import held_energy
+from signorini.plasticity.measure import stored_by_plastic_strain
 from signorini.solution.state import State
 
 
@@ -50,10 +51,13 @@ def set_free(prepared: Prepared, before: State, after: State, *, taken: Array) -
 
 
 def stored_energy(prepared: Prepared, state: State) -> float:
-    """In the bodies, elastic foundations and compliant interfaces."""
+    """Elastic, in the bodies, elastic foundations and compliant interfaces."""
     u = state.displacement
     strain = float(u @ (prepared.K @ u)) if u.any() else 0.0
-    return 0.5 * strain + interface_energy(prepared, state)
+    beyond = 0.0
+    if prepared.yielding is not None and state.plastic is not None:
+        beyond = stored_by_plastic_strain(prepared.yielding, u, state.plastic)
+    return 0.5 * strain + beyond + interface_energy(prepared, state)
 
 
 def interface_energy(prepared: Prepared, state: State) -> float:

@@ -18,6 +18,7 @@ from signorini.fem.rigid import describe_motion
 from signorini.law.states import OPEN, STICK
 from signorini.linalg import NotPositiveDefinite
 from signorini.outcome import Outcome
+from signorini.plasticity.state import PlasticState
 from signorini.solution.certificate import TOLERANCE, Certificate, certify
 from signorini.solution.state import LoadPoint, State, next_state
 
@@ -108,6 +109,8 @@ def advance(
         system=prepared,
         f=free_load(prepared, point),
         offset=offset,
+        imposed=imposed,
+        point=point,
         state=state,
         last=last,
         start=start,
@@ -120,13 +123,14 @@ def advance(
     new = _recovered(prepared, increment, answer, point)
     sizes = (new.displacement, imposed, state.displacement, point.gap)
     farthest = max(float(np.abs(size).max(initial=0.0)) for size in sizes)
-    certificate = measured(prepared, new, state.tangential)
+    origin = None if len(prepared.flowed) else state.plastic
+    certificate = measured(prepared, new, state.tangential, origin)
     if certificate.passed and answer.lost <= _LOST_DIGITS * farthest:
         return new, certificate, answer.trace
     if prepared.has_multipliers:
         polished = _polished(prepared, increment, answer, min(prepared.scale.length, farthest))
         new = new if polished is None else _recovered(prepared, increment, polished, point)
-    return new, certified(prepared, new, state.tangential, where), answer.trace
+    return new, certified(prepared, new, state.tangential, where, origin), answer.trace
 
 
 def _recovered(prepared: Prepared, increment: Increment, answer: IncrementAnswer, point: LoadPoint) -> State:
@@ -150,6 +154,7 @@ def _recovered(prepared: Prepared, increment: Increment, answer: IncrementAnswer
             forces=forces + point.given,
             moved=moved,
             status=status,
+            plastic=answer.plastic,
         )
 
 
@@ -218,6 +223,8 @@ def free_load(prepared: Prepared, point: LoadPoint) -> Array:
     loads, imposed = applied(prepared, point)
     if point.given.any():
         loads = loads + prepared.interface.B.T @ point.given
+    if len(prepared.flowed):
+        loads = loads + prepared.flowed
     if imposed.any():
         loads = loads - prepared.K @ imposed
     force: Array = prepared.constraints.transform.T @ loads
@@ -253,7 +260,9 @@ def _half_way(one: State, two: State) -> State:
     )
 
 
-def measured(prepared: Prepared, state: State, before: Array | None = None) -> Certificate:
+def measured(
+    prepared: Prepared, state: State, before: Array | None = None, origin: PlasticState | None = None
+) -> Certificate:
     """The certificate of a state, whatever it says.
 
     Parameters
@@ -261,6 +270,7 @@ def measured(prepared: Prepared, state: State, before: Array | None = None) -> C
     prepared : the model under the law of the moment
     state : to be measured
     before : ((d - 1) n,) tangential displacement at which its slip increment began; its own where not given
+    origin : what the points of bodies that yield remembered there; None: the flow rule is not asked
     """
     paths = prepared.solver.paths
     return certify(
@@ -269,15 +279,18 @@ def measured(prepared: Prepared, state: State, before: Array | None = None) -> C
         loads=applied(prepared, state.point)[0],
         before=state.tangential if before is None else before,
         yielding=None if paths is None else paths.condensed.on_springs,
+        origin=origin,
     )
 
 
-def certified(prepared: Prepared, state: State, before: Array, where: str) -> Certificate:
+def certified(
+    prepared: Prepared, state: State, before: Array, where: str, origin: PlasticState | None = None
+) -> Certificate:
     """Measure a state; what does not pass is no solution.
 
     Parameters
     ----------
-    prepared, state, before : as of `measured`
+    prepared, state, before, origin : as of `measured`
     where : for messages
 
     Raises
@@ -285,7 +298,7 @@ def certified(prepared: Prepared, state: State, before: Array, where: str) -> Ce
     SolveFailed
         If the state does not pass.
     """
-    certificate = measured(prepared, state, before)
+    certificate = measured(prepared, state, before, origin)
     if certificate.passed:
         return certificate
     words = f"{where}: the solver's answer did not pass the certificate"
@@ -333,7 +346,9 @@ def refuse_overlap(prepared: Prepared, gap: Array, where: str) -> None:
 def _failure(prepared: Prepared, answer: IncrementAnswer, where: str) -> SolveFailed:
     """The reason, and the bodies that leave by name, with their motion."""
     if answer.escape is None:
-        return SolveFailed(f"{where}: {answer.message}", status=answer.outcome)
+        failure = SolveFailed(f"{where}: {answer.message}", status=answer.outcome)
+        failure.flow = None if answer.mechanism is None else (answer.mechanism, answer.forces)
+        return failure
     words, motion = moving_away(prepared, prepared.floating @ answer.escape)
     return SolveFailed(f"{where}: {words}: {answer.message}", status=answer.outcome, motion=motion)
 

@@ -111,7 +111,8 @@ def recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState)
     moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
     moved[n:] -= last.tangential
     forces, ties = seen.forces.copy(), condensed.ties
-    forces[ties.rows] = ties.forces(T.T @ (loads + interface.B.T @ forces - prepared.K @ displacement))
+    given = loads + prepared.flowed if len(prepared.flowed) else loads
+    forces[ties.rows] = ties.forces(T.T @ (given + interface.B.T @ forces - prepared.K @ displacement))
     after = next_state(
         prepared,
         last,

@@ -11,26 +11,27 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
 from signorini.clock import Clock
-from signorini.condense.condensed import Condensed, condense
+from signorini.condense.condensed import Condensed
 from signorini.condense.ties import Ties
 from signorini.engine.candidate_pairs import candidate_pairs
 from signorini.engine.changed_model import changed_model
+from signorini.engine.condensation import condense_bodies
 from signorini.engine.examine import Examined, examine, floating_motions
 from signorini.engine.free_motion_check import refuse_free_motions
 from signorini.engine.memory_check import iterates, refuse_unassembled
 from signorini.engine.multipliers import MAX_ENTRIES, PATIENCE, MultiplierSolver, make_multipliers
+from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.solver import CondensedSolver, ContactSolver
+from signorini.engine.tangent_bodies import TangentBodies
 from signorini.errors import InputError
-from signorini.fem.rigid import hinged
 from signorini.fem.stiffness import reduced_stiffness, stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface, under_laws
-from signorini.iterative.bodies import ITERATIVE
-from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.linalg.threads import one_thread
 from signorini.model.model import Model
 from signorini.model.stage import Stage, stages
+from signorini.plasticity.bodies import YieldingBodies, yielding_bodies
 from signorini.settings import SolverSettings
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.discrete_model import DiscreteModel
@@ -61,6 +62,7 @@ class Prepared(Examined, DiscreteModel):
     released : supports that do not hold
     multiplied : what values of moving supports are multiplied by, beyond the model's
     resting : (dofs,) rigid displacement of bodies that rest, see `engine.floating_bodies`; empty where none does
+    flowed : (dofs,) forces of plastic strain that does not change, so that bodies answer as elastic ones; else empty
     kept : the last that was factorised, by supports released and candidates, to be found again; None: nothing is kept
     """
 
@@ -74,6 +76,7 @@ class Prepared(Examined, DiscreteModel):
     released: frozenset[str] = frozenset()
     multiplied: Mapping[str, float] = field(default_factory=dict)
     resting: Array = field(default_factory=lambda: np.zeros(0))
+    flowed: Array = field(default_factory=lambda: np.zeros(0))
     kept: dict[tuple[frozenset[str], bytes], Condensed] | None = None
 
     @property
@@ -138,7 +141,9 @@ class Prepared(Examined, DiscreteModel):
             if len(self.kept) >= _KEPT:
                 self.kept.pop(next(iter(self.kept)))
             self.kept[key] = made.solver.paths.condensed
-        return replace(made, released=self.released, multiplied=self.multiplied, kept=self.kept)
+        return _flowing(
+            replace(made, released=self.released, multiplied=self.multiplied, kept=self.kept), self.yielding
+        )
 
     def keeping(self) -> Prepared:
         """To be solved many times: what steps factorise for other supports or pairs is kept, the last few."""
@@ -193,6 +198,7 @@ class Prepared(Examined, DiscreteModel):
             and 0 < self.K.nnz <= MAX_ENTRIES
             and not interface.facets.any()
             and not (interface.anisotropy != 1.0).any()
+            and self.yielding is None
         )
 
     def changed(
@@ -274,7 +280,27 @@ def prepare(
         near = candidate_pairs(examined, examined.loading, None if start is None else start.near)
     made = _made(examined, K, near, backend, settings or SolverSettings(), clock)
     before = None if start is None else start.standing
-    return replace(made, released=next(stages(model, before=before)).released)
+    made = replace(made, released=next(stages(model, before=before)).released)
+    return _flowing(made, yielding_bodies(made.space, model) if model.yields else None)
+
+
+def _flowing(made: Prepared, yielding: YieldingBodies | None) -> Prepared:
+    """Bodies whose points may yield, where there are any."""
+    if yielding is None:
+        return made
+    tangents = TangentBodies.of(
+        made,
+        made.K,
+        yielding,
+        near=made.candidates,
+        whole=made.solver.paths is None,
+        backend=made.backend,
+        settings=made.settings,
+    )
+    solver = PlasticSolver(
+        elastic=made.solver, tangents=tangents, interface=made.interface, scale=made.scale, absent=made.absent
+    )
+    return replace(made, yielding=yielding, solver=solver)
 
 
 def _made(
@@ -306,7 +332,7 @@ def _made(
             if whole:
                 solver = make_multipliers(examined, reduced, relative, candidates, settings)
         if not whole:
-            condensed = _condensed(examined, bodies, candidates, backend, clock)
+            condensed = condense_bodies(examined, bodies, candidates, backend, clock)
     if condensed is not None:
         softness = _softness(examined, condensed)
         data["scale"] = examined.scale.bent(softness)
@@ -336,52 +362,8 @@ def _softness(examined: Examined, condensed: Condensed) -> float:
     return max(found)
 
 
-def _condensed(examined: Examined, bodies: FreeBodies, candidates: BoolArray, backend: str, clock: Clock) -> Condensed:
-    """Factorise the bodies with the nodes of the candidates last."""
-    rigid = (examined.motions @ examined.floating)[examined.constraints.leaders]
-    try:
-        return condense(
-            bodies,
-            examined.interface,
-            candidates=candidates,
-            rigid=rigid,
-            stiffness=examined.scale.stiffness,
-            backend="auto" if backend == ITERATIVE else backend,
-            clock=clock,
-        )
-    except NotPositiveDefinite as error:
-        raise _singular(examined, error) from error
-    except np.linalg.LinAlgError as error:
-        raise InputError(
-            "the compliance of the contacts is so large, or the moduli are so far apart, that contact hardly holds a "
-            "body; expected smaller compliances, or supports",
-            where=("contact",),
-        ) from error
-
-
 def _with_ties(examined: Examined, ties: Ties) -> Constraints:
     """What moving supports prescribe, and with it what ties make of it at once: pairs that are tied do not part."""
     constraints, B, T = examined.constraints, examined.interface.B[ties.rows], examined.constraints.transform
     prescribed = {name: u + T @ ties.closing(B @ u) for name, u in constraints.prescribed.items()}
     return replace(constraints, prescribed=prescribed)
-
-
-def _singular(examined: Examined, error: NotPositiveDefinite) -> InputError:
-    node = examined.constraints.nodes[error.dof]
-    part = next((part for part in examined.parts if node in part.nodes), None)
-    if part is None:
-        return InputError(
-            "a rigid body or obstacle has no stiffness against some motion; expected a support or contact"
-        )
-    at = tuple(float(x) for x in examined.model.mesh.points[node].round(6))
-    moving = f"node {examined.model.mesh.labels[node]} at {at}"
-    if part.kind == "body" and not hinged(examined.space, part):
-        return InputError(
-            f"{part.label} is too slender for double precision: what resists the motion of {moving} is less than the "
-            "rounding of its stiffness; expected bodies shorter for their height, and moduli that are not extremely "
-            "apart"
-        )
-    return InputError(
-        f"{part.label} has no stiffness against some motion of {moving}, though no rigid motion is free; expected "
-        "cells that are joined by edges (a hinge at a single node?) and moduli that are not extremely apart"
-    )

@@ -22,7 +22,7 @@ from signorini.law.states import OPEN, STICK
 from signorini.model.links import directions
 from signorini.model.stage import Stage
 from signorini.solution import results
-from signorini.solution.certificate import Certificate
+from signorini.solution.certificate import worst_of
 from signorini.solution.results import ContactResult, Instant, ObstacleResult, StepResult
 from signorini.solution.state import State
 
@@ -73,9 +73,7 @@ def step_result(
         work=state.work - before.work + heat(state) - heat(before),
         released=state.released - before.released,
         energy_defect=state.work - before.work - spent,
-        certificate=Certificate(
-            **{key: max(getattr(c, key) for c in followed.certificates) for key in Certificate.__dataclass_fields__}
-        ),
+        certificate=worst_of(followed.certificates),
         trace=followed.trace,
         instants=instants,
         cycles=cycles,

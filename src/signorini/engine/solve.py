@@ -19,6 +19,7 @@ from signorini.engine.increments import follow_increments, measured
 from signorini.engine.jump_watch import follow_watchfully
 from signorini.engine.limit_load import known
 from signorini.engine.memory_check import refuse_fields
+from signorini.engine.plastic_steps import follow_plastically
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
 from signorini.engine.step_parts import (
@@ -57,10 +58,11 @@ RELAXED = "friction is lower than what pairs carried: they slip at once, before 
 GIVEN_WAY = "the condensed interface gave no certified answer; contact was solved on the bodies as they are"
 """What a step says that was solved so."""
 
+TOLERANCE_OF_FORCES = 1e-3
+"""Of ``increments = "auto"``, where the step gives none and nothing yields."""
+
 _BEHIND_A_JUMP = 10  # increments
-_SPACE_INCREMENTS = (
-    16  # in space, where no increments were asked for: none needs to be shorter than 1/16 of a straight part
-)
+_SPACE_INCREMENTS = 16  # in space, where no number is asked for: none need be shorter than 1/16 of a straight part
 
 
 def solve(
@@ -130,6 +132,8 @@ def _first(prepared: Prepared) -> Checkpoint:
     model, interface = prepared.model, prepared.interface
     zero = dict.fromkeys(model.scaled_names, 0.0)
     state = initial_state(zero, prepared.space.number_of_dofs, interface)
+    if prepared.yielding is not None:
+        state = replace(state, plastic=prepared.yielding.untouched())
     standing = Standing(released=prepared.released)
     return Checkpoint.of(model, interface, state, standing, Loading(), prepared.candidates)
 
@@ -307,12 +311,25 @@ def _gives_way(prepared: Prepared, step: Step) -> bool:
 
 def _with_bodies_at_rest(stage: Stage, part: StepPart) -> FollowedPart:
     """Follow a straight part of a step while bodies that nothing touches rest; if something does, wherever they go."""
+    if part.prepared.yielding is not None:
+        return follow_plastically(part, stage.step, lambda calm: _without_flow(stage, calm))
     calm = resting(part)
     try:
         return _as_asked(stage, calm)
     except SolveFailed:
         if calm is part:
             raise
+    return _as_asked(stage, part)
+
+
+def _without_flow(stage: Stage, part: StepPart) -> FollowedPart:
+    """Follow a straight part of a step in which nothing yields: in the plane exactly, so that first yield is exact."""
+    if part.prepared.interface.directions == 2 and part.prepared.solver.paths is not None:
+        try:
+            return follow_exactly(part, jumps=stage.step.follows_jumps)
+        except SolveFailed:
+            if stage.step.path == "exact":
+                raise
     return _as_asked(stage, part)
 
 
@@ -328,11 +345,11 @@ def _as_asked(stage: Stage, part: StepPart) -> FollowedPart:
     rubbing = bool((interface.friction.bounded & ~part.prepared.absent).any())
     if step.path != "exact" and (step.path is not None or step.increments is not None or not rubbing):
         if step.increments == "auto":
-            return follow_automatically(part, step.tolerance, jump=jump)
+            return follow_automatically(part, step.tolerance or TOLERANCE_OF_FORCES, jump=jump)
         number = _increments(step, part.interval, stage)
         return follow_watchfully(part, number, stops=step.jump == "stop")
     if step.path is None and (interface.directions == 3 or not interface.friction.straight):
-        return follow_automatically(part, step.tolerance, enough=_SPACE_INCREMENTS, jump=jump)
+        return follow_automatically(part, step.tolerance or TOLERANCE_OF_FORCES, enough=_SPACE_INCREMENTS, jump=jump)
     try:
         return follow_exactly(part, jumps=step.follows_jumps)
     except SolveFailed as failure:

@@ -24,10 +24,11 @@ from signorini.friction.solve import solve_contact
 from signorini.interface.interface import Interface
 from signorini.law.bound import Bound
 from signorini.outcome import Outcome
+from signorini.plasticity.state import PlasticState
 from signorini.settings import SolverSettings
 from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.scale import Scale
-from signorini.solution.state import State
+from signorini.solution.state import LoadPoint, State
 
 _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
 _REFINEMENTS = 2
@@ -47,6 +48,8 @@ class Increment:
     last : the state an increment as long as this one before, where there is one
     start : what a condensed law starts from: states (a,) in the plane, ``r - h`` (3, a) in space; None: as the state is
     floating : whether contact alone holds a body
+    imposed : (dofs,) displacements that supports impose
+    point : of the load history, at its end
     clock : counts the seconds
     """
 
@@ -57,6 +60,8 @@ class Increment:
     last: State | None = None
     start: Array | IntArray | None = None
     floating: bool
+    imposed: Array
+    point: LoadPoint
     clock: Clock
 
 
@@ -73,6 +78,8 @@ class IncrementAnswer:
     trace : the methods tried, in order
     lost : by how much motions of the pairs differ from those of the bodies, length: digits that are lost
     escape : (k,) combination of the floating motions along which bodies leave, where it is known
+    plastic : what the points of bodies that yield remember at the end
+    mechanism : (z,) velocity of the bodies where plastic flow runs away
     """
 
     outcome: Outcome
@@ -84,6 +91,8 @@ class IncrementAnswer:
     trace: tuple[MethodRun, ...]
     lost: float = 0.0
     escape: Array | None = None
+    plastic: PlasticState | None = None
+    mechanism: Array | None = None
 
     @property
     def solved(self) -> bool:
@@ -258,6 +267,15 @@ class CondensedSolver:
     def floating(self, escape: Array) -> Array:
         """(k,) The combination of floating motions that a motion of the pairs (d a,) is."""
         return np.asarray(np.linalg.lstsq(self.law.motions, escape, rcond=None)[0], dtype=np.float64)
+
+    def near(self, answer: IncrementAnswer) -> Array | IntArray:
+        """What the law's solver starts from where a solution may be near another one, of bodies a little different."""
+        rows, law = self.condensed.active_rows, self.law
+        r = law.by_pair(answer.forces[rows] / self.condensed.root)
+        if law.piecewise_linear:
+            return law.pieces.coded(answer.status, r[0])
+        start: Array = r - law.by_pair(self.condensed.root * answer.moved[rows])
+        return start
 
     def _start(self, state: State) -> Array | IntArray | None:
         """What the law's solver starts from: the states of the pairs, in space their ``y = r - h``; None at rest."""

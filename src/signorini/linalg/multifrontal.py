@@ -23,7 +23,7 @@ from signorini.linalg import _fronts
 from signorini.linalg._blas import scratch
 from signorini.linalg._graph import Elimination
 from signorini.linalg.definite import SUSPICIOUS_PIVOT, check_energy
-from signorini.linalg.plan import Plan, analyse
+from signorini.linalg.plan import Plan, Plans, analyse
 from signorini.linalg.protocol import NotPositiveDefinite, Reduced
 from signorini.linalg.system import System, as_columns, like
 from signorini.linalg.threads import one_thread
@@ -78,15 +78,15 @@ class MultifrontalFactorisation:
             half(self.plan.fronts, self.factor, y, np.empty(self.plan.widest * len(y)), scratch())
 
 
-def factorise(system: System) -> MultifrontalFactorisation:
-    """Factorise by fronts.
+def factorise(system: System, plans: Plans | None = None) -> MultifrontalFactorisation:
+    """Factorise by fronts; ``plans`` keeps the plan for systems of one pattern.
 
     Raises
     ------
     NotPositiveDefinite
         If the interior is singular or indefinite.
     """
-    plan = analyse(system)
+    plan = analyse(system) if plans is None else plans.of(system)
     inside = system.n - system.m
     place = np.empty(system.n, dtype=np.int32)
     place[plan.order] = np.arange(system.n, dtype=np.int32)

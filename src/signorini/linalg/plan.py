@@ -6,7 +6,7 @@ Unknowns of a node stay together, so that trees and fronts are those of the node
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -95,6 +95,26 @@ def analyse(system: System) -> Plan:
         flops=float((width**3 / 3 + width**2 * below + width * below.astype(np.float64) ** 2).sum()),
         peak_bytes=8 * (int(panel[-1]) + sum(stacks) + system.m**2),
     )
+
+
+class Plans:
+    """Plans of systems that are factorised again and again with other entries: each pattern is analysed once."""
+
+    def __init__(self) -> None:
+        self._last: tuple[System, Plan] | None = None
+
+    def of(self, system: System) -> Plan:
+        """The plan of a system; that of the last one where the pattern, the interface and the nodes are those."""
+        if self._last is None or not _alike(self._last[0], system):
+            self._last = replace(system, rows=system.rows._replace(data=np.zeros(0))), analyse(system)
+        return self._last[1]
+
+
+def _alike(one: System, other: System) -> bool:
+    """Whether two systems have the same pattern, interface and nodes."""
+    first, second = one.rows, other.rows
+    pairs = ((first.indptr, second.indptr), (first.indices, second.indices))
+    return all(np.array_equal(*pair) for pair in (*pairs, (one.interface, other.interface), (one.nodes, other.nodes)))
 
 
 def _postordered(graph: NodeGraph, nodes: Int32Array) -> Elimination:

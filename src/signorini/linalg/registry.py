@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from signorini.errors import InputError, one_of
 from signorini.linalg import multifrontal, pardiso, superlu
+from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import Factorisation
 from signorini.linalg.system import System, checked_system
 
@@ -45,6 +46,7 @@ def factorise(
     nodes: ArrayLike | None = None,
     points: ArrayLike | None = None,
     backend: str = "auto",
+    plans: Plans | None = None,
 ) -> Factorisation:
     """Factorise the interior of a symmetric matrix and condense it onto the interface.
 
@@ -55,6 +57,7 @@ def factorise(
     nodes : (n,) node of every unknown; makes the analysis cheaper, changes no result
     points : (k, d) where the nodes 0, 1, ... are; makes the analysis cheaper, changes no result
     backend : a name of `BACKENDS`, or "auto": see `AUTOMATIC`; the result says which one it was
+    plans : keeps what depends on the pattern alone for the next matrix, where the back end can
 
     Raises
     ------
@@ -82,4 +85,5 @@ def factorise(
     name = AUTOMATIC if backend == "auto" else backend
     if name not in BACKENDS:
         raise InputError(one_of(backend, ["auto", *BACKENDS], "back end"))
-    return BACKENDS[name](checked_system(K, interface, nodes, points))
+    system = checked_system(K, interface, nodes, points)
+    return BACKENDS[name](system) if plans is None or name != AUTOMATIC else multifrontal.factorise(system, plans)

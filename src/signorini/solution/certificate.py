@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +12,8 @@ import scipy.sparse as sp
 from signorini.arrays import Array
 from signorini.fem.internal_forces import internal_forces
 from signorini.interface.interface import Interface
+from signorini.plasticity.measure import FlowViolation, violation
+from signorini.plasticity.state import PlasticState
 from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.state import State
 
@@ -20,6 +22,9 @@ TOLERANCE = 1e-8
 
 NUMBERS = ("equilibrium", "penetration", "tension", "cone", "complementarity")
 """What a certificate measures."""
+
+FLOW_NUMBERS = ("excess", "flow", "consistency", "dissipation")
+"""What it measures besides where bodies yield."""
 
 _MOST_ROUNDING = 1e-6  # of the data: where digits beyond are lost, of forces or of displacements, nothing is certified
 _MAX_LENGTHS = 1e9  # lengths of the data: a body that has left is no solution
@@ -40,6 +45,7 @@ class Certificate:
     rounding : what the rounding of displacements alone may add to `equilibrium`, see `_rounding`; looked at only where
         that number is beyond 1e-8, otherwise 0
     facets : most corners of a section of the friction cone on which this was measured; 0: the exact cone everywhere
+    plastic : what points of bodies that yield lack of the flow rule; None where no body yields
     """
 
     equilibrium: float
@@ -49,6 +55,7 @@ class Certificate:
     complementarity: float
     rounding: float = 0.0
     facets: int = 0
+    plastic: FlowViolation | None = None
 
     @property
     def imbalance(self) -> float:
@@ -57,8 +64,9 @@ class Certificate:
 
     @property
     def worst(self) -> float:
-        """The largest of the five, of equilibrium the `imbalance`; NaN, which passes nothing, where any is."""
-        return float(np.max([self.imbalance, *(getattr(self, name) for name in NUMBERS[1:])]))
+        """The largest number, of equilibrium the `imbalance`; NaN, which passes nothing, where any is."""
+        flow = [] if self.plastic is None else [getattr(self.plastic, name) for name in FLOW_NUMBERS]
+        return float(np.max([self.imbalance, *(getattr(self, name) for name in NUMBERS[1:]), *flow]))
 
     @property
     def passed(self) -> bool:
@@ -68,7 +76,20 @@ class Certificate:
     def __str__(self) -> str:
         words = ", ".join(f"{name} {getattr(self, name):.1e}" for name in NUMBERS)
         words += f" (equilibrium: {self.rounding:.1e} may be rounding)" if self.rounding else ""
+        if self.plastic is not None:
+            words += ", yield " + ", ".join(f"{name} {getattr(self.plastic, name):.1e}" for name in FLOW_NUMBERS)
         return f"{words}, on a cone of {self.facets} facets" if self.facets else words
+
+
+def worst_of(certificates: Sequence[Certificate]) -> Certificate:
+    """The largest of every number of several certificates."""
+    flows = [each.plastic for each in certificates if each.plastic is not None]
+    numbers = [name for name in Certificate.__dataclass_fields__ if name != "plastic"]
+    flow = {name: max(getattr(each, name) for each in flows) for name in FLOW_NUMBERS} if flows else None
+    return Certificate(
+        **{name: max(getattr(each, name) for each in certificates) for name in numbers},
+        plastic=None if flow is None else FlowViolation(**flow),
+    )
 
 
 def certify(
@@ -78,6 +99,7 @@ def certify(
     loads: Array,
     before: Array,
     yielding: Callable[[Array], Array] | None = None,
+    origin: PlasticState | None = None,
 ) -> Certificate:
     """Measure a state.
 
@@ -89,6 +111,7 @@ def certify(
     before : ((d - 1) n,) tangential displacement at which the slip increment began
     yielding : displacements under forces on the free displacements: what slender bodies lack of equilibrium is many
         roundings of the load, and may be so where it moves them by no more than the last digits of their displacements
+    origin : what points of bodies that yield remembered before the increment; None: the flow rule is not asked
 
     Returns
     -------
@@ -99,6 +122,8 @@ def certify(
     if not (np.isfinite(u).all() and np.isfinite(r).all()) or np.abs(u).max(initial=0.0) > _MAX_LENGTHS * scale.length:
         return Certificate(equilibrium=np.inf, penetration=np.inf, tension=np.inf, cone=np.inf, complementarity=np.inf)
     applied = loads + interface.B.T @ r
+    if state.plastic is not None:
+        applied = applied + state.plastic.forces
     residual = constraints.transform.T @ (system.K @ u - applied)
     balance = motions.T @ (state.external + constraints.foundation_forces(u) + interface.B.T @ r)
     moved = interface.B @ u
@@ -129,7 +154,16 @@ def certify(
         complementarity=_largest(np.concatenate([np.minimum(gap, normal), friction])),
         rounding=rounding,
         facets=int(interface.facets.max(initial=0)),
+        plastic=_flow(system, state, origin),
     )
+
+
+def _flow(system: DiscreteModel, state: State, origin: PlasticState | None) -> FlowViolation | None:
+    """What the points of bodies that yield lack of the flow rule from where the increment began."""
+    bodies = system.yielding
+    if bodies is None or origin is None or state.plastic is None:
+        return None
+    return violation(bodies, state.displacement, origin, state.plastic, bodies.swelling(state.point.factors))
 
 
 def _rounding(K: sp.csr_array, u: Array, motions: sp.csr_array, force: float) -> float:

@@ -10,6 +10,7 @@ import scipy.sparse as sp
 from signorini.arrays import BoolArray
 from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface
+from signorini.plasticity.bodies import YieldingBodies
 from signorini.solution.scale import Scale
 
 
@@ -25,6 +26,7 @@ class DiscreteModel:
     motions : (dofs, k) rigid motions of all parts, see :func:`signorini.fem.rigid.rigid_motions`
     scale : sizes of forces and lengths
     absent : (n,) pairs whose contact is switched off: the law of contact is not asked of them
+    yielding : the points of the bodies that yield; None: none does
     """
 
     K: sp.csr_array
@@ -33,3 +35,4 @@ class DiscreteModel:
     motions: sp.csr_array
     scale: Scale
     absent: BoolArray
+    yielding: YieldingBodies | None = None

@@ -12,6 +12,7 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.interface.interface import Interface
 from signorini.law.states import OPEN
+from signorini.plasticity.state import PlasticState
 from signorini.short import Short
 from signorini.solution.discrete_model import DiscreteModel
 
@@ -67,6 +68,7 @@ class State(Short):
     work : of loads, moving supports and interferences since the beginning
     dissipation : (n,) frictional dissipation since the beginning
     released : energy set free at once since the beginning: in jumps, by changes of the law, by contacts switched off
+    plastic : what the points of the bodies remember of plastic flow; None where no body yields
     """
 
     point: LoadPoint
@@ -81,6 +83,7 @@ class State(Short):
     work: float
     dissipation: Array
     released: float
+    plastic: PlasticState | None = None
 
 
 def initial_state(factors: Mapping[str, float], dofs: int, interface: Interface) -> State:
@@ -119,6 +122,7 @@ def next_state(
     forces: Array,
     moved: Array,
     status: IntArray,
+    plastic: PlasticState | None = None,
 ) -> State:
     """The state after an increment, with the work and the dissipation in between.
 
@@ -130,13 +134,17 @@ def next_state(
     loads, displacement : (dofs,) nodal forces and displacements there
     forces, moved : (d n,) forces of the pairs; gaps and slip increments
     status : (n,) codes of the pairs
+    plastic : of the points, where plastic flow has changed it
 
     Notes
     -----
     Work is trapezoidal in time, that of interferences included; dissipation is that of the forces at the end.
     """
     interface, n = system.interface, len(system.interface)
+    plastic = state.plastic if plastic is None else plastic
     inner = system.K @ displacement - interface.B.T @ forces
+    if plastic is not None:
+        inner -= plastic.forces
     # the loads where a displacement is free on its own, whatever equilibrium takes where it is held, tied or linked
     external = np.where(system.constraints.alone, loads, inner)
     increment = moved[n:]
@@ -157,4 +165,5 @@ def next_state(
         work=state.work + float(work),
         dissipation=state.dissipation + np.where(status == OPEN, 0.0, np.maximum(-spent, 0.0)),
         released=state.released - float(taken),
+        plastic=plastic,
     )

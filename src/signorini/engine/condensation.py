@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Condense the bodies of a model, and say in its words what cannot be condensed."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from signorini.arrays import BoolArray
+from signorini.clock import Clock
+from signorini.condense.condensed import Condensed, condense
+from signorini.engine.examine import Examined
+from signorini.errors import InputError
+from signorini.fem.rigid import hinged
+from signorini.interface.active import FreeBodies
+from signorini.iterative.bodies import ITERATIVE
+from signorini.linalg.protocol import NotPositiveDefinite
+
+
+def condense_bodies(
+    examined: Examined, bodies: FreeBodies, candidates: BoolArray, backend: str, clock: Clock
+) -> Condensed:
+    """Factorise the bodies with the nodes of the candidates last.
+
+    Parameters
+    ----------
+    examined : the model
+    bodies : with the pairs
+    candidates : (n,) pairs that the law is asked of
+    backend : of the factorisation, or "iterative"
+    clock : counts the seconds
+
+    Raises
+    ------
+    InputError
+        Where something moves without resistance, or contact hardly holds a body.
+    """
+    rigid = (examined.motions @ examined.floating)[examined.constraints.leaders]
+    try:
+        return condense(
+            bodies,
+            examined.interface,
+            candidates=candidates,
+            rigid=rigid,
+            stiffness=examined.scale.stiffness,
+            backend="auto" if backend == ITERATIVE else backend,
+            clock=clock,
+        )
+    except NotPositiveDefinite as error:
+        raise _singular(examined, error) from error
+    except np.linalg.LinAlgError as error:
+        raise InputError(
+            "the compliance of the contacts is so large, or the moduli are so far apart, that contact hardly holds a "
+            "body; expected smaller compliances, or supports",
+            where=("contact",),
+        ) from error
+
+
+def _singular(examined: Examined, error: NotPositiveDefinite) -> InputError:
+    node = examined.constraints.nodes[error.dof]
+    part = next((part for part in examined.parts if node in part.nodes), None)
+    if part is None:
+        return InputError(
+            "a rigid body or obstacle has no stiffness against some motion; expected a support or contact"
+        )
+    at = tuple(float(x) for x in examined.model.mesh.points[node].round(6))
+    moving = f"node {examined.model.mesh.labels[node]} at {at}"
+    if part.kind == "body" and not hinged(examined.space, part):
+        return InputError(
+            f"{part.label} is too slender for double precision: what resists the motion of {moving} is less than the "
+            "rounding of its stiffness; expected bodies shorter for their height, and moduli that are not extremely "
+            "apart"
+        )
+    return InputError(
+        f"{part.label} has no stiffness against some motion of {moving}, though no rigid motion is free; expected "
+        "cells that are joined by edges (a hinge at a single node?) and moduli that are not extremely apart"
+    )

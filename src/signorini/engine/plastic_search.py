@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Steps of a plastic increment that go too far are cut where the energy of the increment stops to fall."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.engine.solver import Increment, IncrementAnswer
+from signorini.plasticity.bodies import PlasticResponse, YieldingBodies
+from signorini.plasticity.state import PlasticState
+
+_UPHILL = 0.8  # of the slope at the beginning: a step that ends steeper is cut
+_LEVEL = 0.5  # of the slope at the beginning: where a search ends
+_ROUNDS = 10  # of regula falsi in one step
+_SLOPE_NOISE = 1e-12  # of the terms that a slope is summed from: less is rounding
+_INSIDE = 0.05  # of the bracket: how near its ends the next try may be
+_RESTS = 1e-14  # of the largest slip increment: a pair that slips less has no direction
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class LineSearch:
+    """Between two answers of contact, both of which obey its gaps, so that all between do.
+
+    The slope is that of the energy of the increment with the friction bound of the second answer frozen.
+
+    Attributes
+    ----------
+    bodies : the points that yield
+    increment : what is asked
+    old, swelling : state that the points come from, and their volume strain of temperature
+    one, two : the answers
+    """
+
+    bodies: YieldingBodies
+    increment: Increment
+    old: PlasticState
+    swelling: Array
+    one: IncrementAnswer
+    two: IncrementAnswer
+
+    def shortened(
+        self, before: PlasticResponse, after: PlasticResponse
+    ) -> tuple[float, IncrementAnswer, PlasticResponse]:
+        """The part of the step that is taken, the answer there and what points answer.
+
+        Parameters
+        ----------
+        before, after : what they answer at both ends
+        """
+        step = self.two.free - self.one.free
+        start, end = self._slope(0.0, step, before), self._slope(1.0, step, after)
+        system, T = self.increment.system, self.increment.system.constraints.transform
+        noise = _SLOPE_NOISE * float(
+            np.abs(step) @ (np.abs(self.increment.f) + np.abs(T.T @ (system.K @ (T @ self.two.free))))
+        )
+        if start >= 0.0 or end <= max(_UPHILL * -start, noise):
+            return 1.0, self.two, after
+        low, high, below, above, side = 0.0, 1.0, start, end, 0
+        for _ in range(_ROUNDS):
+            s = (low * above - high * below) / (above - below)
+            s = min(max(s, low + _INSIDE * (high - low)), high - _INSIDE * (high - low))
+            here = self._response(s)
+            slope = self._slope(s, step, here)
+            if abs(slope) <= _LEVEL * abs(start):
+                break
+            if slope > 0.0:
+                high, above, below = s, slope, below * (0.5 if side == 1 else 1.0)
+                side = 1
+            else:
+                low, below, above = s, slope, above * (0.5 if side == -1 else 1.0)
+                side = -1
+        return s, self._between(s), here
+
+    def _between(self, s: float) -> IncrementAnswer:
+        """The answer at a part of the way; forces are those at its end."""
+        one, two = self.one, self.two
+        free, moved = ((1.0 - s) * getattr(one, name) + s * getattr(two, name) for name in ("free", "moved"))
+        return replace(two, free=free, moved=moved)
+
+    def _response(self, s: float) -> PlasticResponse:
+        """What points answer at a part of the way."""
+        u = self.increment.system.constraints.transform @ self._between(s).free + self.increment.imposed
+        return self.bodies.respond(u, self.old, self.swelling)
+
+    def _slope(self, s: float, step: Array, at: PlasticResponse) -> float:
+        """Of the energy along the step, at a part of the way."""
+        system, T = self.increment.system, self.increment.system.constraints.transform
+        between = self._between(s)
+        inner = T.T @ (system.K @ (T @ between.free) - at.state.forces) - self.increment.f
+        interface, n = system.interface, len(system.interface)
+        bound = interface.most(self.two.forces[:n])
+        bound = np.where(np.isfinite(bound), bound, 0.0)
+        shape = interface.directions - 1, n
+        slip = between.moved[n:].reshape(shape)
+        change = (self.two.moved - self.one.moved)[n:].reshape(shape)
+        length = np.linalg.norm(slip, axis=0)
+        along = np.divide(
+            (slip * change).sum(axis=0),
+            length,
+            out=np.zeros(n),
+            where=length > _RESTS * np.abs(change).max(initial=0.0),
+        )
+        return float(step @ inner + bound @ along)

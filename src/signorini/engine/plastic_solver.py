@@ -1,0 +1,289 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Increments of bodies that yield: contact is solved exactly on the bodies linearised about the last answer.
+
+With ``K u = f + B^T r + f_p(u)`` and the tangent ``K_T = K - S`` every round solves the problem of contact
+
+    K_T u = f + B^T r + x,      x = f_p(u_k) - S u_k,
+
+on the bodies as they are now. The elastic bodies come first, whose factor is there. A round whose factor is kept is a
+fixed-point iteration on x, accelerated by Anderson's method; a new tangent makes it Newton's.
+
+References
+----------
+Hager, Wohlmuth (2009), Nonlinear complementarity functions for plasticity problems with frictional contact, Comput.
+Methods Appl. Mech. Eng. 198:3411. Walker, Ni (2011), Anderson acceleration for fixed-point iterations, SIAM J. Numer.
+Anal. 49:1715.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.attempt import MethodRun
+from signorini.engine.plastic_search import LineSearch
+from signorini.engine.solver import CondensedSolver, ContactSolver, Increment, IncrementAnswer
+from signorini.engine.tangent_bodies import TangentBodies
+from signorini.interface.interface import Interface
+from signorini.linalg.protocol import NotPositiveDefinite
+from signorini.outcome import Outcome
+from signorini.plasticity.bodies import PlasticResponse
+from signorini.plasticity.measure import plastic_work
+from signorini.solution.scale import Scale
+
+_BALANCED = 1e-9  # of the size of forces: a tenth of what the certificate allows
+_MAX_ROUNDS = 200  # of one increment: Newton takes 4 to 16, kept factors some 40
+_LEFT_PARTS = (0.0, 1e-6, 1e-4, 1e-2)  # of the elastic law, left in place where a tangent is singular without it
+_STIFFER_PART = 0.1  # of the elastic law, left in place where contact finds no answer on a soft tangent
+_SEARCH_FROM = 0.5  # of the residual before: a step that leaves more is looked at
+_KEPT_GAIN = 0.03  # of the residual before: a full step that leaves less has a tangent that will do once more
+_KEPT_FROM = 1e-6  # of the size of forces: below it that pays, above it costs rounds
+_ANDERSON_DEPTH = 6  # rounds that Anderson's method looks back on
+_TANGENT_DECADES = 0.7  # that a new tangent gains; a kept one is worth it as long as it gains its share of the price
+_SUBSTITUTION = 40.0  # operations that take as long as to move an entry of the factor through memory in one round
+_STEP_GROWTH = 3.0  # from one step to the next, three times in a row: bodies flow away
+_GROWING_STEPS = 4  # rounds in a row in which steps grow so: flow runs away
+_MECHANISM_ROUNDS = 12  # rounds: after so many the mechanism is known to four digits
+_MAX_LENGTHS = 1e7  # of the length of the data: beyond that arithmetic spoils the mechanism
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Tangent:
+    """Bodies as they are solved in a round.
+
+    Attributes
+    ----------
+    solver : of contact on them
+    K : (dofs, dofs) their stiffness
+    S : (dofs, dofs) what yielding takes off the elastic stiffness; None: nothing
+    """
+
+    solver: ContactSolver
+    K: sp.csr_array
+    S: sp.csr_array | None = None
+
+
+@dataclass(kw_only=True, eq=False)
+class _Rounds:
+    """What the rounds of an increment have left.
+
+    Attributes
+    ----------
+    residuals, steps : of every round: what equilibrium lacks, and the part of the step that was taken
+    lengths : of every step, the largest displacement
+    inputs, outputs : of the rounds on the factor at hand: x and what it became
+    factorisations : of tangents
+    """
+
+    residuals: list[float] = field(default_factory=list)
+    steps: list[float] = field(default_factory=list)
+    lengths: list[float] = field(default_factory=list)
+    inputs: list[Array] = field(default_factory=list)
+    outputs: list[Array] = field(default_factory=list)
+    factorisations: int = 0
+
+    @property
+    def last(self) -> float:
+        """Residual of the last round."""
+        return self.residuals[-1] if self.residuals else np.inf
+
+    @property
+    def runs_away(self) -> bool:
+        """Whether steps grow again and again: nothing holds the bodies."""
+        recent = self.lengths[-_GROWING_STEPS - 1 :]
+        grown = len(recent) > _GROWING_STEPS and all(two > _STEP_GROWTH * one for one, two in pairwise(recent))
+        return grown and len(self.lengths) >= _MECHANISM_ROUNDS
+
+    def gained(self) -> bool:
+        """Whether the last full step gained so much that its tangent will do once more."""
+        if len(self.residuals) < 2 or self.steps[-1] < 1.0:
+            return False
+        return self.residuals[-1] < min(_KEPT_GAIN * self.residuals[-2], _KEPT_FROM)
+
+    def accelerated(self, x: Array, became: Array, scale: Array) -> Array:
+        """The next x by Anderson's method, residuals measured over ``scale``."""
+        self.inputs, self.outputs = (
+            [*self.inputs, x][-_ANDERSON_DEPTH - 1 :],
+            [*self.outputs, became][-_ANDERSON_DEPTH - 1 :],
+        )
+        if len(self.inputs) == 1:
+            return became
+        outputs = np.stack(self.outputs, axis=1)
+        missing = (outputs - np.stack(self.inputs, axis=1)) * scale[:, None]
+        share = np.linalg.lstsq(np.diff(missing, axis=1), missing[:, -1], rcond=1e-10)[0]
+        following: Array = became - np.diff(outputs, axis=1) @ share
+        return following
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PlasticSolver:
+    """Contact of bodies of which some yield, through the one door of `ContactSolver`.
+
+    Attributes
+    ----------
+    elastic : the same bodies before anything yields
+    tangents : makes bodies that have yielded
+    interface, scale, absent : of the moment
+    """
+
+    elastic: ContactSolver
+    tangents: TangentBodies
+    interface: Interface
+    scale: Scale
+    absent: BoolArray
+
+    @property
+    def name(self) -> str:
+        """Of the back end, for reports."""
+        return self.elastic.name
+
+    @property
+    def active(self) -> BoolArray:
+        """(n,) Pairs that the law is asked of."""
+        return self.elastic.active
+
+    @property
+    def held(self) -> BoolArray:
+        """(n,) Pairs that supports hold on both sides."""
+        return self.elastic.held
+
+    @property
+    def paths(self) -> CondensedSolver | None:
+        """What follows paths along which nothing yields."""
+        return self.elastic.paths
+
+    def under(self, interface: Interface, scale: Scale, absent: BoolArray) -> PlasticSolver:
+        """Bodies under another law, see `ContactSolver.under`.
+
+        Parameters
+        ----------
+        interface, scale : friction, gaps and sizes of the data of the moment
+        absent : (n,) pairs that are switched off
+        """
+        elastic = self.elastic.under(interface, scale, absent)
+        return replace(self, elastic=elastic, interface=interface, scale=scale, absent=absent)
+
+    def solve(self, increment: Increment) -> IncrementAnswer:
+        """Solve one increment by backward Euler, contact and flow rule at its end."""
+        rounds, system, bodies = _Rounds(), increment.system, self.tangents.yielding
+        T, state = system.constraints.transform, increment.state
+        old = bodies.untouched() if state.plastic is None else state.plastic
+        swelling = bodies.swelling(increment.point.factors)
+        scale = 1.0 / np.sqrt(np.maximum(self.tangents.diagonal, np.finfo(np.float64).tiny))
+        tangent = _Tangent(solver=self.elastic, K=system.K)
+        model, x, start = bodies.at_rest(state.displacement, old), T.T @ old.forces, increment.start
+        reached: tuple[IncrementAnswer, PlasticResponse] | None = None
+        while True:
+            answer, tangent, x = self._contact(increment, tangent, x, start, rounds, model, reached)
+            if not answer.solved:
+                return answer
+            with increment.clock.phase("plasticity"):
+                after = bodies.respond(T @ answer.free + increment.imposed, old, swelling)
+                linear = after
+                lack = self._lack(increment, answer, after)
+                step = 1.0
+                if reached is not None and not rounds.inputs and lack > max(_BALANCED, _SEARCH_FROM * rounds.last):
+                    search = LineSearch(
+                        bodies=bodies, increment=increment, old=old, swelling=swelling, one=reached[0], two=answer
+                    )
+                    step, answer, after = search.shortened(reached[1], after)
+                    lack = lack if step == 1.0 else self._lack(increment, answer, after)
+                before = np.zeros(len(answer.free)) if reached is None else reached[0].free
+                after = bodies.with_dual(after, old, model, linear)
+            kept = rounds.last
+            rounds.residuals.append(lack)
+            rounds.steps.append(step)
+            rounds.lengths.append(float(np.abs(answer.free - before).max(initial=0.0)))
+            if step == 1.0 and lack <= _BALANCED:
+                work = old.dissipation + plastic_work(
+                    bodies,
+                    (state.displacement, old),
+                    (T @ answer.free + increment.imposed, after.state),
+                    (bodies.swelling(state.point.factors), swelling),
+                )
+                run = MethodRun(method="plastic flow", iterations=len(rounds.steps), end="balanced")
+                return replace(answer, plastic=replace(after.state, dissipation=work), trace=(*answer.trace, run))
+            far = not np.isfinite(lack) or np.abs(answer.free).max(initial=0.0) > _MAX_LENGTHS * self.scale.length
+            if rounds.runs_away or far or len(rounds.steps) >= _MAX_ROUNDS:
+                words = f"plastic flow did not settle in {len(rounds.steps)} rounds ({lack:.1e} of the forces left)"
+                mechanism = answer.free - before if np.isfinite(lack) else None
+                return replace(answer, outcome=Outcome.NOT_FOUND, message=words, mechanism=mechanism)
+            reached = answer, after
+            if step < 1.0 or self._pays(tangent, lack, kept, rounds):
+                tangent, model = self._softened(after, increment, rounds), after
+                x = self._right(after, tangent, answer, T)
+                rounds.inputs, rounds.outputs = [], []
+            else:
+                x = rounds.accelerated(x, self._right(after, tangent, answer, T), scale)
+            start = None if tangent.solver.paths is None else tangent.solver.paths.near(answer)
+
+    def _right(self, after: PlasticResponse, tangent: _Tangent, answer: IncrementAnswer, T: sp.csr_array) -> Array:
+        """x = f_p - S u, (z,), at an answer."""
+        forces = after.state.forces
+        if tangent.S is not None:
+            forces = forces - tangent.S @ (T @ answer.free)
+        right: Array = T.T @ forces
+        return right
+
+    def _lack(self, increment: Increment, answer: IncrementAnswer, after: PlasticResponse) -> float:
+        """What equilibrium lacks at an answer, of the size of the forces."""
+        system, T = increment.system, increment.system.constraints.transform
+        forces = after.state.forces + system.interface.B.T @ answer.forces - system.K @ (T @ answer.free)
+        return float(np.abs(increment.f + T.T @ forces).max(initial=0.0)) / system.scale.force
+
+    def _pays(self, tangent: _Tangent, lack: float, before: float, rounds: _Rounds) -> bool:
+        """Whether a new tangent is worth its factorisation."""
+        if rounds.gained():
+            return False
+        share = self.tangents.substitution_share(tangent.solver, _SUBSTITUTION)
+        return share is None or lack > 10.0 ** (-_TANGENT_DECADES * share) * before
+
+    def _softened(
+        self, at: PlasticResponse, increment: Increment, rounds: _Rounds, left: tuple[float, ...] = _LEFT_PARTS
+    ) -> _Tangent:
+        """Bodies linearised about a response, as soft as they are or as contact bears it."""
+        for kept in left:
+            try:
+                return self._made(at, kept, increment, rounds)
+            except (NotPositiveDefinite, np.linalg.LinAlgError):
+                continue
+        return _Tangent(solver=self.elastic, K=increment.system.K)
+
+    def _made(self, at: PlasticResponse, left: float, increment: Increment, rounds: _Rounds) -> _Tangent:
+        """Bodies linearised about a response, factorised."""
+        rounds.factorisations += 1
+        with increment.clock.phase("assembly"):
+            S, K, reduced = self.tangents.softened(at, left)
+        solver = self.tangents.solver(reduced, increment.clock)
+        return _Tangent(solver=solver.under(self.interface, self.scale, self.absent), K=K, S=S)
+
+    def _contact(
+        self,
+        increment: Increment,
+        tangent: _Tangent,
+        x: Array,
+        start: Array | IntArray | None,
+        rounds: _Rounds,
+        model: PlasticResponse,
+        reached: tuple[IncrementAnswer, PlasticResponse] | None,
+    ) -> tuple[IncrementAnswer, _Tangent, Array]:
+        """Contact on the bodies of a round; on stiffer ones where that finds no answer, at last on the elastic ones."""
+        answer = self._on(increment, tangent, x, start)
+        if answer.solved or tangent.S is None or reached is None:
+            return answer, tangent, x
+        T = increment.system.constraints.transform
+        stiffer = self._softened(model, increment, rounds, (_STIFFER_PART,))
+        for other in (stiffer, _Tangent(solver=self.elastic, K=increment.system.K)):
+            y = self._right(reached[1], other, reached[0], T)
+            answer = self._on(increment, other, y, None)
+            if answer.solved:
+                return answer, other, y
+        return answer, tangent, x
+
+    def _on(self, increment: Increment, tangent: _Tangent, x: Array, start: Array | IntArray | None) -> IncrementAnswer:
+        system = replace(increment.system, K=tangent.K)
+        return tangent.solver.solve(replace(increment, system=system, f=increment.f + x, start=start))

@@ -1,0 +1,266 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Straight parts of a step in which bodies may yield: as elastic bodies until a point does, then in increments.
+
+On a straight piece of an elastic path stresses are linear and the yield function is convex, so that its ends tell
+whether anything yields on it, and the load of first yield is the root of a quadratic. Increments are backward Euler,
+of first order: as many as it takes for their halves to change the answer less than a tolerance.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import pairwise
+from math import ceil
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.engine.collapse import Collapse, collapse
+from signorini.engine.increments import advance, follow_increments
+from signorini.engine.plastic_solver import PlasticSolver
+from signorini.engine.prepare import Prepared
+from signorini.engine.step_parts import FollowedPart, StepPart, joined, keep, reached
+from signorini.errors import SolveFailed, told
+from signorini.model.step import Step
+from signorini.outcome import Outcome
+from signorini.plasticity.bodies import YieldingBodies
+from signorini.plasticity.measure import deviator, fullness, size, yield_stress
+from signorini.plasticity.state import PlasticState
+from signorini.solution.state import State
+
+TOLERANCE = 1e-2
+"""Of ``increments = "auto"`` where bodies yield, if the step gives none: backward Euler is of first order."""
+
+ELASTIC = "nothing yields: bodies answer as elastic ones"
+"""What a part says in which no point yields."""
+
+_YIELD_TOL = 1e-9  # of the yield stress: rounding of a point that is about to flow
+_SOON = 1e-3  # of a part: a point that flows by then flows from the start
+_AT_ONCE = 1e-9  # of a part: first yield before that is at its start
+_BELOW_COLLAPSE = 0.98  # of the load at which bodies flow: up to there they are followed
+_FEWEST, _MOST = 1, 256  # increments of a straight part that are tried by themselves
+
+
+def follow_plastically(part: StepPart, step: Step, elastically: Callable[[StepPart], FollowedPart]) -> FollowedPart:
+    """Follow a straight part of a step.
+
+    Parameters
+    ----------
+    part : of a model with bodies that yield
+    step : what was asked for
+    elastically : follows a part in which nothing yields as the step asks for
+
+    Raises
+    ------
+    SolveFailed
+        Where bodies flow without end, with the load at most; or as increments and elastic paths do.
+    """
+    behind: list[FollowedPart] = []
+    if not _flows_at_once(part):
+        begun, rest = _elastic_part(part, elastically)
+        behind = [] if begun is None else [begun]
+        if rest is None:
+            return joined(behind)
+        part = rest
+    if step.path == "exact":
+        words = told(
+            f"{part.where} at {part.interval.low:.6%}: a point yields, and plastic flow has no exact path",
+            remedy="follow the step in increments, or leave path out",
+        )
+        raise keep(SolveFailed(words, status=Outcome.NOT_FOUND), behind)
+    try:
+        return joined([*behind, _in_increments(part, step)])
+    except SolveFailed as failure:
+        raise keep(failure, behind) from None
+
+
+def _frozen(part: StepPart) -> StepPart:
+    """The part with bodies that answer as elastic ones whatever their stresses are."""
+    prepared, (_, plastic) = part.prepared, _points(part.prepared, part.before)
+    assert isinstance(prepared.solver, PlasticSolver)
+    return replace(part, prepared=replace(prepared, solver=prepared.solver.elastic, flowed=plastic.forces), whole=True)
+
+
+def _flows_at_once(part: StepPart) -> bool:
+    """Whether points that are about to flow do, as soon as the load changes."""
+    if fullest(part.prepared, part.before) < 1.0 - _YIELD_TOL:
+        return False
+    calm = _frozen(part)
+    point = part.before.point.towards(part.end, _SOON)
+    try:
+        state, _, _ = advance(calm.prepared, part.before, point, part.where)
+    except SolveFailed:
+        return True
+    return fullest(part.prepared, state) > 1.0 + _YIELD_TOL
+
+
+def _elastic_part(
+    part: StepPart, elastically: Callable[[StepPart], FollowedPart]
+) -> tuple[FollowedPart | None, StepPart | None]:
+    """What is followed until a point yields, and what is left of the part; None where nothing is."""
+    calm, lost = _frozen(part), None
+    try:
+        followed: FollowedPart | None = elastically(calm)
+    except SolveFailed as failure:
+        followed, lost = reached(failure), failure
+    factor = None if followed is None else _first_yield(part, followed)
+    if factor is None:
+        if lost is not None:
+            raise lost
+        assert followed is not None
+        return replace(followed, notes=(*followed.notes, ELASTIC)), None
+    if factor <= _AT_ONCE:
+        return None, part
+    cut = part.cut(factor, "event")
+    begun = elastically(_frozen(cut))
+    words = f"{part.where} at {part.interval.fraction(factor):.6%}: first yield, {_place(part.prepared, begun.after)}"
+    begun = replace(begun, notes=(*begun.notes, words))
+    return begun, part.rest(cut, begun.after)
+
+
+def _points(prepared: Prepared, state: State) -> tuple[YieldingBodies, PlasticState]:
+    """The points of bodies that yield, and what they remember in a state."""
+    assert prepared.yielding is not None
+    assert state.plastic is not None
+    return prepared.yielding, state.plastic
+
+
+def fullest(prepared: Prepared, state: State) -> float:
+    """The largest relative stress of any point over its yield stress."""
+    bodies, plastic = _points(prepared, state)
+    return float(fullness(bodies, state.displacement, plastic, bodies.swelling(state.point.factors)).max())
+
+
+def _first_yield(part: StepPart, followed: FollowedPart) -> float | None:
+    """The fraction of a part at which the first point yields on an elastic path; None where none does."""
+    prepared, at = part.prepared, part.interval.factor
+    states = [(0.0, followed.before)]
+    for shot in followed.snapshots:
+        if shot.whole:
+            states.append(((shot.load_factor - at(0.0)) / (at(1.0) - at(0.0)), shot.state))
+    for (begin, one), (end, two) in pairwise(states):
+        if fullest(prepared, two) > 1.0 + _YIELD_TOL:
+            return begin + (end - begin) * _root(prepared, one, two)
+    return None
+
+
+def _root(prepared: Prepared, one: State, two: State) -> float:
+    """How far from one state to another the first point yields, 0 .. 1."""
+    first, last = _relative(prepared, one), _relative(prepared, two)
+    bodies, plastic = _points(prepared, one)
+    limit = np.sqrt(2.0 / 3.0) * yield_stress(bodies, plastic.equivalent)
+    step = last - first
+    a, c = size(step) ** 2, size(first) ** 2 - limit**2
+    b = 0.25 * (size(first + step) ** 2 - size(first - step) ** 2)  # their product
+    yields = size(last) > limit * (1.0 + _YIELD_TOL)
+    a, b, c = a[yields], b[yields], np.minimum(c[yields], 0.0)
+    inside = np.sqrt(np.maximum(b * b - a * c, 0.0))
+    root = np.where(b > 0.0, -c / (b + inside), (inside - b) / np.maximum(a, np.finfo(np.float64).tiny))
+    return float(np.clip(root.min(), 0.0, 1.0))
+
+
+def _relative(prepared: Prepared, state: State) -> Array:
+    """(p, n) Deviators of the stresses less the back stresses."""
+    bodies, plastic = _points(prepared, state)
+    stress = deviator(bodies, state.displacement, plastic.strain, bodies.swelling(state.point.factors))
+    return stress - plastic.back.sum(axis=1)
+
+
+def _place(prepared: Prepared, state: State) -> str:
+    """Where the fullest point is, in words."""
+    bodies, plastic = _points(prepared, state)
+    full = fullness(bodies, state.displacement, plastic, bodies.swelling(state.point.factors))
+    i = int(np.argmax(full))
+    at = ", ".join(f"{x:.4g}" for x in bodies.places()[i])
+    return f"in '{prepared.model.bodies[int(bodies.body[i])].name}' at ({at})"
+
+
+def _in_increments(part: StepPart, step: Step) -> FollowedPart:
+    """A part in which points yield: in the increments asked for, or more and more of them."""
+    length = part.interval.high - part.interval.low
+    if isinstance(step.increments, int):
+        return _increments(part, max(1, ceil(step.increments * length - 1e-9)))
+    tolerance = TOLERANCE if step.tolerance is None else step.tolerance
+    number, coarse = _FEWEST, None
+    while True:
+        try:
+            fine = _increments(part, number)
+        except SolveFailed as failure:
+            if failure.hopeless or 4 * number > _MOST:
+                raise
+            number, coarse = 4 * number, None
+            continue
+        if coarse is not None:
+            change, words = _change(part.prepared, coarse, fine)
+            note = f"{number} increments of plastic flow: half as many change {words}"
+            if change <= tolerance:
+                return replace(fine, notes=(*fine.notes, note))
+            if 2 * number > _MOST:
+                return replace(fine, notes=(*fine.notes, f"{note}, more than {tolerance:g}"))
+        number, coarse = 2 * number, fine
+
+
+def _increments(part: StepPart, number: int) -> FollowedPart:
+    """A part in equal increments; where bodies flow without end the load at most is named.
+
+    Raises
+    ------
+    SolveFailed
+        If an increment has no certified solution.
+    """
+    try:
+        return follow_increments(part, number)
+    except SolveFailed as failure:
+        if failure.flow is None:
+            raise
+        behind = reached(failure)
+        done = 0 if behind is None else len(behind.snapshots)
+        start, end = (part.before.point.towards(part.end, k / number) for k in (done, done + 1))
+        found = collapse(part.prepared, start, end, *failure.flow)
+        if found is None:
+            raise
+        raise _collapsed(part, found, (done + found.part) / number, number) from failure
+
+
+def _collapsed(part: StepPart, found: Collapse, fraction: float, number: int) -> SolveFailed:
+    """The failure that names the load, with what can be followed below it."""
+    limit = part.interval.fraction(fraction)
+    proof = (
+        "friction that slips is not associated: evidence, no proof"
+        if found.rubs
+        else "loads do more work on the mechanism than plastic flow can take: proved for this mesh"
+    )
+    words = told(
+        f"{part.where}: bodies flow plastically at {limit:.4%} of the step at most: beyond there is no equilibrium",
+        remedy="less load, a harder material, or a prescribed motion in place of the load",
+        evidence=proof,
+    )
+    status = Outcome.NOT_FOUND if found.rubs else Outcome.NO_EQUILIBRIUM
+    failure = SolveFailed(words, status=status, motion=found.motion)
+    failure.hopeless = True
+    if fraction > _AT_ONCE:
+        try:
+            behind = follow_increments(part.cut(_BELOW_COLLAPSE * fraction, "event"), max(1, ceil(number * fraction)))
+        except SolveFailed as stop:
+            return keep(failure, [found for found in [reached(stop)] if found is not None])  # type: ignore[return-value]
+        return keep(failure, [behind])  # type: ignore[return-value]
+    return failure
+
+
+def _change(prepared: Prepared, coarse: FollowedPart, fine: FollowedPart) -> tuple[float, str]:
+    """By how much two ways between the same loads differ, in the norm of areas and volumes, and in words."""
+    interface, one, two = prepared.interface, coarse.after, fine.after
+    (bodies, first), (_, last) = _points(prepared, one), _points(prepared, two)
+    area = np.tile(interface.area, interface.directions)
+    tractions = _ratio((two.forces - one.forces) / np.sqrt(area), two.forces / np.sqrt(area)) if len(area) else 0.0
+    weight = np.sqrt(bodies.weights)[:, None]
+    strains = _ratio(weight * (last.strain - first.strain), weight * last.strain)
+    words = f"tractions by {tractions:.1e} and plastic strains by {strains:.1e} of their size"
+    return max(tractions, strains), words
+
+
+def _ratio(change: Array, whole: Array) -> float:
+    """Norm of a change over that of the whole."""
+    largest = float(np.linalg.norm(whole))
+    return float(np.linalg.norm(change)) / largest if largest else 0.0

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bodies as soft as their yielding points make them: stiffness on one pattern, factorised on one plan."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.clock import Clock
+from signorini.condense.condensed import condense
+from signorini.engine.examine import Examined
+from signorini.engine.multipliers import make_multipliers
+from signorini.engine.solver import CondensedSolver, ContactSolver
+from signorini.fem.stiffness import reduced_stiffness
+from signorini.interface.active import FreeBodies
+from signorini.iterative.bodies import ITERATIVE
+from signorini.linalg.multifrontal import MultifrontalFactorisation
+from signorini.linalg.plan import Plans
+from signorini.plasticity.bodies import PlasticResponse, YieldingBodies
+from signorini.settings import SolverSettings
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class TangentBodies:
+    """Makes the bodies of a round.
+
+    Attributes
+    ----------
+    examined : the model
+    yielding : the points of the bodies that yield
+    K : (dofs, dofs) elastic stiffness
+    reduced : (z, z) the same on the free displacements, on the pattern of all tangents
+    B : (d n, z) relative displacements of the pairs
+    rows : (dofs, dofs) pattern of what yielding takes off
+    gather : (entries of `reduced`, entries of `rows`) takes the one from the other
+    near : (n,) pairs that the law is asked of
+    whole : whether contact is iterated on the bodies as they are
+    backend, settings : of the factorisation and the methods
+    plans : the plan of the factorisation, made once
+    """
+
+    examined: Examined
+    yielding: YieldingBodies
+    K: sp.csr_array
+    reduced: sp.csr_array
+    B: sp.csr_array
+    rows: sp.csr_array
+    gather: sp.csr_array
+    near: BoolArray
+    whole: bool
+    backend: str
+    settings: SolverSettings
+    plans: Plans = field(default_factory=Plans)
+
+    @staticmethod
+    def of(
+        examined: Examined,
+        K: sp.csr_array,
+        yielding: YieldingBodies,
+        *,
+        near: BoolArray,
+        whole: bool,
+        backend: str,
+        settings: SolverSettings,
+    ) -> TangentBodies:
+        """Patterns, once for all tangents.
+
+        Parameters
+        ----------
+        examined : the model
+        K : (dofs, dofs) elastic stiffness
+        yielding : the points of the bodies that yield
+        near : (n,) pairs that the law is asked of
+        whole : whether contact is iterated on the bodies as they are
+        backend, settings : of the factorisation and the methods
+        """
+        T = examined.constraints.transform
+        rows = yielding.rows()
+        reduced, gather = _on_one_pattern(reduced_stiffness(K, T), rows, T)
+        return TangentBodies(
+            examined=examined,
+            yielding=yielding,
+            K=K,
+            reduced=reduced,
+            B=sp.csr_array(examined.interface.B @ T),
+            rows=rows,
+            gather=gather,
+            near=near,
+            whole=whole,
+            backend="auto" if backend == ITERATIVE else backend,
+            settings=settings,
+        )
+
+    @property
+    def diagonal(self) -> Array:
+        """(z,) Of the elastic stiffness."""
+        return np.asarray(self.reduced.diagonal(), dtype=np.float64)
+
+    def softened(self, at: PlasticResponse, left: float) -> tuple[sp.csr_array, sp.csr_array, sp.csr_array]:
+        """What yielding takes off, (dofs, dofs), and what is left of the stiffness, (dofs, dofs) and (z, z).
+
+        Parameters
+        ----------
+        at : what the tangent is made at
+        left : part of the elastic law that yielding leaves in place, 0 .. 1
+        """
+        data, rows = self.yielding.softening(at, left), self.rows
+        S = sp.csr_array((data, rows.indices, rows.indptr), shape=rows.shape)
+        reduced = self.reduced.copy()
+        reduced.data -= self.gather @ data
+        return S, sp.csr_array(self.K - S), reduced
+
+    def solver(self, reduced: sp.csr_array, clock: Clock) -> ContactSolver:
+        """Contact on bodies of a stiffness (z, z) on the pattern of all tangents; ``clock`` counts the seconds.
+
+        Raises
+        ------
+        NotPositiveDefinite
+            If the bodies are so soft that something moves without resistance.
+        LinAlgError
+            If contact hardly holds a body.
+        """
+        examined, settings = self.examined, self.settings
+        if self.whole:
+            return make_multipliers(examined, reduced, self.B, self.near, settings)
+        scale = examined.scale
+        condensed = condense(
+            FreeBodies(reduced, self.B, examined.constraints.nodes, examined.space.places),
+            examined.interface,
+            candidates=self.near,
+            rigid=(examined.motions @ examined.floating)[examined.constraints.leaders],
+            stiffness=scale.stiffness,
+            backend=self.backend,
+            clock=clock,
+            plans=self.plans,
+        )
+        return CondensedSolver.of(condensed, examined.interface, scale, settings)
+
+    def substitution_share(self, solver: ContactSolver, operations: float) -> float | None:
+        """Price of a round on the factor at hand over that of one on a new factor; None: not known, or in the plane.
+
+        Parameters
+        ----------
+        solver : with the factor
+        operations : that take as long as to move an entry of the factor through memory in one round
+        """
+        paths = solver.paths
+        if paths is None or self.examined.space.dimension == 2:
+            return None
+        factor = paths.condensed.factorisation
+        if not isinstance(factor, MultifrontalFactorisation):
+            return None
+        kept = operations * factor.plan.nnz_factor
+        return kept / (kept + factor.plan.flops)
+
+
+def _on_one_pattern(K: sp.csr_array, rows: sp.csr_array, T: sp.csr_array) -> tuple[sp.csr_array, sp.csr_array]:
+    """K, (z, z), on the pattern of all tangents, and what gathers its entries from those of ``rows``.
+
+    Entry (i, j) of ``rows`` goes to (a, b) times ``T_ia T_jb``, for every a in row i of T and b in row j.
+    """
+    count = np.diff(T.indptr)
+    i = np.repeat(np.arange(rows.shape[0]), np.diff(rows.indptr))
+    j = rows.indices
+    entry, first = _each(np.arange(len(j)), i, T, count)
+    again, second = _each(np.arange(len(entry)), j[entry], T, count)
+    row, column = T.indices[first][again], T.indices[second]
+    value = T.data[first][again] * T.data[second]
+    size = np.int64(K.shape[0])
+    key = row.astype(np.int64) * size + column
+    have = np.repeat(np.arange(size), np.diff(K.indptr)) * size + K.indices
+    both = np.union1d(have, key)
+    data = np.zeros(len(both))
+    data[np.searchsorted(both, have)] = K.data
+    indptr = np.searchsorted(both // size, np.arange(size + 1)).astype(np.int32)
+    wide = sp.csr_array((data, (both % size).astype(np.int32), indptr), shape=K.shape)
+    at = np.searchsorted(both, key)
+    gather = sp.csr_array(sp.coo_array((value, (at, entry[again])), shape=(len(both), len(j))))
+    return wide, gather
+
+
+def _each(of: IntArray, row: IntArray, T: sp.csr_array, count: IntArray) -> tuple[IntArray, IntArray]:
+    """Every number as often as its row of T has entries, and those entries."""
+    times = count[row]
+    repeated = np.repeat(of, times)
+    begin = np.repeat(T.indptr[row], times)
+    within = np.arange(len(repeated)) - np.repeat(np.cumsum(times) - times, times)
+    return repeated, begin + within

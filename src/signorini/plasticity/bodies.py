@@ -1,0 +1,325 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bodies that yield: what their points answer to displacements, and how much softer that makes them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.fem import _kernels as assembly
+from signorini.fem.elasticity import elasticities
+from signorini.fem.kinematics import Group, kinematics, straining_groups
+from signorini.fem.space import Space
+from signorini.fem.thermal import temperatures, thermal_strain
+from signorini.model.material import Elastic, Material
+from signorini.model.model import Model
+from signorini.model.plastic import Plastic
+from signorini.plasticity import kernels, radial_return
+from signorini.plasticity.radial_return import Points, YieldLaws
+from signorini.plasticity.state import PlasticState, no_flow
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PointGroup:
+    """Cells of one family that may yield.
+
+    Attributes
+    ----------
+    group : the cells
+    cells : (m, k) nodes
+    gradients : (m, q, k, e) of the shape functions
+    weights : (m, q) volumes of the points
+    values : (q, k) shape functions
+    first : where the points of the group begin among all
+    """
+
+    group: Group
+    cells: IntArray
+    gradients: Array
+    weights: Array
+    values: Array
+    first: int
+
+    @property
+    def own(self) -> slice:
+        """The points of the group among all."""
+        return slice(self.first, self.first + self.weights.size)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PlasticResponse:
+    """What the points answer to displacements, from the state that they come from.
+
+    Attributes
+    ----------
+    state : after backward Euler
+    points : the same with what a tangent needs
+    dual : (p, n) relative stress over the radius, of the linear model, see `radial_return.dual_stress`
+    """
+
+    state: PlasticState
+    points: Points
+    dual: Array
+
+    @property
+    def flows(self) -> bool:
+        """Whether any point yields."""
+        return bool(self.points.yields.any())
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class YieldingBodies:
+    """The quadrature points of all bodies that yield.
+
+    Attributes
+    ----------
+    space, model : of all bodies
+    groups : of cells that may yield
+    laws : material data
+    body : (p,) of every point
+    elasticity : (b, n, n) elastic law of every body, in the kind of the model
+    pattern : rows and columns of the graph of the nodes of cells that may yield
+    """
+
+    space: Space
+    model: Model
+    groups: tuple[PointGroup, ...]
+    laws: YieldLaws
+    body: IntArray
+    elasticity: Array
+    pattern: tuple[IntArray, NDArray[np.int32]]
+
+    @property
+    def weights(self) -> Array:
+        """(p,) Volumes of the points."""
+        return np.concatenate([group.weights.ravel() for group in self.groups])
+
+    def places(self) -> Array:
+        """(p, d) Where the points are, length."""
+        at = [np.einsum("qk,mki->mqi", group.values, self.space.mesh.points[group.cells]) for group in self.groups]
+        return np.concatenate([points.reshape(-1, points.shape[2]) for points in at])
+
+    @property
+    def components(self) -> int:
+        """Of a strain, 4 or 6."""
+        return int(self.elasticity.shape[1])
+
+    def untouched(self) -> PlasticState:
+        """Nothing has flowed yet."""
+        return no_flow(len(self.body), self.components, self.laws.back.shape[1], self.space.number_of_dofs)
+
+    def swelling(self, factors: Mapping[str, float]) -> Array:
+        """(p,) Volume strain of the temperatures at load factors by name."""
+        found, heat = np.zeros(len(self.body)), temperatures(self.space, self.model, factors)
+        if heat is not None:
+            for group in self.groups:
+                points = kinematics(self.space, self.model, group.group)
+                strain = thermal_strain(self.model, group.group, points, heat)
+                found[group.own] = strain[..., :3].sum(axis=-1).ravel()
+        return found
+
+    def strains(self, u: Array) -> Array:
+        """(p, n) Strains of displacements (dofs,); in plane stress without that across."""
+        found = np.zeros((len(self.body), self.components))
+        for group in self.groups:
+            kernels.strains(group.cells, group.gradients, u, self.space.dimension, found[group.own])
+        return found
+
+    def respond(self, u: Array, old: PlasticState, swelling: Array) -> PlasticResponse:
+        """Backward Euler at every point.
+
+        Parameters
+        ----------
+        u : (dofs,) displacements
+        old : the state that the points come from
+        swelling : (p,) see `swelling`
+        """
+        before = self._points(old, self.strains(u))
+        shape = before.strain.shape
+        after = Points(
+            strain=before.strain,
+            plastic=np.empty(shape),
+            equivalent=np.empty(shape[0]),
+            back=np.empty_like(old.back),
+            direction=np.empty(shape),
+            slack=np.empty((shape[0], 2)),
+            yields=np.empty(shape[0], np.bool_),
+        )
+        radial_return.respond(self.laws, self.body, swelling, before, after)
+        forces = self.forces(after.plastic)
+        state = PlasticState(strain=after.plastic, equivalent=after.equivalent, back=after.back, forces=forces)
+        return PlasticResponse(state=state, points=after, dual=after.direction)
+
+    def with_dual(
+        self, response: PlasticResponse, old: PlasticState, model: PlasticResponse, reached: PlasticResponse
+    ) -> PlasticResponse:
+        """A response with the relative stresses of the linear model that led to it.
+
+        Parameters
+        ----------
+        response : where the history of the rounds goes on
+        old : the state that the points come from
+        model : what the linear model was made at
+        reached : at the displacements that the linear model reaches, which may be farther
+        """
+        dual = np.empty_like(response.dual)
+        before = self._points(old, reached.points.strain)
+        end = reached.points._replace(equivalent=response.points.equivalent)
+        radial_return.dual_stress(self.laws, self.body, before, model.points, model.dual, end, dual)
+        return PlasticResponse(state=response.state, points=response.points, dual=dual)
+
+    def at_rest(self, u: Array, old: PlasticState) -> PlasticResponse:
+        """A response in which no point yields: what elastic bodies are linearised about.
+
+        Parameters
+        ----------
+        u : (dofs,) displacements
+        old : the state of the points
+        """
+        strain = self.strains(u)
+        zero, none = np.zeros_like(strain), np.zeros(len(strain))
+        points = Points(
+            strain=strain,
+            plastic=old.strain,
+            equivalent=old.equivalent,
+            back=old.back,
+            direction=zero,
+            slack=np.zeros((len(strain), 2)),
+            yields=none.astype(np.bool_),
+        )
+        return PlasticResponse(state=old, points=points, dual=zero)
+
+    def forces(self, plastic: Array) -> Array:
+        """(dofs,) ``sum_q w B^T D eps_p`` of plastic strains (p, n)."""
+        return self.internal_forces(self.eigenstress(plastic))
+
+    def eigenstress(self, plastic: Array) -> Array:
+        """(p, n) ``D eps_p`` of plastic strains (p, n)."""
+        stress: Array = np.einsum("pij,pj->pi", self.elasticity[self.body], plastic)
+        return stress
+
+    def internal_forces(self, stress: Array) -> Array:
+        """(dofs,) ``sum_q w B^T sigma`` of stresses (p, n)."""
+        found = np.zeros(self.space.number_of_dofs)
+        for group in self.groups:
+            d = self.space.dimension
+            kernels.add_forces(group.cells, group.gradients, group.weights, stress[group.own], d, found)
+        return found
+
+    def softening(self, response: PlasticResponse, left: float = 0.0) -> Array:
+        """Entries of what yielding takes off the stiffness, on the pattern of `rows`.
+
+        Parameters
+        ----------
+        response : what the tangent is made at
+        left : part of the elastic law that yielding leaves in place, 0 .. 1
+        """
+        data = np.zeros(self.space.dimension**2 * len(self.pattern[1]))
+        for group in self.groups:
+            own = group.own
+            here = response.points.part(own)
+            shape = group.gradients, group.weights
+            kernels.soften(
+                group.cells, shape, self.laws, self.body[own], here, response.dual[own], left, self.pattern, data
+            )
+        return data
+
+    def rows(self) -> sp.csr_array:
+        """(dofs, dofs) The pattern of `softening`, its entries numbered from 1."""
+        indptr, indices = assembly.unknown_pattern(*self.pattern, self.space.dimension)
+        dofs = self.space.number_of_dofs
+        full = np.concatenate([indptr, np.full(dofs + 1 - len(indptr), indptr[-1], indptr.dtype)])
+        return sp.csr_array((np.arange(1.0, len(indices) + 1.0), indices, full), shape=(dofs, dofs))
+
+    def _points(self, old: PlasticState, strain: Array) -> Points:
+        """A committed state as compiled loops read it."""
+        none = np.zeros(0)
+        return Points(
+            strain=strain,
+            plastic=old.strain,
+            equivalent=old.equivalent,
+            back=old.back,
+            direction=none.reshape(0, 0),
+            slack=none.reshape(0, 0),
+            yields=none.astype(np.bool_),
+        )
+
+
+def yielding_bodies(space: Space, model: Model) -> YieldingBodies:
+    """The points of the bodies of a model that yield.
+
+    Parameters
+    ----------
+    space, model : the mesh and what is on it; at least one body yields
+    """
+    yields = np.array([_plastic(body.material) is not None for body in model.bodies])
+    groups, first = [], 0
+    for every in straining_groups(space, model):
+        group = _among(every, yields)
+        if group is None:
+            continue
+        points = kinematics(space, model, group)
+        groups.append(
+            PointGroup(
+                group=group,
+                cells=np.ascontiguousarray(group.cells, np.int64),
+                gradients=np.ascontiguousarray(points.gradients),
+                weights=np.ascontiguousarray(points.weights),
+                values=points.values,
+                first=first,
+            )
+        )
+        first += points.weights.size
+    body = np.concatenate([np.repeat(group.group.body, group.weights.shape[1]) for group in groups])
+    sizes = np.concatenate([[0], *(np.full(len(group.cells), group.cells.shape[1]) for group in groups)])
+    corner = np.concatenate([group.cells.ravel() for group in groups]).astype(np.int32)
+    pattern = assembly.node_pattern(np.cumsum(sizes).astype(np.int64), corner, len(space.mesh.points))
+    return YieldingBodies(
+        space=space,
+        model=model,
+        groups=tuple(groups),
+        laws=_laws(model),
+        body=body.astype(np.int64),
+        elasticity=elasticities(model),
+        pattern=pattern,
+    )
+
+
+def _among(group: Group, yields: BoolArray) -> Group | None:
+    """The cells of a group whose bodies yield."""
+    own = yields[group.body]
+    if not own.any():
+        return None
+    return Group(block=group.block, index=group.index[own], body=group.body[own], formulation=group.formulation)
+
+
+def _plastic(material: Material) -> Plastic | None:
+    return material.plastic if isinstance(material, Elastic) else None
+
+
+def _laws(model: Model) -> YieldLaws:
+    """Material data of all bodies, with tables of one width."""
+    plastics = [_plastic(body.material) for body in model.bodies]
+    tables = [np.zeros((1, 2)) if plastic is None else plastic.curve for plastic in plastics]
+    backs = [() if plastic is None else plastic.backstresses for plastic in plastics]
+    width, most = max(len(table) for table in tables), max(len(back) for back in backs)
+    filled = np.array([[*table, *[table[-1]] * (width - len(table))] for table in tables])
+    back = np.zeros((len(backs), most, 2))
+    for b, rows in enumerate(backs):
+        back[b, : len(rows)] = np.reshape(rows, (-1, 2))
+    return YieldLaws(
+        shear=np.array([body.material.shear_modulus for body in model.bodies]),
+        bulk=np.array([body.material.bulk_modulus for body in model.bodies]),
+        strain=np.ascontiguousarray(filled[:, :, 0]),
+        stress=np.ascontiguousarray(filled[:, :, 1]),
+        rows=np.array([0 if plastic is None else len(plastic.curve) for plastic in plastics]),
+        beyond=np.array([0.0 if plastic is None else plastic.hardening for plastic in plastics]),
+        back=np.ascontiguousarray(back[..., 0]),
+        recovery=np.ascontiguousarray(back[..., 1]),
+        thin=model.kind == "plane stress",
+    )

@@ -1,0 +1,285 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Compiled loops of the flow rule at points: backward Euler by radial return, and its primal-dual linearisation.
+
+Strains xx, yy, zz, xy (yz, xz) with shear strains twice the tensor's; stresses as tensors. In plane stress the strain
+across is found that leaves no stress there.
+
+References
+----------
+Simo, Hughes (1998), Computational Inelasticity, boxes 3.1, 3.2; Chaboche (1986), Int. J. Plasticity 2:149.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from signorini.arrays import Array, BoolArray, IntArray
+
+ROOT23, ROOT32 = np.sqrt(2.0 / 3.0), np.sqrt(1.5)
+
+_RETURN_TOL = 1e-14  # of the radius: rounding of the sums it is made of
+_RETURN_ROUNDS = 60  # of Newton's method with bisection in a bracket: the last resort of 1e-18
+_ACROSS_TOL = 1e-14  # of the bulk modulus times the strain: stress across that plane stress may leave
+_ACROSS_ROUNDS = 40  # of Newton's method for the strain across; 3 to 6 are the rule
+
+
+class YieldLaws(NamedTuple):
+    """Material data of all bodies, a row each; a named tuple, because compiled loops read it.
+
+    Attributes
+    ----------
+    shear, bulk : (b,) moduli, force per area
+    strain, stress : (b, w) tables of the yield stress over the equivalent plastic strain, padded with the last row
+    rows : (b,) rows of the tables; 0: the body never yields
+    beyond : (b,) slope behind the last row, force per area
+    back : (b, M) C of the back stresses, force per area; 0: none
+    recovery : (b, M) gamma of the back stresses
+    thin : whether the stress across vanishes, as in plane stress
+    """
+
+    shear: Array
+    bulk: Array
+    strain: Array
+    stress: Array
+    rows: IntArray
+    beyond: Array
+    back: Array
+    recovery: Array
+    thin: bool
+
+
+class Points(NamedTuple):
+    """What every point has, (p,) or (p, n); n components, M back stresses; written by `respond`.
+
+    Attributes
+    ----------
+    strain : (p, n) total strain
+    plastic : (p, n) plastic strain
+    equivalent : (p,) equivalent plastic strain
+    back : (p, M, n) back stresses
+    direction : (p, n) of the flow, a unit tensor; 0 where nothing flows
+    slack : (p, 2) a and b of ``M = 2 G (a I_dev + b n n^T)``
+    yields : (p,) whether the point flows
+    """
+
+    strain: Array
+    plastic: Array
+    equivalent: Array
+    back: Array
+    direction: Array
+    slack: Array
+    yields: BoolArray
+
+    def part(self, own: slice) -> Points:
+        """Some of the points."""
+        return Points(
+            strain=self.strain[own],
+            plastic=self.plastic[own],
+            equivalent=self.equivalent[own],
+            back=self.back[own],
+            direction=self.direction[own],
+            slack=self.slack[own],
+            yields=self.yields[own],
+        )
+
+
+@njit(cache=True, inline="always")
+def _yield_stress(laws: YieldLaws, body: int, p: float) -> tuple[float, float]:
+    """Yield stress and its slope at an equivalent plastic strain."""
+    n = laws.rows[body]
+    last = laws.strain[body, n - 1]
+    if p >= last:
+        return laws.stress[body, n - 1] + laws.beyond[body] * (p - last), laws.beyond[body]
+    i = 0
+    while p >= laws.strain[body, i + 1]:
+        i += 1
+    slope = (laws.stress[body, i + 1] - laws.stress[body, i]) / (laws.strain[body, i + 1] - laws.strain[body, i])
+    return laws.stress[body, i] + slope * (p - laws.strain[body, i]), slope
+
+
+@njit(cache=True)
+def _growth(laws: YieldLaws, body: int, old: Points, i: int, trial: Array, turn: Array) -> tuple[float, float, float]:
+    """Growth dp of the equivalent plastic strain, size of the relative stress before it (``turn``), slope of F.
+
+    ``F(dp) = |trial - sum theta X| - sqrt(2/3) Y(p + dp) - sqrt(3/2) (2G + 2/3 sum theta C) dp`` falls: Newton's method
+    within a bracket.
+    """
+    n, M, G2, p0 = len(trial), old.back.shape[1], 2.0 * laws.shear[body], old.equivalent[i]
+    norm = 0.0
+    for c in range(n):
+        x = trial[c]
+        for k in range(M):
+            x -= old.back[i, k, c]
+        norm += x * x * (1.0 if c < 3 else 2.0)
+    norm = np.sqrt(norm)
+    dp, low, high, slope = 0.0, 0.0, norm / (ROOT32 * G2), 1.0
+    for _ in range(_RETURN_ROUNDS):
+        stiff, taken = G2, 0.0
+        for c in range(n):
+            turn[c] = trial[c]
+        lean = 0.0
+        for k in range(M):
+            theta = 1.0 / (1.0 + laws.recovery[body, k] * dp)
+            stiff += 2.0 / 3.0 * theta * laws.back[body, k]
+            taken += 2.0 / 3.0 * laws.back[body, k] * laws.recovery[body, k] * theta * theta
+            for c in range(n):
+                turn[c] -= theta * old.back[i, k, c]
+        norm = 0.0
+        for c in range(n):
+            norm += turn[c] * turn[c] * (1.0 if c < 3 else 2.0)
+        norm = np.sqrt(norm)
+        for k in range(M):
+            theta = 1.0 / (1.0 + laws.recovery[body, k] * dp)
+            for c in range(n):
+                weight = 1.0 if c < 3 else 2.0
+                lean += weight * turn[c] / norm * laws.recovery[body, k] * theta * theta * old.back[i, k, c]
+        stress, hardening = _yield_stress(laws, body, p0 + dp)
+        missing = norm - ROOT23 * stress - ROOT32 * stiff * dp
+        slope = ROOT23 * hardening + ROOT32 * stiff - ROOT32 * taken * dp - lean
+        if abs(missing) <= 4.0 * _RETURN_TOL * (norm + stress):
+            break
+        if missing > 0.0:
+            low = dp
+        else:
+            high = dp
+        following = dp + missing / slope
+        dp = following if low < following < high else 0.5 * (low + high)
+    return dp, norm, slope
+
+
+@njit(cache=True)
+def _return(laws: YieldLaws, body: int, old: Points, i: int, new: Points, trial: Array, turn: Array) -> None:
+    """Backward Euler at point i from the old state to the strain of the new one; ``trial``, ``turn``: room."""
+    n, M, G2 = new.strain.shape[1], new.back.shape[1], 2.0 * laws.shear[body]
+    e = new.strain[i]
+    mean = (e[0] + e[1] + e[2]) / 3.0
+    for c in range(n):
+        trial[c] = G2 * (e[c] - mean - old.plastic[i, c]) if c < 3 else 0.5 * G2 * (e[c] - old.plastic[i, c])
+        new.plastic[i, c] = old.plastic[i, c]
+        new.direction[i, c] = 0.0
+        for k in range(M):
+            new.back[i, k, c] = old.back[i, k, c]
+    p0 = old.equivalent[i]
+    new.equivalent[i], new.yields[i], new.slack[i, 0], new.slack[i, 1] = p0, False, 0.0, 0.0
+    norm = 0.0
+    for c in range(n):
+        x = trial[c]
+        for k in range(M):
+            x -= old.back[i, k, c]
+        norm += x * x * (1.0 if c < 3 else 2.0)
+    norm = np.sqrt(norm)
+    stress, _ = _yield_stress(laws, body, p0)
+    if norm <= ROOT23 * stress * (1.0 + _RETURN_TOL):
+        return
+    dp, norm, slope = _growth(laws, body, old, i, trial, turn)
+    new.equivalent[i], new.yields[i] = p0 + dp, True
+    new.slack[i, 0] = G2 * ROOT32 * dp / norm
+    new.slack[i, 1] = G2 * ROOT32 / slope - new.slack[i, 0]
+    for c in range(n):
+        way = turn[c] / norm
+        new.direction[i, c] = way
+        new.plastic[i, c] = old.plastic[i, c] + ROOT32 * dp * way * (1.0 if c < 3 else 2.0)
+        for k in range(M):
+            theta = 1.0 / (1.0 + laws.recovery[body, k] * dp)
+            step = 2.0 / 3.0 * laws.back[body, k] * ROOT32 * dp * way
+            new.back[i, k, c] = theta * (old.back[i, k, c] + step)
+
+
+@njit(cache=True)
+def respond(laws: YieldLaws, body: IntArray, swelling: Array, old: Points, new: Points) -> None:
+    """The state of every point at the strains of the new one, from the old state; plane stress finds the strain across.
+
+    Parameters
+    ----------
+    laws : of the bodies
+    body : (p,) of every point
+    swelling : (p,) volume strain of the temperature, which no stress resists
+    old, new : states; the strains of the new one are given
+    """
+    n = new.strain.shape[1]
+    trial, turn = np.empty(n), np.empty(n)
+    for i in range(len(body)):
+        j = body[i]
+        if not laws.thin:
+            _return(laws, j, old, i, new, trial, turn)
+            continue
+        G2, K, e = 2.0 * laws.shear[j], laws.bulk[j], new.strain[i]
+        size = abs(e[0]) + abs(e[1]) + abs(e[3]) + abs(swelling[i]) + abs(old.plastic[i, 2])
+        low, high = -np.inf, np.inf
+        for _ in range(_ACROSS_ROUNDS):
+            _return(laws, j, old, i, new, trial, turn)
+            volume = e[0] + e[1] + e[2]
+            across = K * (volume - swelling[i]) + G2 * (e[2] - volume / 3.0 - new.plastic[i, 2])
+            if abs(across) <= _ACROSS_TOL * (K + G2) * size:
+                break
+            if across > 0.0:
+                high = e[2]
+            else:
+                low = e[2]
+            way = new.direction[i, 2]
+            stiff = K + G2 * (2.0 / 3.0 * (1.0 - new.slack[i, 0]) - new.slack[i, 1] * way * way)
+            following = e[2] - across / stiff
+            if not low < following < high:
+                following = 0.5 * (low + high) if np.isfinite(low) and np.isfinite(high) else following
+            e[2] = following
+
+
+@njit(cache=True)
+def dual_stress(
+    laws: YieldLaws, body: IntArray, old: Points, model: Points, dual: Array, new: Points, out: Array
+) -> None:
+    """The relative stress of the last linear model at the new strains, over the radius, pulled back into the unit ball.
+
+    In place of the direction of the flow it linearises the flow rule with the stress as an unknown of its own: states
+    of points do not flip from side to side near the limit load.
+
+    Parameters
+    ----------
+    laws, body : of the bodies, and of every point (p,)
+    old : committed states
+    model, dual : the states that the linear model was made at, and its relative stresses (p, n)
+    new : the states at the strains that its solution reaches
+    out : (p, n) the new relative stresses
+
+    References
+    ----------
+    Chan, Golub, Mulet (1999), A nonlinear primal-dual method for total variation-based image restoration, SIAM J. Sci.
+    Comput. 20:1964; Hager, Wohlmuth (2009), Comput. Methods Appl. Mech. Eng. 198:3411.
+    """
+    n, M = out.shape[1], new.back.shape[1]
+    start, step = np.empty(n), np.empty(n)
+    for i in range(len(body)):
+        j = body[i]
+        G2 = 2.0 * laws.shear[j]
+        one, two = model.strain[i], new.strain[i]
+        mean_one, mean_two = (one[0] + one[1] + one[2]) / 3.0, (two[0] + two[1] + two[2]) / 3.0
+        dp = new.equivalent[i] - old.equivalent[i]
+        along, beside, stiff = 0.0, 0.0, 0.0
+        for k in range(M):
+            stiff += laws.back[j, k] / (1.0 + laws.recovery[j, k] * dp)
+        for c in range(n):
+            weight = 1.0 if c < 3 else 2.0
+            scale = G2 if c < 3 else 0.5 * G2
+            start[c] = scale * (one[c] - (mean_one if c < 3 else 0.0) - old.plastic[i, c])
+            step[c] = scale * (two[c] - one[c] - (mean_two - mean_one if c < 3 else 0.0))
+            along += weight * model.direction[i, c] * step[c]
+            beside += weight * dual[i, c] * step[c]
+        a, b = model.slack[i, 0], model.slack[i, 1]
+        if not model.yields[i]:
+            a, b = 0.0, 0.0
+        stress, _ = _yield_stress(laws, j, new.equivalent[i])
+        norm = 0.0
+        for c in range(n):
+            back = 0.0
+            for k in range(M):
+                back += old.back[i, k, c] / (1.0 + laws.recovery[j, k] * dp)
+            taken = a * (start[c] - back + step[c]) + 0.5 * b * (dual[i, c] * along + model.direction[i, c] * beside)
+            value = (start[c] + step[c] - back - (1.0 + 2.0 / 3.0 * stiff / G2) * taken) / (ROOT23 * stress)
+            out[i, c] = value
+            norm += (1.0 if c < 3 else 2.0) * value * value
+        if norm > 1.0:
+            for c in range(n):
+                out[i, c] /= np.sqrt(norm)
