@@ -39,7 +39,7 @@ _YIELD_TOL = 1e-9  # of the yield stress: rounding of a point that is about to f
 _SOON = 1e-3  # of a part: a point that flows by then flows from the start
 _AT_ONCE = 1e-9  # of a part: first yield before that is at its start
 _BELOW_COLLAPSE = 0.98  # of the load at which bodies flow: up to there they are followed
-_FEWEST, _MOST = 1, 256  # increments of a straight part that are tried by themselves
+_MAX_INCREMENTS = 256  # of a straight part: more of them are not tried by themselves
 
 
 def follow_plastically(part: StepPart, step: Step, elastically: Callable[[StepPart], FollowedPart]) -> FollowedPart:
@@ -182,12 +182,12 @@ def _in_increments(part: StepPart, step: Step) -> FollowedPart:
     if isinstance(step.increments, int):
         return _increments(part, max(1, ceil(step.increments * length - 1e-9)))
     tolerance = TOLERANCE if step.tolerance is None else step.tolerance
-    number, coarse = _FEWEST, None
+    number, coarse = 1, None
     while True:
         try:
             fine = _increments(part, number)
         except SolveFailed as failure:
-            if failure.hopeless or 4 * number > _MOST:
+            if failure.hopeless or 4 * number > _MAX_INCREMENTS:
                 raise
             number, coarse = 4 * number, None
             continue
@@ -196,7 +196,7 @@ def _in_increments(part: StepPart, step: Step) -> FollowedPart:
             note = f"{number} increments of plastic flow: half as many change {words}"
             if change <= tolerance:
                 return replace(fine, notes=(*fine.notes, note))
-            if 2 * number > _MOST:
+            if 2 * number > _MAX_INCREMENTS:
                 return replace(fine, notes=(*fine.notes, f"{note}, more than {tolerance:g}"))
         number, coarse = 2 * number, fine
 
