@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How materials of decks yield: what ``*PLASTIC`` and ``*CYCLIC HARDENING`` mean, and what is refused."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -228,14 +229,16 @@ def test_quadratic_wedges_yield_as_they_are(tmp_path: Path) -> None:
 
 @needs_ccx
 def test_a_table_is_that_of_calculix_and_constant_beyond_its_last_row(tmp_path: Path) -> None:
-    """Uniaxial: ``sigma = Y(p)`` with ``p = eps - sigma / E``. Kinematic hardening needs NLGEOM there, see below."""
+    """Solved here, by CalculiX, and uniaxially: ``sigma = Y(p)`` with ``p = eps - sigma / E``."""
     strains = (0.0008, 0.0011, 0.004, 0.02)
     law = read_law(tmp_path, TABLE)
     path = deck(tmp_path, TABLE, strains)
-    for strain, stress in zip(strains, ccx_stresses(path), strict=True):
+    pulled = [step.reactions["PULL u1"][0] for step in sg.solve(sg.read(path)).steps]
+    for strain, stress, force in zip(strains, ccx_stresses(path), pulled, strict=True):
         excess = lambda p: float(law.at(np.array(p))[0]) - E * (strain - p)  # noqa: B023, E731
         exact = E * (strain - brentq(excess, 0.0, strain))
         np.testing.assert_allclose(stress[:, 0], exact, rtol=2e-5)
+        assert force == pytest.approx(exact, rel=1e-8)
     assert exact == pytest.approx(0.04, rel=1e-9)
 
 
@@ -248,3 +251,18 @@ def test_a_kinematic_line_is_that_of_calculix(tmp_path: Path) -> None:
     found = ccx_stresses(deck(tmp_path, law, strains, increments=20, nlgeom=",NLGEOM"))
     for (exact, _), stress in zip(bar.follow(strains), found, strict=True):
         np.testing.assert_allclose(stress[:, 0], exact, rtol=3e-3)  # true stress of a strain of 0.1 %
+
+
+def test_backstresses_of_a_deck_follow_their_closed_form(tmp_path: Path) -> None:
+    """Armstrong and Frederick's, pulled and pushed: backward Euler tends to it in first order."""
+    law = "*PLASTIC,HARDENING=COMBINED,DATA TYPE=PARAMETERS\n1.,50.,25.\n"
+    strains = (0.05, -0.05)
+    model = sg.read(deck(tmp_path, law, strains))
+    exact = [stress for stress, _ in CyclicBar(E=E, yield_stress=1.0, hardening=50.0, recall=25.0).follow(strains)]
+    errors = []
+    for count in (16, 32):
+        steps = [replace(step, increments=count) for step in model.steps]
+        found = [step.reactions["PULL u1"][0] for step in sg.solve(replace(model, steps=steps)).steps]
+        errors.append(np.abs(np.subtract(found, exact)).max())
+    assert errors[0] < 0.06
+    assert errors[1] == pytest.approx(0.5 * errors[0], rel=0.1)
