@@ -128,7 +128,10 @@ def _lemke(
             motion[dof] += (sign or 1.0) * rate
         slips = (law.kind == CORNER) & (base > STICK)  # without pressure both ways may be in the answer
         found = _moving(responses, held, np.where(slips, law.touching(motion[n:]), base), load, motion)
-    return found if whole.violation(found) <= 10.0 * RATE else None, "Lemke's method: its answer does not obey the law"
+        if found.size > RUNAWAY_RATE * np.abs(load).max(initial=0.0):  # a body that the load carries away
+            found = None
+    lawful = found is not None and whole.violation(found) <= 10.0 * RATE
+    return found if lawful else None, "Lemke's method: its answer does not obey the law"
 
 
 def _moving(responses: Responses, held: IntArray, state: IntArray, load: Array, motion: Array) -> Rates:
