@@ -59,7 +59,7 @@ def collapse(prepared: Prepared, start: LoadPoint, end: LoadPoint, free: Array, 
         return None
     v = T @ (free / largest)
     rate = bodies.strains(v)
-    dilatation = bodies.weights @ np.abs(rate[:, :3].sum(axis=1))
+    dilatation = bodies.weights @ np.abs(bodies.dilatation(rate))
     rate[:, :3] -= rate[:, :3].mean(axis=1)[:, None]
     rate[:, 3:] *= 0.5
     strain = size(rate)

@@ -41,6 +41,15 @@ class LineSearch:
     one: IncrementAnswer
     two: IncrementAnswer
 
+    @property
+    def length(self) -> float:
+        """Of the step: the largest displacement."""
+        return float(np.abs(self.two.free - self.one.free).max(initial=0.0))
+
+    def cut(self, part: float) -> tuple[float, IncrementAnswer, PlasticResponse]:
+        """The step cut to a part of it: the part, the answer there and what points answer."""
+        return part, between(self.one, self.two, part), self._response(part)
+
     def shortened(
         self, before: PlasticResponse, after: PlasticResponse
     ) -> tuple[float, IncrementAnswer, PlasticResponse]:
@@ -72,29 +81,23 @@ class LineSearch:
             else:
                 low, below, above = s, slope, above * (0.5 if side == -1 else 1.0)
                 side = -1
-        return s, self._between(s), here
-
-    def _between(self, s: float) -> IncrementAnswer:
-        """The answer at a part of the way; forces are those at its end."""
-        one, two = self.one, self.two
-        free, moved = ((1.0 - s) * getattr(one, name) + s * getattr(two, name) for name in ("free", "moved"))
-        return replace(two, free=free, moved=moved)
+        return s, between(self.one, self.two, s), here
 
     def _response(self, s: float) -> PlasticResponse:
         """What points answer at a part of the way."""
-        u = self.increment.system.constraints.transform @ self._between(s).free + self.increment.imposed
+        u = self.increment.system.constraints.transform @ between(self.one, self.two, s).free + self.increment.imposed
         return self.bodies.respond(u, self.old, self.swelling)
 
     def _slope(self, s: float, step: Array, at: PlasticResponse) -> float:
         """Of the energy along the step, at a part of the way."""
         system, T = self.increment.system, self.increment.system.constraints.transform
-        between = self._between(s)
-        inner = T.T @ (system.K @ (T @ between.free) - at.state.forces) - self.increment.f
+        here = between(self.one, self.two, s)
+        inner = T.T @ (system.K @ (T @ here.free) - at.state.forces) - self.increment.f
         interface, n = system.interface, len(system.interface)
         bound = interface.most(self.two.forces[:n])
         bound = np.where(np.isfinite(bound), bound, 0.0)
         shape = interface.directions - 1, n
-        slip = between.moved[n:].reshape(shape)
+        slip = here.moved[n:].reshape(shape)
         change = (self.two.moved - self.one.moved)[n:].reshape(shape)
         length = np.linalg.norm(slip, axis=0)
         along = np.divide(
@@ -104,3 +107,9 @@ class LineSearch:
             where=length > _RESTS * np.abs(change).max(initial=0.0),
         )
         return float(step @ inner + bound @ along)
+
+
+def between(one: IncrementAnswer, two: IncrementAnswer, s: float) -> IncrementAnswer:
+    """What is at the part s of the way from one answer to another; its forces are those at the end."""
+    free, moved = ((1.0 - s) * getattr(one, name) + s * getattr(two, name) for name in ("free", "moved"))
+    return replace(two, free=free, moved=moved)

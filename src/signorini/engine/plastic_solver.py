@@ -45,8 +45,10 @@ _KEPT_FROM = 1e-6  # of the size of forces: below it that pays, above it costs r
 _ANDERSON_DEPTH = 6  # rounds that Anderson's method looks back on
 _TANGENT_DECADES = 0.7  # that a new tangent gains; a kept one is worth it as long as it gains its share of the price
 _SUBSTITUTION = 40.0  # operations that take as long as to move an entry of the factor through memory in one round
-_STEP_GROWTH = 3.0  # from one step to the next, three times in a row: bodies flow away
-_GROWING_STEPS = 4  # rounds in a row in which steps grow so: flow runs away
+_FLOWING = 30.0  # of the first, elastic step: steps beyond that, again and again, are bodies that flow away
+_MAX_LEAP = 10.0  # of how far bodies have moved: a longer step is cut, a soft tangent knows no better
+_STEADY = 0.5  # of the step before: steps of bodies that flow away do not fall below it
+_FLOWING_STEPS = 4  # in a row: so many of these are flow that runs away
 _MECHANISM_ROUNDS = 12  # rounds: after so many the mechanism is known to four digits
 _MAX_LENGTHS = 1e7  # of the length of the data: beyond that arithmetic spoils the mechanism
 
@@ -93,10 +95,12 @@ class _Rounds:
 
     @property
     def runs_away(self) -> bool:
-        """Whether steps grow again and again: nothing holds the bodies."""
-        recent = self.lengths[-_GROWING_STEPS - 1 :]
-        grown = len(recent) > _GROWING_STEPS and all(two > _STEP_GROWTH * one for one, two in pairwise(recent))
-        return grown and len(self.lengths) >= _MECHANISM_ROUNDS
+        """Whether steps stay long again and again: nothing holds the bodies."""
+        if len(self.lengths) < _MECHANISM_ROUNDS:
+            return False
+        recent = self.lengths[-_FLOWING_STEPS - 1 :]
+        steady = all(two > _STEADY * one for one, two in pairwise(recent))
+        return steady and min(recent) > _FLOWING * self.lengths[0]
 
     def gained(self) -> bool:
         """Whether the last full step gained so much that its tangent will do once more."""
@@ -186,13 +190,17 @@ class PlasticSolver:
                 linear = after
                 lack = self._lack(increment, answer, after)
                 step = 1.0
-                if reached is not None and not rounds.inputs and lack > max(_BALANCED, _SEARCH_FROM * rounds.last):
-                    search = LineSearch(
+                if reached is not None:
+                    way = LineSearch(
                         bodies=bodies, increment=increment, old=old, swelling=swelling, one=reached[0], two=answer
                     )
-                    step, answer, after = search.shortened(reached[1], after)
+                    most = _MAX_LEAP * max(rounds.lengths[0], float(np.abs(reached[0].free).max(initial=0.0)))
+                    if not rounds.inputs and way.length > most:
+                        step, answer, after = way.cut(most / way.length)
+                    elif not rounds.inputs and lack > max(_BALANCED, _SEARCH_FROM * rounds.last):
+                        step, answer, after = way.shortened(reached[1], after)
                     lack = lack if step == 1.0 else self._lack(increment, answer, after)
-                before = np.zeros(len(answer.free)) if reached is None else reached[0].free
+                before = state.displacement[system.constraints.leaders] if reached is None else reached[0].free
                 after = bodies.with_dual(after, old, model, linear)
             kept = rounds.last
             rounds.residuals.append(lack)

@@ -25,7 +25,7 @@ from signorini.errors import SolveFailed, told
 from signorini.model.step import Step
 from signorini.outcome import Outcome
 from signorini.plasticity.bodies import YieldingBodies
-from signorini.plasticity.measure import deviator, fullness, size, yield_stress
+from signorini.plasticity.measure import deviator, fullness, inner, size, yield_stress
 from signorini.plasticity.state import PlasticState
 from signorini.solution.state import State
 
@@ -70,7 +70,7 @@ def follow_plastically(part: StepPart, step: Step, elastically: Callable[[StepPa
         )
         raise keep(SolveFailed(words, status=Outcome.NOT_FOUND), behind)
     try:
-        return joined([*behind, _in_increments(part, step)])
+        return joined([*behind, replace(_in_increments(part, step), path="increments")])
     except SolveFailed as failure:
         raise keep(failure, behind) from None
 
@@ -152,11 +152,13 @@ def _root(prepared: Prepared, one: State, two: State) -> float:
     limit = np.sqrt(2.0 / 3.0) * yield_stress(bodies, plastic.equivalent)
     step = last - first
     a, c = size(step) ** 2, size(first) ** 2 - limit**2
-    b = 0.25 * (size(first + step) ** 2 - size(first - step) ** 2)  # their product
+    b = inner(first, step)
     yields = size(last) > limit * (1.0 + _YIELD_TOL)
     a, b, c = a[yields], b[yields], np.minimum(c[yields], 0.0)
     inside = np.sqrt(np.maximum(b * b - a * c, 0.0))
-    root = np.where(b > 0.0, -c / (b + inside), (inside - b) / np.maximum(a, np.finfo(np.float64).tiny))
+    tiny = np.finfo(np.float64).tiny
+    # of the two forms of the positive root the one that adds numbers of one sign
+    root = np.where(b > 0.0, -c / np.maximum(b + inside, tiny), (inside - b) / np.maximum(a, tiny))
     return float(np.clip(root.min(), 0.0, 1.0))
 
 
@@ -249,15 +251,13 @@ def _collapsed(part: StepPart, found: Collapse, fraction: float, number: int) ->
 
 
 def _change(prepared: Prepared, coarse: FollowedPart, fine: FollowedPart) -> tuple[float, str]:
-    """By how much two ways between the same loads differ, in the norm of areas and volumes, and in words."""
+    """By how much two ways between the same loads differ, tractions in the norm of areas, and in words."""
     interface, one, two = prepared.interface, coarse.after, fine.after
-    (bodies, first), (_, last) = _points(prepared, one), _points(prepared, two)
-    area = np.tile(interface.area, interface.directions)
-    tractions = _ratio((two.forces - one.forces) / np.sqrt(area), two.forces / np.sqrt(area)) if len(area) else 0.0
-    weight = np.sqrt(bodies.weights)[:, None]
-    strains = _ratio(weight * (last.strain - first.strain), weight * last.strain)
-    words = f"tractions by {tractions:.1e} and plastic strains by {strains:.1e} of their size"
-    return max(tractions, strains), words
+    area = np.sqrt(np.tile(interface.area, interface.directions))
+    tractions = _ratio((two.forces - one.forces) / area, two.forces / area) if len(area) else 0.0
+    spent = [_points(prepared, state)[1].dissipation for state in (fine.before, one, two)]
+    taken = abs(spent[2] - spent[1]) / (abs(spent[2] - spent[0]) or 1.0)
+    return max(tractions, taken), f"tractions by {tractions:.1e} of their size and plastic work by {taken:.1e} of it"
 
 
 def _ratio(change: Array, whole: Array) -> float:

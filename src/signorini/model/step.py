@@ -43,8 +43,8 @@ class Step:
     restore : supports that hold again and take the nodes to where they prescribe linearly over the step
     increments : equal parts in which every segment is solved, or "auto": more and more until the contact forces
         change less than ``tolerance``, in space such as end at events; None leaves it to ``path``
-    tolerance : of "auto", relative to the largest contact force; None: 1e-3. Where bodies yield, of tractions and
-        plastic strains in the norm of areas and volumes; None: 1e-2
+    tolerance : of "auto", relative to the largest contact force; None: 1e-3. Where bodies yield, of tractions in
+        the norm of areas and of plastic work; None: 1e-2
     path : "increments", or "exact": from event to event (a pair closes, opens, slips, sticks), without any step size;
         in space for contacts with ``facets``. None chooses: "increments" where their number is given or nothing rubs
         (one is exact then), otherwise "exact", in space increments as with "auto", some tens at most, and the notes

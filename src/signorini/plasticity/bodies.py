@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.fem import _kernels as assembly
 from signorini.fem.elasticity import elasticities
-from signorini.fem.kinematics import Group, kinematics, straining_groups
+from signorini.fem.kinematics import Group, kinematics, mean_in_cells, straining_groups
 from signorini.fem.space import Space
 from signorini.fem.thermal import temperatures, thermal_strain
 from signorini.model.material import Elastic, Material
@@ -129,6 +129,15 @@ class YieldingBodies:
         for group in self.groups:
             kernels.strains(group.cells, group.gradients, u, self.space.dimension, found[group.own])
         return found
+
+    def dilatation(self, strain: Array) -> Array:
+        """(p,) Volume strain of strains (p, n) as the stiffness sees it: projected in cells with a mean dilatation."""
+        volume: Array = strain[:, :3].sum(axis=1)
+        for group in self.groups:
+            if group.group.formulation == "mean dilatation":
+                functions, here = group.group.block.pressures, volume[group.own].reshape(group.weights.shape)
+                volume[group.own] = mean_in_cells(group.weights, functions, here, functions).ravel()
+        return volume
 
     def respond(self, u: Array, old: PlasticState, swelling: Array) -> PlasticResponse:
         """Backward Euler at every point.

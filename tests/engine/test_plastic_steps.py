@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Steps of bodies that yield: first yield, increments by themselves, unloading, collapse."""
+
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.outcome import Outcome
+
+LIMIT = 2.0 * np.log(2.0)  # of the pressure in a tube of twice the radius outside, over the shear strength
+
+
+def tube(pressure, *, n=8, order=1, hardening=0.0, steps=None):
+    """A quarter of a tube in plane strain, nearly incompressible, of shear strength 1."""
+    mesh = sg.annulus(inner=1.0, outer=2.0, n_radial=n, n_angular=2 * n, angle=90.0, order=order)
+    plastic = sg.Plastic(3.0**0.5, hardening=hardening)
+    return sg.Model(
+        mesh,
+        bodies=[sg.Body("ring", sg.Elastic(E=200.0, nu=0.4999, plastic=plastic))],
+        supports=[sg.Support("start", u=(None, 0.0)), sg.Support("end", u=(0.0, None))],
+        loads=[sg.Load("inner", pressure=pressure, name="press")],
+        steps=[sg.Step()] if steps is None else steps,
+    )
+
+
+def test_first_yield_is_where_the_elastic_tube_yields():
+    step = sg.solve(tube(1.0, n=8, order=2)).steps[0]
+    told = next(note for note in step.notes if "first yield" in note)
+    part = float(told.split("at ")[1].split("%")[0]) / 100.0
+    # Lame, incompressible: p (b/r)^2 / (b^2/a^2 - 1) is the shear strength first at the innermost of 3 Gauss points
+    inside = 1.0 + (1.0 / 8.0) * 0.5 * (1.0 - 0.6**0.5)
+    assert part == pytest.approx((1.0 - 0.25) * inside**2, rel=2e-3)
+
+
+def test_a_step_below_yield_is_followed_exactly():
+    step = sg.solve(tube(0.5)).steps[0]
+    assert step.path == "exact"
+    assert any("nothing yields" in note for note in step.notes)
+
+
+@pytest.mark.parametrize("increments", [1, 3, "auto"])
+@pytest.mark.parametrize("over", [1.01, 1.5])
+def test_collapse_is_named_with_a_bound_of_the_load(increments, over):
+    model = tube(over * LIMIT, steps=[sg.Step(increments=increments)])
+    with pytest.raises(sg.SolveFailed, match="flow plastically at") as failed:
+        sg.solve(model)
+    assert failed.value.status == Outcome.NO_EQUILIBRIUM
+    part = float(str(failed.value).split("plastically at ")[1].split("%")[0]) / 100.0
+    # an upper bound of the limit of the mesh, which polygons for circles keep below 1.003 of the exact one
+    assert 1.0 <= part * over <= 1.003
+    assert failed.value.solution.escape.shape == (len(model.mesh.points), 2)
+
+
+def test_what_is_below_collapse_is_kept():
+    history = sg.solve(tube(1.5 * LIMIT), raise_on_failure=False)
+    assert not history.solved
+    assert history.steps[0].certificate.passed
+
+
+def test_one_increment_goes_to_the_limit():
+    step = sg.solve(tube(0.999 * LIMIT, steps=[sg.Step(increments=1)])).steps[0]
+    assert step.certificate.passed
+    runs = [run.iterations for tried in step.trace for run in tried if run.method == "plastic flow"]
+    assert max(runs) <= 10
+
+
+def test_a_hardening_tube_has_no_limit():
+    assert sg.solve(tube(1.2 * LIMIT, hardening=20.0, steps=[sg.Step(increments=4)])).solved
+
+
+def test_unloading_is_elastic_and_exact():
+    steps = [sg.Step(name="load", increments=4), sg.Step(name="unload", scale={"press": 0.0})]
+    unloading = sg.solve(tube(0.9 * LIMIT, steps=steps)).steps[1]
+    assert unloading.path == "exact"
+    assert any("nothing yields" in note for note in unloading.notes)
+
+
+def test_an_exact_path_is_refused_where_bodies_yield():
+    with pytest.raises(sg.SolveFailed, match="plastic flow has no exact path"):
+        sg.solve(tube(1.2, steps=[sg.Step(path="exact")]))
