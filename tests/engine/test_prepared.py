@@ -44,7 +44,7 @@ def test_a_pair_left_out_that_meets_the_other_side_is_noticed(monkeypatch):
 
 def test_many_laws_and_loads_cost_one_factorisation(monkeypatch):
     prepared = sg.prepare(zhu_cylinder())
-    monkeypatch.setattr(preparing, "condense", None)  # a second factorisation would fail
+    monkeypatch.setattr(preparing, "condense_bodies", None)  # a second factorisation would fail
     for friction in (0.0, 0.1, 0.4):
         for factor in (1.0, 0.5):
             found = prepared.solve(friction=friction, loads={"cut": factor})
@@ -55,7 +55,7 @@ def test_many_laws_and_loads_cost_one_factorisation(monkeypatch):
             fresh = sg.solve(zhu_cylinder(friction=friction, force=156.0 * factor)).contact("foundation")
             np.testing.assert_allclose(again.pressure, fresh.pressure, rtol=0, atol=1e-9 * fresh.pressure.max())
             np.testing.assert_allclose(again.traction, fresh.traction, rtol=0, atol=1e-9 * fresh.pressure.max())
-            monkeypatch.setattr(preparing, "condense", None)
+            monkeypatch.setattr(preparing, "condense_bodies", None)
 
 
 def test_steps_that_reach_farther_are_factorised_once(monkeypatch):
@@ -63,7 +63,7 @@ def test_steps_that_reach_farther_are_factorised_once(monkeypatch):
     prepared, fresh = sg.prepare(zhu_cylinder(refine=2, steps=steps)), sg.solve(zhu_cylinder(refine=2, steps=steps))
     first = prepared.solve()
     assert first.end.near.sum() > 2 * prepare(zhu_cylinder(refine=2, steps=steps)).candidates.sum()
-    monkeypatch.setattr(preparing, "condense", None)
+    monkeypatch.setattr(preparing, "condense_bodies", None)
     again = prepared.solve()
     for one, two, three in zip(fresh.steps, first.steps, again.steps, strict=True):
         assert (one.displacement == two.displacement).all()
