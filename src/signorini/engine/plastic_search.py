@@ -110,6 +110,6 @@ class LineSearch:
 
 
 def between(one: IncrementAnswer, two: IncrementAnswer, s: float) -> IncrementAnswer:
-    """What is at the part s of the way from one answer to another; its forces are those at the end."""
+    """What is at the part s of the way from answer one to answer two; its forces are those at the end."""
     free, moved = ((1.0 - s) * getattr(one, name) + s * getattr(two, name) for name in ("free", "moved"))
     return replace(two, free=free, moved=moved)
