@@ -87,7 +87,7 @@ def _lines(model: Model, mesh: str) -> Iterator[str]:
             given = _given(member)
             if key == "body":
                 given["material"] = materials[member.material]
-                if member == replace(member, formulation=None):
+                if member == replace(member, formulation=None).in_kind(model.kind):
                     del given["formulation"]
             yield from ("", f"[[{key}]]", *_entries(given))
 

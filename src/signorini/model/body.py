@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Set
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from signorini.checks import choice, number, text
@@ -26,7 +26,8 @@ class Body:
     material : what it is made of
     formulation : of its cells: "standard"; "incompatible": linear quadrilaterals with two modes more a cell, hexahedra
         with three, so that thin bodies bend as they should; "mean dilatation" for nearly incompressible materials, and
-        for those that yield, whose flow keeps the volume. None is that where the material yields, else "standard"
+        for those that yield, whose flow keeps the volume. None is "standard"; where the material yields the model
+        chooses, see `in_kind`
     thickness : out of plane, length, of plane models; None is the model's. Bodies lie on one middle plane, so that
         two touch over the smaller of their thicknesses
 
@@ -47,11 +48,22 @@ class Body:
         text(self.name, ("name",))
         if not isinstance(self.material, Elastic | Orthotropic):
             raise InputError(f"is {self.material!r}; expected an Elastic or Orthotropic material", where=("material",))
-        if self.formulation is None:
-            object.__setattr__(self, "formulation", "mean dilatation" if self.material.yields else "standard")
-        choice(self.formulation, ("standard", "incompatible", "mean dilatation"), ("formulation",), "formulation")
+        if self.formulation is None and not self.material.yields:
+            object.__setattr__(self, "formulation", "standard")
+        if self.formulation is not None:
+            choice(self.formulation, ("standard", "incompatible", "mean dilatation"), ("formulation",), "formulation")
         if self.thickness is not None:
             object.__setattr__(self, "thickness", number(self.thickness, ("thickness",), above=0.0))
+
+    def in_kind(self, kind: str) -> Body:
+        """The body with the formulation that it has in a kind of model.
+
+        Flow keeps the volume, so that a body that yields has a mean dilatation where none is named; in plane stress its
+        thickness gives way, and it is standard.
+        """
+        if self.formulation is not None:
+            return self
+        return replace(self, formulation="standard" if kind == "plane stress" else "mean dilatation")
 
     def check_flow(self, where: Where, kind: str, families: Set[str]) -> None:
         """Refuse what a body that yields cannot be.
@@ -65,21 +77,18 @@ class Body:
         Raises
         ------
         InputError
-            In plane stress, with internal modes, and where its cells would lock: flow keeps the volume, and cells that
-            cannot do so without becoming rigid have too high a limit load, or none.
+            With internal modes, and where its cells would lock: flow keeps the volume, and cells that cannot do so
+            without becoming rigid have too high a limit load, or none. In plane stress the thickness gives way.
         """
         found, where_cells = " and ".join(sorted(families)), (*where, "formulation")
-        if kind == "plane stress":
-            raise InputError(
-                f"'{self.name}' yields, which bodies in plane stress cannot yet; expected another kind of model",
-                where=(*where, "material"),
-            )
         if self.formulation == "incompatible":
             raise InputError(
                 f"is 'incompatible', but '{self.name}' yields, which cells with internal modes cannot yet; expected "
-                "'mean dilatation'",
+                f"'{'standard' if kind == 'plane stress' else 'mean dilatation'}'",
                 where=where_cells,
             )
+        if kind == "plane stress":
+            return
         if families & _WITHOUT_MEAN:
             raise InputError(
                 f"'{self.name}' yields: its cells ({found}) would lock where it flows. Expected quadrilaterals, "

@@ -94,6 +94,7 @@ class Model(Short):
         kinds |= {"obstacles": Rigid, "equations": Equation, "rigid_bodies": RigidBody, "steps": Step}
         for part, kind in kinds.items():
             object.__setattr__(self, part, members(getattr(self, part), kind, part))
+        object.__setattr__(self, "bodies", tuple(body.in_kind(self.kind) for body in self.bodies))
         self._check_bodies()
         self._check_links()
         for i, support in enumerate(self.supports):

@@ -255,10 +255,12 @@ def _notes(
 def _flow_notes(sections: Sequence[Section], bodies: Sequence[Body]) -> Iterator[str]:
     """How bodies that yield differ from the deck."""
     flows = [section.substance.flow for section in sections if section.substance.flow is not None]
+    modes = any(section.incompatible and section.substance.flow is not None for section in sections)
     if any(body.material.yields and body.formulation == "mean dilatation" for body in bodies):
-        modes = any(section.incompatible and section.substance.flow is not None for section in sections)
         instead = ", in place of incompatible modes" if modes else ""
         yield f"elements of bodies that yield have a mean dilatation, so that they do not lock{instead}"
+    elif modes:
+        yield "elements of bodies that yield have no incompatible modes"
     yield from dict.fromkeys(note for flow in flows for note in flow.notes)
 
 
