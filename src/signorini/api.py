@@ -122,9 +122,11 @@ class Solution(History):
         >>> path.displacement[:, 0].round(12), path.stress[:, 0].round(12)
         (array([0.   , 0.075]), array([5., 5.]))
         """
-        last = self.last
-        given = np.asarray(points, float)
-        return along(self._fields.space, self.model, last.displacement, given, body=body, factors=last.factors)
+        last, fields = self.last, self._fields
+        given, plastic = np.asarray(points, float), fields.plastic_strains(last)
+        return along(
+            fields.space, self.model, last.displacement, given, body=body, factors=last.factors, plastic=plastic
+        )
 
     @cached_property
     def _fields(self) -> Fields:

@@ -32,7 +32,7 @@ from signorini.interface.interface import Interface
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.outcome import Outcome
 from signorini.plasticity.bodies import PlasticResponse
-from signorini.plasticity.measure import plastic_work
+from signorini.plasticity.measure import plastic_work, stored_by_back_stresses
 from signorini.solution.scale import Scale
 
 _BALANCED = 1e-9  # of the size of forces: a tenth of what the certificate allows
@@ -214,7 +214,8 @@ class PlasticSolver:
                     (bodies.swelling(state.point.factors), swelling),
                 )
                 run = MethodRun(method="plastic flow", iterations=len(rounds.steps), end="balanced")
-                return replace(answer, plastic=replace(after.state, dissipation=work), trace=(*answer.trace, run))
+                new = replace(after.state, dissipation=work, stored=stored_by_back_stresses(bodies, after.state))
+                return replace(answer, plastic=new, trace=(*answer.trace, run))
             far = not np.isfinite(lack) or np.abs(answer.free).max(initial=0.0) > _MAX_LENGTHS * self.scale.length
             if rounds.runs_away or far or len(rounds.steps) >= _MAX_ROUNDS:
                 words = f"plastic flow did not settle in {len(rounds.steps)} rounds ({lack:.1e} of the forces left)"

@@ -23,7 +23,14 @@ from signorini.model.links import directions
 from signorini.model.stage import Stage
 from signorini.solution import results
 from signorini.solution.certificate import worst_of
-from signorini.solution.results import ContactResult, Instant, ObstacleResult, StepResult
+from signorini.solution.results import (
+    ContactResult,
+    Instant,
+    ObstacleResult,
+    PlasticResult,
+    StepResult,
+    Yielding,
+)
 from signorini.solution.state import State
 
 
@@ -47,6 +54,7 @@ def step_result(
     steadiness, words = judge(cycles, prepared.scale) if cycles else ("", "")
     stored, dissipated = stored_energy(prepared, state), (state.dissipation - before.dissipation).sum()
     spent = stored - stored_energy(prepared, before) + float(dissipated) + state.released - before.released
+    spent += state.plastic_work - before.plastic_work
     layers = interface_energy(prepared, state)
     loads, _ = applied(prepared, state.point)
     held = support_forces(prepared.constraints, state, loads)
@@ -79,7 +87,42 @@ def step_result(
         cycles=cycles,
         steadiness=steadiness,
         notes=(*step_notes(prepared, followed), *((words,) if words else ())),
+        yielding=_yielding(prepared, followed, float(stage.number - 1)),
     )
+
+
+def _yielding(prepared: Prepared, followed: FollowedPart, begin: float) -> Yielding | None:
+    """How far the bodies have yielded at the end of what was followed from a load factor on."""
+    bodies, plastic = prepared.yielding, followed.after.plastic
+    if bodies is None or plastic is None:
+        return None
+    flowed, worst, body, at = plastic.equivalent > 0.0, int(plastic.equivalent.argmax()), "", ()
+    if flowed[worst]:
+        body, at = prepared.model.bodies[int(bodies.body[worst])].name, tuple(bodies.places()[worst].tolist())
+    return Yielding(
+        largest=float(plastic.equivalent[worst]),
+        body=body,
+        at=at,
+        share=float(bodies.weights @ flowed / bodies.weights.sum()),
+        first=_first_yield(followed, begin),
+    )
+
+
+def _first_yield(followed: FollowedPart, begin: float) -> float | None:
+    """The load factor up to which no plastic work was done, from the one where all of it began; None where none is."""
+    work, factor = followed.before.plastic_work, begin
+    for shot in followed.snapshots:
+        if shot.state.plastic_work != work:
+            return factor
+        factor = shot.load_factor
+    return None
+
+
+def _plastic(before: State, state: State) -> PlasticResult | None:
+    """Plastic flow in one state of a step from another at its beginning."""
+    if state.plastic is None:
+        return None
+    return PlasticResult(state=state.plastic, dissipation=state.plastic_work - before.plastic_work)
 
 
 def _reactions(prepared: Prepared, state: State, held: Array) -> dict[str, Array]:
@@ -161,7 +204,7 @@ def _instants(
     surfaces = [_surface(prepared, i) for i in range(len(prepared.model.contacts))]
     last, sliding = followed.before.slip, np.zeros(len(prepared.interface))
     low, high, cycle = last, last, 0
-    begun = heat(followed.before)
+    begun, end = heat(followed.before), followed.snapshots[-1]
     for snapshot in followed.snapshots:
         slip, across = snapshot.state.slip, prepared.interface.across
         sliding = sliding + across(slip - last)
@@ -179,6 +222,7 @@ def _instants(
             else np.nan,
             displacement=frozen(prepared.space.at_nodes(snapshot.state.displacement)) if snapshot.kept else None,
             factors=dict(snapshot.state.point.factors),
+            plastic=_plastic(followed.before, followed.after if snapshot is end else snapshot.state),
         )
         if cycle + 1 < len(cycle_ends) and snapshot.load_factor == cycle_ends[cycle]:
             low, high, cycle = slip, slip, cycle + 1

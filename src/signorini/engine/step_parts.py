@@ -158,7 +158,9 @@ class Snapshot:
         """Without the displacement of the bodies: a history may have thousands of snapshots."""
         none = np.zeros(0)
         point = replace(self.state.point, reaction=none, offset=none)
-        return replace(self, state=replace(self.state, point=point, displacement=none, external=none), whole=False)
+        plastic = None if self.state.plastic is None else self.state.plastic.light()
+        state = replace(self.state, point=point, displacement=none, external=none, plastic=plastic)
+        return replace(self, state=state, whole=False)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

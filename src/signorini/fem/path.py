@@ -52,6 +52,7 @@ def along(
     *,
     body: str,
     factors: Mapping[str, float] | None = None,
+    plastic: Mapping[str, Array] | None = None,
 ) -> PathResult:
     """Displacement and recovered stress of a body at points: interpolated in the cells from their nodes.
 
@@ -62,6 +63,7 @@ def along(
     points : (n, d) coordinates in the undeformed body, length
     body : the stress is that of this body, also where it touches another
     factors : load factors by name, for the temperatures
+    plastic : plastic strains, see :func:`signorini.fem.stress.body_stresses`
 
     Raises
     ------
@@ -72,7 +74,7 @@ def along(
     if body not in names:
         raise InputError(one_of(body, names, "body"))
     points = np.atleast_2d(np.asarray(points, float))
-    found = body_stresses(space, model, displacement, factors)[names.index(body)]
+    found = body_stresses(space, model, displacement, factors, plastic)[names.index(body)]
     stress = np.zeros((len(space.mesh.points), 6))
     stress[found.nodes] = found.stress
     if points.shape[1] != space.dimension:

@@ -75,6 +75,7 @@ class Block:
     corners : (k, k, d) reference gradients at the nodes
     stress_values, stress_gradients : (p, k), (p, k, d) the same where stresses are best
     to_nodes : (k, p) from there to the nodes
+    to_best : (p, q) from the quadrature points to where stresses are best, least squares by the same monomials
     pressures, stress_pressures : (q, n), (p, n) functions for a mean dilatation at either points; n = 0 for cells that
         have none
     """
@@ -89,6 +90,7 @@ class Block:
     stress_values: Array
     stress_gradients: Array
     to_nodes: Array
+    to_best: Array
     pressures: Array
     stress_pressures: Array
 
@@ -238,6 +240,7 @@ def _block(family: str, cells: IntArray, first: int, axisymmetric: bool) -> Bloc
         stress_values=stress_values,
         stress_gradients=stress_gradients,
         to_nodes=_monomials(nodes, what.monomials) @ np.linalg.pinv(_monomials(best, what.monomials)),
+        to_best=_monomials(best, what.monomials) @ np.linalg.pinv(_monomials(where, what.monomials)),
         pressures=_monomials(where, what.pressures),
         stress_pressures=_monomials(best, what.pressures),
     )

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -52,7 +52,11 @@ def von_mises(stress: Array) -> Array:
 
 
 def body_stresses(
-    space: Space, model: Model, displacement: Array, factors: Mapping[str, float] | None = None
+    space: Space,
+    model: Model,
+    displacement: Array,
+    factors: Mapping[str, float] | None = None,
+    plastic: Mapping[str, Array] | None = None,
 ) -> list[BodyStress]:
     """Stresses of every body: from the best points of a cell to its nodes, then averaged with the cells' areas.
 
@@ -61,47 +65,87 @@ def body_stresses(
     space : of the model
     displacement : (n, d), length
     factors : load factors by name, for the temperatures; a model without any needs none
+    plastic : plastic strains at the quadrature points, of every family (m, q, 4 or 6); none where nothing has flowed
     """
     temperature = temperatures(space, model, factors or {})
-    count = len(space.mesh.points)
+
+    def at_best(group: Group) -> Array:
+        return _cell_stresses(space, model, group, displacement, temperature, plastic or {})
+
     components = elasticities(model).shape[1]
-    total, weight = np.zeros((len(model.bodies), count, components)), np.zeros((len(model.bodies), count))
-    for group in groups(space, model):
-        cells = group.cells
-        at_nodes = np.einsum(
-            "kq,mqc->mkc", group.block.to_nodes, _cell_stresses(space, model, group, displacement, temperature)
-        )
-        area = space.volumes_of(group.block)[group.index].sum(axis=1)
-        np.add.at(total, (group.body[:, None], cells), at_nodes * area[:, None, None])
-        np.add.at(weight, (group.body[:, None], cells), area[:, None])
     result = []
-    for i, body in enumerate(model.bodies):
-        nodes = np.nonzero(weight[i])[0]
+    for body, (nodes, found) in zip(model.bodies, nodal_averages(space, model, at_best, components), strict=True):
         stress = np.zeros((len(nodes), 6))
-        stress[:, :components] = total[i, nodes] / weight[i, nodes, None]
+        stress[:, :components] = found
         result.append(BodyStress(body=body.name, nodes=nodes, stress=stress))
     return result
 
 
+def nodal_averages(
+    space: Space, model: Model, at_best: Callable[[Group], Array], components: int
+) -> list[tuple[IntArray, Array]]:
+    """Sorted nodes (k,) of every body and values there (k, components), averaged with the areas of the cells.
+
+    Parameters
+    ----------
+    space, model : of the bodies
+    at_best : values (m, p, components) of a group at the best points of its cells
+    components : of a value
+    """
+    count = len(space.mesh.points)
+    total, weight = np.zeros((len(model.bodies), count, components)), np.zeros((len(model.bodies), count))
+    for group in groups(space, model):
+        cells = group.cells
+        at_nodes = np.einsum("kq,mqc->mkc", group.block.to_nodes, at_best(group))
+        area = space.volumes_of(group.block)[group.index].sum(axis=1)
+        np.add.at(total, (group.body[:, None], cells), at_nodes * area[:, None, None])
+        np.add.at(weight, (group.body[:, None], cells), area[:, None])
+    nodes = [np.nonzero(own)[0] for own in weight]
+    return [(own, total[i, own] / weight[i, own, None]) for i, own in enumerate(nodes)]
+
+
 def point_stresses(
-    space: Space, model: Model, displacement: Array, factors: Mapping[str, float] | None = None
+    space: Space,
+    model: Model,
+    displacement: Array,
+    factors: Mapping[str, float] | None = None,
+    plastic: Mapping[str, Array] | None = None,
 ) -> Iterator[tuple[IntArray, Array]]:
     """Stresses at the best points of the cells, group by group: cells (m,) and stresses (m, p, 6) as nodes have them.
 
     Parameters
     ----------
     space, model : of the bodies
-    displacement, factors : as :func:`body_stresses`
+    displacement, factors, plastic : as :func:`body_stresses`
     """
     temperature = temperatures(space, model, factors or {})
     for group in groups(space, model):
-        found = _cell_stresses(space, model, group, displacement, temperature)
+        found = _cell_stresses(space, model, group, displacement, temperature, plastic or {})
         stress = np.zeros((*found.shape[:2], 6))
         stress[..., : found.shape[2]] = found
-        yield group.block.first + group.index, stress
+        yield group.numbers, stress
 
 
-def _cell_stresses(space: Space, model: Model, group: Group, displacement: Array, temperature: Array | None) -> Array:
+def at_best_points(group: Group, values: Mapping[str, Array]) -> Array | None:
+    """Values of cells at their quadrature points fitted at the best ones, (m, p, ...); None of families without.
+
+    Parameters
+    ----------
+    group : the cells
+    values : of all cells of a family, (cells, q, ...)
+    """
+    own = values.get(group.block.family)
+    return None if own is None else np.einsum("pq,mq...->mp...", group.block.to_best, own[group.index])
+
+
+def _cell_stresses(
+    space: Space,
+    model: Model,
+    group: Group,
+    displacement: Array,
+    temperature: Array | None,
+    plastic: Mapping[str, Array],
+) -> Array:
     """Stresses xx, yy, zz, xy (yz, xz) at the best points of the cells of a group, (m, p, 4 or 6)."""
     D = elasticities(model)[group.body]
     points = kinematics(space, model, group, best=True)
@@ -111,7 +155,8 @@ def _cell_stresses(space: Space, model: Model, group: Group, displacement: Array
         dilatation = _elastic_strain(model, group, every, displacement, temperature)[..., :3].sum(axis=-1)
         mean = mean_in_cells(every.weights, group.block.pressures, dilatation, group.block.stress_pressures)
         strain[..., :3] += ((mean - strain[..., :3].sum(axis=-1)) / 3.0)[..., None]
-    stress = np.einsum("mcd,mqd->mqc", D, strain)
+    flowed = at_best_points(group, plastic)
+    stress = np.einsum("mcd,mqd->mqc", D, strain if flowed is None else strain - flowed)
     return points.relaxed(D, stress)
 
 

@@ -34,6 +34,8 @@ _HOMES = (
     "signorini.model.stage",
     "signorini.model.step",
     "signorini.model.varying",
+    "signorini.plasticity.measure",
+    "signorini.plasticity.state",
     "signorini.solution.certificate",
     "signorini.solution.checkpoint",
     "signorini.solution.history",

@@ -13,6 +13,7 @@ from signorini.arrays import Array, IntArray
 from signorini.fem.space import Space, make_space
 from signorini.fem.stress import BodyStress, body_stresses, point_stresses, von_mises
 from signorini.model.model import Model
+from signorini.plasticity.fields import by_family
 from signorini.solution.results import Instant, StepResult
 
 State = StepResult | Instant
@@ -70,16 +71,22 @@ class Fields:
         """Stresses of every body at its nodes."""
         if state not in self._kept:
             assert state.displacement is not None
-            found = body_stresses(self.space, self.model, state.displacement, state.factors)
+            plastic = self.plastic_strains(state)
+            found = body_stresses(self.space, self.model, state.displacement, state.factors, plastic)
             self._kept = {end: stresses for end, stresses in self._kept.items() if end in self._shared} | {state: found}
         return self._kept[state]
 
     def cell_stresses(self, step: StepResult) -> list[tuple[IntArray, Array]]:
         """Stresses in the cells, see :func:`signorini.fem.stress.point_stresses`; those of one step are kept."""
         if self._points is None or self._points[0] is not step:
-            found = point_stresses(self.space, self.model, step.displacement, step.factors)
+            plastic = self.plastic_strains(step)
+            found = point_stresses(self.space, self.model, step.displacement, step.factors, plastic)
             self._points = step, list(found)
         return self._points[1]
+
+    def plastic_strains(self, state: State) -> dict[str, Array]:
+        """Plastic strains at the quadrature points of every family, where bodies yield."""
+        return {} if state.plastic is None else by_family(self.space, self.model, state.plastic.state.strain)
 
     def at(self, state: State) -> BodyFields:
         """All bodies in a state whose displacement is known, one after the other in the order of the model."""

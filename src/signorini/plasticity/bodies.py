@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -266,12 +266,8 @@ def yielding_bodies(space: Space, model: Model) -> YieldingBodies:
     ----------
     space, model : the mesh and what is on it; at least one body yields
     """
-    yields = np.array([_plastic(body.material) is not None for body in model.bodies])
     groups, first = [], 0
-    for every in straining_groups(space, model):
-        group = _among(every, yields)
-        if group is None:
-            continue
+    for group in yielding_groups(space, model):
         points = kinematics(space, model, group)
         groups.append(
             PointGroup(
@@ -297,6 +293,15 @@ def yielding_bodies(space: Space, model: Model) -> YieldingBodies:
         elasticity=elasticities(model),
         pattern=pattern,
     )
+
+
+def yielding_groups(space: Space, model: Model) -> Iterator[Group]:
+    """Cells that may yield, by family and formulation: the order of the points."""
+    yields = np.array([_plastic(body.material) is not None for body in model.bodies])
+    for every in straining_groups(space, model):
+        group = _among(every, yields)
+        if group is not None:
+            yield group
 
 
 def _among(group: Group, yields: BoolArray) -> Group | None:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,6 +22,7 @@ class PlasticState(Short):
     back : (p, M, 4 or 6) back stresses, force per area, tensors without pressure
     forces : (dofs,) ``sum_q w B^T D eps_p``: internal forces are ``K u`` less these
     dissipation : plastic work since the beginning, what back stresses and hardening store included
+    stored : of it in back stresses: flow in reverse can give it back
     """
 
     strain: Array
@@ -29,6 +30,12 @@ class PlasticState(Short):
     back: Array
     forces: Array
     dissipation: float = 0.0
+    stored: float = 0.0
+
+    def light(self) -> PlasticState:
+        """The energies alone: a history may have thousands of states."""
+        none = np.zeros(0)
+        return replace(self, strain=none, equivalent=none, back=none, forces=none)
 
 
 def no_flow(points: int, components: int, backs: int, dofs: int) -> PlasticState:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import MethodRun
+from signorini.plasticity.state import PlasticState
 from signorini.short import Short
 from signorini.solution.certificate import Certificate
 
@@ -153,6 +154,25 @@ class ObstacleResult(Short):
     moment: float | Array
 
 
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class PlasticResult(Short):
+    """Plastic flow of all bodies in one state.
+
+    Attributes
+    ----------
+    state : of the points of the bodies, where the displacement is known too; otherwise its energies alone
+    dissipation : plastic work since the beginning of the step, what back stresses and hardening store included
+    """
+
+    state: PlasticState
+    dissipation: float
+
+    @property
+    def stored(self) -> float:
+        """Energy in back stresses, which flow in reverse can give back."""
+        return self.state.stored
+
+
 @dataclass(frozen=True, kw_only=True)
 class PairEvent:
     """Pairs of one contact that change their state at one load of an exact path.
@@ -186,6 +206,7 @@ class Instant(Short):
     work : since the beginning of the step, NaN where the bodies were not looked at
     displacement : (nodes, d) length, at times asked for, and everywhere where ``at = "events"``; otherwise None
     factors : load factors by name
+    plastic : flow of the bodies; None where none yields
     """
 
     load_factor: float
@@ -194,6 +215,26 @@ class Instant(Short):
     work: float
     displacement: Array | None
     factors: Mapping[str, float]
+    plastic: PlasticResult | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Yielding:
+    """How far bodies have yielded at the end of a step.
+
+    Attributes
+    ----------
+    largest : equivalent plastic strain of any point
+    body, at : where that is: name of the body, (d,) undeformed coordinates; "" and () where nothing has flowed
+    share : of the volume of the bodies that may yield, in which anything has flowed, 0 .. 1
+    first : load factor at which points begin to flow in this step; None where none does
+    """
+
+    largest: float
+    body: str
+    at: tuple[float, ...]
+    share: float
+    first: float | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -238,13 +279,15 @@ class StepResult(Short):
     interface_energy : of compliant interfaces and elastic foundations
     work : of loads, moving supports, interferences and changes of temperature in this step
     released : energy set free at once in this step: in jumps, by changes of the law, by contacts switched off
-    energy_defect : work less what is stored, dissipated and released; rounding on an exact path
+    energy_defect : work less what is stored, dissipated by friction and plastic flow, and released; rounding on an
+        exact path
     certificate : the worst of every increment, or the end of an exact path
     trace : for every increment the methods tried, in order: iterations, status changes, how each ended
     instants : on the way, in order; the end of the step is the last
     cycles : of a step that repeats
     steadiness : of the cycles: "shakes down", "steady", "ratchets" or "not yet", empty without cycles
     notes : what a reader should know
+    yielding : which bodies yield, and how far; None where none may
     """
 
     name: str
@@ -267,6 +310,7 @@ class StepResult(Short):
     cycles: tuple[Cycle, ...]
     steadiness: str
     notes: tuple[str, ...]
+    yielding: Yielding | None = None
 
     @property
     def load_factor(self) -> float:
@@ -282,6 +326,11 @@ class StepResult(Short):
     def contacts(self) -> tuple[ContactResult, ...]:
         """At its end, in the order of the model."""
         return self.instants[-1].contacts
+
+    @property
+    def plastic(self) -> PlasticResult | None:
+        """Flow of the bodies at its end; None where none yields."""
+        return self.instants[-1].plastic
 
     @property
     def increments(self) -> int:

@@ -85,6 +85,11 @@ class State(Short):
     released: float
     plastic: PlasticState | None = None
 
+    @property
+    def plastic_work(self) -> float:
+        """Since the beginning; 0 where no body yields."""
+        return 0.0 if self.plastic is None else self.plastic.dissipation
+
 
 def initial_state(factors: Mapping[str, float], dofs: int, interface: Interface) -> State:
     """Nothing has moved, and overlaps have not pressed yet.
