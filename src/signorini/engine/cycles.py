@@ -17,6 +17,9 @@ from signorini.solution.state import State
 REPEAT_TOL = 1e-8
 """Forces of the largest, and slips of the size of the data, that count as equal."""
 
+STEADY_TOL = 0.02
+"""Of the plastic strain that grows in a cycle: less tells no steady cycle from one that settles slowly."""
+
 
 def make_cycles(followed: FollowedPart, ends: Sequence[float]) -> tuple[Cycle, ...]:
     """The cycles of a step.
@@ -46,6 +49,7 @@ def make_cycles(followed: FollowedPart, ends: Sequence[float]) -> tuple[Cycle, .
                 sliding=float(sliding.max(initial=0.0)),
                 change=float(np.abs(state.forces - begin.forces).max(initial=0.0)) / size,
                 drift=_drift(begin, state),
+                **_flow(begin, state),
             )
         )
         begin, sliding = state, np.zeros(n)
@@ -58,6 +62,17 @@ def _drift(begin: State, end: State) -> float:
     return float(_across(end.tangential - begin.tangential, len(touching))[touching].max(initial=0.0))
 
 
+def _flow(begin: State, end: State) -> dict[str, float]:
+    """Growth of the equivalent plastic strain from one state to another, and what the plastic strain changes."""
+    one, two = begin.plastic, end.plastic
+    if one is None or two is None or not len(two.equivalent):
+        return {}
+    change = two.strain - one.strain
+    squares = (change[:, :3] ** 2).sum(axis=1) + 0.5 * (change[:, 3:] ** 2).sum(axis=1)
+    grown = two.equivalent - one.equivalent
+    return {"flow": float(grown.max()), "plastic_drift": float(np.sqrt(2.0 / 3.0 * squares.max()))}
+
+
 def _across(tangential: Array, n: int) -> Array:
     """(n,) length of tangential vectors that are given row by row, ((d - 1) n,)."""
     return np.linalg.norm(tangential.reshape(-1, n), axis=0) if n else np.zeros(0)
@@ -65,14 +80,18 @@ def _across(tangential: Array, n: int) -> Array:
 
 def judge(cycles: Sequence[Cycle], scale: Scale) -> tuple[str, str]:
     """One of "shakes down", "steady", "ratchets" and "not yet", and the same in a sentence."""
-    still = _since(cycles, [cycle.sliding <= REPEAT_TOL * scale.length for cycle in cycles])
+    last, most = cycles[-1], max(cycle.flow for cycle in cycles)
+    if last.flow > REPEAT_TOL * most:
+        return _judge_flow(cycles)
+    resting = [cycle.sliding <= REPEAT_TOL * scale.length and cycle.flow <= REPEAT_TOL * most for cycle in cycles]
+    still = _since(cycles, resting)
     if still is not None:
-        return "shakes down", f"shakes down: no pair slips from cycle {still} on"
+        words = "no pair slips" if most == 0.0 else "nothing slips or yields"
+        return "shakes down", f"shakes down: {words} from cycle {still} on"
     repeats = [cycle.change <= REPEAT_TOL for cycle in cycles]
     closed = _since(
         cycles, [same and cycle.drift <= REPEAT_TOL * scale.length for same, cycle in zip(repeats, cycles, strict=True)]
     )
-    last = cycles[-1]
     if closed is not None:
         words = f"steady from cycle {closed} on: it ends as it begins, and dissipates {last.dissipation:.6g}"
         return "steady", words
@@ -84,6 +103,23 @@ def judge(cycles: Sequence[Cycle], scale: Scale) -> tuple[str, str]:
         )
     words = f"not steady after {len(cycles)} cycles: the last changes forces by {last.change:.2g} of the largest"
     return "not yet", words
+
+
+def _judge_flow(cycles: Sequence[Cycle]) -> tuple[str, str]:
+    """The same where points still flow plastically in the last cycle."""
+    last = cycles[-1]
+    ratio = last.flow / cycles[-2].flow if len(cycles) > 1 and cycles[-2].flow > 0.0 else np.inf
+    if abs(ratio - 1.0) > STEADY_TOL:
+        words = (
+            f"not steady after {len(cycles)} cycles: the equivalent plastic strain grows by {last.flow:.3g} in the last"
+        )
+        if np.isfinite(ratio):
+            words += f", {ratio:.3g} times as much as in the one before"
+        return "not yet", words + (": flow dies out, bodies tend to shake down" if ratio < 1.0 else "")
+    if last.plastic_drift <= STEADY_TOL * last.flow:
+        words = f"plastic flow alternates: {last.flow:.3g} of equivalent strain a cycle, and ends where it began"
+        return "steady", words
+    return "ratchets", f"ratchets: plastic strain grows by {last.plastic_drift:.3g} a cycle, steadily"
 
 
 def _since(cycles: Sequence[Cycle], holds: Sequence[bool]) -> int | None:

@@ -249,6 +249,8 @@ class Cycle:
     sliding : longest distance that a pair slid in it, length
     change : largest change of a contact force from the beginning to the end of it, of the largest force
     drift : how far a pair that touches at both ends of it has moved along, length
+    flow : largest growth of the equivalent plastic strain of a point in it
+    plastic_drift : largest change of a point's plastic strain from its beginning to its end, equivalent
     """
 
     number: int
@@ -259,6 +261,8 @@ class Cycle:
     sliding: float
     change: float
     drift: float
+    flow: float = 0.0
+    plastic_drift: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Cycles of bodies that yield: they shake down, flow to and fro, or ratchet, as closed forms say."""
+
+import numpy as np
+import pytest
+
+import signorini as sg
+
+E, Y = 200.0, 1.0
+
+
+def bar(plastic, steps, *, stretch=None):
+    """A cylinder of one cell under a pull per area of 1, or stretched by so much: uniaxial stress."""
+    return sg.Model(
+        sg.rectangle(),
+        kind="axisymmetric",
+        bodies=[sg.Body("block", sg.Elastic(E=E, nu=0.3, plastic=plastic))],
+        supports=[sg.Support("bottom", u=(None, 0.0))]
+        + ([] if stretch is None else [sg.Support("top", u=(None, stretch), name="pull")]),
+        loads=[] if stretch is not None else [sg.Load("top", pressure=-1.0, name="pull")],
+        steps=steps,
+    )
+
+
+def test_a_bar_of_prager_shakes_down():
+    step = sg.Step(scale={"pull": [1.4, -0.3]}, repeat=4, increments=4)
+    result = sg.solve(bar(sg.Plastic(Y, backstresses=[(20.0, 0.0)]), [step])).steps[0]
+    assert result.steadiness == "shakes down"
+    assert [cycle.flow > 0.0 for cycle in result.cycles] == [True, False, False, False]
+    assert result.cycles[0].flow == pytest.approx(0.4 / 20.0, rel=1e-9)
+
+
+def test_a_stretched_bar_flows_to_and_fro():
+    step = sg.Step(scale={"pull": [1.0, -1.0]}, repeat=4, increments=1)
+    result = sg.solve(bar(sg.Plastic(Y), [step], stretch=0.02)).steps[0]
+    assert result.steadiness == "steady"
+    assert result.cycles[-1].flow == pytest.approx(2.0 * (2.0 * 0.02 - 2.0 * Y / E), rel=1e-6)
+    assert result.cycles[-1].plastic_drift < 1e-9
+
+
+def test_a_bar_of_armstrong_and_frederick_ratchets():
+    C, gamma, low, high = 50.0, 25.0, -1.6, 2.2
+    # Lemaitre, Chaboche (1990), Mechanics of Solid Materials, 5.4.4: what each cycle adds under stresses low .. high
+    most = C / gamma
+    drift = np.log((most**2 - (low + Y) ** 2) / (most**2 - (high - Y) ** 2)) / gamma
+    errors = []
+    for increments in (60, 120):
+        step = sg.Step(scale={"pull": [high, low]}, repeat=3, increments=increments)
+        result = sg.solve(bar(sg.Plastic(Y, backstresses=[(C, gamma)]), [step])).steps[0]
+        assert result.steadiness == "ratchets"
+        errors.append(result.cycles[-1].plastic_drift - drift)
+    assert 1.9 <= errors[0] / errors[1] <= 2.3  # backward Euler is of first order
