@@ -106,7 +106,7 @@ def judge(cycles: Sequence[Cycle], scale: Scale) -> tuple[str, str]:
 
 
 def _judge_flow(cycles: Sequence[Cycle]) -> tuple[str, str]:
-    """The same where points still flow plastically in the last cycle."""
+    """The verdict, and its sentence, where points still flow plastically in the last cycle."""
     last = cycles[-1]
     ratio = last.flow / cycles[-2].flow if len(cycles) > 1 and cycles[-2].flow > 0.0 else np.inf
     if abs(ratio - 1.0) > STEADY_TOL:
