@@ -154,11 +154,11 @@ class Snapshot:
     kept: bool = False
     worked: bool = True
 
-    def light(self) -> Snapshot:
-        """Without the displacement of the bodies: a history may have thousands of snapshots."""
+    def light(self, flow: bool) -> Snapshot:
+        """Without the displacement of the bodies: a history may have thousands; ``flow``: with their plastic strains."""
         none = np.zeros(0)
         point = replace(self.state.point, reaction=none, offset=none)
-        plastic = None if self.state.plastic is None else self.state.plastic.light()
+        plastic = self.state.plastic if flow or self.state.plastic is None else self.state.plastic.light()
         state = replace(self.state, point=point, displacement=none, external=none, plastic=plastic)
         return replace(self, state=state, whole=False)
 
@@ -200,8 +200,9 @@ def lightened(followed: FollowedPart, *, every: bool, end: bool, heated: bool) -
     """
     shots = []
     for i, shot in enumerate(followed.snapshots, start=1):
-        kept = shot.whole and (every or shot.what == "asked" or (end and i == len(followed.snapshots)))
-        shots.append(replace(shot, kept=True) if kept else shot if heated else shot.light())
+        last = i == len(followed.snapshots)  # a cycle may end here, which is judged by its plastic strains
+        kept = shot.whole and (every or shot.what == "asked" or (end and last))
+        shots.append(replace(shot, kept=True) if kept else shot if heated else shot.light(last))
     return replace(followed, snapshots=tuple(shots))
 
 
