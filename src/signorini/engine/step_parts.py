@@ -155,7 +155,7 @@ class Snapshot:
     worked: bool = True
 
     def light(self, flow: bool) -> Snapshot:
-        """Without the displacement of the bodies: a history may have thousands; ``flow``: with their plastic strains."""
+        """Without the displacement of the bodies, for a history may have thousands; ``flow``: with plastic strains."""
         none = np.zeros(0)
         point = replace(self.state.point, reaction=none, offset=none)
         plastic = self.state.plastic if flow or self.state.plastic is None else self.state.plastic.light()
