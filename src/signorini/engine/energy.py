@@ -38,9 +38,10 @@ def set_free(prepared: Prepared, before: State, after: State, *, taken: Array) -
     ----------
     prepared : under the law in which it happened
     before, after : states at its ends
-    taken : (n,) by friction; what else the bodies lose is set free
+    taken : (n,) by friction; what else the bodies lose and plastic flow does not take is set free
     """
     loss = stored_energy(prepared, before) - stored_energy(prepared, after)
+    loss -= after.plastic_work - before.plastic_work
     work = 0.5 * (before.external + after.external) @ (after.displacement - before.displacement)
     return replace(
         after,
@@ -56,7 +57,8 @@ def stored_energy(prepared: Prepared, state: State) -> float:
     strain = float(u @ (prepared.K @ u)) if u.any() else 0.0
     beyond = 0.0
     if prepared.yielding is not None and state.plastic is not None:
-        beyond = stored_by_plastic_strain(prepared.yielding, u, state.plastic)
+        bodies = prepared.yielding
+        beyond = stored_by_plastic_strain(bodies, u, state.plastic, bodies.swelling(state.point.factors))
     return 0.5 * strain + beyond + interface_energy(prepared, state)
 
 

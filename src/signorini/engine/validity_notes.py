@@ -32,6 +32,7 @@ _PAIRS_ACROSS = 4  # closed pairs: with fewer the pressure is a matter of the me
 _OVERLAP_TOL = 1e-9  # of the size of the model: less is no overlap
 _STRAINED = 0.25  # of the size of a body
 _SLID = 0.1  # of the size of what touches
+_FLOWED = 0.05  # equivalent plastic strain: beyond it small strains and those of true-stress tables differ visibly
 
 
 def step_notes(prepared: Prepared, followed: FollowedPart) -> Iterator[str]:
@@ -46,6 +47,7 @@ def step_notes(prepared: Prepared, followed: FollowedPart) -> Iterator[str]:
         yield from overlap_notes(prepared)
     yield from patch_notes(prepared, state)
     yield from large_notes(prepared, state)
+    yield from flow_notes(prepared, state)
 
 
 def _friction_notes(prepared: Prepared, followed: FollowedPart) -> Iterator[str]:
@@ -190,4 +192,18 @@ def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
             yield (
                 f"contact '{contact.label}' slips by up to {slip[own].max():.4g}, and what touches is {across:.4g} "
                 "across: its sides are opposite each other as they were to begin with, which holds for small slips"
+            )
+
+
+def flow_notes(prepared: Prepared, state: State) -> Iterator[str]:
+    """Bodies with plastic strains of more than a twentieth somewhere."""
+    bodies, plastic = prepared.yielding, state.plastic
+    if bodies is None or plastic is None:
+        return
+    for i in np.unique(bodies.body):
+        largest = float(plastic.equivalent[bodies.body == i].max())
+        if largest > _FLOWED:
+            yield (
+                f"'{prepared.model.bodies[i].name}' has equivalent plastic strains of up to {largest:.0%}: its law is "
+                "one of small strains, which holds to about 5%"
             )

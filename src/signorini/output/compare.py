@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from signorini.arrays import IntArray
 from signorini.solution.history import History
-from signorini.solution.results import ContactResult, StepResult
+from signorini.solution.results import ContactResult, PlasticResult, StepResult
 
 _Labels = tuple[IntArray, IntArray]
 _ENERGIES = ("strain_energy", "interface_energy", "work", "dissipation")
@@ -27,7 +27,7 @@ class Difference:
     ----------
     step : name of the step
     quantity : as ``"displacement"`` or ``"arc: pressure"``
-    kind : what it is compared with: "length", "force", "stress" or "energy"
+    kind : what it is compared with: "length", "force", "stress", "strain" or "energy"
     largest : largest absolute difference
     size : largest absolute value of its kind in the step, gaps not counted
     where : the node with the largest difference, None for what has no nodes
@@ -76,6 +76,8 @@ def compare(first: History, second: History) -> tuple[list[Difference], list[str
 
 
 def _alone(mine: StepResult, theirs: StepResult) -> Iterator[str]:
+    if (mine.plastic is None) != (theirs.plastic is None):
+        yield f"bodies yield only in the {'second' if mine.plastic is None else 'first'}"
     contacts = ([contact.name for contact in step.contacts] for step in (mine, theirs))
     for what, names in (("support", (list(mine.reactions), list(theirs.reactions))), ("contact", tuple(contacts))):
         for name in dict.fromkeys([*names[0], *names[1]]):
@@ -88,6 +90,8 @@ def _step(mine: StepResult, theirs: StepResult, labels: _Labels) -> Iterator[Dif
     yield _difference(step, "displacement", "length", (mine.displacement, theirs.displacement), labels)
     for key in _ENERGIES:
         yield _difference(step, key.replace("_", " "), "energy", (getattr(mine, key), getattr(theirs, key)))
+    if mine.plastic is not None and theirs.plastic is not None:
+        yield from _flow(step, mine.plastic, theirs.plastic)
     for name in mine.reactions:
         if name in theirs.reactions:
             yield _difference(step, f"reaction {name}", "force", (mine.reactions[name], theirs.reactions[name]))
@@ -95,6 +99,20 @@ def _step(mine: StepResult, theirs: StepResult, labels: _Labels) -> Iterator[Dif
     for contact in mine.contacts:
         if contact.name in others:
             yield from _contact(step, contact, others[contact.name], labels)
+
+
+def _flow(step: str, mine: PlasticResult, theirs: PlasticResult) -> Iterator[Difference]:
+    """Between what bodies that yield have at the points of their cells, which are those of one mesh."""
+    one, two = mine.state, theirs.state
+    compared: tuple[tuple[str, str, tuple[ArrayLike, ArrayLike]], ...] = (
+        ("energy", "plastic dissipation", (mine.dissipation, theirs.dissipation)),
+        ("energy", "back stress energy", (mine.stored, theirs.stored)),
+        ("strain", "equivalent plastic strain", (one.equivalent, two.equivalent)),
+        ("strain", "plastic strain", (one.strain, two.strain)),
+        ("stress", "back stress", (one.back.sum(axis=1), two.back.sum(axis=1))),
+    )
+    for kind, quantity, values in compared:
+        yield _difference(step, quantity, kind, values)
 
 
 def _contact(step: str, mine: ContactResult, theirs: ContactResult, labels: _Labels) -> Iterator[Difference]:

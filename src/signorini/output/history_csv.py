@@ -50,8 +50,14 @@ _COLUMNS: Mapping[str, Callable[[_Row], str | int | float]] = {
     "max_sliding": _largest("sliding"),
     "dissipation": lambda row: _number(row.contact.dissipation),
     "work": lambda row: "" if math.isnan(row.instant.work) else float(row.instant.work),
+    "plastic_dissipation": lambda row: "" if row.instant.plastic is None else row.instant.plastic.dissipation,
+    "back_stress_energy": lambda row: "" if row.instant.plastic is None else row.instant.plastic.stored,
 }
-"""Work and dissipation count from the beginning of the step; work is empty where the bodies were not looked at."""
+"""Work and dissipation count from the beginning of the step; work is empty where the bodies were not looked at.
+
+Plastic dissipation counts from there too, back stresses and hardening included; both plastic columns are empty where no
+body yields.
+"""
 
 
 def write_history(history: History, path: Path) -> None:

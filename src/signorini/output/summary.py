@@ -110,6 +110,23 @@ def _step(model: Model, step: StepResult) -> dict[str, Any]:
         "steadiness": step.steadiness,
         "certificate": asdict(step.certificate) | {"passed": step.certificate.passed},
         "contacts": [_contact(*pair) for pair in zip(model.contacts, step.contacts, strict=True)],
+        "plastic": _plastic(step),
+    }
+
+
+def _plastic(step: StepResult) -> dict[str, Any] | None:
+    """Plastic flow at the end of a step; None where no body yields."""
+    found, yielding = step.plastic, step.yielding
+    if found is None or yielding is None:
+        return None
+    return {
+        "dissipation": found.dissipation,
+        "back_stress_energy": found.stored,
+        "max_equivalent_strain": yielding.largest,
+        "max_equivalent_strain_in": yielding.body,
+        "max_equivalent_strain_at": list(yielding.at),
+        "share_of_volume": yielding.share,
+        "first_yield": yielding.first,
     }
 
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from itertools import zip_longest
 
 from signorini.arrays import Array
@@ -93,8 +93,25 @@ def _step_lines(step: StepResult, number: int) -> list[str]:
             for kind, every in (("obstacle", step.obstacles), ("rigid body", step.rigid_bodies))
             for name, found in every.items()
         ),
+        *_flow_lines(step),
         f"certificate {verdict}: worst of five {certificate.worst:.1e}, allowed {TOLERANCE:.0e}",
     ]
+
+
+def _flow_lines(step: StepResult) -> Iterator[str]:
+    """How far bodies have yielded, and with what energy; nothing where none may."""
+    found, yielding = step.plastic, step.yielding
+    if found is None or yielding is None:
+        return
+    if not yielding.largest:
+        yield "plastic flow: none"
+        return
+    begun = "plastic flow before this step" if yielding.first is None else f"plastic flow from {yielding.first:.6g} on"
+    yield (
+        f"{begun}: strain up to {yielding.largest:.5g} in '{yielding.body}' at {spell_vector(yielding.at)}, "
+        f"{yielding.share:.1%} of the volume; work {found.dissipation:.5g}, {found.stored:.5g} in back stresses, "
+        f"energy defect {step.energy_defect:.1e}"
+    )
 
 
 def _turn(value: float | Array) -> str:

@@ -143,17 +143,36 @@ def plastic_work(
     return float(0.5 * bodies.weights @ inner(stress, step))
 
 
-def stored_by_plastic_strain(bodies: YieldingBodies, u: Array, state: PlasticState) -> float:
-    """What the elastic energy is beyond ``u K u / 2``: ``- u f_p + sum w eps_p : D : eps_p / 2``.
+def stored_by_plastic_strain(bodies: YieldingBodies, u: Array, state: PlasticState, swelling: Array) -> float:
+    """What the elastic energy is beyond that of elastic bodies.
+
+    ``- u f_p + sum w (eps_p : D : eps_p / 2 + eps_p : D : eps_T)``; the last is 0 but in plane stress.
 
     Parameters
     ----------
     bodies : with their points
     u : (dofs,) displacements
     state : of the points
+    swelling : (p,) volume strain of the temperature
     """
-    held = (state.strain * bodies.eigenstress(state.strain)).sum(axis=1)
-    return float(0.5 * bodies.weights @ held - u @ state.forces)
+    stress = bodies.eigenstress(state.strain)
+    held = 0.5 * (state.strain * stress).sum(axis=1) + stress[:, :3].sum(axis=1) * swelling / 3.0
+    return float(bodies.weights @ held - u @ state.forces)
+
+
+def heat_work(bodies: YieldingBodies, before: tuple[PlasticState, Array], after: tuple[PlasticState, Array]) -> float:
+    """What a change of temperature does on plastic strains, ``sum w (eps_p1 + eps_p2) : D : deps_T / 2``.
+
+    It is 0 but in plane stress: plastic strain keeps the volume, and not the area.
+
+    Parameters
+    ----------
+    bodies : with their points
+    before, after : states, and (p,) volume strains of the temperature
+    """
+    (old, cold), (new, warm) = before, after
+    stress = bodies.eigenstress(0.5 * (old.strain + new.strain))
+    return float(bodies.weights @ (stress[:, :3].sum(axis=1) * (warm - cold)) / 3.0)
 
 
 def stored_by_back_stresses(bodies: YieldingBodies, state: PlasticState) -> float:

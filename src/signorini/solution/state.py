@@ -12,6 +12,7 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.interface.interface import Interface
 from signorini.law.states import OPEN
+from signorini.plasticity.measure import heat_work
 from signorini.plasticity.state import PlasticState
 from signorini.short import Short
 from signorini.solution.discrete_model import DiscreteModel
@@ -155,6 +156,10 @@ def next_state(
     increment = moved[n:]
     work = 0.5 * (state.external + external) @ (displacement - state.displacement)
     work -= 0.5 * (state.forces + forces)[:n] @ (point.gap - state.point.gap)
+    bodies = system.yielding
+    if bodies is not None and bodies.laws.thin and state.plastic is not None and plastic is not None:
+        swelling = bodies.swelling(state.point.factors), bodies.swelling(point.factors)
+        work += heat_work(bodies, (state.plastic, swelling[0]), (plastic, swelling[1]))
     spent = (forces[n:] * increment).reshape(-1, n).sum(axis=0) if n else np.zeros(0)
     taken = 0.5 * (state.point.given + point.given) @ (interface.B @ (displacement - state.displacement))
     return State(

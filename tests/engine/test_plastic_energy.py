@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Energies of bodies that yield: nothing is left over without contact, and results say how far they have flowed."""
+
+import numpy as np
+import pytest
+
+import signorini as sg
+
+LAWS = {
+    "perfect": sg.Plastic(2.0),
+    "isotropic": sg.Plastic([(0.0, 2.0), (0.01, 2.5), (0.1, 3.0)], hardening=2.0),
+    "kinematic": sg.Plastic(2.0, backstresses=[(10.0, 0.0)]),
+    "combined": sg.Plastic(2.0, hardening=1.0, backstresses=[(50.0, 25.0), (5.0, 0.0)]),
+}
+
+
+def cycled(law, kind="plane strain", *, thermal=False, **parts):
+    """A plate drawn and sheared to and fro by its edge, a body that no contact touches."""
+    material = sg.Elastic(E=200.0, nu=0.3, plastic=law, expansion=1e-3 if thermal else 0.0)
+    loads = [sg.Load("block", temperature=4.0, name="heat")] if thermal else []
+    reverse = [{"edge": 1.0}, {"edge": 0.2}, {"edge": -1.0}, {"edge": 0.0}]
+    heats = {"heat": 1.0} if thermal else {}
+    return sg.Model(
+        sg.rectangle(x=np.linspace(1, 2, 4), y=np.linspace(0, 1, 4), cells="quad8"),
+        kind=kind,
+        bodies=[sg.Body("block", material, **parts)],
+        supports=[sg.Support("bottom", u=(0, 0)), sg.Support("top", u=(0.02, 0.03), name="edge")],
+        loads=loads,
+        steps=[sg.Step(scale=scale | (heats if i == 1 else {}), increments=5) for i, scale in enumerate(reverse)],
+    )
+
+
+@pytest.mark.parametrize("kind", ["plane strain", "axisymmetric", "plane stress"])
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_energies_of_a_body_balance(law, kind):
+    solution = sg.solve(cycled(law, kind))
+    work = sum(abs(step.work) for step in solution.steps)
+    assert solution.steps[0].yielding.first is not None
+    assert solution.steps[2].yielding.first is not None
+    for step in solution.steps:
+        assert abs(step.energy_defect) <= 1e-9 * work
+        assert step.plastic.dissipation >= 0.0
+        if not law.backstresses:
+            assert step.plastic.stored == 0.0
+    assert sum(step.plastic.dissipation for step in solution.steps) > 0.1 * work
+
+
+@pytest.mark.parametrize("kind", ["plane strain", "axisymmetric", "plane stress"])
+def test_energies_balance_where_bodies_are_heated(kind):
+    solution = sg.solve(cycled(LAWS["combined"], kind, thermal=True))
+    work = sum(abs(step.work) for step in solution.steps)
+    for step in solution.steps:
+        assert abs(step.energy_defect) <= 1e-9 * work
+
+
+def test_prager_stores_its_share_of_a_bar():
+    """Of a bar drawn to the plastic strain e back stresses hold ``C e^2 / 2`` of the work ``Y e + C e^2 / 2``."""
+    law, e = sg.Plastic(2.0, backstresses=[(10.0, 0.0)]), 0.05
+    model = sg.Model(
+        sg.rectangle(width=2.0, height=1.0),
+        kind="plane stress",
+        bodies=[sg.Body("block", sg.Elastic(E=200.0, nu=0.3, plastic=law))],
+        supports=[sg.Support("left", u=(0, None)), sg.Support("bottom", u=(None, 0))],
+        loads=[sg.Load("right", traction=(2.0 + 10.0 * e, 0.0))],
+    )
+    (step,) = sg.solve(model).steps
+    assert step.plastic.stored == pytest.approx(2.0 * 10.0 * e**2 / 2, rel=1e-8)
+    assert step.plastic.dissipation == pytest.approx(2.0 * (2.0 * e + 10.0 * e**2 / 2), rel=1e-8)
+    assert step.yielding.first == pytest.approx(2.0 / 2.5, rel=1e-9)
+    assert step.yielding.largest == pytest.approx(e, rel=1e-8)
+    assert step.yielding.share == pytest.approx(1.0)
+    assert step.strain_energy == pytest.approx(2.0 * 2.5**2 / 400.0, rel=1e-8)
+    assert any("plastic strains of up to 5%" in note for note in step.notes) == (step.yielding.largest > 0.05)
