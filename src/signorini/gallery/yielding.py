@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bodies that yield: a tube under pressure, a flat punch, a round body on a rigid plane."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from signorini.gallery.large_bodies import bend, graded_lines, with_seat
+from signorini.meshing.plane import Cells, annulus, rectangle
+from signorini.model.body import Body
+from signorini.model.conditions import Load, Support
+from signorini.model.contact import Contact
+from signorini.model.material import Elastic
+from signorini.model.model import Kind, Model
+from signorini.model.obstacle import Plane
+from signorini.model.plastic import Plastic
+from signorini.model.step import Step
+from signorini.reference.hertz import contact_modulus
+
+SHEAR_STRENGTH = 1.0
+"""k of tube and footing, force per area; they are perfectly plastic."""
+
+PERFECT = Plastic(float(np.sqrt(3.0)) * SHEAR_STRENGTH)
+
+E, NU = 200.0, 0.3
+"""Of the round body, as of the elastic ones in `half_planes` and `half_spaces`."""
+
+
+def tube(
+    *,
+    pressure: float,
+    n: int,
+    cells: Cells = "quad",
+    kind: Kind = "plane strain",
+    nu: float = 0.4999,
+    steps: Sequence[Step] = (Step(increments=1),),
+) -> Model:
+    """A long tube 1..2 with its ends held, E 1000 k: a quarter of its section, or a slice of the meridian.
+
+    Parameters
+    ----------
+    pressure : inside, at factor 1 of "pressure", force per area
+    n : cells through the wall
+    cells : "quad", "quad8", ...
+    kind : "plane strain" or "axisymmetric"
+    nu : Poisson's ratio; Hill's stresses are exact for 0.5
+    steps : by default one, of one increment
+    """
+    if kind == "axisymmetric":
+        mesh = rectangle(
+            x=1.0 + np.linspace(0.0, 1.0, n + 1), y=np.linspace(0.0, 0.25, max(1, n // 4) + 1), cells=cells
+        )
+        inside, supports = "left", [Support(name, u=(None, 0.0)) for name in ("bottom", "top")]
+    else:
+        mesh = annulus(inner=1.0, outer=2.0, n_radial=n, n_angular=n + n // 2, angle=90.0, cells=cells)
+        inside, supports = "inner", [Support("start", u=(None, 0.0)), Support("end", u=(0.0, None))]
+    (name,) = mesh.bodies
+    return Model(
+        mesh,
+        kind=kind,
+        title="Tube that yields",
+        bodies=[Body(name, Elastic(E=1000.0 * SHEAR_STRENGTH, nu=nu, plastic=PERFECT))],
+        supports=supports,
+        loads=[Load(inside, pressure=pressure, name="pressure")],
+        steps=steps,
+    )
+
+
+def footing(*, n: int, cells: Cells = "quad", pressure: float = 0.0, depth: float = 0.0, rough: bool = False) -> Model:
+    """Half of a block 12 x 5 with a flat punch of half-width 1 on it, pressed by a mean pressure or driven.
+
+    Parameters
+    ----------
+    n : cells along half the punch
+    cells : "quad", "quad8", "triangle6", ...
+    pressure : mean, force per area; at factor 1 of "punch"
+    depth : to which the punch is driven instead, length
+    rough : whether it holds the surface sideways
+    """
+    x = np.concatenate([np.linspace(0.0, 1.5, 3 * n // 2 + 1), 1.5 + graded_lines(1.0 / n, 1.0 / n, 4.5, 1.12)[1:]])
+    y = np.concatenate([np.linspace(0.0, 1.0, n + 1), 1.0 + graded_lines(1.0 / n, 1.0 / n, 4.0, 1.12)[1:]])
+    mesh = with_seat(rectangle(x=x, y=-y[::-1], cells=cells), "top", 1.0)
+    aside = 0.0 if rough else None
+    supports = [Support("left", u=(0.0, None)), Support("right", u=(0.0, None)), Support("bottom", u=(0.0, 0.0))]
+    loads = []
+    if depth:
+        supports.append(Support("seat", u=(aside, -depth), name="punch"))
+    else:
+        loads.append(Load("seat", force=(None, -pressure), spread="displacement", name="punch"))
+        supports += [Support("seat", u=(0.0, None), name="rough")] if rough else []
+    (name,) = mesh.bodies
+    return Model(
+        mesh,
+        title="Flat punch on a body that yields",
+        bodies=[Body(name, Elastic(E=1000.0 * SHEAR_STRENGTH, nu=0.3, plastic=PERFECT))],
+        supports=supports,
+        loads=loads,
+        steps=[Step(name="press", increments=1)],
+    )
+
+
+def round_body(
+    *,
+    n: int,
+    plastic: Plastic,
+    kind: Kind = "plane strain",
+    cells: Cells = "quad",
+    radius: float = 1000.0,
+    seat: float = 1.5,
+    size: float = 160.0,
+    approach: float = 0.0,
+    steps: Sequence[Step] = (Step(),),
+) -> Model:
+    """A large block whose lower side is a paraboloid or a parabolic cylinder, on a rigid plane.
+
+    Half of it, or its meridian. At factor 1 of "press" it carries what makes an elastic contact of half-width or radius
+    1, or its top has come down by an approach.
+
+    Parameters
+    ----------
+    n : cells in a length of 1 where it may touch
+    plastic : how it yields
+    kind : "plane strain" or "axisymmetric"
+    cells : "quad", "quad8", ...
+    radius : of the body where it touches, length
+    seat : where it may touch, and how deep cells are fine, length
+    size : half-width and height, length
+    approach : of its top, in place of the force
+    steps : by default one
+    """
+    lines = graded_lines(seat, 1.0 / n, size)
+    mesh = with_seat(bend(rectangle(x=lines, y=lines, cells=cells), radius), "bottom", seat)
+    modulus = contact_modulus((E, NU))
+    force = 4.0 * modulus / (3.0 * radius) if kind == "axisymmetric" else 0.5 * np.pi * modulus / (4.0 * radius)
+    supports = [] if kind == "axisymmetric" else [Support("left", u=(0.0, None))]
+    loads = [Load("top", force=(None, -force), spread="displacement", name="press")]
+    if approach:
+        supports, loads = [*supports, Support("top", u=(None, -approach), name="press")], []
+    (name,) = mesh.bodies
+    return Model(
+        mesh,
+        kind=kind,
+        title="Round body that yields on a rigid plane",
+        bodies=[Body(name, Elastic(E=E, nu=NU, plastic=plastic))],
+        supports=supports,
+        loads=loads,
+        contacts=[Contact("seat", Plane(point=(0.0, 0.0), normal=(0.0, 1.0)), name="contact")],
+        steps=steps,
+    )
