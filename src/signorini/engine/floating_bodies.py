@@ -9,6 +9,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, extent
 from signorini.engine.increments import applied, certified, moving_away
+from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart
 from signorini.errors import SolveFailed
@@ -186,11 +187,12 @@ def resting(part: StepPart) -> StepPart:
     ways = unfelt(loose.T)
     rigid = np.asarray(prepared.motions @ (prepared.floating @ loose))
     place = np.linalg.lstsq(rigid, state.displacement - applied(prepared, state.point)[1])[0]
+    solver = prepared.solver if isinstance(prepared.solver, PlasticSolver) else paths
     return replace(
         part,
         prepared=replace(
             prepared,
-            solver=paths.moving(ways, prepared.interface, prepared.scale),
+            solver=solver.moving(ways, prepared.interface, prepared.scale),
             floating=prepared.floating @ ways,
             resting=rigid @ place,
         ),

@@ -74,12 +74,14 @@ class MultiplierSolver:
         return replace(self, bodies=self.bodies.among(~absent)) if absent.any() else self
 
     def solve(self, increment: Increment) -> IncrementAnswer:
-        """Solve one increment, from as far ahead of the state as the last increment led."""
-        state, last = increment.state, increment.last
+        """Solve one increment, from an answer near it or from as far ahead of the state as the last increment led."""
+        state, last, near = increment.state, increment.last, increment.near
+        scale = increment.system.scale
+        if near is not None:
+            return self.solve_near(increment, near.free, near.forces, scale.length)
         u, r = state.displacement, state.forces
         if last is not None:
             u, r = 2.0 * u - last.displacement, 2.0 * r - last.forces
-        scale = increment.system.scale
         return self.solve_near(increment, u[increment.system.constraints.leaders], r, scale.length)
 
     def solve_near(self, increment: Increment, free: Array, forces: Array, length: float) -> IncrementAnswer:

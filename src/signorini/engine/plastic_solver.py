@@ -23,7 +23,7 @@ from itertools import pairwise
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray
 from signorini.attempt import MethodRun
 from signorini.engine.plastic_search import LineSearch
 from signorini.engine.solver import CondensedSolver, ContactSolver, Increment, IncrementAnswer
@@ -132,6 +132,7 @@ class PlasticSolver:
     elastic : the same bodies before anything yields
     tangents : makes bodies that have yielded
     interface, scale, absent : of the moment
+    ways : (k, m) combinations of the floating motions that occur, where some bodies rest; None: all of them
     """
 
     elastic: ContactSolver
@@ -139,6 +140,7 @@ class PlasticSolver:
     interface: Interface
     scale: Scale
     absent: BoolArray
+    ways: Array | None = None
 
     @property
     def name(self) -> str:
@@ -171,6 +173,17 @@ class PlasticSolver:
         elastic = self.elastic.under(interface, scale, absent)
         return replace(self, elastic=elastic, interface=interface, scale=scale, absent=absent)
 
+    def moving(self, ways: Array, interface: Interface, scale: Scale) -> PlasticSolver:
+        """Bodies of which some rest, see `CondensedSolver.moving`.
+
+        Parameters
+        ----------
+        ways : (k, m) the combinations of floating motions that occur
+        interface, scale : as of `under`
+        """
+        elastic = self.elastic if self.elastic.paths is None else self.elastic.paths.moving(ways, interface, scale)
+        return replace(self, elastic=elastic, interface=interface, scale=scale, ways=ways)
+
     def solve(self, increment: Increment) -> IncrementAnswer:
         """Solve one increment by backward Euler, contact and flow rule at its end."""
         rounds, system, bodies = _Rounds(), increment.system, self.tangents.yielding
@@ -179,10 +192,10 @@ class PlasticSolver:
         swelling = bodies.swelling(increment.point.factors)
         scale = 1.0 / np.sqrt(np.maximum(self.tangents.diagonal, np.finfo(np.float64).tiny))
         tangent = _Tangent(solver=self.elastic, K=system.K)
-        model, x, start = bodies.at_rest(state.displacement, old), T.T @ old.forces, increment.start
+        model, x = bodies.at_rest(state.displacement, old), T.T @ old.forces
         reached: tuple[IncrementAnswer, PlasticResponse] | None = None
         while True:
-            answer, tangent, x = self._contact(increment, tangent, x, start, rounds, model, reached)
+            answer, tangent, x = self._contact(increment, tangent, x, rounds, model, reached)
             if not answer.solved:
                 return answer
             with increment.clock.phase("plasticity"):
@@ -228,7 +241,6 @@ class PlasticSolver:
                 rounds.inputs, rounds.outputs = [], []
             else:
                 x = rounds.accelerated(x, self._right(after, tangent, answer, T), scale)
-            start = None if tangent.solver.paths is None else tangent.solver.paths.near(answer)
 
     def _right(self, after: PlasticResponse, tangent: _Tangent, answer: IncrementAnswer, T: sp.csr_array) -> Array:
         """x = f_p - S u, (z,), at an answer."""
@@ -267,21 +279,22 @@ class PlasticSolver:
         rounds.factorisations += 1
         with increment.clock.phase("assembly"):
             S, K, reduced = self.tangents.softened(at, left)
-        solver = self.tangents.solver(reduced, increment.clock)
-        return _Tangent(solver=solver.under(self.interface, self.scale, self.absent), K=K, S=S)
+        solver = self.tangents.solver(reduced, increment.clock).under(self.interface, self.scale, self.absent)
+        if self.ways is not None and solver.paths is not None:
+            solver = solver.paths.moving(self.ways, self.interface, self.scale)
+        return _Tangent(solver=solver, K=K, S=S)
 
     def _contact(
         self,
         increment: Increment,
         tangent: _Tangent,
         x: Array,
-        start: Array | IntArray | None,
         rounds: _Rounds,
         model: PlasticResponse,
         reached: tuple[IncrementAnswer, PlasticResponse] | None,
     ) -> tuple[IncrementAnswer, _Tangent, Array]:
         """Contact on the bodies of a round; on stiffer ones where that finds no answer, at last on the elastic ones."""
-        answer = self._on(increment, tangent, x, start)
+        answer = self._on(increment, tangent, x, None if reached is None else reached[0])
         if answer.solved or tangent.S is None or reached is None:
             return answer, tangent, x
         T = increment.system.constraints.transform
@@ -293,6 +306,6 @@ class PlasticSolver:
                 return answer, other, y
         return answer, tangent, x
 
-    def _on(self, increment: Increment, tangent: _Tangent, x: Array, start: Array | IntArray | None) -> IncrementAnswer:
+    def _on(self, increment: Increment, tangent: _Tangent, x: Array, near: IncrementAnswer | None) -> IncrementAnswer:
         system = replace(increment.system, K=tangent.K)
-        return tangent.solver.solve(replace(increment, system=system, f=increment.f + x, start=start))
+        return tangent.solver.solve(replace(increment, system=system, f=increment.f + x, near=near))

@@ -25,7 +25,7 @@ from signorini.errors import SolveFailed, told
 from signorini.model.step import Step
 from signorini.outcome import Outcome
 from signorini.plasticity.bodies import YieldingBodies
-from signorini.plasticity.measure import deviator, fullness, inner, size, yield_stress
+from signorini.plasticity.measure import FlowViolation, deviator, fullness, inner, size, violation, yield_stress
 from signorini.plasticity.state import PlasticState
 from signorini.solution.state import State
 
@@ -77,9 +77,14 @@ def follow_plastically(part: StepPart, step: Step, elastically: Callable[[StepPa
 
 def _frozen(part: StepPart) -> StepPart:
     """The part with bodies that answer as elastic ones whatever their stresses are."""
-    prepared, (_, plastic) = part.prepared, _points(part.prepared, part.before)
-    assert isinstance(prepared.solver, PlasticSolver)
-    return replace(part, prepared=replace(prepared, solver=prepared.solver.elastic, flowed=plastic.forces), whole=True)
+    plastic = _points(part.prepared, part.before)[1]
+
+    def elastic(prepared: Prepared) -> Prepared:
+        assert isinstance(prepared.solver, PlasticSolver)
+        return replace(prepared, solver=prepared.solver.elastic, flowed=plastic.forces)
+
+    awake = None if part.awake is None else elastic(part.awake)
+    return replace(part, prepared=elastic(part.prepared), awake=awake, whole=True)
 
 
 def _flows_at_once(part: StepPart) -> bool:
@@ -109,14 +114,28 @@ def _elastic_part(
         if lost is not None:
             raise lost
         assert followed is not None
-        return replace(followed, notes=(*followed.notes, ELASTIC)), None
+        return _below_yield(part.prepared, followed, ELASTIC), None
     if factor <= _AT_ONCE:
         return None, part
     cut = part.cut(factor, "event")
     begun = elastically(_frozen(cut))
     words = f"{part.where} at {part.interval.fraction(factor):.6%}: first yield, {_place(part.prepared, begun.after)}"
-    begun = replace(begun, notes=(*begun.notes, words))
-    return begun, part.rest(cut, begun.after)
+    return _below_yield(part.prepared, begun, words), part.rest(cut, begun.after)
+
+
+def _below_yield(prepared: Prepared, followed: FollowedPart, note: str) -> FollowedPart:
+    """What was followed elastically with a note, certified to leave no point beyond its yield stress."""
+    states = [*(shot.state for shot in followed.snapshots if shot.whole), followed.after]
+    fullest = max((_still(prepared, state) for state in states), key=lambda found: found.excess)
+    *others, last = followed.certificates
+    certificates = (*others, replace(last, plastic=fullest))
+    return replace(followed, certificates=certificates, notes=(*followed.notes, note))
+
+
+def _still(prepared: Prepared, state: State) -> FlowViolation:
+    """What a state in which nothing flows lacks of the flow rule."""
+    bodies, plastic = _points(prepared, state)
+    return violation(bodies, state.displacement, plastic, plastic, bodies.swelling(state.point.factors))
 
 
 def _points(prepared: Prepared, state: State) -> tuple[YieldingBodies, PlasticState]:

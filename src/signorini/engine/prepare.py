@@ -182,6 +182,11 @@ class Prepared(Examined, DiscreteModel):
         return replace(solver, bodies=bodies.factored(nodes, self.space.places, patience=patience))
 
     @property
+    def flows(self) -> bool:
+        """Whether points may yield: some body does, and what has flowed is not held as it is."""
+        return self.yielding is not None and not len(self.flowed)
+
+    @property
     def watched(self) -> bool:
         """Whether increments in space can be followed to events: condensed, and friction has straight branches."""
         interface = self.interface

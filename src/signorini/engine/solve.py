@@ -311,8 +311,6 @@ def _gives_way(prepared: Prepared, step: Step) -> bool:
 
 def _with_bodies_at_rest(stage: Stage, part: StepPart) -> FollowedPart:
     """Follow a straight part of a step while bodies that nothing touches rest; if something does, wherever they go."""
-    if part.prepared.yielding is not None:
-        return follow_plastically(part, stage.step, lambda calm: _without_flow(stage, calm))
     calm = resting(part)
     try:
         return _as_asked(stage, calm)
@@ -341,6 +339,8 @@ def _as_asked(stage: Stage, part: StepPart) -> FollowedPart:
     say so: what they reach behind a jump is a candidate.
     """
     step, interface = stage.step, part.prepared.interface
+    if part.prepared.flows:
+        return follow_plastically(part, step, lambda elastic: _without_flow(stage, elastic))
     jump = "follow" if step.follows_jumps else step.jump
     rubbing = bool((interface.friction.bounded & ~part.prepared.absent).any())
     if step.path != "exact" and (step.path is not None or step.increments is not None or not rubbing):

@@ -47,6 +47,7 @@ class Increment:
     state : before the increment
     last : the state an increment as long as this one before, where there is one
     start : what a condensed law starts from: states (a,) in the plane, ``r - h`` (3, a) in space; None: as the state is
+    near : what bodies a little different answered, to start from before all else
     floating : whether contact alone holds a body
     imposed : (dofs,) displacements that supports impose
     point : of the load history, at its end
@@ -59,6 +60,7 @@ class Increment:
     state: State
     last: State | None = None
     start: Array | IntArray | None = None
+    near: IncrementAnswer | None = None
     floating: bool
     imposed: Array
     point: LoadPoint
@@ -227,7 +229,7 @@ class CondensedSolver:
         forces, moved, free = np.zeros(len(offset)), np.zeros(len(offset)), np.zeros_like(f)
         residual, misfit, b, lost = f, offset[rows], np.zeros(len(rows)), 0.0
         guided = np.concatenate([np.zeros(law.pairs, dtype=np.bool_), law.locked.ravel()])
-        start = self._start(increment.state) if increment.start is None else increment.start
+        start = self._start(increment)
         for step in range(_REFINEMENTS + 1):
             with increment.clock.phase("complementarity"):
                 reduced = condensed.reduce(residual)
@@ -268,25 +270,18 @@ class CondensedSolver:
         """(k,) The combination of floating motions that a motion of the pairs (d a,) is."""
         return np.asarray(np.linalg.lstsq(self.law.motions, escape, rcond=None)[0], dtype=np.float64)
 
-    def near(self, answer: IncrementAnswer) -> Array | IntArray:
-        """What the law's solver starts from where a solution may be near another one, of bodies a little different."""
-        rows, law = self.condensed.active_rows, self.law
-        r = law.by_pair(answer.forces[rows] / self.condensed.root)
-        if law.piecewise_linear:
-            return law.pieces.coded(answer.status, r[0])
-        start: Array = r - law.by_pair(self.condensed.root * answer.moved[rows])
-        return start
-
-    def _start(self, state: State) -> Array | IntArray | None:
-        """What the law's solver starts from: the states of the pairs, in space their ``y = r - h``; None at rest."""
+    def _start(self, increment: Increment) -> Array | IntArray | None:
+        """What the law's solver starts from: states of the pairs, in space their ``y = r - h``; None at rest."""
+        state, near, law = increment.state, increment.near, self.law
+        if near is None and (increment.start is not None or not state.forces.any()):
+            return increment.start
         condensed, rows = self.condensed, self.condensed.active_rows
-        if not state.forces.any():
-            return None
-        r, law = self.law.by_pair(state.forces[rows] / condensed.root), self.law
+        r = law.by_pair((state if near is None else near).forces[rows] / condensed.root)
         if law.piecewise_linear:
-            return law.pieces.coded(state.status[condensed.active], r[0])
-        still = np.concatenate([state.gap, np.zeros_like(state.tangential)])[rows]
-        return r - law.by_pair(condensed.root * still)
+            return law.pieces.coded(state.status[condensed.active] if near is None else near.status, r[0])
+        still = np.concatenate([state.gap, np.zeros_like(state.tangential)])
+        start: Array = r - law.by_pair(condensed.root * (still if near is None else near.moved)[rows])
+        return start
 
     def follow(self, start: PathState, b: Array, stops: PathSettings | None, tell: Callable[[float], None]) -> Segment:
         """Follow the load of the law straight to another.
