@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -14,8 +14,10 @@ from numpy.typing import NDArray
 from signorini.arrays import BoolArray, IntArray
 from signorini.errors import InputError
 from signorini.interface.interface import Interface
+from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh
 from signorini.model.model import Model
+from signorini.model.plastic import Plastic
 from signorini.model.stage import Standing
 from signorini.short import Short
 from signorini.solution.scale import Loading
@@ -62,6 +64,7 @@ class Checkpoint(Short):
     posed : of every pair what the contacts themselves say, by name of an array of
         :class:`signorini.interface.interface.Interface`
     mesh : digest of points and cells
+    yields : bodies that yield, by name, with their laws
     """
 
     state: State
@@ -73,6 +76,7 @@ class Checkpoint(Short):
     node: IntArray
     posed: Mapping[str, NDArray[Any]]
     mesh: str
+    yields: Mapping[str, Plastic] = field(default_factory=dict)
 
     @staticmethod
     def of(
@@ -96,6 +100,7 @@ class Checkpoint(Short):
             node=interface.node,
             posed=_posed(interface),
             mesh=digest(model.mesh),
+            yields=_yields(model),
         )
 
     def check(self, model: Model, interface: Interface) -> None:
@@ -104,8 +109,8 @@ class Checkpoint(Short):
         Raises
         ------
         InputError
-            What differs: the mesh, the number of moving obstacles, the contacts, what one of them says, or a support or
-            load that the model lacks.
+            What differs: the mesh, the number of moving obstacles, the contacts, what one of them says, how a body
+            yields, or a support or load that the model lacks.
         """
         dofs = len(self.state.displacement)
         rigid = len(model.obstacles) + len(model.rigid_bodies)
@@ -120,6 +125,8 @@ class Checkpoint(Short):
         if not np.array_equal(self.node, interface.node) or not np.array_equal(self.contact, interface.contact):
             raise InputError("pairs other nodes than the model; expected the same contact surfaces", where=_WHERE)
         for words in self._contradictions(model, interface):
+            raise InputError(words, where=_WHERE)
+        for words in self._other_laws(model):
             raise InputError(words, where=_WHERE)
         strange = self.standing.released - {support.label for support in model.supports}
         if strange:
@@ -154,10 +161,26 @@ class Checkpoint(Short):
                     f"{expected}, expected the same{_ADVICE.get(name, '')}"
                 )
 
+    def _other_laws(self, model: Model) -> Iterator[str]:
+        """Bodies that yield otherwise in the model, in words."""
+        now = _yields(model)
+        for body in dict.fromkeys([*self.yields, *now]):
+            old, new = self.yields.get(body), now.get(body)
+            if old != new:
+                found, expected = ("does not yield" if law is None else str(law) for law in (old, new))
+                model_words = f"in the model it {expected}" if expected != found else "in the model its law is another"
+                yield f"has a body '{body}' that {found}; {model_words}, expected the same law"
+
 
 def _posed(interface: Interface) -> dict[str, NDArray[Any]]:
     """What contacts say of their pairs."""
     return interface.friction.parameters | {name: getattr(interface, name) for name in _POSED}
+
+
+def _yields(model: Model) -> dict[str, Plastic]:
+    """Bodies that yield, by name, with their laws."""
+    laws = {body.name: body.material.plastic for body in model.bodies if isinstance(body.material, Elastic)}
+    return {name: law for name, law in laws.items() if law is not None}
 
 
 def _spelled(value: Any) -> str:
