@@ -238,7 +238,7 @@ def _landed(part: StepPart, state: State, landing: Landing) -> FollowedPart:
         after=after,
         certificates=(certificate,),
         trace=((attempt,),),
-        snapshots=(Snapshot(load_factor=interval.factor(1.0), what="landing", state=after),),
+        snapshots=(Snapshot(number=interval.number, fraction=interval.high, what="landing", state=after),),
         notes=(note,),
     )
 
@@ -256,7 +256,7 @@ def _visited(path: _Path) -> tuple[Snapshot, ...]:
         pressed = recovered(prepared, state, state.point, start)
         lost = float(pressed.dissipation.sum() - state.dissipation.sum())
         last = balanced(prepared, state, pressed, lost)
-        found.append(Snapshot(load_factor=interval.factor(0.0), what="start", state=last))
+        found.append(Snapshot(number=interval.number, fraction=interval.low, what="start", state=last))
     reached = path.reached
     visited = {event.factor: event.state for event in segment.events if 0.0 < event.factor < reached}
     happens = set(visited)
@@ -273,7 +273,16 @@ def _visited(path: _Path) -> tuple[Snapshot, ...]:
         else:
             here = on_the_way(prepared, last, point, now)
         what = interval.ends if s == 1.0 else "event" if factor in happens else "increment"
-        found.append(Snapshot(load_factor=interval.factor(s), what=what, state=here, whole=known, worked=known))
+        found.append(
+            Snapshot(
+                number=interval.number,
+                fraction=interval.fraction(s),
+                what=what,
+                state=here,
+                whole=known,
+                worked=known,
+            )
+        )
     return tuple(found)
 
 

@@ -160,7 +160,7 @@ def _approach(part: StepPart, apart: BoolArray, motion: Array, loose: Array, rel
         after=after,
         certificates=(certified(prepared, after, after.tangential, part.where),),
         trace=(),
-        snapshots=(Snapshot(load_factor=part.interval.factor(0.0), what="approach", state=after),),
+        snapshots=(Snapshot(number=part.interval.number, fraction=part.interval.low, what="approach", state=after),),
         notes=tuple(notes),
     )
 

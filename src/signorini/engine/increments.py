@@ -73,7 +73,8 @@ def follow_increments(part: StepPart, number: int) -> FollowedPart:
         certificates.append(certificate)
         trace.append(tried)
         what = interval.ends if k == number else "increment"
-        snapshots.append(Snapshot(load_factor=interval.factor(k / number), what=what, state=state))
+        fraction = interval.fraction(k / number)
+        snapshots.append(Snapshot(number=interval.number, fraction=fraction, what=what, state=state))
     return so_far()
 
 

@@ -96,9 +96,9 @@ def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
     """
     if not part.prepared.watched:
         return None
-    at = part.interval.factor
+    within = part.interval.within
     states = [followed.before, *(shot.state for shot in followed.snapshots)]
-    ends = [0.0, *((shot.load_factor - at(0.0)) / (at(1.0) - at(0.0)) for shot in followed.snapshots)]
+    ends = [0.0, *(within(shot.fraction) for shot in followed.snapshots)]
     size, first = max(float(np.abs(state.forces).max(initial=0.0)) for state in states), 0.0
     for _ in range(_ZOOMS + 1):
         changes = [float(np.abs(two.forces - one.forces).max(initial=0.0)) for one, two in pairwise(states)]
@@ -112,7 +112,7 @@ def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
         except SolveFailed as failure:
             return failure if failure.status == Outcome.JUMP else None
         states = [before, *(shot.state for shot in finer.snapshots)]
-        ends = [low, *((shot.load_factor - at(0.0)) / (at(1.0) - at(0.0)) for shot in finer.snapshots)]
+        ends = [low, *(within(shot.fraction) for shot in finer.snapshots)]
     here, length = part.interval.fraction(low), part.interval.fraction(high) - part.interval.fraction(low)
     return SolveFailed(
         told(
@@ -147,8 +147,7 @@ def _done(part: StepPart, followed: FollowedPart | None) -> float:
     """How much of a part was followed, 0 .. 1."""
     if followed is None:
         return 0.0
-    interval = part.interval
-    return (followed.snapshots[-1].load_factor - interval.factor(0.0)) / (interval.high - interval.low)
+    return part.interval.within(followed.snapshots[-1].fraction)
 
 
 def _jump(part: StepPart, state: State, low: float, high: float) -> SolveFailed | None:

@@ -153,11 +153,11 @@ def fullest(prepared: Prepared, state: State) -> float:
 
 def _first_yield(part: StepPart, followed: FollowedPart) -> float | None:
     """The fraction of a part at which the first point yields on an elastic path; None where none does."""
-    prepared, at = part.prepared, part.interval.factor
+    prepared = part.prepared
     states = [(0.0, followed.before)]
     for shot in followed.snapshots:
         if shot.whole:
-            states.append(((shot.load_factor - at(0.0)) / (at(1.0) - at(0.0)), shot.state))
+            states.append((part.interval.within(shot.fraction), shot.state))
     for (begin, one), (end, two) in pairwise(states):
         if fullest(prepared, two) > 1.0 + _YIELD_TOL:
             return begin + (end - begin) * _root(prepared, one, two)

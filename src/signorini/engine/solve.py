@@ -241,7 +241,6 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[FollowedPart,
     """A step from what it changes at once through all its straight parts; and the load factors at its cycles' ends."""
     behind: list[FollowedPart] = []
     cycle_ends: list[float] = []
-    begin = float(stage.number - 1)
     at_events = stage.step.at == "events"
     # the work of temperatures needs the displacements, see signorini.engine.energy
     heated = any(load.temperature is not None for load in prepared.model.loads)
@@ -254,7 +253,7 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[FollowedPart,
             after=after,
             certificates=(certificate,),
             trace=(trace,),
-            snapshots=(Snapshot(load_factor=begin, what="change", state=after),),
+            snapshots=(Snapshot(number=stage.number, fraction=0.0, what="change", state=after),),
             notes=(RELAXED,),
         )
         behind.append(lightened(slipped, every=at_events, end=False, heated=heated))

@@ -50,6 +50,10 @@ class Interval:
         """Load factor at the fraction t of this interval."""
         return self.number - 1 + self.fraction(t)
 
+    def within(self, fraction: float) -> float:
+        """The fraction of this interval at a fraction of the step; no number of the step is in its digits."""
+        return (fraction - self.low) / (self.high - self.low)
+
 
 def straight_parts(stage: Stage, start: LoadPoint, end: LoadPoint) -> Iterator[tuple[Interval, LoadPoint]]:
     """The straight parts of a step, each with the point at its end.
@@ -138,7 +142,7 @@ class Snapshot:
 
     Attributes
     ----------
-    load_factor : step k goes from k - 1 to k
+    number, fraction : of the step, from 1, and the part of it, 0 .. 1
     what : happens there
     state : its displacement and external forces hold only where it is ``whole``, its work where it is ``worked``; gaps
         of pairs that the law is not asked of are NaN where it is neither
@@ -147,12 +151,18 @@ class Snapshot:
     worked : whether it was recovered
     """
 
-    load_factor: float
+    number: int
+    fraction: float
     what: What
     state: State
     whole: bool = True
     kept: bool = False
     worked: bool = True
+
+    @property
+    def load_factor(self) -> float:
+        """Step k goes from k - 1 to k."""
+        return self.number - 1 + self.fraction
 
     def light(self, flow: bool) -> Snapshot:
         """Without the displacement of the bodies, for a history may have thousands; ``flow``: with plastic strains."""
