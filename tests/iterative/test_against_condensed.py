@@ -99,6 +99,17 @@ def test_what_does_not_fit_is_iterated(monkeypatch):
         sg.solve(model)
 
 
+def test_bodies_that_yield_are_counted_with_their_tangents(monkeypatch):
+    """Factors of the elastic bodies and of a tangent stand beside each other: what just fits once is iterated."""
+    model = cubes(0.3, floating=False)
+    soft = [replace(body, material=replace(body.material, plastic=sg.Plastic(100.0))) for body in model.bodies]
+    yielding = replace(model, bodies=[replace(body, formulation="mean dilatation") for body in soft])
+    monkeypatch.setattr(memory_check, "condensing_bytes", lambda *_, **__: 0.7e9)
+    monkeypatch.setattr(memory_check, "available_memory", lambda: 1_000_000_000)
+    assert sg.solve(model).backend == "multifrontal"
+    assert sg.solve(yielding).backend == "iterative"
+
+
 def test_bodies_without_contact_are_iterated_too():
     block = sg.rectangle(width=2.0, height=1.0, nx=4, ny=2)
     model = sg.Model(

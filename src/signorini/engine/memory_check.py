@@ -15,6 +15,12 @@ from signorini.model.model import Model
 # measured on cubes of 13 000 to 1 000 000 unknowns and cylinders in the plane (benchmarks/memory.py), the least of each
 _ASSEMBLY = 20.0  # bytes an entry of K
 _ITERATION = 44.0  # bytes an entry of K more, for its blocks, the coarse grids and vectors
+_TANGENTS = (
+    90.0  # bytes an entry of K more where bodies yield, for patterns of tangents, gradients and states of points
+)
+_KEPT_TWICE = (
+    2.0  # times as much where bodies yield: what is made of a tangent stands beside that of the elastic bodies
+)
 # of the entries of all element matrices: how many K has in a regular mesh; of families that are not named more
 _SHARED = {"tetra": 0.17, "wedge": 0.29}
 _SHARED_ELSE = 0.39
@@ -41,13 +47,14 @@ def refuse_unassembled(model: Model) -> None:
         )
 
 
-def iterates(bodies: FreeBodies, interface: Interface, *, candidates: BoolArray, backend: str) -> bool:
+def iterates(bodies: FreeBodies, interface: Interface, *, candidates: BoolArray, backend: str, yields: bool) -> bool:
     """Whether contact is solved on the bodies as they are: where that is asked for, or nothing else fits.
 
     Parameters
     ----------
     bodies, interface, candidates : see :func:`signorini.condense.size.condensing_bytes`
     backend : as asked for
+    yields : whether tangents are made of the bodies too
 
     Raises
     ------
@@ -57,13 +64,15 @@ def iterates(bodies: FreeBodies, interface: Interface, *, candidates: BoolArray,
     K = bodies.K
     if not K.nnz:  # nothing deforms, so there is nothing to iterate on
         return False
-    room, iterated = available_memory(), _ITERATION * K.nnz
+    times, more = (_KEPT_TWICE, _TANGENTS * K.nnz) if yields else (1.0, 0.0)
+    room, iterated = available_memory(), times * _ITERATION * K.nnz + more
     if backend == ITERATIVE:
         if iterated <= room:
             return True
         needs, ways = f"{_size(iterated)} to iterate on", ""
     else:
-        condensed = condensing_bytes(bodies, interface, candidates=candidates, plenty=0.5 * room)
+        plenty = (0.5 * room - more) / times
+        condensed = times * condensing_bytes(bodies, interface, candidates=candidates, plenty=plenty) + more
         if condensed <= room:
             return False
         if backend == "auto" and iterated <= room:

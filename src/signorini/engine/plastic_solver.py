@@ -236,6 +236,7 @@ class PlasticSolver:
                 return replace(answer, outcome=Outcome.NOT_FOUND, message=words, mechanism=mechanism)
             reached = answer, after
             if step < 1.0 or self._pays(tangent, lack, kept, rounds):
+                del tangent  # one factor less while the next is made
                 tangent, model = self._softened(after, increment, rounds), after
                 x = self._right(after, tangent, answer, T)
                 rounds.inputs, rounds.outputs = [], []

@@ -333,7 +333,8 @@ def _made(
         with clock.phase("assembly"):
             reduced, relative = reduced_stiffness(K, T), sp.csr_array(interface.B @ T)
             bodies = FreeBodies(reduced, relative, examined.constraints.nodes, examined.space.places)
-            whole = iterates(bodies, interface, candidates=candidates, backend=backend)
+            yields = examined.model.yields
+            whole = iterates(bodies, interface, candidates=candidates, backend=backend, yields=yields)
             if whole:
                 solver = make_multipliers(examined, reduced, relative, candidates, settings)
         if not whole:
