@@ -90,7 +90,7 @@ def formulate(model: Model | Prepared, *, E_n: float, E_tau: float) -> PaperForm
     Raises
     ------
     InputError
-        If the model has no contact, a contact sticks or is compliant, or a penalty is not positive.
+        If a body yields, the model has no contact, a contact sticks or is compliant, or a penalty is not positive.
 
     References
     ----------
@@ -100,6 +100,9 @@ def formulate(model: Model | Prepared, *, E_n: float, E_tau: float) -> PaperForm
     prepared = model if isinstance(model, Prepared) else prepare(model)
     E_n, E_tau = number(E_n, ("E_n",), above=0.0), number(E_tau, ("E_tau",), above=0.0)
     interface, condensed = prepared.interface, prepared.paths.condensed
+    for i, body in enumerate(prepared.model.bodies):
+        if body.material.yields:
+            raise InputError(f"'{body.name}' yields; the paper's bodies are elastic", where=("body", i, "material"))
     for i, contact in enumerate(prepared.model.contacts):
         if contact.friction in ("stick", "tied") or contact.normal_compliance or contact.tangential_compliance:
             raise InputError("the paper's law has a finite friction and its own penalties", where=("contact", i))

@@ -32,9 +32,11 @@ def assess(prepared: Prepared, state: State | None = None) -> WellPosedness:
     prepared : under the law that is asked about
     state : at whose loads, and from whose slips, other equilibria are looked for; None asks about the model alone
     """
-    if prepared.solver.paths is None:
+    if prepared.solver.paths is None or prepared.yielding is not None:
         friction = _without_pressure(float(prepared.interface.friction.steepest.max(initial=0.0)))
         words = "not examined: that needs the condensed interface, and this model is solved by iteration"
+        if prepared.yielding is not None:
+            words = "not examined: what is known of uniqueness is of elastic bodies, and of this model some may yield"
         return WellPosedness(friction=friction, bound=None, verdict="not decided", words=words)
     if prepared.limited:  # other loads, and other solutions, may close pairs that are far apart
         prepared = replace(prepared.widened(), absent=prepared.absent)
