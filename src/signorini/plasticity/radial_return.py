@@ -86,7 +86,7 @@ class Points(NamedTuple):
         )
 
 
-@njit(cache=True, inline="always")
+@njit(cache=True, inline="always", error_model="numpy")
 def _yield_stress(laws: YieldLaws, body: int, p: float) -> tuple[float, float]:
     """Yield stress and its slope at an equivalent plastic strain."""
     n = laws.rows[body]
@@ -100,7 +100,7 @@ def _yield_stress(laws: YieldLaws, body: int, p: float) -> tuple[float, float]:
     return laws.stress[body, i] + slope * (p - laws.strain[body, i]), slope
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always", error_model="numpy")
 def _growth(laws: YieldLaws, body: int, old: Points, i: int, trial: Array, turn: Array) -> tuple[float, float, float]:
     """Growth dp of the equivalent plastic strain, size of the relative stress before it (``turn``), slope of F.
 
@@ -150,7 +150,7 @@ def _growth(laws: YieldLaws, body: int, old: Points, i: int, trial: Array, turn:
     return dp, norm, slope
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always", error_model="numpy")
 def _return(laws: YieldLaws, body: int, old: Points, i: int, new: Points, trial: Array, turn: Array) -> None:
     """Backward Euler at point i from the old state to the strain of the new one; ``trial``, ``turn``: room."""
     n, M, G2 = new.strain.shape[1], new.back.shape[1], 2.0 * laws.shear[body]
@@ -188,7 +188,28 @@ def _return(laws: YieldLaws, body: int, old: Points, i: int, new: Points, trial:
             new.back[i, k, c] = theta * (old.back[i, k, c] + step)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
+def _stay(laws: YieldLaws, body: IntArray, old: Points, new: Points, stays: BoolArray) -> None:
+    """Which points stay elastic, and their states: most of them, so without a call for each."""
+    strain, plastic, back = new.strain, old.plastic, old.back
+    n, M = strain.shape[1], back.shape[1]
+    for i in range(len(body)):
+        j, norm = body[i], 0.0
+        G2, mean = 2.0 * laws.shear[j], (strain[i, 0] + strain[i, 1] + strain[i, 2]) / 3.0
+        for c in range(n):
+            x = G2 * (strain[i, c] - mean - plastic[i, c]) if c < 3 else 0.5 * G2 * (strain[i, c] - plastic[i, c])
+            for k in range(M):
+                x -= back[i, k, c]
+                new.back[i, k, c] = back[i, k, c]
+            norm += x * x * (1.0 if c < 3 else 2.0)
+            new.plastic[i, c], new.direction[i, c] = plastic[i, c], 0.0
+        p = old.equivalent[i]
+        stress, _ = _yield_stress(laws, j, p)
+        new.equivalent[i], new.slack[i, 0], new.slack[i, 1], new.yields[i] = p, 0.0, 0.0, False
+        stays[i] = np.sqrt(norm) <= ROOT23 * stress * (1.0 + _RETURN_TOL)
+
+
+@njit(cache=True, error_model="numpy")
 def respond(laws: YieldLaws, body: IntArray, swelling: Array, old: Points, new: Points) -> None:
     """The state of every point at the strains of the new one, from the old state; plane stress finds the strain across.
 
@@ -201,10 +222,14 @@ def respond(laws: YieldLaws, body: IntArray, swelling: Array, old: Points, new: 
     """
     n = new.strain.shape[1]
     trial, turn = np.empty(n), np.empty(n)
+    stays = np.zeros(len(body), np.bool_)
+    if not laws.thin:
+        _stay(laws, body, old, new, stays)
     for i in range(len(body)):
         j = body[i]
         if not laws.thin:
-            _return(laws, j, old, i, new, trial, turn)
+            if not stays[i]:
+                _return(laws, j, old, i, new, trial, turn)
             continue
         G2, K, e = 2.0 * laws.shear[j], laws.bulk[j], new.strain[i]
         size = abs(e[0]) + abs(e[1]) + abs(e[3]) + abs(swelling[i]) + abs(old.plastic[i, 2])
@@ -227,7 +252,7 @@ def respond(laws: YieldLaws, body: IntArray, swelling: Array, old: Points, new: 
             e[2] = following
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def dual_stress(
     laws: YieldLaws, body: IntArray, old: Points, model: Points, dual: Array, new: Points, out: Array
 ) -> None:
