@@ -42,7 +42,7 @@ def read_frd(path: Path) -> tuple[Numbered, dict[int, list[int]], list[tuple[str
             part, count = "R", int(line[24:36])
         elif line.startswith(" -4"):
             fields.append((line[5:13].strip(), {}))
-            assert int(line[13:18]) in (4, 6)
+            assert int(line[13:18]) in (1, 4, 6)
         elif line.startswith(" -3"):
             assert count == {"2": len(nodes), "3": len(elements), "R": len(fields[-1][1]) if fields else 0}[part]
         elif line.startswith(" -1"):

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Set
+from collections.abc import Iterator, Mapping, Sequence, Set
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +18,13 @@ from signorini.output.fields import Fields
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult, ObstacleResult, Part, StepResult
 
+_TENSOR_ORDER = [0, 1, 2, 3, 5, 4]  # xx, yy, zz, xy, xz, yz of xx, yy, zz, xy, yz, xz
+_CELL_HEADS = {
+    "S": "stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz) ",
+    "PEEQ": "equivalent plastic strain (elem, integ.pnt.,pe)",
+    "PE": "plastic strains (elem, integ.pnt.,pexx,peyy,pezz,pexy,pexz,peyz) ",
+}
+"""As CalculiX prints them, which leaves no blank behind the second; the third is not one of its own."""
 _FORCES = {"CF": "surface force", "CFN": "normal surface force", "CFS": "shear surface force"}
 
 
@@ -66,9 +73,10 @@ def _lines(fields: Fields, step: StepResult, table: Table, time: str) -> Iterato
         if table.of == "nodes":
             yield from _nodes(model, step, table, quantity, end)
         elif table.of == "cells":
-            head = " stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz)"
-            yield from ("", f"{head} {end}", "")
-            yield from _stresses(fields, step, set(table.members.tolist()))
+            values = _in_cells(fields, step, quantity)
+            if values is not None:
+                yield from ("", f" {_CELL_HEADS[quantity]}{end}", "")
+                yield from _rows_of_cells(model, values, set(table.members.tolist()))
         elif quantity in _FORCES:
             yield from _forces(step.contacts[int(table.members[0])], quantity, f"{table.place} and time {time}")
         else:
@@ -94,13 +102,24 @@ def _turn(bodies: Mapping[str, ObstacleResult], name: str, quantity: str) -> Arr
     return _about_z(bodies[name].rotation if quantity == "U" else bodies[name].moment)
 
 
-def _stresses(fields: Fields, step: StepResult, cells: Set[int]) -> Iterator[str]:
-    order = [0, 1, 2, 3, 5, 4]
-    labels = fields.model.mesh.cell_labels
-    for index, stress in fields.cell_stresses(step):
-        for cell, points in zip(index.tolist(), stress[..., order], strict=True):
-            if cell in cells:
-                yield from (f"{labels[cell]:10d}{q:4d} {_spelled(values)}" for q, values in enumerate(points, start=1))
+def _in_cells(fields: Fields, step: StepResult, quantity: str) -> Sequence[tuple[IntArray, Array]] | None:
+    """Values (m, p, k) at the points of cells (m,), group by group; None of plastic strains where no body yields."""
+    if quantity == "S":
+        return [(cells, stress[..., _TENSOR_ORDER]) for cells, stress in fields.cell_stresses(step)]
+    found = []
+    for cells, plastic in fields.cell_plastic(step):
+        values = plastic.equivalent[:, None] if quantity == "PEEQ" else plastic.strain[:, _TENSOR_ORDER]
+        found.append((cells, values.reshape(len(cells), -1, values.shape[1])))
+    return found or None
+
+
+def _rows_of_cells(model: Model, values: Sequence[tuple[IntArray, Array]], own: Set[int]) -> Iterator[str]:
+    """A row for every point of some of the cells."""
+    labels = model.mesh.cell_labels
+    for cells, found in values:
+        for cell, points in zip(cells.tolist(), found, strict=True):
+            if cell in own:
+                yield from (f"{labels[cell]:10d}{q:4d} {_spelled(row)}" for q, row in enumerate(points, start=1))
 
 
 def _contacts(model: Model, step: StepResult, table: Table, quantity: str, time: str) -> Iterator[str]:

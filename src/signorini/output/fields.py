@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,7 +13,7 @@ from signorini.arrays import Array, IntArray
 from signorini.fem.space import Space, make_space
 from signorini.fem.stress import BodyStress, body_stresses, point_stresses, von_mises
 from signorini.model.model import Model
-from signorini.plasticity.fields import by_family
+from signorini.plasticity.fields import PlasticFields, by_family, joined, mean_fields, nodal_fields, point_fields
 from signorini.solution.results import Instant, StepResult
 
 State = StepResult | Instant
@@ -31,6 +31,8 @@ class BodyFields:
     families : of every block of cells
     cells : of every block (m, k), points in the order of meshio
     body : of every block (m,), which body its cells belong to
+    plastic : at the points; None where no body yields
+    in_cells : of every block, the means over its cells; empty where no body yields
     """
 
     points: Array
@@ -40,6 +42,8 @@ class BodyFields:
     families: tuple[str, ...]
     cells: tuple[IntArray, ...]
     body: tuple[IntArray, ...]
+    plastic: PlasticFields | None = None
+    in_cells: tuple[PlasticFields, ...] = ()
 
     @cached_property
     def von_mises(self) -> Array:
@@ -61,6 +65,7 @@ class Fields:
         self._shared: frozenset[State] = frozenset(shared)
         self._kept: dict[State, list[BodyStress]] = {}
         self._points: tuple[StepResult, list[tuple[IntArray, Array]]] | None = None
+        self._flow: tuple[State, PlasticFields] | None = None
 
     @cached_property
     def space(self) -> Space:
@@ -84,9 +89,22 @@ class Fields:
             self._points = step, list(found)
         return self._points[1]
 
+    def cell_plastic(self, step: StepResult) -> Iterator[tuple[IntArray, PlasticFields]]:
+        """Plastic fields in the cells, see :func:`signorini.plasticity.fields.point_fields`; none where none yields."""
+        if step.plastic is not None:
+            yield from point_fields(self.space, self.model, step.plastic.state)
+
     def plastic_strains(self, state: State) -> dict[str, Array]:
         """Plastic strains at the quadrature points of every family, where bodies yield."""
         return {} if state.plastic is None else by_family(self.space, self.model, state.plastic.state.strain)
+
+    def plastic(self, state: State) -> PlasticFields | None:
+        """Plastic fields at the nodes of every body, one after the other; those of one state are kept."""
+        if state.plastic is None:
+            return None
+        if self._flow is None or self._flow[0] is not state:
+            self._flow = state, joined(nodal_fields(self.space, self.model, state.plastic.state))
+        return self._flow[1]
 
     def at(self, state: State) -> BodyFields:
         """All bodies in a state whose displacement is known, one after the other in the order of the model."""
@@ -94,7 +112,8 @@ class Fields:
         stresses, mesh = self.stresses(state), self.model.mesh
         nodes = np.concatenate([part.nodes for part in stresses])
         owners = mesh.by_family(self.model.body_of_cells())
-        families, cells, body = [], [], []
+        families, cells, body, in_cells = [], [], [], []
+        means = {} if state.plastic is None else mean_fields(self.space, self.model, state.plastic.state)
         start = 0
         for i, part in enumerate(stresses):
             for (family, block), owner in zip(mesh.cells.items(), owners, strict=True):
@@ -103,6 +122,7 @@ class Fields:
                     families.append(family)
                     cells.append(start + np.searchsorted(part.nodes, own))
                     body.append(np.full(len(own), i))
+                    in_cells += [means[family].part(owner == i)] if means else []
             start += len(part.nodes)
         return BodyFields(
             points=mesh.points[nodes],
@@ -112,4 +132,6 @@ class Fields:
             families=tuple(families),
             cells=tuple(cells),
             body=tuple(body),
+            plastic=self.plastic(state),
+            in_cells=tuple(in_cells),
         )

@@ -31,7 +31,9 @@ _CONTACT = ("COPEN", "CSLIP1", "CSLIP2", "CPRESS", "CSHEAR1", "CSHEAR2")
 
 
 def write_frd(history: History, fields: Fields, path: Path, times: Sequence[float] = ()) -> None:
-    """Write the end of every step: DISP, FORC, STRESS (averaged at nodes) and CONTACT on the nonmortar nodes.
+    """Write the end of every step: DISP, FORC, STRESS (averaged at nodes), CONTACT on the nonmortar nodes.
+
+    Where bodies yield, also PE, which is what CalculiX calls the equivalent plastic strain.
 
     Nodes and elements keep their numbers in the mesh or deck.
 
@@ -106,6 +108,13 @@ def _blocks(fields: Fields, step: StepResult, used: IntArray) -> Iterator[tuple[
     stress = total[used] / np.maximum(count[used], 1)[:, None]
     tensor = [f" -5  {name:8s}    1    4{i:5d}{j:5d}\n" for name, i, j in _TENSOR]
     yield "STRESS", tensor, stress
+    plastic = fields.plastic(step)
+    if plastic is not None:
+        strain, first = np.zeros((len(model.mesh.points), 1)), 0
+        for part in fields.stresses(step):
+            first, begin = first + len(part.nodes), first
+            strain[part.nodes, 0] += plastic.equivalent[begin:first]
+        yield "PE", [" -5  PE          1    1    0    0\n"], strain[used] / np.maximum(count[used], 1)[:, None]
     if step.contacts:
         values = np.zeros((len(model.mesh.points), 6))
         for contact, result in zip(model.contacts, step.contacts, strict=True):

@@ -8,11 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
-from signorini.arrays import padded
+from signorini.arrays import Array, padded
 from signorini.meshio_fixes import complete_meshio
 from signorini.model.model import Model
 from signorini.output.atomic_write import atomic_write
 from signorini.output.fields import BodyFields
+from signorini.plasticity.fields import PlasticFields
 from signorini.solution.results import ContactResult
 from signorini.solution.surface import contact_faces, status_codes
 
@@ -24,7 +25,9 @@ def write_bodies(fields: BodyFields, path: Path) -> None:
 
     Point arrays: ``displacement`` (3 components, length), ``stress`` (xx, yy, zz, xy, yz, xz, force per area, tension
     positive; axisymmetric: x is the radius, y the axis, zz the hoop stress), ``von_mises`` and ``node`` (number in the
-    mesh or deck). Cell array: ``body`` (0, 1, ... in the order of the model).
+    mesh or deck). Cell array: ``body`` (0, 1, ... in the order of the model). Where bodies yield, points and cells
+    (their means) have ``peeq``, the equivalent plastic strain, ``plastic_strain`` (the tensor, components as those of
+    the stress) and ``back_stress`` (the sum of all).
     """
     import meshio
 
@@ -37,11 +40,26 @@ def write_bodies(fields: BodyFields, path: Path) -> None:
             "stress": fields.stress,
             "von_mises": fields.von_mises,
             "node": fields.node,
+            **({} if fields.plastic is None else _plastic(fields.plastic)),
         },
-        cell_data={"body": list(fields.body)},
+        cell_data={"body": list(fields.body), **_by_name(fields.in_cells)},
     )
     with atomic_write(path) as aside:
         meshio.write(aside, grid, file_format="vtu")
+
+
+def _plastic(fields: PlasticFields) -> dict[str, Array]:
+    """Arrays of plastic fields by name."""
+    return {"peeq": fields.equivalent, "plastic_strain": fields.strain, "back_stress": fields.back}
+
+
+def _by_name(blocks: Sequence[PlasticFields]) -> dict[str, list[Array]]:
+    """Arrays of the cells by name, one a block; none where there is no block."""
+    found: dict[str, list[Array]] = {}
+    for block in blocks:
+        for name, values in _plastic(block).items():
+            found.setdefault(name, []).append(values)
+    return found
 
 
 def write_surfaces(model: Model, contacts: Sequence[ContactResult], path: Path) -> None:

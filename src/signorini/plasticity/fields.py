@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
-from signorini.fem.kinematics import Group
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.fem.kinematics import Group, groups
 from signorini.fem.space import Space
 from signorini.fem.stress import at_best_points, nodal_averages
 from signorini.model.model import Model
@@ -35,10 +35,23 @@ class PlasticFields(Short):
     strain: Array
     back: Array
 
+    def part(self, own: IntArray | BoolArray) -> PlasticFields:
+        """The fields at some of the points."""
+        return PlasticFields(equivalent=self.equivalent[own], strain=self.strain[own], back=self.back[own])
+
     @staticmethod
     def of(rows: Array) -> PlasticFields:
         """From rows (n, 13) of all three side by side; what a fit makes of 0 may be below it and is cut."""
         return PlasticFields(equivalent=np.maximum(rows[:, 0], 0.0), strain=rows[:, 1:7], back=rows[:, 7:])
+
+
+def joined(parts: Sequence[PlasticFields]) -> PlasticFields:
+    """The fields of several parts, one after the other."""
+    return PlasticFields(
+        equivalent=np.concatenate([part.equivalent for part in parts]),
+        strain=np.concatenate([part.strain for part in parts]),
+        back=np.concatenate([part.back for part in parts]),
+    )
 
 
 def by_family(space: Space, model: Model, values: Array) -> dict[str, Array]:
@@ -62,8 +75,8 @@ def by_family(space: Space, model: Model, values: Array) -> dict[str, Array]:
     return found
 
 
-def nodal_fields(space: Space, model: Model, state: PlasticState) -> list[tuple[IntArray, PlasticFields]]:
-    """Sorted nodes of every body and the fields there, averaged in the body as its stresses are.
+def nodal_fields(space: Space, model: Model, state: PlasticState) -> list[PlasticFields]:
+    """The fields of every body at its nodes, averaged in the body as its stresses are and in the order of theirs.
 
     Parameters
     ----------
@@ -73,14 +86,13 @@ def nodal_fields(space: Space, model: Model, state: PlasticState) -> list[tuple[
     values = by_family(space, model, _side_by_side(state))
 
     def at_best(group: Group) -> Array:
-        found = at_best_points(group, values)
-        return np.zeros((len(group.index), group.block.to_best.shape[0], _WIDTH)) if found is None else found
+        return _at_best(group, values)
 
-    return [(nodes, PlasticFields.of(rows)) for nodes, rows in nodal_averages(space, model, at_best, _WIDTH)]
+    return [PlasticFields.of(rows) for _, rows in nodal_averages(space, model, at_best, _WIDTH)]
 
 
-def point_fields(space: Space, model: Model, state: PlasticState) -> Iterator[tuple[IntArray, list[PlasticFields]]]:
-    """Numbers of the cells that yield, group by group, and the fields of each at the points where stresses are best.
+def point_fields(space: Space, model: Model, state: PlasticState) -> Iterator[tuple[IntArray, PlasticFields]]:
+    """Numbers (m,) of all cells, group by group, and the fields at the p points where stresses are best, cell by cell.
 
     Parameters
     ----------
@@ -88,26 +100,32 @@ def point_fields(space: Space, model: Model, state: PlasticState) -> Iterator[tu
     state : of their points
     """
     values = by_family(space, model, _side_by_side(state))
-    for group in yielding_groups(space, model):
-        found = at_best_points(group, values)
-        if found is not None:
-            yield group.numbers, [PlasticFields.of(rows) for rows in found]
+    for group in groups(space, model):
+        yield group.numbers, PlasticFields.of(_at_best(group, values).reshape(-1, _WIDTH))
 
 
-def mean_fields(space: Space, model: Model, state: PlasticState) -> Mapping[str, PlasticFields]:
-    """The fields of every family that yields as means over its cells, by the volumes of the points.
+def mean_fields(space: Space, model: Model, state: PlasticState) -> dict[str, PlasticFields]:
+    """The fields of all cells of every family as means by the volumes of their points.
 
     Parameters
     ----------
     space, model : of the bodies
     state : of their points
     """
+    values = by_family(space, model, _side_by_side(state))
     found = {}
-    volumes = {block.family: space.volumes_of(block) for block in space.blocks}
-    for family, rows in by_family(space, model, _side_by_side(state)).items():
-        weight = volumes[family] / volumes[family].sum(axis=1)[:, None]
-        found[family] = PlasticFields.of(np.einsum("mq,mqc->mc", weight, rows))
+    for block, volumes in zip(space.blocks, space.volumes, strict=True):
+        rows = values.get(block.family, np.zeros((len(block.cells), 1, _WIDTH)))
+        weight = volumes[:, : rows.shape[1]]
+        mean = np.einsum("mq,mqc->mc", weight, rows) / weight.sum(axis=1)[:, None]
+        found[block.family] = PlasticFields.of(mean)
     return found
+
+
+def _at_best(group: Group, values: Mapping[str, Array]) -> Array:
+    """(m, p, 13) Rows of a group where stresses are best; 0 where nothing yields."""
+    found = at_best_points(group, values)
+    return np.zeros((len(group.index), group.block.to_best.shape[0], _WIDTH)) if found is None else found
 
 
 def _side_by_side(state: PlasticState) -> Array:
