@@ -3,7 +3,7 @@
 
 import pytest
 
-from signorini.verify import fenet, hertz, patches, punches, rings, scalar, solids
+from signorini.verify import fenet, hertz, indentation, patches, plasticity, punches, rings, scalar, solids
 from signorini.verify.check import Check
 
 CASES = (
@@ -24,6 +24,11 @@ CASES = (
     rings.drawn_press_fits,
     scalar.scalar_signorini,
     solids.hollow,
+    plasticity.hills_tube,
+    plasticity.flat_punch,
+    plasticity.yielding_press_fits,
+    plasticity.bending,
+    indentation.first_yield,
 )
 
 

@@ -29,8 +29,8 @@ E, NU = 200.0, 0.3
 
 
 def tube(
-    *,
     pressure: float,
+    *,
     n: int,
     cells: Cells = "quad",
     kind: Kind = "plane strain",
@@ -68,14 +68,14 @@ def tube(
     )
 
 
-def footing(*, n: int, cells: Cells = "quad", pressure: float = 0.0, depth: float = 0.0, rough: bool = False) -> Model:
+def footing(pressure: float = 0.0, *, n: int, cells: Cells = "quad", depth: float = 0.0, rough: bool = False) -> Model:
     """Half of a block 12 x 5 with a flat punch of half-width 1 on it, pressed by a mean pressure or driven.
 
     Parameters
     ----------
+    pressure : mean, force per area; at factor 1 of "punch"
     n : cells along half the punch
     cells : "quad", "quad8", "triangle6", ...
-    pressure : mean, force per area; at factor 1 of "punch"
     depth : to which the punch is driven instead, length
     rough : whether it holds the surface sideways
     """
@@ -148,4 +148,26 @@ def round_body(
         loads=loads,
         contacts=[Contact("seat", Plane(point=(0.0, 0.0), normal=(0.0, 1.0)), name="contact")],
         steps=steps,
+    )
+
+
+def bent_beam(*, curvature: float, n: int, cells: Cells = "quad8") -> Model:
+    """A slice of a beam of height 2 and length 1 whose end sections turn but stay plane, E 1000 k, nearly nu 0.5.
+
+    Parameters
+    ----------
+    curvature : per length; at factor 1 of the supports "turn.0", "turn.1", ... of the nodes of the right end
+    n : cells through the height
+    cells : "quad", "quad8", ...
+    """
+    mesh = rectangle(x=np.linspace(0.0, 1.0, n // 4 + 1), y=np.linspace(-1.0, 1.0, n + 1), cells=cells)
+    ends = mesh.points[np.unique(mesh.facets("right")[0])]
+    turned = [Support(tuple(at), u=(-curvature * at[1], None), name=f"turn.{i}") for i, at in enumerate(ends)]
+    (name,) = mesh.bodies
+    return Model(
+        mesh,
+        title="Beam bent beyond yield",
+        bodies=[Body(name, Elastic(E=1000.0 * SHEAR_STRENGTH, nu=0.4999, plastic=PERFECT))],
+        supports=[Support("left", u=(0.0, None)), Support((0.0, -1.0), u=(None, 0.0), name="height"), *turned],
+        steps=[Step(name="bend", increments=1)],
     )

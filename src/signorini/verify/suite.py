@@ -12,8 +12,10 @@ from signorini.verify import (
     fenet,
     half_planes,
     hertz,
+    indentation,
     one_node,
     patches,
+    plasticity,
     punches,
     rates,
     rings,
@@ -68,6 +70,11 @@ QUICK: tuple[Case, ...] = (
     space.mindlin_cycle,
     space.press_fit_as_slab,
     rates.smooth_contact,
+    plasticity.hills_tube,
+    plasticity.flat_punch,
+    plasticity.yielding_press_fits,
+    plasticity.bending,
+    indentation.first_yield,
 )
 SLOW: tuple[Case, ...] = (
     cylinder.small_load,
@@ -81,6 +88,8 @@ SLOW: tuple[Case, ...] = (
     space.mindlin_cycle_exact,
     rates.smooth_contact_refined,
     rates.corners,
+    plasticity.flat_punch_refined,
+    indentation.full_plasticity,
 )
 
 

@@ -38,6 +38,12 @@ class YieldingPoints:
         s[:, :3] -= s[:, :3].mean(axis=1)[:, None]
         return np.sqrt(1.5 * ((s[:, :3] ** 2).sum(axis=1) + 2.0 * (s[:, 3:] ** 2).sum(axis=1)))
 
+    @property
+    def meridian(self) -> tuple[Array, Array, Array]:
+        """Radius, radial and hoop stress of axisymmetric bodies, (p,) each."""
+        return self.places[:, 0], self.stress[:, 0], self.stress[:, 2]
+
+    @property
     def polar(self) -> tuple[Array, Array, Array]:
         """Radius, radial and hoop stress about the origin of the plane, (p,) each."""
         r = np.hypot(*self.places.T)

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""B13: round bodies on a rigid plane: first yield below the surface, and the pressure when all around them flows."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+
+from signorini.api import solve
+from signorini.gallery.yielding import NU, E, round_body
+from signorini.meshing.plane import Cells
+from signorini.model.model import Kind
+from signorini.model.plastic import Plastic
+from signorini.model.step import Step
+from signorini.reference.hertz import contact_modulus
+from signorini.reference.plasticity import first_yield_line, first_yield_point, punch_limit
+from signorini.verify.check import Check, checks_of
+
+_RADIUS = 1000.0
+_MODULUS = contact_modulus((E, NU))
+_MESHES: tuple[tuple[Cells, int, float], ...] = (("quad", 16, 0.015), ("quad8", 8, 0.008))
+"""Cells, how many in a half-width of the elastic contact; what the pressure of first yield may be off."""
+
+_SOFT_YIELD_STRESS, _SMALL_RADIUS = (
+    0.02,
+    100.0,
+)  # yield stress and radius: E* a / R Y is 110 at a contact of half-width 1
+_INDENTED: tuple[tuple[Kind, float, float, float, str], ...] = (
+    ("axisymmetric", 0.0036, 2.9, 0.1 / 2.9, "2.8 to 3.0 Y: Johnson (1985), section 6.3; Jackson, Green (2005)"),
+    (
+        "plane strain",
+        0.0055,
+        2.0 / np.sqrt(3.0) * 0.5 * punch_limit(1.0),
+        0.07,
+        "Johnson (1985), section 6.3: to 5.14 k",
+    ),
+)
+"""Kind, approach of the far side, mean pressure over Y, tolerance and source."""
+
+
+_POINTS: tuple[tuple[Kind, float], ...] = (("plane strain", 1.85), ("axisymmetric", 1.65))
+"""Kind, and p_0 / Y of an elastic contact under the whole load, a little beyond first yield."""
+
+
+def first_yield() -> Iterator[Check]:
+    """Line and point: the elastic path ends where the first point yields."""
+    for kind, most in _POINTS:
+        point = kind == "axisymmetric"
+        pressure, depth = first_yield_point(NU) if point else first_yield_line(NU)
+        full = 2.0 * _MODULUS / (np.pi * _RADIUS) if point else _MODULUS / (2.0 * _RADIUS)
+        for cells, n, tolerance in _MESHES:
+            law, step = Plastic(full / most), Step(increments=1)
+            body = round_body(n=n, kind=kind, cells=cells, plastic=law, radius=_RADIUS, steps=[step])
+            share, z = _first_yield(solve(body).last.notes)
+            width = share ** (1.0 / 3.0 if point else 0.5)  # of the contact, over that under the whole load
+            yield from checks_of(
+                f"B13 first yield, {'point' if point else 'line'} contact, {cells}, {n} cells in its half-width",
+                ("p_0 / Y", most * width, pressure, tolerance),
+                ("depth over half-width, to a cell", z / width, depth, 1.0 / n / width / depth),
+                source="Johnson (1985), sections 4.2, 3.4, 6.2",
+            )
+
+
+def _first_yield(notes: tuple[str, ...]) -> tuple[float, float]:
+    """The part of the step and the depth that a note names; NaN, which passes nothing, where none does."""
+    found = re.search(r" at ([\d.]+)%: first yield, in '\w+' at \(\S+, (\S+)\)", " ".join(notes))
+    return (float(found[1]) / 100.0, float(found[2])) if found else (float("nan"), float("nan"))
+
+
+def full_plasticity() -> Iterator[Check]:
+    """A ball and a cylinder pressed in until the mean pressure no longer grows.
+
+    Pressures are read where a node touches: there the edge of contact is where that node is.
+    """
+    count = 36
+    for kind, approach, expected, tolerance, source in _INDENTED:
+        step = Step(scale={"press": np.linspace(1.0 / count, 1.0, count).tolist()}, increments=1)
+        body = round_body(
+            n=24,
+            kind=kind,
+            plastic=Plastic(_SOFT_YIELD_STRESS),
+            radius=_SMALL_RADIUS,
+            seat=1.0,
+            size=20.0,
+            approach=approach,
+            steps=[step],
+        )
+        found = []
+        contacts = [instant.contacts[0] for instant in solve(body).last.instants]
+        for before, contact in pairwise(contacts):
+            if contact.closed.sum() == before.closed.sum() + 1:
+                a = contact.points[contact.closed, 0].max()
+                force = 0.5 * (before.pressure @ before.area + contact.pressure @ contact.area)
+                found.append((a, force / (np.pi * a**2 if kind == "axisymmetric" else a) / _SOFT_YIELD_STRESS))
+        far = [pressure for a, pressure in found if a > 0.8]
+        yield from checks_of(
+            f"B13 full plasticity, {'ball' if kind == 'axisymmetric' else 'cylinder'}, E* a / R Y 88 and more",
+            ("mean pressure / Y", np.mean(far) if far else np.nan, expected, tolerance),
+            source=source,
+        )

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""B12: bodies that yield. Hill's tube, the flat punch, press fits and bending beyond yield."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.engine.solve import solve
+from signorini.gallery.press_fit import press_fit
+from signorini.gallery.yielding import PERFECT, SHEAR_STRENGTH, bent_beam, footing, tube
+from signorini.meshing.plane import Cells
+from signorini.model.body import Body
+from signorini.model.material import Elastic
+from signorini.model.model import Kind, Model
+from signorini.model.step import Step
+from signorini.outcome import Outcome
+from signorini.reference.plasticity import HillTube, YieldingBeam, punch_limit, yielding_press_fit_pressure
+from signorini.solution.history import History
+from signorini.verify.check import Check, checks_of
+from signorini.verify.yielding_points import yielding_points
+
+_HILL = HillTube(inner=1.0, outer=2.0, shear_strength=SHEAR_STRENGTH)
+_PRESSURE = 1.2 * SHEAR_STRENGTH
+_PRESSED = (Step(increments=1),)
+_RELEASED = (*_PRESSED, Step(scale={"pressure": 0.0}))
+_AGAIN = (*_RELEASED, Step(scale={"pressure": 1.1}, increments=1))
+
+_TUBES: tuple[tuple[Cells, int, Kind, tuple[float, float, float]], ...] = (
+    ("quad", 16, "plane strain", (0.032, 3e-3, 1e-3)),
+    ("quad8", 8, "plane strain", (0.007, 1e-4, 1e-4)),
+    ("triangle6", 8, "plane strain", (0.02, 0.03, 4e-3)),
+    ("quad", 32, "axisymmetric", (0.016, 3e-3, 1e-3)),
+    ("quad8", 8, "axisymmetric", (0.007, 1e-4, 1e-4)),
+)
+"""Cells, how many through the wall; what stresses over k (root of the mean square), expansion and limit may be off."""
+
+_COARSE_PUNCHES: tuple[tuple[Cells, int, float], ...] = (("quad", 8, 0.06), ("quad8", 4, 0.06), ("triangle6", 4, 0.02))
+_FINE_PUNCHES: tuple[tuple[Cells, int, float], ...] = (("quad", 32, 0.02), ("quad8", 16, 0.02), ("triangle6", 8, 0.01))
+"""Cells, how many under half the punch; its edge is singular: errors are of the first order in their size."""
+
+_NEXT_LOAD = 0.998  # of the limit that is named: the next load
+_ATTEMPTS = 8  # loads, from twice the limit on: 2 to 5 are the rule
+
+_FITS: tuple[tuple[Cells, int, tuple[int, int]], ...] = (
+    ("quad", 12, (32, 32)),
+    ("quad", 12, (24, 32)),
+    ("quad8", 6, (12, 12)),
+)
+"""Cells, how many through each ring and along the fit."""
+
+
+def hills_tube() -> Iterator[Check]:
+    """How far it flows, its stresses, what is left of them, when it flows again, its limit."""
+    for cells, n, kind, (stresses, bore, limit) in _TUBES:
+        loaded, released, again = (
+            solve(tube(pressure=_PRESSURE, n=n, cells=cells, kind=kind, steps=steps))
+            for steps in (_PRESSED, _RELEASED, _AGAIN)
+        )
+        points = yielding_points(loaded)
+        share = float(points.weights[points.equivalent > 0.0].sum() / points.weights.sum())
+        expansion = float(np.linalg.norm(loaded.last.displacement, axis=1).max())
+        above, below = _limit(partial(tube, n=n, cells=cells, kind=kind), 2.0 * _HILL.limit)
+        pressure = _first_yield(again, 2) * 1.1 * _PRESSURE
+        yield from checks_of(
+            f"B12 Hill's tube, b/a 2, p 1.2 k, {kind}, {cells}, {n} cells",
+            ("plastic radius", np.sqrt(1.0 + 3.0 * share), _HILL.plastic_radius(_PRESSURE), 0.02),
+            ("stresses under pressure, error / k", _lack(loaded, _HILL.stress), 0.0, stresses),
+            ("residual stresses, error / k", _lack(released, _HILL.residual_stress), 0.0, stresses),
+            ("expansion of the bore", expansion, _HILL.expansion(_PRESSURE, (1000.0, 0.4999)), bore),
+            ("autofrettage: pressure at which it flows again", pressure, _PRESSURE, 1e-6),
+            ("pressure beyond which flow is proved", above, _HILL.limit, limit),
+            ("pressure that is carried", below, _HILL.limit, limit + 1.0 - _NEXT_LOAD),
+            source="Hill (1950), chapter V.2",
+        )
+
+
+def flat_punch() -> Iterator[Check]:
+    """On coarse meshes."""
+    yield from _punches(_COARSE_PUNCHES, (False,))
+
+
+def flat_punch_refined() -> Iterator[Check]:
+    """On fine ones, smooth and rough: within 2 % with every family of cells."""
+    yield from _punches(_FINE_PUNCHES, (False, True))
+
+
+def _punches(meshes: tuple[tuple[Cells, int, float], ...], rough: tuple[bool, ...]) -> Iterator[Check]:
+    """The limit load of the mesh from above, a load below it that is carried, and the punch driven far."""
+    exact = punch_limit(SHEAR_STRENGTH)
+    for cells, n, tolerance in meshes:
+        for holds in rough:
+            above, below = _limit(partial(footing, n=n, cells=cells, rough=holds), 2.0 * exact)
+            driven = -solve(footing(depth=0.08, n=n, cells=cells, rough=holds)).last.reactions["punch"][1]
+            yield from checks_of(
+                f"B12 flat punch, {'rough' if holds else 'smooth'}, {cells}, {n} cells under half of it",
+                ("mean pressure beyond which flow is proved", above, exact, tolerance),
+                ("mean pressure that is carried", below, exact, tolerance),
+                ("mean pressure at depth 0.08", driven, exact, tolerance),
+                source="Prandtl (1920): (2 + pi) k",
+            )
+
+
+def yielding_press_fits() -> Iterator[Check]:
+    """A shaft that stays elastic in a hub that yields in part or nearly as a whole."""
+    hub = replace(_HILL, inner=2.0, outer=3.0)
+    bodies = {"inner_body": (2000.0, 0.4999), "outer_body": (1000.0, 0.4999)}
+    materials = {"shaft": Elastic(E=2000.0, nu=0.4999), "hub": Elastic(E=1000.0, nu=0.4999, plastic=PERFECT)}
+    for cells, n, along in _FITS:
+        rows = []
+        for interference in (0.004, 0.0055, 0.007):
+            elastic = press_fit(
+                n_radial=n, n_angular=along, kind="plane strain", interference=interference, cells=cells
+            )
+            parts = [Body(name, material, formulation="mean dilatation") for name, material in materials.items()]
+            contact = solve(replace(elastic, bodies=parts, steps=[Step(increments=1)])).contact("fit")
+            mean = contact.pressure @ contact.area / contact.area.sum()
+            exact = yielding_press_fit_pressure(hub, bore=1.0, interference=interference, **bodies)
+            rows.append((f"pressure, interference {interference:g}", mean, exact, 2e-3))
+        yield from checks_of(
+            f"B12 press fit beyond yield, {cells}, {along[0]} : {along[1]} cells", *rows, source="Lame; Hill (1950)"
+        )
+
+
+def bending() -> Iterator[Check]:
+    """Moments of a wide beam at curvatures up to five times that of first yield."""
+    Y = float(np.sqrt(3.0)) * SHEAR_STRENGTH
+    beam = YieldingBeam(height=2.0, E=1000.0 * SHEAR_STRENGTH, nu=0.4999, yield_stress=Y, plane_strain=True)
+    meshes: tuple[tuple[Cells, int, float], ...] = (("quad", 32, 2e-3), ("quad8", 8, 1e-3))
+    for cells, n, tolerance in meshes:
+        rows = []
+        for part in (0.9, 2.0, 5.0):
+            model = bent_beam(curvature=part * beam.yield_curvature, n=n, cells=cells)
+            end = np.unique(model.mesh.facets("right")[0])
+            moment = -solve(model).last.external[end, 0] @ model.mesh.points[end, 1]
+            exact = beam.moment(part * beam.yield_curvature)
+            rows.append((f"moment at {part:g} of the curvature of first yield", moment, exact, tolerance))
+        case = f"B12 bending beyond yield, plane strain, {cells}, {n} cells"
+        yield from checks_of(case, *rows, source="Hill (1950), chapter IV.6")
+
+
+def _lack(history: History, stress: Callable[[Array, float], tuple[Array, Array]]) -> float:
+    """Root of the mean square of the errors of radial and hoop stress, over k."""
+    points = yielding_points(history)
+    r, *found = points.meridian if history.model.kind == "axisymmetric" else points.polar
+    square = sum((one - two) ** 2 for one, two in zip(found, stress(r, _PRESSURE), strict=True))
+    return float(np.sqrt(points.weights @ square / points.weights.sum())) / SHEAR_STRENGTH
+
+
+def _limit(model_at: Callable[[float], Model], beyond: float) -> tuple[float, float]:
+    """The limit load of a mesh: a load beyond which flow is proved, and one a little less that is carried.
+
+    A bound that is named from a load far beyond it is not the smallest; one named from itself is.
+
+    Parameters
+    ----------
+    model_at : the model under a load
+    beyond : a load that cannot be carried
+    """
+    load, above = beyond, float("nan")
+    for _ in range(_ATTEMPTS):
+        history = solve(model_at(load), raise_on_failure=False)
+        if history.solved:
+            return above, load
+        if history.status != Outcome.NO_EQUILIBRIUM:
+            break
+        above = _said(r"flow plastically at ([\d.]+)%", history.message) * load
+        load = _NEXT_LOAD * above
+    return above, float("nan")
+
+
+def _first_yield(history: History, step: int) -> float:
+    """The part of a step at which it says that points yield."""
+    return _said(r" at ([\d.]+)%: first yield", " ".join(history.steps[step].notes))
+
+
+def _said(pattern: str, words: str) -> float:
+    """A percentage as a part; NaN, which passes nothing, where it is not said."""
+    found = re.search(pattern, words)
+    return float(found[1]) / 100.0 if found else float("nan")
