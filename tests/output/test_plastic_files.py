@@ -11,6 +11,9 @@ import pytest
 
 import signorini as sg
 from signorini.cli import main
+from signorini.plot.field import draw_peeq
+from signorini.plot.picture_data import PictureData
+from signorini.plot.solid import draw_solid_peeq
 from tests.output.test_keyword_files import read_frd
 
 DECK = """*NODE, NSET=ALL
@@ -185,3 +188,28 @@ def test_models_that_cannot_yield_have_nothing_of_it(tmp_path: Path) -> None:
     solution.write(tmp_path / "elastic.vtu")
     assert set(meshio.read(tmp_path / "elastic.vtu").point_data) == {"displacement", "stress", "von_mises", "node"}
     assert "plastic" not in str(solution)
+
+
+def test_plastic_strains_are_drawn(out: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plot", str(out), "--what", "peeq"]) == 0
+    assert capsys.readouterr().out == f"{out / 'peeq.png'}\n"
+    figure = draw_peeq(PictureData(sg.load(out)))
+    assert "equivalent plastic strain" in {axes.get_ylabel() for axes in figure.axes}
+
+
+def test_plastic_strains_in_space_are_drawn_on_the_skin() -> None:
+    model = sg.Model(
+        sg.box(x=[0, 1, 2], y=[0, 1], z=[0, 1]),
+        bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.3, plastic=sg.Plastic(1.0, hardening=20.0)))],
+        supports=[sg.Support("left", u=(0, 0, 0))],
+        loads=[sg.Load("right", traction=(1.5, 0, 0))],
+    )
+    figure = draw_solid_peeq(PictureData(sg.solve(model)))
+    assert any("equivalent plastic strain on the skin" in axes.get_ylabel() for axes in figure.axes)
+
+
+def test_elastic_bodies_have_no_plastic_strain_to_draw(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    example = Path(__file__).parents[2] / "examples" / "block_drag.toml"
+    assert main(["run", str(example), "-o", str(tmp_path / "out"), "--quiet"]) == 0
+    assert main(["plot", str(tmp_path / "out"), "--what", "peeq"]) == 2
+    assert "peeq: has no body that yields" in capsys.readouterr().err

@@ -14,10 +14,10 @@ from signorini.output.folder import read_folder, read_results
 from signorini.output.table import align
 from signorini.plot.contact import draw_contacts
 from signorini.plot.escape import plot_escape
-from signorini.plot.field import draw_mesh, draw_stress
+from signorini.plot.field import draw_mesh, draw_peeq, draw_stress
 from signorini.plot.history import draw_history
 from signorini.plot.picture_data import PictureData
-from signorini.plot.solid import draw_solid_mesh, draw_solid_stress
+from signorini.plot.solid import draw_solid_mesh, draw_solid_peeq, draw_solid_stress
 from signorini.plot.style import literal
 from signorini.plot.view import write_view
 from signorini.solution.history import History
@@ -58,6 +58,8 @@ def _draw(history: History, what: str) -> Figure:
     data = PictureData(history)
     if what == "stress":
         return draw_solid_stress(data) if data.solid else draw_stress(data)
+    if what == "peeq":
+        return draw_solid_peeq(data) if data.solid else draw_peeq(data)
     if what == "mesh":
         return draw_solid_mesh(data) if data.solid else draw_mesh(data)
     return draw_history(data) if what == "history" else draw_contacts(data)

@@ -40,7 +40,7 @@ _ASIDE_PREFIX = ".writing-"  # of folders in which files are written before they
 _OWN_NAMES = re.compile(
     r"(summary\.json|(contact|history)\.csv|state\.npz|solution(_\d{4,})?\.vtu|contact\.(vtu|pvd)|"
     r"solution\.(pvd|h5|frd|dat)|"
-    r"(contact|stress|mesh|view|history)\.png)"
+    r"(contact|stress|peeq|mesh|view|history)\.png)"
 )
 _OWN_FIELD_NAMES = re.compile(r"(solution|contact)_\d{4,}_\d{4,}\.vtu")
 

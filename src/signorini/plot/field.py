@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of the bodies: von Mises stress on the deformed mesh, and the mesh with its contact nodes."""
+"""Pictures of the bodies: a field on the deformed mesh, and the mesh with its contact nodes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.plot.picture_data import PictureData
+from signorini.plot.picture_data import PictureData, Scalar
 from signorini.plot.style import INK, STATUS_INK, colour_bar, entitle, frame, label, legend_below, round_number
 from signorini.plot.walls import Wall, draw_walls
 
@@ -33,9 +33,19 @@ _MIN_SEEN = 0.01  # of the size of what is shown: displacements at least as larg
 
 
 def draw_stress(data: PictureData) -> Figure:
-    """Von Mises stress of the last state on the deformed bodies, whole and at the contact.
+    """Von Mises stress of the bodies, see `_draw_field`."""
+    return _draw_field(data, data.stress)
 
-    The title says by what the displacements are multiplied. Colours end at the largest stress at the contact.
+
+def draw_peeq(data: PictureData) -> Figure:
+    """Equivalent plastic strain of the bodies, see `_draw_field`."""
+    return _draw_field(data, data.peeq)
+
+
+def _draw_field(data: PictureData, scalar: Scalar) -> Figure:
+    """A field of the last state on the deformed bodies, whole and at the contact.
+
+    The title says by what the displacements are multiplied. Colours end at the largest value at the contact.
     """
     from matplotlib.ticker import MaxNLocator
     from matplotlib.tri import Triangulation
@@ -46,18 +56,18 @@ def draw_stress(data: PictureData) -> Figure:
     factor = drawn_factor(float(np.ptp(shown, axis=0).max()), grid.displacement)
     moved = grid.points + factor * grid.displacement
     inside = _inside(window, moved)
-    top, largest = float(grid.von_mises[inside].max()), float(grid.von_mises.max())
+    top, largest = float(scalar.values[inside].max()), float(scalar.values.max())
     levels = np.linspace(0.0, max(top, 1e-300), 25)
     mesh = Triangulation(moved[:, 0], moved[:, 1], _triangles(data.outlines))
     figure, panels = _canvas(moved, window, data.walls)
     for axes in panels:
         extend = "max" if largest > top else "neither"
-        field = axes.tricontourf(mesh, grid.von_mises, levels=levels, cmap="viridis", extend=extend)
+        field = axes.tricontourf(mesh, scalar.values, levels=levels, cmap="viridis", extend=extend)
         _edges(axes, data.outlines, moved, colour="#ffffff", alpha=0.35)
         if factor == 1.0:  # otherwise bodies are not drawn where obstacles have stopped them
             draw_walls(axes, data.walls, moved=True)
     beyond = f" (elsewhere up to {largest:.4g})" if largest > top else ""
-    words = f"von Mises stress, force per area{beyond}"
+    words = scalar.words.format("") + beyond
     bar = colour_bar(figure, field, panels, words, spacing="proportional")
     bar.ax.yaxis.set_major_locator(MaxNLocator(nbins=7, steps=[1, 2, 2.5, 5, 10]))
     _finish(panels)

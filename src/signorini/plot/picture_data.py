@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
-from signorini.arrays import BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.errors import InputError
 from signorini.output.fields import BodyFields, Fields
 from signorini.plot.curve import Curve, curve_of
 from signorini.plot.patch import Patch, patch_of
@@ -25,6 +27,19 @@ _CELL_OUTLINES = {
     "quad8": [0, 4, 1, 5, 2, 6, 3, 7],
     "quad9": [0, 4, 1, 5, 2, 6, 3, 7],
 }
+
+
+class Scalar(NamedTuple):
+    """A field of the bodies as colours show it.
+
+    Attributes
+    ----------
+    values : (points,) >= 0
+    words : what it is, with a place for where
+    """
+
+    values: Array
+    words: str
 
 
 class PictureData:
@@ -55,6 +70,24 @@ class PictureData:
     def bodies(self) -> BodyFields:
         """All bodies."""
         return self._fields.at(self.last)
+
+    @property
+    def stress(self) -> Scalar:
+        """Von Mises stress of the bodies."""
+        return Scalar(self.bodies.von_mises, "von Mises stress{}, force per area")
+
+    @property
+    def peeq(self) -> Scalar:
+        """Equivalent plastic strain of the bodies.
+
+        Raises
+        ------
+        InputError
+            If no body yields.
+        """
+        if self.bodies.plastic is None:
+            raise InputError("has no body that yields; expected another picture", where=("peeq",))
+        return Scalar(self.bodies.plastic.equivalent, "equivalent plastic strain{}")
 
     def points_of(self, contact: ContactResult, chosen: BoolArray) -> BoolArray:
         """(points,) Which points of the bodies have one of the chosen pairs (n,) of a contact, and an area."""

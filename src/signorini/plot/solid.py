@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of bodies in space: von Mises stress on their deformed skin, and the mesh; the contact on its own beside."""
+"""Pictures of bodies in space: a field on their deformed skin, and the mesh; the contact on its own beside."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from signorini.arrays import Array
 from signorini.plot.camera import Camera
 from signorini.plot.field import BODIES, body_handles, factor_words
 from signorini.plot.paint import Paint, body_paint, paint_skin
-from signorini.plot.picture_data import PictureData
+from signorini.plot.picture_data import PictureData, Scalar
 from signorini.plot.shots import Shot, deformed, make_shots
 from signorini.plot.style import INK, STATUS_INK, colour_bar, entitle, frame, label, legend_below, round_number
 
@@ -23,27 +23,37 @@ _MESH_COLOUR = (1.0, 1.0, 1.0, 0.30)  # on the dark colours of stresses
 
 
 def draw_solid_stress(data: PictureData) -> Figure:
-    """Von Mises stress of the last state on the deformed skin of the bodies, whole and at the contact.
+    """Von Mises stress of the bodies, see `_draw_field`."""
+    return _draw_field(data, data.stress)
 
-    The title says by what the displacements are multiplied. Colours end at the largest stress of the skin that is
-    shown at the contact.
+
+def draw_solid_peeq(data: PictureData) -> Figure:
+    """Equivalent plastic strain of the bodies, see `_draw_field`."""
+    return _draw_field(data, data.peeq)
+
+
+def _draw_field(data: PictureData, scalar: Scalar) -> Figure:
+    """A field of the last state on the deformed skin of the bodies, whole and at the contact.
+
+    The title says by what the displacements are multiplied. Colours end at the largest value of the skin that is shown
+    at the contact.
     """
     import matplotlib
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
-    stress, shots = data.skin.values(data.bodies.von_mises), make_shots(data)
+    values, shots = data.skin.values(scalar.values), make_shots(data)
     factor, points = deformed(data, shots[-1])
-    shown = stress[shots[-1].inside(points)]
-    top, largest = float(shown.max(initial=0.0)) or 1.0, float(data.bodies.von_mises.max())
+    shown = values[shots[-1].inside(points)]
+    top, largest = float(shown.max(initial=0.0)) or 1.0, float(scalar.values.max())
     scale, colours = Normalize(0.0, top), matplotlib.colormaps["viridis"]
     figure, panels = _canvas(shots, points)
-    paint = Paint(values=stress, colours=lambda values: colours(scale(values))[:, :3], mesh=_MESH_COLOUR)
+    paint = Paint(values=values, colours=lambda shades: colours(scale(shades))[:, :3], mesh=_MESH_COLOUR)
     for axes, shot in zip(panels, shots, strict=True):
         paint_skin(axes, shot.skin, points, shot.camera, paint)
     beyond = largest > top * (1.0 + 1e-6)
     more = f" (elsewhere up to {largest:.4g})" if beyond else ""
-    words = f"von Mises stress on the skin, force per area{more}"
+    words = scalar.words.format(" on the skin") + more
     colour_bar(figure, ScalarMappable(scale, colours), panels, words, shrink=0.7, extend="max" if beyond else "neither")
     entitle(figure, data.model.title, f"deformed, {factor_words(factor)}; end of step '{data.last.name}'")
     return figure
