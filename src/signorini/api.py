@@ -30,6 +30,7 @@ from signorini.output.frd import write_frd
 from signorini.output.series import write_pvd
 from signorini.output.table import history_table
 from signorini.output.vtu import write_bodies
+from signorini.plasticity.fields import PlasticFields
 from signorini.plot.animation import animate_path
 from signorini.plot.contact import draw_contacts
 from signorini.plot.escape import plot_escape
@@ -99,11 +100,37 @@ class Solution(History):
         InputError
             If there is no such body.
         """
-        found = self._fields.stresses(self.last)
-        for part in found:
-            if part.body == body:
-                return part
-        raise InputError(one_of(body, [part.body for part in found], "body"))
+        return self._fields.stresses(self.last)[self._number_of(body)]
+
+    def plastic(self, body: str) -> PlasticFields:
+        """Plastic strain and back stress of a body at the nodes of its `stress`, at the end of the last step.
+
+        Raises
+        ------
+        InputError
+            If there is no such body, or none that yields.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> steel = sg.Elastic(E=100.0, nu=0.3, plastic=sg.Plastic(4.0, hardening=50.0))
+        >>> bar = sg.Model(sg.rectangle(width=2.0), kind="plane stress", bodies=[sg.Body("block", steel)],
+        ...                supports=[sg.Support("left", u=(0, None)), sg.Support("bottom", u=(None, 0))],
+        ...                loads=[sg.Load("right", traction=(5.0, 0))])
+        >>> sg.solve(bar).plastic("block").equivalent.round(12)
+        array([0.02, 0.02, 0.02, 0.02])
+        """
+        number, found = self._number_of(body), self._fields.plastic(self.last)
+        if not found:
+            raise InputError("no body of the model yields; there is no plastic strain")
+        return found[number]
+
+    def _number_of(self, body: str) -> int:
+        """Which body of the model has a name."""
+        names = [part.name for part in self.model.bodies]
+        if body not in names:
+            raise InputError(one_of(body, names, "body"))
+        return names.index(body)
 
     def along(self, points: ArrayLike, *, body: str) -> PathResult:
         """Displacement and stress of a body at points (n, 2), say ``np.linspace(start, end, 50)``, after the last step.

@@ -174,6 +174,27 @@ def test_differences_name_plastic_quantities(out: Path, tmp_path: Path, capsys: 
         assert quantity in words
 
 
+def test_times_on_the_way_have_their_fields_and_others_their_energies(tmp_path: Path) -> None:
+    model = sg.Model(
+        sg.rectangle(width=2.0, nx=2),
+        kind="plane stress",
+        bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.3, plastic=sg.Plastic(4.0, hardening=50.0)))],
+        supports=[sg.Support("left", u=(0, None)), sg.Support("bottom", u=(None, 0))],
+        loads=[sg.Load("right", traction=(6.0, 0))],
+        steps=[sg.Step(at=(0.8, 0.9), increments=20)],
+    )
+    solution = sg.solve(model)
+    solution.write(tmp_path / "way.pvd")
+    (step,) = solution.steps
+    for instant in step.instants:
+        kept = instant.displacement is not None or instant is step.instants[-1]
+        assert len(instant.plastic.state.equivalent) == (8 if kept else 0)
+    peeq = [meshio.read(path).point_data["peeq"] for path in sorted((tmp_path / "fields").glob("*.vtu"))]
+    assert [values.max() for values in peeq] == pytest.approx([(0.8 * 6 - 4) / 50, (0.9 * 6 - 4) / 50], rel=1e-7)
+    works = [instant.plastic.dissipation for instant in step.instants]
+    assert works == sorted(works)
+
+
 def test_models_that_cannot_yield_have_nothing_of_it(tmp_path: Path) -> None:
     block = sg.rectangle(width=2.0, height=1.0)
     model = sg.Model(

@@ -118,11 +118,12 @@ def _first_yield(followed: FollowedPart, begin: float) -> float | None:
     return None
 
 
-def _plastic(before: State, state: State) -> PlasticResult | None:
-    """Plastic flow in one state of a step from another at its beginning."""
+def _plastic(before: State, state: State, *, whole: bool) -> PlasticResult | None:
+    """Plastic flow in one state of a step from another at its beginning, with its points or its energies alone."""
     if state.plastic is None:
         return None
-    return PlasticResult(state=state.plastic, dissipation=state.plastic_work - before.plastic_work)
+    kept = state.plastic if whole else state.plastic.light()
+    return PlasticResult(state=kept, dissipation=state.plastic_work - before.plastic_work)
 
 
 def _reactions(prepared: Prepared, state: State, held: Array) -> dict[str, Array]:
@@ -222,7 +223,11 @@ def _instants(
             else np.nan,
             displacement=frozen(prepared.space.at_nodes(snapshot.state.displacement)) if snapshot.kept else None,
             factors=dict(snapshot.state.point.factors),
-            plastic=_plastic(followed.before, followed.after if snapshot is end else snapshot.state),
+            plastic=_plastic(
+                followed.before,
+                followed.after if snapshot is end else snapshot.state,
+                whole=snapshot is end or snapshot.kept,
+            ),
         )
         if cycle + 1 < len(cycle_ends) and snapshot.load_factor == cycle_ends[cycle]:
             low, high, cycle = slip, slip, cycle + 1

@@ -65,7 +65,7 @@ class Fields:
         self._shared: frozenset[State] = frozenset(shared)
         self._kept: dict[State, list[BodyStress]] = {}
         self._points: tuple[StepResult, list[tuple[IntArray, Array]]] | None = None
-        self._flow: tuple[State, PlasticFields] | None = None
+        self._flow: tuple[State, list[PlasticFields]] | None = None
 
     @cached_property
     def space(self) -> Space:
@@ -98,18 +98,18 @@ class Fields:
         """Plastic strains at the quadrature points of every family, where bodies yield."""
         return {} if state.plastic is None else by_family(self.space, self.model, state.plastic.state.strain)
 
-    def plastic(self, state: State) -> PlasticFields | None:
-        """Plastic fields at the nodes of every body, one after the other; those of one state are kept."""
+    def plastic(self, state: State) -> list[PlasticFields]:
+        """Plastic fields of every body at its nodes, none where none yields; those of one state are kept."""
         if state.plastic is None:
-            return None
+            return []
         if self._flow is None or self._flow[0] is not state:
-            self._flow = state, joined(nodal_fields(self.space, self.model, state.plastic.state))
+            self._flow = state, nodal_fields(self.space, self.model, state.plastic.state)
         return self._flow[1]
 
     def at(self, state: State) -> BodyFields:
         """All bodies in a state whose displacement is known, one after the other in the order of the model."""
         assert state.displacement is not None
-        stresses, mesh = self.stresses(state), self.model.mesh
+        stresses, plastic, mesh = self.stresses(state), self.plastic(state), self.model.mesh
         nodes = np.concatenate([part.nodes for part in stresses])
         owners = mesh.by_family(self.model.body_of_cells())
         families, cells, body, in_cells = [], [], [], []
@@ -132,6 +132,6 @@ class Fields:
             families=tuple(families),
             cells=tuple(cells),
             body=tuple(body),
-            plastic=self.plastic(state),
+            plastic=joined(plastic) if plastic else None,
             in_cells=tuple(in_cells),
         )

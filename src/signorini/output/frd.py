@@ -108,12 +108,10 @@ def _blocks(fields: Fields, step: StepResult, used: IntArray) -> Iterator[tuple[
     stress = total[used] / np.maximum(count[used], 1)[:, None]
     tensor = [f" -5  {name:8s}    1    4{i:5d}{j:5d}\n" for name, i, j in _TENSOR]
     yield "STRESS", tensor, stress
-    plastic = fields.plastic(step)
-    if plastic is not None:
-        strain, first = np.zeros((len(model.mesh.points), 1)), 0
-        for part in fields.stresses(step):
-            first, begin = first + len(part.nodes), first
-            strain[part.nodes, 0] += plastic.equivalent[begin:first]
+    if plastic := fields.plastic(step):
+        strain = np.zeros((len(model.mesh.points), 1))
+        for part, own in zip(fields.stresses(step), plastic, strict=True):
+            strain[part.nodes, 0] += own.equivalent
         yield "PE", [" -5  PE          1    1    0    0\n"], strain[used] / np.maximum(count[used], 1)[:, None]
     if step.contacts:
         values = np.zeros((len(model.mesh.points), 6))
