@@ -38,7 +38,7 @@ from signorini.solution.scale import Scale
 _BALANCED = 1e-9  # of the size of forces: a tenth of what the certificate allows
 _MAX_ROUNDS = 200  # of one increment: Newton takes 4 to 16, kept factors some 40
 _LEFT_PARTS = (0.0, 1e-6, 1e-4, 1e-2)  # of the elastic law, left in place where a tangent is singular without it
-_STIFFER_PART = 0.1  # of the elastic law, left in place where contact finds no answer on a soft tangent
+_STIFFER_PARTS = (1e-4, 0.1)  # of the elastic law, left in place where contact finds no answer on a softer tangent
 _SEARCH_FROM = 0.5  # of the residual before: a step that leaves more is looked at
 _KEPT_GAIN = 0.03  # of the residual before: a full step that leaves less has a tangent that will do once more
 _KEPT_FROM = 1e-6  # of the size of forces: below it that pays, above it costs rounds
@@ -62,11 +62,13 @@ class _Tangent:
     solver : of contact on them
     K : (dofs, dofs) their stiffness
     S : (dofs, dofs) what yielding takes off the elastic stiffness; None: nothing
+    left : part of the elastic law that yielding leaves in place
     """
 
     solver: ContactSolver
     K: sp.csr_array
     S: sp.csr_array | None = None
+    left: float = 1.0
 
 
 @dataclass(kw_only=True, eq=False)
@@ -79,6 +81,7 @@ class _Rounds:
     lengths : of every step, the largest displacement
     inputs, outputs : of the rounds on the factor at hand: x and what it became
     factorisations : of tangents
+    least : part of the elastic law that is left in place from the start, once contact found nothing on a softer tangent
     """
 
     residuals: list[float] = field(default_factory=list)
@@ -87,6 +90,7 @@ class _Rounds:
     inputs: list[Array] = field(default_factory=list)
     outputs: list[Array] = field(default_factory=list)
     factorisations: int = 0
+    least: float = 0.0
 
     @property
     def last(self) -> float:
@@ -268,9 +272,11 @@ class PlasticSolver:
         self, at: PlasticResponse, increment: Increment, rounds: _Rounds, left: tuple[float, ...] = _LEFT_PARTS
     ) -> _Tangent:
         """Bodies linearised about a response, as soft as they are or as contact bears it."""
-        for kept in left:
+        for part in left:
+            if part < rounds.least:
+                continue
             try:
-                return self._made(at, kept, increment, rounds)
+                return self._made(at, part, increment, rounds)
             except (NotPositiveDefinite, np.linalg.LinAlgError):
                 continue
         return _Tangent(solver=self.elastic, K=increment.system.K)
@@ -283,7 +289,7 @@ class PlasticSolver:
         solver = self.tangents.solver(reduced, increment.clock).under(self.interface, self.scale, self.absent)
         if self.ways is not None and solver.paths is not None:
             solver = solver.paths.moving(self.ways, self.interface, self.scale)
-        return _Tangent(solver=solver, K=K, S=S)
+        return _Tangent(solver=solver, K=K, S=S, left=left)
 
     def _contact(
         self,
@@ -299,8 +305,9 @@ class PlasticSolver:
         if answer.solved or tangent.S is None or reached is None:
             return answer, tangent, x
         T = increment.system.constraints.transform
-        stiffer = self._softened(model, increment, rounds, (_STIFFER_PART,))
-        for other in (stiffer, _Tangent(solver=self.elastic, K=increment.system.K)):
+        rounds.least = _STIFFER_PARTS[0]
+        for part in (*(part for part in _STIFFER_PARTS if part > tangent.left), 1.0):
+            other = self._softened(model, increment, rounds, (part,) if part < 1.0 else ())
             y = self._right(reached[1], other, reached[0], T)
             answer = self._on(increment, other, y, None)
             if answer.solved:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -12,7 +12,7 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.clock import Clock
 from signorini.condense.condensed import condense
 from signorini.engine.examine import Examined
-from signorini.engine.multipliers import make_multipliers
+from signorini.engine.multipliers import PATIENCE, make_multipliers
 from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.fem.stiffness import reduced_stiffness
 from signorini.interface.active import FreeBodies
@@ -125,7 +125,8 @@ class TangentBodies:
         """
         examined, settings = self.examined, self.settings
         if self.whole:
-            return make_multipliers(examined, reduced, self.B, self.near, settings)
+            found = make_multipliers(examined, reduced, self.B, self.near, settings)
+            return replace(found, bodies=replace(found.bodies, patience=PATIENCE))
         scale = examined.scale
         condensed = condense(
             FreeBodies(reduced, self.B, examined.constraints.nodes, examined.space.places),
