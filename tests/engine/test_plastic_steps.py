@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Steps of bodies that yield: first yield, increments by themselves, unloading, collapse."""
 
+from dataclasses import replace
+from unittest import mock
+
 import numpy as np
 import pytest
 
 import signorini as sg
+from signorini.engine import plastic_steps
+from signorini.gallery.cylinder import zhu_cylinder
 from signorini.outcome import Outcome
 
 LIMIT = 2.0 * np.log(2.0)  # of the pressure in a tube of twice the radius outside, over the shear strength
@@ -78,3 +83,13 @@ def test_unloading_is_elastic_and_exact():
 def test_an_exact_path_is_refused_where_bodies_yield():
     with pytest.raises(sg.SolveFailed, match="plastic flow has no exact path"):
         sg.solve(tube(1.2, steps=[sg.Step(path="exact")]))
+
+
+def test_no_limit_load_is_sought_while_pairs_are_left_out():
+    """With the few pairs that an elastic contact can close the cylinder flows away; with all of them it is held."""
+    elastic = zhu_cylinder(friction=0.0, contact_length=1.6, contact_spacing=0.1, force=10.0)
+    law = sg.Elastic(E=200.0, nu=0.3, plastic=sg.Plastic(0.9))
+    model = replace(elastic, bodies=[sg.Body("disk", law)], steps=[sg.Step(increments=1)])
+    with mock.patch.object(plastic_steps, "collapse", side_effect=plastic_steps.collapse) as sought:
+        assert sg.solve(model).solved
+    assert not sought.called

@@ -235,6 +235,9 @@ def _increments(part: StepPart, number: int) -> FollowedPart:
     except SolveFailed as failure:
         if failure.flow is None:
             raise
+        if part.prepared.limited:  # pairs that were left out may hold the bodies
+            failure.hopeless = True
+            raise
         behind = reached(failure)
         done = 0 if behind is None else len(behind.snapshots)
         start, end = (part.before.point.towards(part.end, k / number) for k in (done, done + 1))

@@ -172,8 +172,11 @@ def _on_one_pattern(K: sp.csr_array, rows: sp.csr_array, T: sp.csr_array) -> tup
     value = T.data[first][again] * T.data[second]
     size = np.int64(K.shape[0])
     key = row.astype(np.int64) * size + column
+    if not K.has_sorted_indices:
+        K = K.sorted_indices()
     have = np.repeat(np.arange(size), np.diff(K.indptr)) * size + K.indices
-    both = np.union1d(have, key)
+    lacking = have[np.minimum(np.searchsorted(have, key), len(have) - 1)] != key
+    both = np.union1d(have, key[lacking]) if lacking.any() else have  # seldom any: sorting all takes its time
     data = np.zeros(len(both))
     data[np.searchsorted(both, have)] = K.data
     indptr = np.searchsorted(both // size, np.arange(size + 1)).astype(np.int32)
