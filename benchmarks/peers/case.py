@@ -89,10 +89,10 @@ def write_calculix(case: Case, file: Path, *, friction: float) -> None:
         f"*NODE\n{nodes}",
         "*ELEMENT,TYPE=CPE4,ELSET=DISK\n" + "\n".join(elements[:m]),
         "*ELEMENT,TYPE=CPE4,ELSET=GROUND\n" + elements[m],
-        _set("AXIS", np.unique(case.axis)),
-        _set("ARC", case.arc_nodes),
-        _set("FIXED", n + np.arange(4)),
-        "*SURFACE,NAME=SLAVE\n" + "\n".join(f"{cell},S{side}" for cell, side in _faces(case.cells, case.arc)),
+        node_set("AXIS", np.unique(case.axis)),
+        node_set("ARC", case.arc_nodes),
+        node_set("FIXED", n + np.arange(4)),
+        "*SURFACE,NAME=SLAVE\n" + "\n".join(f"{cell},S{side}" for cell, side in faces(case.cells, case.arc)),
         f"*SURFACE,NAME=MASTER\n{m + 1},S3",
         f"*MATERIAL,NAME=ELASTIC\n*ELASTIC\n{E:g},{NU:g}",
         *(f"*SOLID SECTION,ELSET={part},MATERIAL=ELASTIC\n1." for part in ("DISK", "GROUND")),
@@ -101,17 +101,18 @@ def write_calculix(case: Case, file: Path, *, friction: float) -> None:
         "*CONTACT PAIR,INTERACTION=LAW,TYPE=SURFACE TO SURFACE\nSLAVE,MASTER",
         "*BOUNDARY\nAXIS,1,1\nFIXED,1,3",
         "*STEP\n*STATIC\n1.,1.",
-        "*DLOAD\n" + "\n".join(f"{cell},P{side},{case.traction:.15g}" for cell, side in _faces(case.cells, case.cut)),
+        "*DLOAD\n" + "\n".join(f"{cell},P{side},{case.traction:.15g}" for cell, side in faces(case.cells, case.cut)),
         "*NODE FILE,OUTPUT=2D,NSET=ARC\nU\n*CONTACT FILE\nCDIS,CSTR\n*END STEP",
     ]
     file.write_text("\n".join(blocks) + "\n")
 
 
-def _set(name: str, nodes: IntArray) -> str:
+def node_set(name: str, nodes: IntArray) -> str:
+    """Lines of a deck that name nodes, numbered from 0."""
     return f"*NSET,NSET={name}\n" + "\n".join(f"{node + 1}," for node in nodes)
 
 
-def _faces(cells: IntArray, facets: IntArray) -> list[tuple[int, int]]:
+def faces(cells: IntArray, facets: IntArray) -> list[tuple[int, int]]:
     """Cell and side, both from 1, of each facet."""
     near = np.nonzero(np.isin(cells, facets).sum(axis=1) >= 2)[0]
     sides = {

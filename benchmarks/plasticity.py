@@ -1,0 +1,310 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The price of bodies that yield in contact, and CalculiX beside them; writes two tables of docs/plasticity.md.
+
+    python -m benchmarks.plasticity price [--refine 2 4 8 16] [--page]
+    python -m benchmarks.plasticity calculix [--refine 2 4] [--page]
+
+A quarter of a cylinder is pressed on a rigid plane, until p_0 of the elastic contact would be 2, 3, 5 and 8 times the
+yield stress: in one increment beside one plain linear solve, or in ten and let go again in ten beside CalculiX.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import resource
+import subprocess
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from unittest import mock
+
+import numpy as np
+
+from benchmarks import command, page
+from benchmarks.peers.case import faces, node_set
+from benchmarks.peers.run_calculix import missing
+from signorini.api import solve
+from signorini.arrays import Array
+from signorini.bench.price import price, warm_up
+from signorini.clock import Clock
+from signorini.engine.prepare import prepare
+from signorini.engine.tangent_bodies import TangentBodies
+from signorini.gallery.cylinder import NU, RADIUS, E, zhu_cylinder
+from signorini.model.body import Body
+from signorini.model.material import Elastic
+from signorini.model.model import Model
+from signorini.model.plastic import Plastic
+from signorini.model.step import Step
+from signorini.reference.hertz import contact_modulus
+from signorini.verify.yielding_points import yielding_points
+
+DOCUMENT = Path(__file__).parent.parent / "docs" / "plasticity.md"
+HALF_WIDTH = 0.5
+"""Of the elastic contact."""
+RATIOS = (2.0, 3.0, 5.0, 8.0)
+"""p_0 of the elastic contact over the yield stress: first yield is at 1.79, flow without end beyond some 9."""
+FRICTION = (0.0, 0.3)
+INCREMENTS = 10
+"""Of either step beside CalculiX."""
+LEFT = 0.02
+"""Of the load, at the end beside CalculiX: there a body that nothing presses would be loose."""
+PENALTY = 1000.0 * E
+"""CalculiX's pressure per overlap: 100 times the modulus over the length of the coarsest cells."""
+CASES = ((0.0, 4.0, 0.0), (0.3, 4.0, 0.02), (0.3, 5.0, 0.01))
+"""Friction, p_0 over the yield stress, and hardening over the modulus."""
+
+
+def pressed(refine: int, *, friction: float, ratio: float, hardening: float = 0.0, steps: tuple[Step, ...]) -> Model:
+    """The cylinder, with cells of 0.1 / refine where it touches.
+
+    Parameters
+    ----------
+    refine : every edge is divided by it
+    friction : Coulomb's coefficient
+    ratio : p_0 of the elastic contact over the yield stress
+    hardening : slope of the yield stress over the modulus
+    steps : of the load
+    """
+    modulus = contact_modulus((E, NU))
+    force, p_0 = np.pi * HALF_WIDTH**2 * modulus / (4.0 * RADIUS), HALF_WIDTH * modulus / (2.0 * RADIUS)
+    elastic = zhu_cylinder(
+        friction=friction, refine=refine, contact_length=1.6, contact_spacing=0.1, force=force, steps=steps
+    )
+    law = Plastic(p_0 / ratio, hardening=hardening * E)
+    return Model(
+        elastic.mesh,
+        title="Cylinder that yields on a rigid foundation",
+        bodies=[Body("disk", Elastic(E=E, nu=NU, plastic=law))],
+        supports=elastic.supports,
+        loads=elastic.loads,
+        contacts=elastic.contacts,
+        steps=steps,
+    )
+
+
+def prices(refine: int) -> list[dict[str, Any]]:
+    """One increment from nothing: rows of the contract with rounds and factorisations of tangents."""
+    rows = []
+    once = (Step(name="press", increments=1),)
+    warm_up(pressed(1, friction=0.3, ratio=5.0, steps=once), time.process_time)
+    for friction in FRICTION:
+        for ratio in RATIOS:
+            model = pressed(refine, friction=friction, ratio=ratio, steps=once)
+            with mock.patch.object(
+                TangentBodies, "solver", autospec=True, side_effect=TangentBodies.solver
+            ) as factorised:
+                history = solve(model)
+            runs = [run for increment in history.last.trace for run in increment if run.method == "plastic flow"]
+            clock = Clock(timer=time.process_time)
+            prepare(model, clock=clock)
+            found = price("cylinder that yields", model, time.process_time)
+            seconds = found["contact_seconds"] + found["assembly_seconds"] - clock.seconds["assembly"]
+            rows.append(
+                {"unknowns": found["dofs"], "friction": friction, "p_0 / Y": ratio}
+                | {"rounds": sum(run.iterations for run in runs), "tangents": factorised.call_count}
+                | {"seconds": seconds, "linear": found["linear_seconds"]}
+            )
+    return rows
+
+
+def price_table(rows: list[dict[str, Any]]) -> str:
+    """Of the document."""
+    head = ("unknowns", "mu", "p_0 / Y", "rounds", "new factors", "CPU s", "linear solve s", "price")
+    lines = [
+        [
+            row["unknowns"],
+            row["friction"],
+            f"{row['p_0 / Y']:g}",
+            row["rounds"],
+            row["tangents"],
+            page.seconds(row["seconds"]),
+            page.seconds(row["linear"]),
+            f"{row['seconds'] / row['linear']:.1f}",
+        ]
+        for row in rows
+    ]
+    text = f"{page.table(head, lines)}\n\nCPU seconds of all after the elastic assembly, over those of one plain "
+    return f"{text}linear solve of the same matrix with the contact nodes fixed; one thread, {page.machine()}."
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Answer:
+    """What a code finds at the ends of both steps.
+
+    Attributes
+    ----------
+    stress : two of (cells, 4), means of the cells: xx, yy, zz, xy, force per area
+    equivalent : two of (cells,), means of the equivalent plastic strain
+    iterations, seconds : of all increments; CPU seconds of the whole process, or of the solve
+    """
+
+    stress: list[Array]
+    equivalent: list[Array]
+    iterations: int
+    seconds: float
+
+
+def ours(refine: int, friction: float, ratio: float, hardening: float) -> Answer:
+    """Both steps; the first one again, for its end."""
+    press, release = Step(name="press", increments=INCREMENTS), Step(scale={"cut": LEFT}, increments=INCREMENTS)
+    given = {"friction": friction, "ratio": ratio, "hardening": hardening}
+    seconds, history = command.cpu(solve, pressed(refine, **given, steps=(press, release)))
+    ends = [solve(pressed(refine, **given, steps=(press,))), history]
+    cells = len(history.model.mesh.cells["quad"])
+    points = [yielding_points(end) for end in ends]
+    return Answer(
+        stress=[each.stress.reshape(cells, -1, 4).mean(axis=1) for each in points],
+        equivalent=[each.equivalent.reshape(cells, -1).mean(axis=1) for each in points],
+        iterations=sum(
+            run.iterations
+            for step in history.steps
+            for each in step.trace
+            for run in each
+            if run.method == "plastic flow"
+        ),
+        seconds=seconds,
+    )
+
+
+def theirs(refine: int, friction: float, ratio: float, hardening: float) -> Answer | None:
+    """CalculiX on the same mesh, on a stiff penalty; None where it finds no solution."""
+    model = pressed(refine, friction=friction, ratio=ratio, hardening=hardening, steps=(Step(),))
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "pressed.inp").write_text(deck(model, friction))
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        done = subprocess.run(
+            ["ccx", "pressed"],
+            cwd=folder,
+            capture_output=True,
+            text=True,
+            check=False,
+            env={**os.environ, **page.ONE_THREAD},
+        )
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        if "Job finished" not in done.stdout:
+            return None
+        cells = len(model.mesh.cells["quad"])
+        stresses, strains = (_printed(folder / "pressed.dat", words, cells) for words in ("stresses", "equivalent"))
+        return Answer(
+            stress=[table[:, :4] for table in stresses],
+            equivalent=[table[:, 0] for table in strains],
+            iterations=done.stdout.count("\n iteration"),
+            seconds=after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime,
+        )
+
+
+def deck(model: Model, friction: float) -> str:
+    """Surface to surface contact on one fixed element below y = 0."""
+    mesh, law = model.mesh, model.bodies[0].material.plastic  # type: ignore[union-attr]
+    assert law is not None
+    cells, n = mesh.cells["quad"], len(mesh.points)
+    points = np.vstack([mesh.points, [(-1.0, -2.0), (9.0, -2.0), (9.0, 0.0), (-1.0, 0.0)]])
+    (Y,) = law.curve[:, 1]
+    (axis,), (cut,), (arc,) = (mesh.facets(name) for name in ("axis", "cut", "arc"))
+    near = arc[mesh.points[arc][:, :, 0].max(axis=1) < 1.7]
+    (load,) = model.loads
+    assert load.force is not None
+    traction = float(load.force[1] or 0.0) / RADIUS
+    blocks = [
+        "*NODE,NSET=EVERY\n" + "\n".join(f"{i},{x:.15g},{y:.15g},0." for i, (x, y) in enumerate(points, start=1)),
+        "*ELEMENT,TYPE=CPE4,ELSET=DISK\n" + "\n".join(f"{i},{_list(c + 1)}" for i, c in enumerate(cells, start=1)),
+        f"*ELEMENT,TYPE=CPE4,ELSET=GROUND\n{len(cells) + 1},{_list(n + 1 + np.arange(4))}",
+        node_set("AXIS", np.unique(axis)),
+        node_set("FIXED", n + np.arange(4)),
+        "*SURFACE,NAME=SLAVE\n" + "\n".join(f"{cell},S{side}" for cell, side in faces(cells, near)),
+        f"*SURFACE,NAME=MASTER\n{len(cells) + 1},S3",
+        f"*MATERIAL,NAME=YIELDS\n*ELASTIC\n{E},{NU}\n*PLASTIC\n{Y:.15g},0.\n{Y + law.hardening:.15g},1.",
+        f"*MATERIAL,NAME=ELASTIC\n*ELASTIC\n{E},{NU}",
+        "*SOLID SECTION,ELSET=DISK,MATERIAL=YIELDS\n1.\n*SOLID SECTION,ELSET=GROUND,MATERIAL=ELASTIC\n1.",
+        f"*SURFACE INTERACTION,NAME=LAW\n*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR\n{PENALTY:g}",
+        *([f"*FRICTION\n{friction},{PENALTY / 10.0:g}"] if friction else []),
+        "*CONTACT PAIR,INTERACTION=LAW,TYPE=SURFACE TO SURFACE\nSLAVE,MASTER",
+        "*BOUNDARY\nAXIS,1,1\nFIXED,1,3",
+    ]
+    for part in (1.0, LEFT):
+        sides = "\n".join(f"{cell},P{side},{-traction * part:.15g}" for cell, side in faces(cells, cut))
+        blocks += [f"*STEP,INC=1000\n*STATIC,DIRECT\n{1.0 / INCREMENTS},1.", f"*DLOAD\n{sides}"]
+        blocks += [f"*EL PRINT,ELSET=DISK,FREQUENCY={INCREMENTS}\nS,PEEQ\n*END STEP"]
+    return "\n".join(blocks) + "\n"
+
+
+def _list(numbers: Array) -> str:
+    return ",".join(map(str, numbers))
+
+
+def _printed(file: Path, words: str, cells: int) -> list[Array]:
+    """Means over the points of the cells of every table whose title begins so, (cells, columns)."""
+    found: list[list[list[float]]] = []
+    inside = False
+    for line in file.read_text().splitlines():
+        if "time" in line:
+            inside = line.strip().startswith(words)
+            found += [[]] if inside else []
+        elif inside and line.strip():
+            found[-1].append([float(word) for word in line.split()])
+    return [np.array(table)[:, 2:].reshape(cells, -1, len(table[0]) - 2).mean(axis=1) for table in found]
+
+
+def beside(refine: int) -> list[list[object]]:
+    """Rows of the table beside CalculiX."""
+    rows: list[list[object]] = []
+    ours(1, *CASES[-1])  # loads what is compiled
+    for friction, ratio, hardening in CASES:
+        case = refine, friction, ratio, hardening
+        mine, other = ours(*case), theirs(*case)
+        model = pressed(refine, friction=friction, ratio=ratio, steps=(Step(),))
+        Y = HALF_WIDTH * contact_modulus((E, NU)) / (2.0 * RADIUS) / ratio
+        head: list[object] = [2 * len(model.mesh.points), friction, f"{ratio:g}", f"{hardening:g}"]
+        head += [mine.iterations, page.seconds(mine.seconds)]
+        if other is None:
+            rows.append([*head, "no solution", "", "", "", ""])
+            continue
+        off = [np.sqrt(((a - b) ** 2).mean()) / Y for a, b in zip(mine.stress, other.stress, strict=True)]
+        largest = [max(float(each.max()) for each in found.equivalent) for found in (mine, other)]
+        rows.append(
+            [*head, other.iterations, page.seconds(other.seconds), f"{other.seconds / mine.seconds:.1f}"]
+            + [", ".join(f"{part:.4f}" for part in off), ", ".join(f"{part:.4f}" for part in largest)]
+        )
+    return rows
+
+
+def beside_table(rows: list[list[object]]) -> str:
+    """Of the document."""
+    head = ("unknowns", "mu", "p_0 / Y", "H / E", "rounds", "CPU s", "ccx: iterations", "CPU s", "times")
+    head += ("stress, rms / Y: loaded, let go", "largest PEEQ: ours, theirs")
+    text = f"{page.table(head, rows)}\n\n{INCREMENTS} + {INCREMENTS} increments, means of cells, one thread, "
+    return f"{text}{page.machine()}; CPU seconds of ccx as a whole, input and output too."
+
+
+def main() -> None:
+    parser = command.parser(__doc__)
+    parser.add_argument("what", choices=("price", "calculix"))
+    parser.add_argument("--refine", type=int, nargs="+", default=[2, 4])
+    parser.add_argument("--page", action="store_true", help=f"write the table into {DOCUMENT.name}")
+    parser.add_argument("--one", action="store_true", help="measure prices in this process")
+    options = parser.parse_args()
+    if options.one:
+        print(json.dumps(prices(options.refine[0])))
+        return
+    if options.what == "price":
+        found = [
+            row
+            for refine in options.refine
+            for row in page.measured("benchmarks.plasticity", "price", "--refine", refine)
+        ]
+        text = price_table(found)
+    else:
+        reason = missing()
+        if reason is not None:
+            raise SystemExit(reason)
+        text = beside_table([row for refine in options.refine for row in beside(refine)])
+    options.dry = not options.page
+    command.publish(options, f"plasticity {options.what}", text, DOCUMENT)
+
+
+if __name__ == "__main__":
+    main()
