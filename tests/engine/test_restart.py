@@ -346,6 +346,25 @@ def test_bodies_that_have_yielded_go_on_to_the_last_bit(through, tmp_path):
     assert not list(different(whole.end.state, rest.end.state))
 
 
+def test_bodies_without_contact_go_on(tmp_path):
+    steps = [sg.Step(scale={"pull": 0.5}), sg.Step(scale={"pull": 1.0}, increments=3)]
+
+    def bar(steps):
+        return sg.Model(
+            sg.rectangle(width=2.0, nx=2),
+            bodies=[sg.Body("block", sg.Elastic(E=1000.0, nu=0.3, plastic=STEEL))],
+            supports=[sg.Support("left", u=(0, None)), sg.Support("bottom", u=(None, 0))],
+            loads=[sg.Load("right", traction=(26.0, 0.0), name="pull")],
+            steps=steps,
+        )
+
+    whole, cut = sg.solve(bar(steps)), sg.solve(bar(steps[:1]))
+    cut.save_state(tmp_path / "state.npz")
+    rest = sg.solve(bar(steps[1:]), start=tmp_path / "state.npz")
+    assert whole.last.yielding.largest > 0.0
+    assert not list(different(whole.last, rest.last))
+
+
 @pytest.mark.parametrize(
     ("plastic", "words"),
     [

@@ -72,6 +72,8 @@ def follow_plastically(part: StepPart, step: Step, elastically: Callable[[StepPa
     try:
         return joined([*behind, replace(_in_increments(part, step), path="increments")])
     except SolveFailed as failure:
+        if (flowed := reached(failure)) is not None:
+            failure.reached = replace(flowed, path="increments")
         raise keep(failure, behind) from None
 
 

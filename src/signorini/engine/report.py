@@ -103,7 +103,7 @@ def _yielding(prepared: Prepared, followed: FollowedPart, begin: float) -> Yield
         largest=float(plastic.equivalent[worst]),
         body=body,
         at=at,
-        share=float(bodies.weights @ flowed / bodies.weights.sum()),
+        share=float(bodies.weights[flowed].sum() / bodies.weights.sum()),
         first=_first_yield(followed, begin),
     )
 

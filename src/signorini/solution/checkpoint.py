@@ -141,6 +141,8 @@ class Checkpoint(Short):
 
     def _contradictions(self, model: Model, interface: Interface) -> Iterator[str]:
         """What the contacts of the model say otherwise, in words."""
+        if not len(interface):
+            return
         size, now = float(np.ptp(model.mesh.points, axis=0).max()), _posed(interface)
         lacking = np.full(len(interface), np.nan)
         for name in dict.fromkeys([*now, *self.posed]):
