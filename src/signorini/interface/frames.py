@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.errors import InputError
 from signorini.fem.facet_block import unit_tangents
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
@@ -132,6 +133,11 @@ def frames(normals: Array, axis: ArrayLike | None = None) -> Array:
     axis : (3,) direction of the first tangents, of the fibres of a surface for instance; the coordinate axis that the
         normals follow least where not given. Where a normal runs along it another coordinate axis takes its place
 
+    Raises
+    ------
+    InputError
+        For an axis without length.
+
     Examples
     --------
     >>> frames(np.array([[0.0, 0.0, 1.0]]), axis=(2.0, 0.0, 5.0))[0].tolist()
@@ -139,7 +145,10 @@ def frames(normals: Array, axis: ArrayLike | None = None) -> Array:
     """
     followed = (normals**2).sum(axis=0)
     direction = np.eye(3)[np.argmin(followed)] if axis is None else np.asarray(axis, dtype=np.float64)
-    along = np.tile(direction / np.linalg.norm(direction), (len(normals), 1))
+    length = float(np.linalg.norm(direction))
+    if not length > 0.0:
+        raise InputError("is zero; expected a direction", where=("axis",))
+    along = np.tile(direction / length, (len(normals), 1))
     across = along - np.sum(along * normals, axis=1)[:, None] * normals
     size = np.linalg.norm(across, axis=1)
     lost = size < LEAST_SINE

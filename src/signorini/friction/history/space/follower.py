@@ -58,7 +58,6 @@ _FOLD_REACH = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)  # times the last increment: wher
 _FOLD, _TURNED = 1e-9, 0.3  # part of the way in which it is looked for, and what friction may turn in it
 _PATIENCE = 4  # tries
 _LOST = 1e-7  # part of the segment: where not even that has a solution nothing goes on gradually
-_SAME_END = 1e-5  # part of the segment: ways that are lost so near each other are lost in the same place
 _TRIES = 60  # at one increment
 _EVENT_WIDTH = 1e-6  # of the data: width of zero at an event that smooth sections make uncertain
 _QUICK_STEPS = 12  # of Newton's method, in an increment that may be shorter
@@ -80,7 +79,6 @@ class SpaceFollower(PathFollower):
         self.refused: ContactAnswer | None = None
         self.limited = False  # whether the load has a limit where motions run away
         self._barrier = np.inf  # part of the segment where the last increment was refused
-        self._lost_at = np.inf  # part of the segment where the way was lost before it was gone again
         self._searched = False  # long, once in vain: shorter increments are near where they begin, or there are none
         self._rate: Array | None = None  # of r - h in the last increment that was found, per part of the segment
         self._overloaded = False  # whether the pairs that are near hold the bodies no more
@@ -119,14 +117,14 @@ class SpaceFollower(PathFollower):
     def goes_back(self) -> bool:
         """Whether an increment has passed over something: back to its beginning, to go through it event by event."""
         # close to a limit of the load all increments miss energy
-        if self.limited or not self.settings.shortest or abs(self.factor - self._lost_at) <= _SAME_END:
+        if self.limited or not self.settings.shortest:
             return False
         k = first_missed_jump(self.problem, self.start, self.pieces, self.balanced, self.width)
         if k is None:
             return False
         self.careful = self.balanced = self.pieces[k].factor
         self.trusting, self.refused, self._overloaded, self._rate = False, None, False, None
-        self._lost_at, self._barrier = self.factor if self.factor < 1.0 else np.inf, np.inf
+        self._barrier = np.inf
         self.pieces = self.pieces[:k]
         self.now, self.factor = self.pieces[-1].state or self.start, self.pieces[-1].factor
         self.last = self.careful - self.factor
