@@ -108,3 +108,9 @@ def test_the_tangent_is_that_of_the_forces_and_nothing_presses_across(backstress
     volume = strain[:, :3].sum(axis=1)
     across = K * (volume - heat) + 2 * G * (strain[:, 2] - volume / 3 - response.state.strain[:, 2])
     assert np.abs(across).max() < 1e-10 * Y
+
+
+def test_collapse_in_plane_stress_is_named_with_its_load():
+    solution = sg.solve(square(steel(hardening=0.0), (1.25, 0.0)), raise_on_failure=False)
+    assert solution.status == "no_equilibrium"
+    assert "bodies flow plastically at 80.0" in solution.message  # a bound from above

@@ -59,6 +59,8 @@ def collapse(prepared: Prepared, start: LoadPoint, end: LoadPoint, free: Array, 
         return None
     v = T @ (free / largest)
     rate = bodies.strains(v)
+    if bodies.laws.thin:  # the thickness gives way
+        rate[:, 2] = -(rate[:, 0] + rate[:, 1])
     dilatation = bodies.weights @ np.abs(bodies.dilatation(rate))
     rate[:, :3] -= rate[:, :3].mean(axis=1)[:, None]
     rate[:, 3:] *= 0.5

@@ -38,6 +38,7 @@ ELASTIC = "nothing yields: bodies answer as elastic ones"
 _YIELD_TOL = 1e-9  # of the yield stress: rounding of a point that is about to flow
 _SOON = 1e-3  # of a part: a point that flows by then flows from the start
 _AT_ONCE = 1e-9  # of a part: first yield before that is at its start
+_YIELD_ROUNDS = 8  # that look for first yield where increments curve the path with their number: two are the rule
 _BELOW_COLLAPSE = 0.98  # of the load at which bodies flow: up to there they are followed
 _MAX_INCREMENTS = 256  # of a straight part: more of them are not tried by themselves
 
@@ -117,10 +118,17 @@ def _elastic_part(
             raise lost
         assert followed is not None
         return _below_yield(part.prepared, followed, ELASTIC), None
-    if factor <= _AT_ONCE:
+    for _ in range(_YIELD_ROUNDS):
+        if factor <= _AT_ONCE:
+            return None, part
+        cut = part.cut(factor, "event")
+        begun = elastically(_frozen(cut))
+        earlier = _first_yield(cut, begun)
+        if earlier is None:
+            break
+        factor *= earlier
+    else:
         return None, part
-    cut = part.cut(factor, "event")
-    begun = elastically(_frozen(cut))
     words = f"{part.where} at {part.interval.fraction(factor):.6%}: first yield, {_place(part.prepared, begun.after)}"
     return _below_yield(part.prepared, begun, words), part.rest(cut, begun.after)
 
