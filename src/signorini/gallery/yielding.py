@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bodies that yield: a tube under pressure, a flat punch, a round body on a rigid plane."""
+"""Bodies that yield: tubes, flat punches, round bodies on a rigid plane, beams, what a cylinder rolls over."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
+from signorini.arrays import Array
 from signorini.gallery.large_bodies import bend, graded_lines, with_seat
 from signorini.meshing.plane import Cells, annulus, rectangle
 from signorini.model.body import Body
@@ -171,3 +173,57 @@ def bent_beam(*, curvature: float, n: int, cells: Cells = "quad8") -> Model:
         supports=[Support("left", u=(0.0, None)), Support((0.0, -1.0), u=(None, 0.0), name="height"), *turned],
         steps=[Step(name="bend", increments=1)],
     )
+
+
+def rolled_half_plane(p_0: float, *, n: int, passes: int) -> Model:
+    """A block under the pressure of a cylinder that rolls over it from -4 to 4 half-widths of contact again and again.
+
+    Without friction, and as the pressure of an elastic contact is: from one place to the next, two cells on, the one
+    fades as the other comes.
+
+    Parameters
+    ----------
+    p_0 : largest pressure, force per area; the half-width is 1
+    n : cells in a half-width, even
+    passes : how often
+    """
+    run, size = 4.0, 16.0
+    fine = run + 1.5
+    beyond = fine + graded_lines(2.0 / n, 1.0 / n, size - fine, 1.25)[1:]
+    x = np.concatenate([-beyond[::-1], np.linspace(-fine, fine, round(2.0 * fine * n) + 1), beyond])
+    mesh = rectangle(x=x, y=-graded_lines(2.0, 1.0 / n, size, 1.25)[::-1])
+    nodes = np.unique(mesh.facets("top")[0])
+    places = np.linspace(-run, run, round(run * n) + 1)
+    order = np.argsort(mesh.points[nodes, 0])
+    forces = np.zeros((len(places), len(nodes), 2))
+    forces[:, order, 1] = -p_0 * np.array([_hertz_forces(x, place) for place in places])
+    names = [f"place {j}" for j in range(len(places))]
+    each = np.eye(len(places) + 1, len(places))  # one after the other, then none
+    scale = {name: each[:, j].tolist() for j, name in enumerate(names)}
+    (name,) = mesh.bodies
+    return Model(
+        replace(mesh, nodes={**mesh.nodes, "surface": nodes}),
+        title="Half-plane that a cylinder rolls over",
+        bodies=[Body(name, Elastic(E=1000.0 * SHEAR_STRENGTH, nu=0.3, plastic=PERFECT))],
+        supports=[
+            Support("bottom", u=(0.0, 0.0)),
+            Support("left", u=(0.0, None)),
+            Support("right", u=(0.0, None)),
+        ],
+        loads=[Load("surface", nodal_forces=force, name=word) for word, force in zip(names, forces, strict=True)],
+        steps=[Step(name="roll", scale=scale, repeat=passes, increments=1)],
+    )
+
+
+def _hertz_forces(x: Array, place: float) -> Array:
+    """Nodal forces of ``sqrt(1 - (x - place)^2)`` on linear facets between coordinates, per thickness."""
+    at, share = np.polynomial.legendre.leggauss(4)
+    low, high = np.maximum(x[:-1], place - 1.0), np.minimum(x[1:], place + 1.0)
+    half = np.maximum(0.5 * (high - low), 0.0)[:, None]
+    where = np.where(half > 0.0, 0.5 * (low + high)[:, None] + half * at, place)
+    force = np.sqrt(np.maximum(1.0 - (where - place) ** 2, 0.0)) * half * share
+    right = (where - x[:-1, None]) / np.diff(x)[:, None]
+    found = np.zeros(len(x))
+    found[:-1] += (force * (1.0 - right)).sum(axis=1)
+    found[1:] += (force * right).sum(axis=1)
+    return found

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""B13: round bodies on a rigid plane: first yield below the surface, and the pressure when all around them flows."""
+"""B13: round bodies on a rigid plane: first yield below the surface, full plasticity, rolling again and again."""
 
 from __future__ import annotations
 
@@ -10,16 +10,17 @@ from itertools import pairwise
 import numpy as np
 
 from signorini.api import solve
-from signorini.gallery.yielding import NU, E, round_body
+from signorini.gallery.yielding import NU, SHEAR_STRENGTH, E, rolled_half_plane, round_body
 from signorini.meshing.plane import Cells
 from signorini.model.model import Kind
 from signorini.model.plastic import Plastic
 from signorini.model.step import Step
 from signorini.reference.hertz import contact_modulus
-from signorini.reference.plasticity import first_yield_line, first_yield_point, punch_limit
+from signorini.reference.plasticity import first_yield_line, first_yield_point, punch_limit, rolling_shakedown_limit
 from signorini.verify.check import Check, checks_of
 
 _RADIUS = 1000.0
+_PASSES = 5  # of the cylinder that rolls: by then what they add above the limit is the same to a thousandth
 _MODULUS = contact_modulus((E, NU))
 _MESHES: tuple[tuple[Cells, int, float], ...] = (("quad", 16, 0.015), ("quad8", 8, 0.008))
 """Cells, how many in a half-width of the elastic contact; what the pressure of first yield may be off."""
@@ -101,3 +102,20 @@ def full_plasticity() -> Iterator[Check]:
             ("mean pressure / Y", np.mean(far) if far else np.nan, expected, tolerance),
             source=source,
         )
+
+
+def rolling() -> Iterator[Check]:
+    """Flow to and fro dies out below the shakedown limit; above it every pass adds the same, the more the farther."""
+    limit, last = rolling_shakedown_limit(SHEAR_STRENGTH), {}
+    for part in (0.95, 1.025, 1.075):
+        passed = solve(rolled_half_plane(part * limit, n=6, passes=_PASSES)).last
+        last[part] = [cycle.flow for cycle in passed.cycles]
+    (_, near), (_, far) = ((part, flows[-1]) for part, flows in last.items() if part > 1.0)
+    none = 1.025 - 0.05 * near / (far - near)
+    yield from checks_of(
+        "B13 rolling again and again, without friction, 6 cells in a half-width",
+        ("p_0 / k at which passes add nothing, from what they add above", none * limit, limit, 0.02),
+        ("what the last pass adds at 4.1 k, over the one before", near / last[1.025][-2], 1.0, 0.01),
+        ("the same at 3.8 k, over what it adds at 4.1 k", last[0.95][-1] / near, 0.0, 0.25),
+        source="Johnson (1985), section 9.2; Melan (1938)",
+    )

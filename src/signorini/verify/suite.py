@@ -90,6 +90,7 @@ SLOW: tuple[Case, ...] = (
     rates.corners,
     plasticity.flat_punch_refined,
     indentation.full_plasticity,
+    indentation.rolling,
 )
 
 
