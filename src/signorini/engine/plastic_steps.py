@@ -12,6 +12,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
 from math import ceil
+from typing import NamedTuple
 
 import numpy as np
 
@@ -37,8 +38,10 @@ ELASTIC = "nothing yields: bodies answer as elastic ones"
 
 _YIELD_TOL = 1e-9  # of the yield stress: rounding of a point that is about to flow
 _SOON = 1e-3  # of a part: a point that flows by then flows from the start
+_YIELD_ROUNDS = 30  # of regula falsi: a few where contact grows, as pressures do with a power of the load
+_NEAR_YIELD = 1e-6  # of the yield stress: how near it the fullest point is where first yield is found
+_INSIDE = 1e-3  # of the bracket: how near its ends the next try may be
 _AT_ONCE = 1e-9  # of a part: first yield before that is at its start
-_YIELD_ROUNDS = 8  # that look for first yield where increments curve the path with their number: two are the rule
 _BELOW_COLLAPSE = 0.98  # of the load at which bodies flow: up to there they are followed
 _MAX_INCREMENTS = 256  # of a straight part: more of them are not tried by themselves
 
@@ -112,25 +115,47 @@ def _elastic_part(
         followed: FollowedPart | None = elastically(calm)
     except SolveFailed as failure:
         followed, lost = reached(failure), failure
-    factor = None if followed is None else _first_yield(part, followed)
-    if factor is None:
+    found = None if followed is None else _first_yield(part, followed)
+    if found is None:
         if lost is not None:
             raise lost
         assert followed is not None
         return _below_yield(part.prepared, followed, ELASTIC), None
+    reached_yield = _up_to_yield(part, found, elastically)
+    if reached_yield is None:
+        return None, part
+    cut, begun = reached_yield
+    words = f"{part.where} at {cut.interval.high:.6%}: first yield, {_place(part.prepared, begun.after)}"
+    return _below_yield(part.prepared, begun, words), part.rest(cut, begun.after)
+
+
+def _up_to_yield(
+    part: StepPart, bracket: _Bracket, elastically: Callable[[StepPart], FollowedPart]
+) -> tuple[StepPart, FollowedPart] | None:
+    """The part up to where its first point yields, and how it was followed; None where that is at its beginning.
+
+    On a straight piece of an exact path the first try is it; between increments stresses bend, and it is found by
+    regula falsi from the side that does not yield.
+    """
+    (low, below), (high, above), factor = bracket.low, bracket.high, bracket.factor
+    best: tuple[StepPart, FollowedPart] | None = None
+    side = 0
     for _ in range(_YIELD_ROUNDS):
         if factor <= _AT_ONCE:
-            return None, part
+            break
         cut = part.cut(factor, "event")
         begun = elastically(_frozen(cut))
-        earlier = _first_yield(cut, begun)
-        if earlier is None:
-            break
-        factor *= earlier
-    else:
-        return None, part
-    words = f"{part.where} at {part.interval.fraction(factor):.6%}: first yield, {_place(part.prepared, begun.after)}"
-    return _below_yield(part.prepared, begun, words), part.rest(cut, begun.after)
+        excess = fullest(part.prepared, begun.after) - 1.0
+        if excess <= _YIELD_TOL:
+            best = cut, begun
+            if excess >= -_NEAR_YIELD:
+                break
+            low, below, above, side = factor, excess, above * (0.5 if side < 0 else 1.0), -1
+        else:
+            high, above, below, side = factor, excess, below * (0.5 if side > 0 else 1.0), 1
+        aim = -0.5 * _NEAR_YIELD
+        factor = low + (high - low) * min(max((aim - below) / (above - below), _INSIDE), 1.0 - _INSIDE)
+    return best
 
 
 def _below_yield(prepared: Prepared, followed: FollowedPart, note: str) -> FollowedPart:
@@ -161,16 +186,32 @@ def fullest(prepared: Prepared, state: State) -> float:
     return float(fullness(bodies, state.displacement, plastic, bodies.swelling(state.point.factors)).max())
 
 
-def _first_yield(part: StepPart, followed: FollowedPart) -> float | None:
-    """The fraction of a part at which the first point yields on an elastic path; None where none does."""
+class _Bracket(NamedTuple):
+    """Where on an elastic path the first point yields, as fractions of a part.
+
+    Attributes
+    ----------
+    low, high : of states before and behind, with what the fullest point has beyond its yield stress, of that
+    factor : where it does if stresses are straight between them
+    """
+
+    low: tuple[float, float]
+    high: tuple[float, float]
+    factor: float
+
+
+def _first_yield(part: StepPart, followed: FollowedPart) -> _Bracket | None:
+    """Where the first point yields on an elastic path; None where none does."""
     prepared = part.prepared
     states = [(0.0, followed.before)]
     for shot in followed.snapshots:
         if shot.whole:
             states.append((part.interval.within(shot.fraction), shot.state))
     for (begin, one), (end, two) in pairwise(states):
-        if fullest(prepared, two) > 1.0 + _YIELD_TOL:
-            return begin + (end - begin) * _root(prepared, one, two)
+        excess = fullest(prepared, two) - 1.0
+        if excess > _YIELD_TOL:
+            low = begin, min(fullest(prepared, one) - 1.0, 0.0)
+            return _Bracket(low, (end, excess), begin + (end - begin) * _root(prepared, one, two))
     return None
 
 
