@@ -71,3 +71,20 @@ def test_prager_stores_its_share_of_a_bar():
     assert step.yielding.share == pytest.approx(1.0)
     assert step.strain_energy == pytest.approx(2.0 * 2.5**2 / 400.0, rel=1e-8)
     assert any("plastic strains of up to 5%" in note for note in step.notes) == (step.yielding.largest > 0.05)
+
+
+def test_flow_that_lower_friction_sets_off_is_no_energy_set_free():
+    model = sg.Model(
+        sg.rectangle(x=np.linspace(0, 1, 5), y=np.linspace(0, 2, 9)),
+        bodies=[sg.Body("block", sg.Elastic(E=200.0, nu=0.3, plastic=sg.Plastic(2.0, hardening=1.0)))],
+        supports=[sg.Support("top", u=(0.0, 0.0))],
+        loads=[sg.Load("right", traction=(0.62, 0), name="push")],
+        obstacles=[sg.Rigid("floor", sg.Plane((0, 0), (0, 1)), u=(0, 0.008))],
+        contacts=[sg.Contact("bottom", "floor", friction=0.8, name="foot")],
+        steps=[sg.Step(increments=8), sg.Step(friction={"foot": 0.01})],
+    )
+    step = sg.solve(model).last
+    assert step.plastic.dissipation > 0.5 * step.work
+    assert 0.0 < step.released < step.work
+    assert abs(step.energy_defect) <= 1e-9 * step.work
+    assert step.increments <= 4, "loads do not change behind the slip"

@@ -43,6 +43,7 @@ _NEAR_YIELD = 1e-6  # of the yield stress: how near it the fullest point is wher
 _INSIDE = 1e-3  # of the bracket: how near its ends the next try may be
 _AT_ONCE = 1e-9  # of a part: first yield before that is at its start
 _BELOW_COLLAPSE = 0.98  # of the load at which bodies flow: up to there they are followed
+_LITTLE_WORK = 1e-6  # of the plastic work so far: where a part takes less, its share decides nothing
 _MAX_INCREMENTS = 256  # of a straight part: more of them are not tried by themselves
 
 
@@ -329,7 +330,7 @@ def _change(prepared: Prepared, coarse: FollowedPart, fine: FollowedPart) -> tup
     area = np.sqrt(np.tile(interface.area, interface.directions))
     tractions = _ratio((two.forces - one.forces) / area, two.forces / area) if len(area) else 0.0
     spent = [_points(prepared, state)[1].dissipation for state in (fine.before, one, two)]
-    taken = abs(spent[2] - spent[1]) / (abs(spent[2] - spent[0]) or 1.0)
+    taken = abs(spent[2] - spent[1]) / (max(abs(spent[2] - spent[0]), _LITTLE_WORK * spent[2]) or 1.0)
     return max(tractions, taken), f"tractions by {tractions:.1e} of their size and plastic work by {taken:.1e} of it"
 
 
