@@ -393,10 +393,15 @@ class Follower:
         parts : of the load, at least
         """
         u, r, at, part = self.u, self.r, 0.0, 1.0 / parts
+        T, K = self.structure.T, self.stiffness
+        follows = self.held - held  # elastically, where supports move and pairs do not
+        P = self.structure.pairs.reshape(-1, len(u)) if self.structure.gap.size else np.zeros((1, len(u)))
+        springs = np.diag(K).mean() * P.T @ P
+        moved = held - self.held + T @ np.linalg.lstsq(T.T @ (K + springs) @ T, T.T @ K @ follows, rcond=None)[0]
         while at < 1.0:
             goal = min(1.0, at + part)
             now = [a + goal * (b - a) for a, b in ((self.load, load), (self.held, held))]
-            found = self._solved(now[0], u + (goal - at) * (held - self.held), r)
+            found = self._solved(now[0], u + (goal - at) * moved, r)
             if found is None:
                 part /= 2
                 if part < _LEAST_PART:

@@ -10,9 +10,13 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+import signorini as sg
+
 sys.path.append(str(Path(__file__).parents[2] / "benchmarks"))
+import independent_plastic as own
 import plastic_histories as histories
 
 
@@ -30,6 +34,7 @@ def test_first_yield_is_found_where_increments_curve_the_path(seed):
     assert verdict.outcome == "right", verdict
 
 
+@pytest.mark.slow
 def test_the_slow_solver_finds_the_same_answers():
     verdict = histories.judge(histories.make(2), solve=True)
     assert verdict.outcome == "right", verdict
@@ -40,3 +45,39 @@ def test_the_judge_sees_a_wrong_answer():
     softer = [replace(law, rows=law.rows * [1.0, 0.999]) for law in case.structure.laws]
     wrong = replace(case, structure=replace(case.structure, laws=softer))
     assert histories.judge(wrong).outcome == "WRONG"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("backstresses", [(), [(20.0, 0.0)]])
+def test_a_plate_with_a_hole_in_plane_stress(backstresses):
+    flat = sg.rectangle(width=1.0, height=1.0, nx=3, ny=4)
+    t, turn = flat.points[:, :1], 0.5 * np.pi * flat.points[:, 1:]
+    ray = np.hstack([np.cos(turn), np.sin(turn)])
+    mesh = replace(flat, points=(1 - t) * 0.4 * ray + t * ray / np.abs(ray).max(axis=1, keepdims=True))
+    pulled = np.flatnonzero(np.isclose(mesh.points[:, 1], 1.0))
+    steel = sg.Elastic(E=200.0, nu=0.3, plastic=sg.Plastic(1.0, hardening=2.0, backstresses=backstresses))
+    stretch = 1.5 / 200.0
+    model = sg.Model(
+        mesh,
+        kind="plane stress",
+        thickness=0.5,
+        bodies=[sg.Body("block", steel)],
+        supports=[sg.Support("bottom", u=(None, 0.0)), sg.Support("top", u=(0.0, None))]
+        + [sg.Support(tuple(mesh.points[i].tolist()), u=(None, stretch)) for i in pulled],
+        steps=[sg.Step(increments=2, at="events")],
+    )
+    moved = np.zeros(mesh.points.size)
+    moved[2 * pulled + 1] = stretch
+    held = {*(2 * mesh.nodes_of("bottom") + 1).tolist(), *(2 * mesh.nodes_of("top")).tolist()}
+    held |= set((2 * pulled + 1).tolist())
+    reference = own.Follower.of(histories.in_words(model, held))
+    solution = sg.solve(model)
+    for instant in solution.steps[0].instants:
+        u, part = reference.reached(0.0 * moved, instant.load_factor * moved, parts=1)
+        np.testing.assert_allclose(instant.displacement.ravel(), u, atol=1e-8 * stretch)
+        assert part == 1.0
+        reference.state = reference.structure.respond(u, reference.state)[1]
+        reference.u, reference.held = u, instant.load_factor * moved
+    plastic = solution.end.state.plastic
+    assert plastic.equivalent.max() > 5e-3
+    np.testing.assert_allclose(np.sort(plastic.equivalent), np.sort(reference.state.equivalent), atol=1e-9)
