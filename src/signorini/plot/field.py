@@ -43,9 +43,9 @@ def draw_peeq(data: PictureData) -> Figure:
 
 
 def _draw_field(data: PictureData, scalar: Scalar) -> Figure:
-    """A field of the last state on the deformed bodies, whole and at the contact.
+    """A field of the last state on the deformed bodies, whole and closer, where they touch or have yielded.
 
-    The title says by what the displacements are multiplied. Colours end at the largest value at the contact.
+    The title says by what the displacements are multiplied. Colours end at the largest value there.
     """
     from matplotlib.ticker import MaxNLocator
     from matplotlib.tri import Triangulation
@@ -70,7 +70,7 @@ def _draw_field(data: PictureData, scalar: Scalar) -> Figure:
     words = scalar.words.format("") + beyond
     bar = colour_bar(figure, field, panels, words, spacing="proportional")
     bar.ax.yaxis.set_major_locator(MaxNLocator(nbins=7, steps=[1, 2, 2.5, 5, 10]))
-    _finish(panels)
+    _finish(panels, "where bodies have yielded" if data.yielded.any() else "at the contact")
     entitle(figure, data.model.title, f"deformed, {factor_words(factor)}; end of step '{data.last.name}'")
     return figure
 
@@ -93,7 +93,7 @@ def draw_mesh(data: PictureData) -> Figure:
             drawn = axes.plot(x, y, "o", ms=4, color=STATUS_INK[words], label=f"contact node, {words}", zorder=3)
             handles += drawn if axes is panels[-1] else []
     legend_below(figure, handles)
-    _finish(panels)
+    _finish(panels, "at the contact")
     entitle(figure, data.model.title, data.size)
     return figure
 
@@ -131,8 +131,8 @@ def drawn_factor(size: float, displacement: Array) -> float:
 
 
 def _window(data: PictureData, points: Array) -> Window | None:
-    """The part around the closed contact nodes; None if that is much of the picture."""
-    here = points[data.closed]
+    """The part around nodes that touch or have yielded; None if that is much of the picture."""
+    here = points[data.closed | data.yielded]
     size = float(np.ptp(points, axis=0).max())
     if not len(here):
         return None
@@ -188,14 +188,14 @@ def _edges(axes: Axes, outlines: list[IntArray], points: Array, *, colour: str, 
         )
 
 
-def _finish(panels: list[Axes]) -> None:
-    """Label the axes, frame what is not the whole."""
+def _finish(panels: list[Axes], closer: str) -> None:
+    """Label the axes, frame what is not the whole; ``closer`` says what that shows."""
     for axes in panels:
         for side in axes.spines.values():
             side.set_visible(axes is not panels[0])
             side.set_color(INK)
         axes.tick_params(colors=INK, labelsize=9)
-        label(axes, x="x", y="y" if axes is panels[0] else "", title="" if axes is panels[0] else "at the contact")
+        label(axes, x="x", y="y" if axes is panels[0] else "", title="" if axes is panels[0] else closer)
 
 
 def _triangles(outlines: list[IntArray]) -> IntArray:

@@ -28,6 +28,8 @@ _CELL_OUTLINES = {
     "quad9": [0, 4, 1, 5, 2, 6, 3, 7],
 }
 
+_FLOWED = 0.05  # of the largest equivalent plastic strain: pictures look at what has flowed more
+
 
 class Scalar(NamedTuple):
     """A field of the bodies as colours show it.
@@ -88,6 +90,15 @@ class PictureData:
         if self.bodies.plastic is None:
             raise InputError("has no body that yields; expected another picture", where=("peeq",))
         return Scalar(self.bodies.plastic.equivalent, "equivalent plastic strain{}")
+
+    @property
+    def yielded(self) -> BoolArray:
+        """(points,) Which points of the bodies have flowed, by a twentieth of the most that any has."""
+        plastic = self.bodies.plastic
+        if plastic is None or not plastic.equivalent.any():
+            return np.zeros(len(self.bodies.points), bool)
+        found: BoolArray = plastic.equivalent > _FLOWED * plastic.equivalent.max()
+        return found
 
     def points_of(self, contact: ContactResult, chosen: BoolArray) -> BoolArray:
         """(points,) Which points of the bodies have one of the chosen pairs (n,) of a contact, and an area."""
