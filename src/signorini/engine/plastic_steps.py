@@ -42,6 +42,7 @@ _YIELD_ROUNDS = 30  # of regula falsi: a few where contact grows, as pressures d
 _NEAR_YIELD = 1e-6  # of the yield stress: how near it the fullest point is where first yield is found
 _INSIDE = 1e-3  # of the bracket: how near its ends the next try may be
 _AT_ONCE = 1e-9  # of a part: first yield before that is at its start
+_INCREMENTS_BELOW = 8  # of what is followed below collapse: the load named is a bound, they may end before it
 _BELOW_COLLAPSE = 0.98  # of the load at which bodies flow: up to there they are followed
 _LITTLE_WORK = 1e-6  # of the plastic work so far: where a part takes less, its share decides nothing
 _MAX_INCREMENTS = 256  # of a straight part: more of them are not tried by themselves
@@ -317,7 +318,8 @@ def _collapsed(part: StepPart, found: Collapse, fraction: float, number: int) ->
     failure.hopeless = True
     if fraction > _AT_ONCE:
         try:
-            behind = follow_increments(part.cut(_BELOW_COLLAPSE * fraction, "event"), max(1, ceil(number * fraction)))
+            count = max(_INCREMENTS_BELOW, ceil(number * fraction))
+            behind = follow_increments(part.cut(_BELOW_COLLAPSE * fraction, "event"), count)
         except SolveFailed as stop:
             return keep(failure, [found for found in [reached(stop)] if found is not None])  # type: ignore[return-value]
         return keep(failure, [behind])  # type: ignore[return-value]
