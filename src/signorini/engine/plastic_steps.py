@@ -41,6 +41,8 @@ _SOON = 1e-3  # of a part: a point that flows by then flows from the start
 _YIELD_ROUNDS = 30  # of regula falsi: a few where contact grows, as pressures do with a power of the load
 _NEAR_YIELD = 1e-6  # of the yield stress: how near it the fullest point is where first yield is found
 _INSIDE = 1e-3  # of the bracket: how near its ends the next try may be
+_AHEAD = 1.5  # times the load at which Hertz's line contact yields: so far ahead first yield is looked for
+_MOST_AHEAD = 0.5  # of a part: where that is more, all of it
 _AT_ONCE = 1e-9  # of a part: first yield before that is at its start
 _INCREMENTS_BELOW = 8  # of what is followed below collapse: the load named is a bound, they may end before it
 _BELOW_COLLAPSE = 0.98  # of the load at which bodies flow: up to there they are followed
@@ -112,23 +114,39 @@ def _elastic_part(
     part: StepPart, elastically: Callable[[StepPart], FollowedPart]
 ) -> tuple[FollowedPart | None, StepPart | None]:
     """What is followed until a point yields, and what is left of the part; None where nothing is."""
-    calm, lost = _frozen(part), None
-    try:
-        followed: FollowedPart | None = elastically(calm)
-    except SolveFailed as failure:
-        followed, lost = reached(failure), failure
-    found = None if followed is None else _first_yield(part, followed)
-    if found is None:
+    prepared, behind = part.prepared, list[FollowedPart]()
+    while True:
+        ahead, lost = _ahead(part, len(behind)), None
+        try:
+            followed: FollowedPart | None = elastically(_frozen(ahead))
+        except SolveFailed as failure:
+            followed, lost = reached(failure), failure
+        found = None if followed is None else _first_yield(ahead, followed)
+        if found is not None:
+            break
         if lost is not None:
-            raise lost
+            raise keep(lost, behind)
         assert followed is not None
-        return _below_yield(part.prepared, followed, ELASTIC), None
-    reached_yield = _up_to_yield(part, found, elastically)
+        behind.append(followed)
+        if ahead is part:
+            return _below_yield(prepared, joined(behind), ELASTIC), None
+        part = part.rest(ahead, followed.after)
+    reached_yield = _up_to_yield(ahead, found, elastically)
     if reached_yield is None:
-        return None, part
+        return (joined(behind) if behind else None), part
     cut, begun = reached_yield
-    words = f"{part.where} at {cut.interval.high:.6%}: first yield, {_place(part.prepared, begun.after)}"
-    return _below_yield(part.prepared, begun, words), part.rest(cut, begun.after)
+    words = f"{part.where} at {cut.interval.high:.6%}: first yield, {_place(prepared, begun.after)}"
+    return _below_yield(prepared, joined([*behind, begun]), words), part.rest(cut, begun.after)
+
+
+def _ahead(part: StepPart, tried: int) -> StepPart:
+    """As much of a part as first yield may be in, more the more was tried: under a contact stresses grow as roots."""
+    try:
+        end, _, _ = advance(_frozen(part).prepared, part.before, part.end, part.where)
+    except SolveFailed:
+        return part
+    share = 4.0**tried * _AHEAD / max(fullest(part.prepared, end), 1.0) ** 2
+    return part if share > _MOST_AHEAD else part.cut(share, "event")
 
 
 def _up_to_yield(
@@ -166,6 +184,8 @@ def _below_yield(prepared: Prepared, followed: FollowedPart, note: str) -> Follo
     fullest = max((_still(prepared, state) for state in states), key=lambda found: found.excess)
     *others, last = followed.certificates
     certificates = (*others, replace(last, plastic=fullest))
+    if not certificates[-1].passed:
+        raise SolveFailed(f"{note}: but a point is beyond it, {certificates[-1]}", status=Outcome.NOT_FOUND)
     return replace(followed, certificates=certificates, notes=(*followed.notes, note))
 
 
@@ -308,8 +328,9 @@ def _collapsed(part: StepPart, found: Collapse, fraction: float, number: int) ->
         if found.rubs
         else "loads do more work on the mechanism than plastic flow can take: proved for this mesh"
     )
+    beyond = "" if found.rubs else ": beyond there is no equilibrium"
     words = told(
-        f"{part.where}: bodies flow plastically at {limit:.4%} of the step at most: beyond there is no equilibrium",
+        f"{part.where}: bodies flow plastically at {limit:.4%} of the step at most{beyond}",
         remedy="less load, a harder material, or a prescribed motion in place of the load",
         evidence=proof,
     )
