@@ -25,8 +25,11 @@ Matrix: TypeAlias = Array | sp.csr_array | LinearOperator
 BLUR = 1e-5
 """Of the largest size in its part: what a z other than 0 may be wrong by, so that 1e-14 of it is within tolerances."""
 
-SWEEPS = 12
-"""Of balancing rows and columns in turn: sizes are settled to a factor of 1.4 after two or three."""
+SWEEPS = 40
+"""Of balancing rows and columns in turn: ten are the rule."""
+
+SETTLED = 0.05
+"""Doublings that a sweep still changes a size by, where sizes are settled: residuals follow them within a few of it."""
 
 EXCUSE = 1e-5
 """Of the terms of a row, beyond the data of its part: they excuse rounding, 1e-14 of them within 1e-9, and no more."""
@@ -201,7 +204,7 @@ def balance(magnitude: Any, n: int) -> tuple[Array, Array]:
         return rows, columns
     for sweep in range(SWEEPS):
         before, rows = rows, _or_one(magnitude @ columns)
-        if sweep > 0 and np.abs(np.log2(rows / before)).max() < 0.5:
+        if sweep > 0 and np.abs(np.log2(rows / before)).max() < SETTLED:
             return rows, columns
         columns = 1.0 / _or_one(magnitude.T @ (1.0 / rows))
     return _by_largest(magnitude, n)
