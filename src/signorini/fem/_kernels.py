@@ -202,7 +202,7 @@ def add_block(points: Array, elements: Cells, laws: Laws, pattern: SparsityPatte
         _eliminate(K, nodes * d)
         if pressures.shape[1]:
             _project(K, divergence, volume, pressures, bulk[material[t]])
-        _scatter(K, cells[t], d, rows, columns, data)
+        scatter(K, cells[t], d, rows, columns, data)
     return -1, 0
 
 
@@ -304,8 +304,17 @@ def _project(K: Array, divergence: Array, volume: Array, pressures: Array, bulk:
 
 
 @njit(cache=True)
-def _scatter(K: Array, cell: Int32Array, d: int, rows: IntArray, columns: Int32Array, data: Array) -> None:
-    """Add the matrix of an element."""
+def scatter(K: Array, cell: IntArray, d: int, rows: IntArray, columns: IntArray, data: Array) -> None:
+    """Add the matrix of an element to a matrix on the pattern of the nodes.
+
+    Parameters
+    ----------
+    K : (k d, k d) of the element
+    cell : (k,) its nodes
+    d : unknowns a node
+    rows, columns : of the graph of the nodes
+    data : entries, d unknowns a node
+    """
     for a in range(len(cell)):
         low, high = rows[cell[a]], rows[cell[a] + 1]
         for b in range(len(cell)):

@@ -15,6 +15,7 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import Array, IntArray
+from signorini.fem._kernels import scatter
 from signorini.plasticity.radial_return import Points, YieldLaws
 
 
@@ -183,17 +184,4 @@ def soften(
                     if factor != 0.0:
                         for y in range(k * d):
                             K[x, y] += factor * MB[r, y]
-        for a in range(k):
-            low, high = rows[cells[c, a]], rows[cells[c, a] + 1]
-            for b in range(k):
-                lo, hi = low, high
-                while lo < hi:
-                    middle = (lo + hi) >> 1
-                    if columns[middle] < cells[c, b]:
-                        lo = middle + 1
-                    else:
-                        hi = middle
-                for r in range(d):
-                    at = d * d * low + r * d * (high - low) + d * (lo - low)
-                    for s in range(d):
-                        data[at + s] += K[a * d + r, b * d + s]
+        scatter(K, cells[c], d, rows, columns, data)

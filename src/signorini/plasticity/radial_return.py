@@ -101,20 +101,15 @@ def _yield_stress(laws: YieldLaws, body: int, p: float) -> tuple[float, float]:
 
 
 @njit(cache=True, inline="always", error_model="numpy")
-def _growth(laws: YieldLaws, body: int, old: Points, i: int, trial: Array, turn: Array) -> tuple[float, float, float]:
+def _growth(
+    laws: YieldLaws, body: int, old: Points, i: int, norm: float, trial: Array, turn: Array
+) -> tuple[float, float, float]:
     """Growth dp of the equivalent plastic strain, size of the relative stress before it (``turn``), slope of F.
 
     ``F(dp) = |trial - sum theta X| - sqrt(2/3) Y(p + dp) - sqrt(3/2) (2G + 2/3 sum theta C) dp`` falls: Newton's method
-    within a bracket.
+    within a bracket; ``norm`` is the size of the trial stress less the back stresses.
     """
     n, M, G2, p0 = len(trial), old.back.shape[1], 2.0 * laws.shear[body], old.equivalent[i]
-    norm = 0.0
-    for c in range(n):
-        x = trial[c]
-        for k in range(M):
-            x -= old.back[i, k, c]
-        norm += x * x * (1.0 if c < 3 else 2.0)
-    norm = np.sqrt(norm)
     dp, low, high, slope = 0.0, 0.0, norm / (ROOT32 * G2), 1.0
     for _ in range(_RETURN_ROUNDS):
         stiff, taken = G2, 0.0
@@ -174,7 +169,7 @@ def _return(laws: YieldLaws, body: int, old: Points, i: int, new: Points, trial:
     stress, _ = _yield_stress(laws, body, p0)
     if norm <= ROOT23 * stress * (1.0 + _RETURN_TOL):
         return
-    dp, norm, slope = _growth(laws, body, old, i, trial, turn)
+    dp, norm, slope = _growth(laws, body, old, i, norm, trial, turn)
     new.equivalent[i], new.yields[i] = p0 + dp, True
     new.slack[i, 0] = G2 * ROOT32 * dp / norm
     new.slack[i, 1] = G2 * ROOT32 / slope - new.slack[i, 0]
