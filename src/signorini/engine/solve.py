@@ -5,26 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import ceil
 
 import numpy as np
 
 from signorini.arrays import Array
 from signorini.clock import Clock
-from signorini.engine.automatic import follow_automatically
 from signorini.engine.contact_changes import nominal_gap, relaxed, staged, switched
-from signorini.engine.events import follow_exactly
-from signorini.engine.floating_bodies import approached, resting
-from signorini.engine.increments import follow_increments, measured
-from signorini.engine.jump_watch import follow_watchfully
-from signorini.engine.limit_load import known
+from signorini.engine.increments import measured
 from signorini.engine.memory_check import refuse_fields
-from signorini.engine.plastic_steps import follow_plastically
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
 from signorini.engine.step_parts import (
     FollowedPart,
-    Interval,
     Snapshot,
     StepPart,
     joined,
@@ -34,15 +26,14 @@ from signorini.engine.step_parts import (
     straight_parts,
 )
 from signorini.engine.support_changes import at_the_end, handed_over, refuse_moved
+from signorini.engine.ways import follow_part
 from signorini.engine.wellposed import assess
 from signorini.errors import InputError, Interrupted, SolveFailed
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.interface import pairs_of
-from signorini.linalg import NotPositiveDefinite
 from signorini.linalg.threads import one_thread
 from signorini.model.model import Model
 from signorini.model.stage import Stage, Standing, stages
-from signorini.model.step import Step
 from signorini.outcome import Outcome
 from signorini.settings import SolverSettings
 from signorini.solution.certificate import TOLERANCE
@@ -54,15 +45,6 @@ from signorini.solution.state import LoadPoint, State, initial_state
 
 RELAXED = "friction is lower than what pairs carried: they slip at once, before the loads of the step"
 """What a step says whose change of friction lets pairs slip."""
-
-GIVEN_WAY = "the condensed interface gave no certified answer; contact was solved on the bodies as they are"
-"""What a step says that was solved so."""
-
-TOLERANCE_OF_FORCES = 1e-3
-"""Of ``increments = "auto"``, where the step gives none and nothing yields."""
-
-_BEHIND_A_JUMP = 10  # increments
-_SPACE_INCREMENTS = 16  # in space, where no number is asked for: none need be shorter than 1/16 of a straight part
 
 
 def solve(
@@ -270,116 +252,16 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[FollowedPart,
         part = StepPart(
             prepared=prepared, where=stage.name, interval=interval, before=state, end=point, whole=at_events
         )
-        begun: list[FollowedPart] = []
         try:
-            first = approached(part)
-            begun = [] if first is None else [first]
-            part = part if first is None else replace(part, before=first.after)
-            followed = joined([*begun, _on_interface_or_bodies(stage, part)])
+            followed = follow_part(stage, part)
         except (SolveFailed, KeyboardInterrupt) as stop:
-            raise keep(stop, [*behind, *(begun if reached(stop) is not None else [])]) from None
+            raise keep(stop, behind) from None
         followed = lightened(followed, every=at_events, end=interval.asked, heated=heated)
         behind = [joined([*behind, followed])]
         state = followed.after
         if interval.cycle:
             cycle_ends.append(interval.factor(1.0))
     return behind[0], cycle_ends
-
-
-def _on_interface_or_bodies(stage: Stage, part: StepPart) -> FollowedPart:
-    """Follow a straight part of a step on the condensed interface; where that is lost, on the bodies as they are."""
-    try:
-        return _with_bodies_at_rest(stage, part)
-    except SolveFailed as failure:
-        lost = known(failure, part)
-        if lost.status != Outcome.NOT_FOUND or lost.hopeless or not _gives_way(part.prepared, stage.step):
-            raise lost from None
-    clock = part.prepared.clock
-    try:
-        with clock.again("once more, on the bodies as they are"):
-            followed = _iterated(stage, replace(part, prepared=part.prepared.with_multipliers()))
-    except (SolveFailed, NotPositiveDefinite):
-        raise lost from None
-    return replace(followed, notes=(*followed.notes, GIVEN_WAY))
-
-
-def _gives_way(prepared: Prepared, step: Step) -> bool:
-    """Whether a step that is lost may go the other way: pairs that were left out come first, exact paths have none."""
-    return step.path != "exact" and not prepared.limited and prepared.has_multipliers
-
-
-def _with_bodies_at_rest(stage: Stage, part: StepPart) -> FollowedPart:
-    """Follow a straight part of a step while bodies that nothing touches rest; if something does, wherever they go."""
-    calm = resting(part)
-    try:
-        return _as_asked(stage, calm)
-    except SolveFailed:
-        if calm is part:
-            raise
-    return _as_asked(stage, part)
-
-
-def _without_flow(stage: Stage, part: StepPart) -> FollowedPart:
-    """Follow a straight part of a step in which nothing yields: in the plane exactly, so that first yield is exact."""
-    if part.prepared.interface.directions == 2 and part.prepared.solver.paths is not None:
-        try:
-            return follow_exactly(part, jumps=stage.step.follows_jumps)
-        except SolveFailed:
-            if stage.step.path == "exact":
-                raise
-    return _as_asked(stage, part)
-
-
-def _as_asked(stage: Stage, part: StepPart) -> FollowedPart:
-    """Follow a straight part of a step as asked; where nothing was asked, exactly if there is Coulomb friction.
-
-    In space, where the exact cone has no exact path, in increments to events, more of them until the answer stays.
-    Where the exact path that nobody asked for ends in a jump or is lost, it is followed in increments, and the notes
-    say so: what they reach behind a jump is a candidate.
-    """
-    step, interface = stage.step, part.prepared.interface
-    if part.prepared.flows:
-        return follow_plastically(part, step, lambda elastic: _without_flow(stage, elastic))
-    jump = "follow" if step.follows_jumps else step.jump
-    rubbing = bool((interface.friction.bounded & ~part.prepared.absent).any())
-    if step.path != "exact" and (step.path is not None or step.increments is not None or not rubbing):
-        if step.increments == "auto":
-            return follow_automatically(part, step.tolerance or TOLERANCE_OF_FORCES, jump=jump)
-        number = _increments(step, part.interval, stage)
-        return follow_watchfully(part, number, stops=step.jump == "stop")
-    if step.path is None and (interface.directions == 3 or not interface.friction.straight):
-        return follow_automatically(part, step.tolerance or TOLERANCE_OF_FORCES, enough=_SPACE_INCREMENTS, jump=jump)
-    try:
-        return follow_exactly(part, jumps=step.follows_jumps)
-    except SolveFailed as failure:
-        if step.path == "exact" or step.jump == "stop":
-            raise
-        try:
-            followed = follow_increments(part, _BEHIND_A_JUMP)
-        except SolveFailed as nothing:
-            words = f"{failure.sentence}; nor do increments go on: {nothing.sentence}{nothing.details}"
-            status = failure.status if nothing.status == Outcome.NOT_FOUND else nothing.status  # a jump is proved
-            worse = SolveFailed(words, status=status, motion=nothing.motion)
-            worse.reached = failure.reached  # the exact path goes farther
-            raise worse from failure
-        return replace(
-            followed, notes=(f"{failure.sentence}; followed in {_BEHIND_A_JUMP} increments to what is a candidate",)
-        )
-
-
-def _iterated(stage: Stage, part: StepPart) -> FollowedPart:
-    """Follow a straight part of a step in increments: as many as asked for; as behind a jump where a path was lost."""
-    interface = part.prepared.interface
-    rubbing = bool(interface.friction.bounded.any())
-    if interface.directions == 2 and stage.step.path is None and stage.step.increments is None and rubbing:
-        return follow_increments(part, _BEHIND_A_JUMP)
-    return _as_asked(stage, part)
-
-
-def _increments(step: Step, interval: Interval, stage: Stage) -> int:
-    """Of a straight part: those of its whole segment, as far as they go."""
-    number = step.increments if isinstance(step.increments, int) else 1
-    return max(1, ceil(number * (interval.high - interval.low) * len(stage.ends) - 1e-9))
 
 
 def _history(
