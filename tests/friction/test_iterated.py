@@ -19,6 +19,9 @@ PROBLEMS = {
     "punch": pressed_punch(49, 0.4)[2],
     "floating": block_on_floor(16, (-3.0, 0.4, 0.2, 0.3, 0.1, 0.2), 0.4),
     "bounded": random_problem(5, 12, friction=0.3, directions=3, tresca=np.arange(12) % 2 == 0),
+    "ellipses": random_problem(3, 12, friction=np.outer([0.3, 0.1], np.ones(12)), directions=3),
+    "lines": random_problem(3, 12, friction=np.outer([0.3, 0.0], np.ones(12)), directions=3),
+    "facets": random_problem(2, 12, friction=0.3, directions=3, facets=4),
 }
 
 

@@ -188,12 +188,19 @@ class Unknowns:
         return rows
 
     def coordinates(self, r: Array) -> Array:
-        """(size,) The unknowns that come nearest to forces r, (d, n), each by itself."""
+        """(size,) The unknowns whose forces come nearest to forces r, (d, n), each pair by itself."""
         flat, c = r.ravel(), len(self.closed)
         x = flat[self.rows]
-        slips, share = self.closed[self.slips], self.law.share[:, self.closed[self.slips]]
-        x[:c][self.slips] = (r[0, slips] + (share * r[1:, slips]).sum(axis=0)) / (1.0 + (share**2).sum(axis=0))
-        return np.concatenate([x, (self.tau * r[1:, self.one]).sum(axis=0)]) if len(self.one) else x
+        slips, tau = self.closed[self.slips], self.law.tau[:, self.closed[self.slips]]
+        share = self.law.share[:, slips]
+        across = share - tau * (tau * share).sum(axis=0)  # what no force along the free direction makes up for
+        x[:c][self.slips] = (r[0, slips] + (across * r[1:, slips]).sum(axis=0)) / (1.0 + (across**2).sum(axis=0))
+        if not len(self.one):
+            return x
+        normal = np.zeros_like(r[0])
+        normal[self.closed] = x[:c]
+        left = r[1:, self.one] - self.law.share[:, self.one] * normal[self.one]
+        return np.concatenate([x, (self.tau * left).sum(axis=0)])
 
     def prescribed(self, h: Array) -> Array:
         """Motions, (d, n), with the zeros that the law prescribes, free of rounding."""
