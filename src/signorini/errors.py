@@ -69,7 +69,7 @@ class SolveFailed(SignoriniError):
     motion : array (nodes, d) of displacements along which bodies run away, or None
     reached : the part of the step that was followed before, or None
     hopeless : whether it is proved that no way of stepping leads to the end of the step
-    flow : motion of the free displacements in which plastic flow runs away, and forces of the pairs, or None
+    mechanisms : in which plastic flow runs away, see :class:`signorini.engine.solver.Mechanism`
     """
 
     def __init__(
@@ -80,7 +80,7 @@ class SolveFailed(SignoriniError):
         self.solution = solution
         self.reached: object | None = None
         self.hopeless = self.status == Outcome.NO_EQUILIBRIUM
-        self.flow: tuple[Any, Any] | None = None
+        self.mechanisms: tuple[Any, ...] = ()
         super().__init__(message)
 
     @property

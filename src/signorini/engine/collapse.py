@@ -11,6 +11,7 @@ Drucker, Prager, Greenberg (1952), Extended limit design theorems for continuous
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,7 @@ import numpy as np
 from signorini.arrays import Array, frozen
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
+from signorini.engine.solver import Mechanism
 from signorini.plasticity.bodies import YieldingBodies
 from signorini.plasticity.measure import size
 from signorini.solution.state import LoadPoint
@@ -43,17 +45,30 @@ class Collapse:
     rubs: bool
 
 
-def collapse(prepared: Prepared, start: LoadPoint, end: LoadPoint, free: Array, forces: Array) -> Collapse | None:
+def collapse(prepared: Prepared, start: LoadPoint, end: LoadPoint, mechanisms: Sequence[Mechanism]) -> Collapse | None:
+    """The least bound that motions give; None where none is a mechanism, or loads do no more work than flow takes.
+
+    Parameters
+    ----------
+    prepared : the model
+    start, end : points of the load history
+    mechanisms : motions in which plastic flow ran away
+    """
+    bounds = [bound for one in mechanisms if (bound := _bound(prepared, start, end, one)) is not None]
+    return min(bounds, key=lambda bound: bound.part, default=None)
+
+
+def _bound(prepared: Prepared, start: LoadPoint, end: LoadPoint, mechanism: Mechanism) -> Collapse | None:
     """The bound that a motion gives; None where it is no mechanism, or loads do no more work on it than flow takes.
 
     Parameters
     ----------
     prepared : the model
     start, end : points of the load history
-    free : (z,) the motion
-    forces : (d n,) of the pairs, for whether they press
+    mechanism : the motion, and forces of the pairs for whether they press
     """
     bodies, T = prepared.yielding, prepared.constraints.transform
+    free, forces = mechanism
     largest = float(np.abs(free).max(initial=0.0))
     if bodies is None or largest == 0.0:
         return None

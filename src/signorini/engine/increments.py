@@ -348,7 +348,7 @@ def _failure(prepared: Prepared, answer: IncrementAnswer, where: str) -> SolveFa
     """The reason, and the bodies that leave by name, with their motion."""
     if answer.escape is None:
         failure = SolveFailed(f"{where}: {answer.message}", status=answer.outcome)
-        failure.flow = None if answer.mechanism is None else (answer.mechanism, answer.forces)
+        failure.mechanisms = answer.mechanisms
         return failure
     words, motion = moving_away(prepared, prepared.floating @ answer.escape)
     return SolveFailed(f"{where}: {words}: {answer.message}", status=answer.outcome, motion=motion)

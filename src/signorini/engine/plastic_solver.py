@@ -26,7 +26,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray
 from signorini.attempt import MethodRun
 from signorini.engine.plastic_search import LineSearch
-from signorini.engine.solver import CondensedSolver, ContactSolver, Increment, IncrementAnswer
+from signorini.engine.solver import CondensedSolver, ContactSolver, Increment, IncrementAnswer, Mechanism
 from signorini.engine.tangent_bodies import TangentBodies
 from signorini.interface.interface import Interface
 from signorini.linalg.protocol import NotPositiveDefinite
@@ -81,6 +81,7 @@ class _Rounds:
     lengths : of every step, the largest displacement
     inputs, outputs : of the rounds on the factor at hand: x and what it became
     factorisations : of tangents
+    mechanisms : the longest step and the last: where flow runs away one of them is nearest to the mechanism
     least : part of the elastic law that is left in place from the start, once contact found nothing on a softer tangent
     """
 
@@ -90,6 +91,7 @@ class _Rounds:
     inputs: list[Array] = field(default_factory=list)
     outputs: list[Array] = field(default_factory=list)
     factorisations: int = 0
+    mechanisms: tuple[Mechanism, ...] = ()
     least: float = 0.0
 
     @property
@@ -105,6 +107,17 @@ class _Rounds:
         recent = self.lengths[-_FLOWING_STEPS - 1 :]
         steady = all(two > _STEADY * one for one, two in pairwise(recent))
         return steady and min(recent) > _FLOWING * self.lengths[0]
+
+    def add(self, residual: float, step: float, motion: Mechanism) -> None:
+        """A round, with what equilibrium lacks, the part of the step that was taken, and the step."""
+        length = float(np.abs(motion.free).max(initial=0.0))
+        if np.isfinite(residual):
+            # where contact found no answer on a soft tangent steps on a stiffer one are shorter, and worse
+            longer = length >= max(self.lengths, default=0.0)
+            self.mechanisms = (motion,) if longer else (*self.mechanisms[:1], motion)
+        self.residuals.append(residual)
+        self.steps.append(step)
+        self.lengths.append(length)
 
     def gained(self) -> bool:
         """Whether the last full step gained so much that its tangent will do once more."""
@@ -220,9 +233,7 @@ class PlasticSolver:
                 before = state.displacement[system.constraints.leaders] if reached is None else reached[0].free
                 after = bodies.with_dual(after, old, model, linear)
             kept = rounds.last
-            rounds.residuals.append(lack)
-            rounds.steps.append(step)
-            rounds.lengths.append(float(np.abs(answer.free - before).max(initial=0.0)))
+            rounds.add(lack, step, Mechanism(answer.free - before, answer.forces))
             if step == 1.0 and lack <= _BALANCED:
                 work = old.dissipation + plastic_work(
                     bodies,
@@ -236,8 +247,7 @@ class PlasticSolver:
             far = not np.isfinite(lack) or np.abs(answer.free).max(initial=0.0) > _MAX_LENGTHS * self.scale.length
             if rounds.runs_away or far or len(rounds.steps) >= _MAX_ROUNDS:
                 words = f"plastic flow did not settle in {len(rounds.steps)} rounds ({lack:.1e} of the forces left)"
-                mechanism = answer.free - before if np.isfinite(lack) else None
-                return replace(answer, outcome=Outcome.NOT_FOUND, message=words, mechanism=mechanism)
+                return replace(answer, outcome=Outcome.NOT_FOUND, message=words, mechanisms=rounds.mechanisms)
             reached = answer, after
             if step < 1.0 or self._pays(tangent, lack, kept, rounds):
                 del tangent  # one factor less while the next is made

@@ -306,7 +306,7 @@ def _increments(part: StepPart, number: int) -> FollowedPart:
     try:
         return follow_increments(part, number)
     except SolveFailed as failure:
-        if failure.flow is None:
+        if not failure.mechanisms:
             raise
         if part.prepared.limited:  # pairs that were left out may hold the bodies
             failure.hopeless = True
@@ -314,7 +314,7 @@ def _increments(part: StepPart, number: int) -> FollowedPart:
         behind = reached(failure)
         done = 0 if behind is None else len(behind.snapshots)
         start, end = (part.before.point.towards(part.end, k / number) for k in (done, done + 1))
-        found = collapse(part.prepared, start, end, *failure.flow)
+        found = collapse(part.prepared, start, end, failure.mechanisms)
         if found is None:
             raise
         raise _collapsed(part, found, (done + found.part) / number, number) from failure

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, Protocol, Self
+from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
 
@@ -67,6 +67,19 @@ class Increment:
     clock: Clock
 
 
+class Mechanism(NamedTuple):
+    """A motion in which bodies flow without end.
+
+    Attributes
+    ----------
+    free : (z,) velocity of the free displacements
+    forces : (d n,) of the pairs meanwhile
+    """
+
+    free: Array
+    forces: Array
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class IncrementAnswer:
     """What a solver answers.
@@ -81,7 +94,7 @@ class IncrementAnswer:
     lost : by how much motions of the pairs differ from those of the bodies, length: digits that are lost
     escape : (k,) combination of the floating motions along which bodies leave, where it is known
     plastic : what the points of bodies that yield remember at the end
-    mechanism : (z,) velocity of the bodies where plastic flow runs away
+    mechanisms : velocities of the bodies where plastic flow runs away; every one may bound the load
     """
 
     outcome: Outcome
@@ -94,7 +107,7 @@ class IncrementAnswer:
     lost: float = 0.0
     escape: Array | None = None
     plastic: PlasticState | None = None
-    mechanism: Array | None = None
+    mechanisms: tuple[Mechanism, ...] = ()
 
     @property
     def solved(self) -> bool:
