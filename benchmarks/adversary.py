@@ -1,32 +1,33 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Random small models, solved by the package and looked at by an adversary that shares no line with it.
 
-    python benchmarks/adversary.py                        # 200 models, all kinds
-    python benchmarks/adversary.py 5000 --seed 17         # thousands, any seed
-    python benchmarks/adversary.py 500 --kinds rigid thin # those with rigid or thin bodies
-    python benchmarks/adversary.py --only 4711            # one model, with all its numbers
+    python -m benchmarks.adversary                        # 200 models, all kinds
+    python -m benchmarks.adversary 5000 --seed 17         # thousands, any seed
+    python -m benchmarks.adversary 500 --kinds rigid thin # those with rigid or thin bodies
+    python -m benchmarks.adversary --only 4711            # one model, with all its numbers
 
 Stacks of one to three bodies in the plane and in space, on a rigid floor or held, pressed, sheared, lifted off and
 pressed again by forces or by motions, with gaps, ties, rigid and thin bodies, in any units, cut in two and gone on
 with. Every answer is put into the equations of `independent`: equilibrium and the law of contact, row by row, to
 1e-8. Where the package proves that there is no equilibrium, or finds none, all states are tried in the plane, and many
 starts in space; where they find one, that is a failure.
+
+Outcomes: "right"; "proved", no equilibrium, and the adversary finds none either; "not found", nor by the adversary;
+"jump"; "refused", before solving; failures are in capitals.
 """
 
 from __future__ import annotations
 
-import argparse
 import tempfile
-import time
-from collections import Counter
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
-import independent
 import numpy as np
 
 import signorini as sg
+from benchmarks import independent
+from benchmarks.random_search import Verdict, parser, search
 
 KINDS = ("space", "rigid", "tied", "stack", "thin", "units", "restart", "exact", "driven", "floor")
 TOLERANCE = 1e-8
@@ -225,25 +226,6 @@ def make(seed: int, wanted: frozenset[str] = frozenset()) -> Case:
     return Case(seed=seed, kinds=is_what, model=model, factors=factors, structure=structure, unit=unit)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Verdict:
-    """What became of a model.
-
-    Attributes
-    ----------
-    outcome : "right", "proved" (no equilibrium, and the adversary finds none either), "not found" (nor by the
-        adversary), "jump", "refused" (before solving); and the failures, in capitals
-    words : numbers and messages
-    """
-
-    outcome: str
-    words: str
-
-    @property
-    def failed(self) -> bool:
-        return self.outcome.isupper()
-
-
 def increment(case: Case, factors: tuple[float, float], before: np.ndarray) -> independent.Increment:
     """What acts at factors of pressing and of shearing."""
     (press, shear), (a, b) = case.unit, factors
@@ -284,7 +266,7 @@ def judge(case: Case) -> Verdict:
         if parted:
             return Verdict(outcome="RESTART", words=parted)
     if history.status == "solved":
-        return Verdict(outcome="right", words=f"{worst:.1e}")
+        return Verdict(outcome="right", words=f"{worst:.1e}", worst=worst)
     return _without_answer(case, history, sum(step.finished for step in history.steps), before)
 
 
@@ -342,31 +324,14 @@ def _gone_on(case: Case, whole: Any) -> str:
     return ""
 
 
+def judged(seed: int, wanted: frozenset[str]) -> tuple[frozenset[str], Verdict]:
+    """The kinds and the verdict of the model of a seed."""
+    case = make(seed, wanted)
+    return case.kinds, judge(case)
+
+
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("models", type=int, nargs="?", default=200)
-    parser.add_argument("--seed", type=int, default=0, help="of the first model; the others follow")
-    parser.add_argument("--kinds", nargs="*", default=[], choices=KINDS, help="what is in every model")
-    parser.add_argument("--only", type=int, help="the one model of this seed")
-    options = parser.parse_args()
-    seeds = [options.only] if options.only is not None else range(options.seed, options.seed + options.models)
-    wanted = frozenset(options.kinds)
-    outcomes: Counter[str] = Counter()
-    by_kind: dict[str, Counter[str]] = {kind: Counter() for kind in KINDS}
-    start = time.perf_counter()
-    for seed in seeds:
-        case = make(seed, wanted)
-        verdict = judge(case)
-        outcomes[verdict.outcome] += 1
-        for kind in case.kinds:
-            by_kind[kind][verdict.outcome] += 1
-        if verdict.failed or options.only is not None:
-            print(f"{seed} ({' '.join(sorted(case.kinds))}): {verdict.outcome}: {verdict.words}", flush=True)
-    names = sorted(outcomes, key=lambda name: (name.isupper(), -outcomes[name]))
-    print(f"\n| models with | {' | '.join(names)} |\n|---|{'---|' * len(names)}")
-    for kind, counts in {"all": outcomes, **by_kind}.items():
-        print(f"| {kind} | {' | '.join(str(counts[name]) for name in names)} |")
-    print(f"\n{time.perf_counter() - start:.0f} s")
+    search(parser(__doc__, KINDS, 200).parse_args(), KINDS, judged, "adversary")
 
 
 if __name__ == "__main__":

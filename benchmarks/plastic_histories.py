@@ -1,32 +1,33 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Random small models with bodies that yield, beside elements, a flow rule and a solver that share no line with it.
 
-    python benchmarks/plastic_histories.py                          # 100 models, all kinds
-    python benchmarks/plastic_histories.py 1000 --seed 17           # any number, any seed
-    python benchmarks/plastic_histories.py 100 --kinds space mortar # those in space, of meshes that do not match
-    python benchmarks/plastic_histories.py --only 4711              # one model, with all its numbers
-    python benchmarks/plastic_histories.py 20 --solve               # the slow solver beside every increment too
+    python -m benchmarks.plastic_histories                          # 100 models, all kinds
+    python -m benchmarks.plastic_histories 1000 --seed 17           # any number, any seed
+    python -m benchmarks.plastic_histories 100 --kinds space mortar # those in space, of meshes that do not match
+    python -m benchmarks.plastic_histories --only 4711              # one model, with all its numbers
+    python -m benchmarks.plastic_histories 20 --solve               # the slow solver beside every increment too
 
 One elastoplastic block on a rigid plane, or two on one another, pressed, dragged, released and reversed in 1 to 5
 increments a stretch, up to 1.08 of what the block bears. Displacements of every instant are put into the equations
 of `independent_plastic`: equilibrium with stresses that its own flow rule makes of them, and the law of contact, row by
 row, to 1e-7 of the largest force and motion; plastic strains agree to as much. Where the package names collapse, its
 mechanism must take less work than the loads do; where it finds no equilibrium, the slow solver looks for one.
+
+Outcomes: "right"; "collapse", its mechanism takes less than the loads do; "named", said to have no equilibrium, and the
+slow solver finds none either; "jump"; failures are in capitals.
 """
 
 from __future__ import annotations
 
-import argparse
-import time
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-import independent_plastic as own
 import numpy as np
 
 import signorini as sg
+from benchmarks import independent_plastic as own
+from benchmarks.random_search import Verdict, parser, search
 from signorini.engine.prepare import prepare
 
 KINDS = (
@@ -278,25 +279,6 @@ def in_words(
     )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Verdict:
-    """What became of a model.
-
-    Attributes
-    ----------
-    outcome : "right", "collapse" (its mechanism takes less than the loads do), "slides" (as a whole), "jump"; and the
-        failures, in capitals
-    words : numbers and messages
-    """
-
-    outcome: str
-    words: str
-
-    @property
-    def failed(self) -> bool:
-        return self.outcome.isupper()
-
-
 def acting(case: Case, factors: Any) -> tuple[np.ndarray, np.ndarray]:
     """Forces and prescribed displacements, (dofs,), at factors by name."""
     force, moved = (sum(factors[name] * unit[k] for name, unit in case.unit.items()) for k in (0, 1))
@@ -352,7 +334,7 @@ def _flowed_alike(case: Case, history: Any, follower: own.Follower, worst: float
     if off > TOLERANCE * largest:
         return Verdict(outcome="STRAINS", words=f"plastic strains differ by {off / largest:.1e}")
     flowed = follower.state.equivalent.max()
-    return Verdict(outcome="right", words=f"{worst:.1e}, equivalent plastic strain {flowed:.1e}")
+    return Verdict(outcome="right", words=f"{worst:.1e}, equivalent plastic strain {flowed:.1e}", worst=worst)
 
 
 def _without_answer(case: Case, history: Any, follower: own.Follower) -> Verdict:
@@ -380,31 +362,15 @@ def _without_answer(case: Case, history: Any, follower: own.Follower) -> Verdict
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("models", type=int, nargs="?", default=100)
-    parser.add_argument("--seed", type=int, default=0, help="of the first model; the others follow")
-    parser.add_argument("--kinds", nargs="*", default=[], choices=KINDS, help="what is in every model")
-    parser.add_argument("--only", type=int, help="the one model of this seed")
-    parser.add_argument("--solve", action="store_true", help="the slow solver beside every increment")
-    options = parser.parse_args()
-    seeds = [options.only] if options.only is not None else range(options.seed, options.seed + options.models)
-    wanted = frozenset(options.kinds)
-    outcomes: Counter[str] = Counter()
-    by_kind: dict[str, Counter[str]] = {kind: Counter() for kind in KINDS}
-    start = time.perf_counter()
-    for seed in seeds:
+    made = parser(__doc__, KINDS, 100)
+    made.add_argument("--solve", action="store_true", help="the slow solver beside every increment")
+    options = made.parse_args()
+
+    def judged(seed: int, wanted: frozenset[str]) -> tuple[frozenset[str], Verdict]:
         case = make(seed, wanted)
-        verdict = judge(case, solve=options.solve)
-        outcomes[verdict.outcome] += 1
-        for kind in case.kinds:
-            by_kind[kind][verdict.outcome] += 1
-        if verdict.failed or options.only is not None:
-            print(f"{seed} ({', '.join(sorted(case.kinds))}): {verdict.outcome}: {verdict.words}", flush=True)
-    names = sorted(outcomes, key=lambda name: (name.isupper(), -outcomes[name]))
-    print(f"\n| models with | {' | '.join(names)} |\n|---|{'---|' * len(names)}")
-    for kind, counts in {"all": outcomes, **by_kind}.items():
-        print(f"| {kind} | {' | '.join(str(counts[name]) for name in names)} |")
-    print(f"\n{time.perf_counter() - start:.0f} s")
+        return case.kinds, judge(case, solve=options.solve)
+
+    search(options, KINDS, judged, "plastic histories")
 
 
 if __name__ == "__main__":

@@ -1,23 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Random small histories of bodies that yield beside elements and a flow rule that share no line with them (a sample).
 
-Hundreds more, of any seed: `python benchmarks/plastic_histories.py 500 --seed 17`.
+Hundreds more, of any seed: `python -m benchmarks.plastic_histories 500 --seed 17`.
 """
 
 from __future__ import annotations
 
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import signorini as sg
-
-sys.path.append(str(Path(__file__).parents[2] / "benchmarks"))
-import independent_plastic as own
-import plastic_histories as histories
+from benchmarks import independent_plastic as own
+from benchmarks import plastic_histories as histories
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3, 5, 9, 20, 58])
@@ -81,3 +77,9 @@ def test_a_plate_with_a_hole_in_plane_stress(backstresses):
     plastic = solution.end.state.plastic
     assert plastic.equivalent.max() > 5e-3
     np.testing.assert_allclose(np.sort(plastic.equivalent), np.sort(reference.state.equivalent), atol=1e-9)
+
+
+def test_collapse_is_named_where_contact_loses_the_longest_step():
+    """Contact finds nothing on the softest tangent; on stiffer ones steps are shorter, and bound the load worse."""
+    verdict = histories.judge(histories.make(1102))
+    assert verdict.outcome == "collapse", verdict

@@ -1,23 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Random small models beside elements, a law and an enumeration that share no line with the package (a sample).
 
-Thousands more, of any seed: `python benchmarks/adversary.py 5000 --seed 17`.
+Thousands more, of any seed: `python -m benchmarks.adversary 5000 --seed 17`.
 """
 
 from __future__ import annotations
 
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import signorini as sg
-
-sys.path.append(str(Path(__file__).parents[2] / "benchmarks"))
-import adversary
-import independent
+from benchmarks import adversary, independent
 
 ENUMERATED = pytest.param(6, marks=pytest.mark.slow)  # 4096 linear programs prove that nothing goes on
 

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What programs share that make a random model of every seed and judge its answer: verdict, command line, table."""
+
+from __future__ import annotations
+
+import argparse
+from collections import Counter
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, field
+
+from benchmarks import command, page
+
+
+@dataclass(frozen=True, kw_only=True)
+class Verdict:
+    """What became of a model.
+
+    Attributes
+    ----------
+    outcome : a word; in capitals where it is a failure
+    words : numbers and messages
+    worst : violation of a law or difference from a reference, relative; 0 where nothing was measured
+    """
+
+    outcome: str
+    words: str
+    worst: float = 0.0
+
+    @property
+    def failed(self) -> bool:
+        return self.outcome.isupper()
+
+
+Judge = Callable[[int, frozenset[str]], tuple[Collection[str], Verdict]]
+"""The model of a seed that has some kinds at least: all its kinds, and its verdict."""
+
+
+def parser(words: str | None, kinds: Sequence[str], models: int) -> argparse.ArgumentParser:
+    """Options of a search.
+
+    Parameters
+    ----------
+    words : a module's docstring
+    kinds : what models are made of
+    models : how many there are if nothing is said
+    """
+    made = command.parser(words, write=True)
+    made.add_argument("models", type=int, nargs="?", default=models)
+    made.add_argument("--seed", type=int, default=0, help="of the first model; the others follow")
+    made.add_argument("--kinds", nargs="*", default=[], choices=kinds, help="what is in every model")
+    made.add_argument("--only", type=int, help="the one model of this seed")
+    return made
+
+
+@dataclass
+class Tally:
+    """How often what came out, and the worst of it, of models of every kind."""
+
+    kinds: Sequence[str]
+    outcomes: dict[str, Counter[str]] = field(default_factory=dict)
+    worst: dict[str, float] = field(default_factory=dict)
+
+    def count(self, kinds: Collection[str], verdict: Verdict) -> None:
+        for kind in ("all", *kinds):
+            self.outcomes.setdefault(kind, Counter())[verdict.outcome] += 1
+            self.worst[kind] = max(self.worst.get(kind, 0.0), verdict.worst)
+
+    def table(self) -> str:
+        """Failures are the last columns but one."""
+        every = self.outcomes["all"]
+        names = sorted(every, key=lambda name: (name.isupper(), -every[name]))
+        rows = [
+            [kind, *(self.outcomes[kind][name] for name in names), f"{self.worst[kind]:.0e}"]
+            for kind in ("all", *self.kinds)
+            if kind in self.outcomes
+        ]
+        return page.table(["models with", *names, "worst"], rows)
+
+
+def search(options: argparse.Namespace, kinds: Sequence[str], judge: Judge, name: str) -> None:
+    """Judge the models that the options ask for; print failures, and the table, which goes where they say.
+
+    Parameters
+    ----------
+    options : see `parser`
+    kinds : what models are made of
+    judge : makes and judges the model of a seed
+    name : of the place in a document for the table
+    """
+    seeds = [options.only] if options.only is not None else range(options.seed, options.seed + options.models)
+    tally = Tally(kinds)
+    for seed in seeds:
+        found, verdict = judge(seed, frozenset(options.kinds))
+        tally.count(found, verdict)
+        if verdict.failed or options.only is not None:
+            print(f"{seed} ({' '.join(sorted(found))}): {verdict.outcome}: {verdict.words}", flush=True)
+    words = f"{len(seeds)} models, seeds {seeds[0]} to {seeds[-1]}."
+    print(f"\n{tally.table()}\n\n{words}")
+    if options.write:
+        page.write(name, f"{tally.table()}\n\n{words}", options.write)
