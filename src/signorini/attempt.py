@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What was tried to solve an increment: in the base, so that results can keep it without knowing the solver."""
+"""What was tried, and what a search has spent: in the base, so that results can keep it without knowing the solver."""
 
 from __future__ import annotations
 
@@ -24,3 +24,27 @@ class MethodRun:
     iterations: int
     changes: tuple[int, ...] = ()
     end: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spent:
+    """A search that ended at its budget: what it was for is not known.
+
+    All budgets are in ``docs/budgets.md``.
+
+    Attributes
+    ----------
+    most : that may be spent
+    of : what is spent, in words
+
+    Examples
+    --------
+    >>> print(Spent(most=200, of="turns of the load behind a jump"))
+    all 200 turns of the load behind a jump that may be tried are spent
+    """
+
+    most: int
+    of: str
+
+    def __str__(self) -> str:
+        return f"all {self.most} {self.of} that may be tried are spent"

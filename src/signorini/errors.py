@@ -93,6 +93,13 @@ class SolveFailed(SignoriniError):
         """What to do, and evidence: the lines behind the sentence, each after a break; empty where there are none."""
         return str(self)[len(self.sentence) :]
 
+    def saying(self, words: str) -> SolveFailed:
+        """This failure with words more at the end of its sentence."""
+        said = SolveFailed(f"{self.sentence}; {words}{self.details}", status=self.status, motion=self.motion)
+        said.solution, said.reached = self.solution, self.reached
+        said.hopeless, said.mechanisms = self.hopeless, self.mechanisms
+        return said
+
 
 class Interrupted(KeyboardInterrupt):
     """Stopped from outside, by Ctrl-C or SIGTERM: carries whatever was found before.

@@ -197,3 +197,13 @@ def test_an_unloaded_body_is_pushed_along_without_force(kind, how):
     np.testing.assert_allclose([step.energy_defect for step in solution.steps], 0.0, atol=small)
     if kind == "plane strain":
         assert [step.path for step in solution.steps] == ["exact", "exact"]
+
+
+def test_an_approach_that_spends_its_budget_is_told(monkeypatch):
+    monkeypatch.setattr("signorini.friction.approach.MAX_PIECES", 1)
+    solution = sg.solve(stack(0.125, "axisymmetric"), raise_on_failure=False)
+    told = (
+        "step 'press' at 0%: all 1 straight pieces of a rigid approach that may be tried are spent; bodies stay where"
+    )
+    said = [note for step in solution.steps for note in step.notes] + [solution.message]
+    assert sum(words.startswith(told) for words in said) == 1

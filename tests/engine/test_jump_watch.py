@@ -76,6 +76,13 @@ def test_where_contact_is_iterated_a_note_says_that_slides_are_not_looked_for():
     assert [notes.count(UNWATCHED) for notes in said] == [0, 1]
 
 
+def test_that_the_load_which_contact_holds_is_not_known_is_told(monkeypatch):
+    monkeypatch.setattr("signorini.friction.space.overload.MAX_ROUNDS", 0)
+    notes = sg.solve(block(pull=0.28, increments=None)).steps[-1].notes
+    spent = "all 0 linear programmes about the load that contact can hold that may be tried are spent"
+    assert [note for note in notes if "programmes" in note] == [f"step 'pull': {spent}"]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("increments", [4, 10])
 def test_a_joint_that_slides_until_its_bend_bears_is_told_once_from_wherever_increments_begin(increments):

@@ -9,7 +9,7 @@ from typing import Literal
 
 import numpy as np
 
-from signorini.attempt import MethodRun
+from signorini.attempt import MethodRun, Spent
 from signorini.engine.energy import set_free
 from signorini.engine.floating_bodies import approached, resting, undisturbed
 from signorini.engine.increments import certified, leaving, refuse_overlap
@@ -29,8 +29,10 @@ from signorini.outcome import Outcome
 from signorini.solution.results import PairEvent
 from signorini.solution.state import State
 
+JUMPS = 100
+"""Most that one straight part of a step may hold, with what else cuts it."""
+
 _NAMED = 12  # nodes that a message lists
-_JUMPS = 100  # most that one part of a step may hold
 _TURN = 0.04  # radians over the root of the number: what friction may turn in an increment that could be shorter
 _HOLD = "hold the bodies that slide, press them more, or prescribe their motion in place of the load"
 _LESS = "less friction, or a prescribed motion in place of the load"
@@ -116,25 +118,21 @@ def _beyond_jumps(part: StepPart, how: str, *, jumps: bool, stops: PathSettings 
             part = resting(part.woken.rest(path.cut.part, found[0].after if found else part.before))
             continue
         lost = _lost(path, follows=jumps)
-        begun = _anew(path, behind) if len(behind) < _JUMPS else []
-        if begun:
+        begun = _anew(path, behind) if len(behind) < JUMPS else []
+        if begun and not begun[-1].snapshots:
+            lost = lost.saying("; ".join(begun[-1].notes))
+        elif begun:
             behind += begun
             part = part.rest(path.cut.part, behind[-1].after)
             continue
-        landing = None
-        if jumps and len(behind) < _JUMPS:
+        landing: Landing | Spent | None = None
+        if jumps and len(behind) < JUMPS:
             landing = part.prepared.paths.land(path.start, path.segment, stops)
-        if jump is None or landing is None:
-            if jumps and len(behind) >= _JUMPS:
-                lost = SolveFailed(
-                    f"{lost.sentence}; {_JUMPS} parts between jumps, as many as are followed, are behind{lost.details}",
-                    status=lost.status,
-                    motion=lost.motion,
-                )
+        if not isinstance(landing, Landing):
+            if jumps and len(behind) >= JUMPS:
+                lost = lost.saying(f"{JUMPS} parts between jumps, as many as are followed, are behind")
             elif jumps and jump is not None and not lost.hopeless:
-                lost = SolveFailed(
-                    f"{lost.sentence}; {_NO_LANDING}{lost.details}", status=Outcome.JUMP, motion=lost.motion
-                )
+                lost = lost.saying(_NO_LANDING if landing is None else f"{_NO_LANDING}: {landing}")
             raise keep(lost, [*behind, *_so_far(path)])
         cut = path.cut
         followed = _part_along(cut)
@@ -215,6 +213,7 @@ def _part_along(path: _Path) -> FollowedPart:
         trace=_trace(path),
         snapshots=visited,
         events=_events(path),
+        notes=tuple(f"{part.where}: {spent}" for spent in segment.spent),
     )
 
 
@@ -318,7 +317,9 @@ def _lost(path: _Path, *, follows: bool) -> SolveFailed:
     prepared, where = part.prepared, part.where
     if segment.jump is None:
         lost = told(
-            f"{where}: the exact path was lost", remedy="follow the step in increments", evidence=segment.message
+            f"{where}: the exact path was lost",
+            remedy="follow the step in increments",
+            evidence="; ".join([segment.message, *map(str, segment.spent)]),
         )
         return SolveFailed(lost, status=Outcome.NOT_FOUND)
     pairs = np.nonzero(prepared.paths.active)[0][list(segment.jump.pairs)]
@@ -334,7 +335,7 @@ def _lost(path: _Path, *, follows: bool) -> SolveFailed:
     words = f"{where}: {what}: no equilibrium continues the history gradually"
     if segment.jump.hopeless is not None:
         words += f", and beyond {part.interval.fraction(segment.jump.hopeless):.6%} there is none at all"
-    evidence = f"acting nodes {nodes}; {segment.jump.proof}"
+    evidence = "; ".join([f"acting nodes {nodes}", segment.jump.proof, *map(str, segment.spent)])
     failure = SolveFailed(told(words, remedy=remedy, evidence=evidence), status=Outcome.JUMP, motion=motion)
     failure.hopeless = segment.jump.hopeless is not None
     return failure

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, extent
+from signorini.attempt import Spent
 from signorini.engine.increments import applied, certified, moving_away
 from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.prepare import Prepared
@@ -39,7 +40,8 @@ def approached(part: StepPart) -> FollowedPart | None:
     """What happens before the loads of a part can press: bodies move rigidly until contact can bear the loads.
 
     Only motions that no contact feels that presses already, and along which the loads work, however small: nothing
-    resists them, and they take no energy. None where there is no such motion.
+    resists them, and they take no energy. None where there is no such motion; a note without a snapshot where
+    the search for it ended at its budget.
 
     Raises
     ------
@@ -72,6 +74,11 @@ def approached(part: StepPart) -> FollowedPart | None:
         basis.T @ work,
         width=width,
     )
+    if isinstance(found, Spent):
+        words = f"{part.where} at {100.0 * part.interval.low:.6g}%: {found}; bodies stay where they are"
+        return FollowedPart(
+            path="exact", before=state, after=state, certificates=(), trace=(), snapshots=(), notes=(words,)
+        )
     if found is not None and found.escape is not None:
         share = float(work @ basis @ found.escape / np.linalg.norm(basis.T @ work) / np.linalg.norm(found.escape))
         raise _pulled_away(part, floating @ basis @ found.escape, share)

@@ -25,7 +25,12 @@ from signorini.solution.state import State
 UNWATCHED = "contact alone holds bodies and is iterated with multipliers: slides of them are not looked for"
 CURVED = "contact alone holds bodies and its friction has no straight branches: slides of them are not looked for"
 
-_ZOOMS, _WATCH_INCREMENTS = 3, 16  # times that the largest change is looked at in as many increments
+ZOOMS = 4
+"""Times that the largest change is looked at in increments, each time in that one of them that holds it."""
+
+WATCH_INCREMENTS = 16
+"""In as many each time."""
+
 _SUDDEN = 0.5  # of that change, in one of them each time: no increments resolve it
 _SAME_LOAD = 1e-9  # part of a step: how far behind the end of an increment a jump at its very end may be seen
 
@@ -88,7 +93,7 @@ def unwatched(part: StepPart, followed: FollowedPart) -> FollowedPart:
 def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
     """The largest change of contact forces from one state of a part to the next as a jump; None where it is gradual.
 
-    Strong evidence, no proof: it stays as large in one of 16 increments, and in one of 16 of that, and once more.
+    Strong evidence, no proof: it stays as large in one of 16 increments, in one of 16 of that, and so on, four times.
 
     Parameters
     ----------
@@ -100,7 +105,7 @@ def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
     states = [followed.before, *(shot.state for shot in followed.snapshots)]
     ends = [0.0, *(within(shot.fraction) for shot in followed.snapshots)]
     size, first = max(float(np.abs(state.forces).max(initial=0.0)) for state in states), 0.0
-    for _ in range(_ZOOMS + 1):
+    for _ in range(ZOOMS):
         changes = [float(np.abs(two.forces - one.forces).max(initial=0.0)) for one, two in pairwise(states)]
         k = int(np.argmax(changes))
         first = first or changes[k]
@@ -108,7 +113,7 @@ def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
             return None
         low, high, before = ends[k], ends[k + 1], states[k]
         try:
-            finer = follow_to_events(_between(part, before, low, high), _WATCH_INCREMENTS)
+            finer = follow_to_events(_between(part, before, low, high), WATCH_INCREMENTS)
         except SolveFailed as failure:
             return failure if failure.status == Outcome.JUMP else None
         states = [before, *(shot.state for shot in finer.snapshots)]
@@ -119,7 +124,8 @@ def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
             f"{part.where} at {here:.6%}: a jump: contact forces change by {first / size:.2g} of the largest within "
             f"{length:.0e} of the step",
             remedy="less friction, or a prescribed motion in place of the load",
-            evidence="no increments resolve the change, however short: strong evidence, no proof",
+            evidence=f"no increments resolve the change, however short: strong evidence, no proof; it was looked at in "
+            f"{WATCH_INCREMENTS} of them, and in {WATCH_INCREMENTS} of that which holds it, {ZOOMS} times in all",
         ),
         status=Outcome.JUMP,
     )

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from signorini.arrays import frozen
+from signorini.attempt import Spent
 from signorini.engine.increments import leaving
 from signorini.engine.path_states import right_hand_side
 from signorini.engine.step_parts import StepPart, reached
@@ -37,6 +38,8 @@ def known(stop: SolveFailed, part: StepPart) -> SolveFailed:
     found = overload(problem, held, right_hand_side(prepared, part.end))
     if found is None:
         return stop
+    if isinstance(found, Spent):
+        return stop.saying(str(found))
     words, motion = leaving(prepared, found.motion)
     limit = low + found.factor * (interval.high - low)
     where = f"{part.where}: no equilibrium beyond {100.0 * limit:.6g}%, up to {100.0 * low:.6g}% it was followed"

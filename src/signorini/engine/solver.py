@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, Protocol, Self
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.attempt import MethodRun
+from signorini.attempt import MethodRun, Spent
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed
 from signorini.fem.internal_forces import internal_forces
@@ -313,8 +313,8 @@ class CondensedSolver:
         """Every event ends an increment."""
         return PathSettings(solver=self.settings)
 
-    def land(self, start: PathState, segment: Segment, stops: PathSettings | None) -> Landing | None:
-        """Where a jump at the end of a segment lands; None where that is not found.
+    def land(self, start: PathState, segment: Segment, stops: PathSettings | None) -> Landing | Spent | None:
+        """Where a jump at the end of a segment lands; where that is not found, why if it is known.
 
         Parameters
         ----------

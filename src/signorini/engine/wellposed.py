@@ -14,7 +14,7 @@ from signorini.engine.prepare import Prepared
 from signorini.engine.report import contacts_of
 from signorini.errors import SolveFailed
 from signorini.friction.problem import ContactProblem
-from signorini.friction.uniqueness import all_solutions, always_unique, countable, mu_low, search_solutions
+from signorini.friction.uniqueness import all_solutions, always_unique, countable, mu_low, search_solutions, starts
 from signorini.law.bound import ADHESION_SLOPE
 from signorini.solution.results import ContactResult
 from signorini.solution.state import State
@@ -60,11 +60,12 @@ def assess(prepared: Prepared, state: State | None = None) -> WellPosedness:
     others = _others(prepared, law, state)
     if others:
         words = f"{above}; {len(others)} other equilibria at these loads, from these slips, were found"
+        words = words if few else f"{words} from {starts(law)} starts"
         return WellPosedness(friction=friction, bound=bound, verdict="several", words=words, others=others)
     if few:
         words = f"{above}, but no other state of the {law.pairs} pairs is in equilibrium at these loads and slips"
         return WellPosedness(friction=friction, bound=bound, verdict="one", words=words)
-    words = f"{above}; a search from many starts found no other equilibrium, which proves nothing"
+    words = f"{above}; a search from {starts(law)} starts found no other equilibrium, which proves nothing"
     return WellPosedness(friction=friction, bound=bound, verdict="not decided", words=words)
 
 

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.attempt import Spent
 from signorini.condense.operator import InterfaceOperator
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import unresisted
@@ -25,7 +26,9 @@ from signorini.law.bound import STICKING_FRICTION
 from signorini.law.section import FrictionSection
 from signorini.law.states import OPEN, STICK
 
-_MAX_PIECES = 200  # most of an approach
+MAX_PIECES = 200
+"""Straight pieces of an approach; each ends where a gap closes."""
+
 _PAIR_COMPLIANCE = 1e-6  # of the motion of a pair under a force on it: its own, which shares forces among many pairs
 _VELOCITY_TOL = 1e-6  # of the load: a velocity
 _CLOSING_TOL = 1e-9  # of the velocity: a gap that closes
@@ -51,8 +54,8 @@ class Approach:
     escape: Array | None = None
 
 
-def approach(P: Array, gap: Array, friction: Array, load: Array, *, width: float) -> Approach | None:
-    """The way of rigid bodies from where they are to where contact can bear a load; None where none was found.
+def approach(P: Array, gap: Array, friction: Array, load: Array, *, width: float) -> Approach | Spent | None:
+    """The way of rigid bodies from where they are to where contact can bear a load; where none was found, why if known.
 
     Parameters
     ----------
@@ -74,27 +77,29 @@ def approach(P: Array, gap: Array, friction: Array, load: Array, *, width: float
     n, k = len(gap), len(load)
     motion, loose, now = np.zeros(k), np.zeros(k), gap.copy()
     load = load / (np.linalg.norm(load) or 1.0)
-    for _ in range(_MAX_PIECES):
+    for _ in range(MAX_PIECES):
         touching = now <= width
         v = _velocity(P, touching, friction, load)
-        if v is None:
-            return None
+        if v is None or isinstance(v, Spent):
+            return v
         if not v.any():
             return Approach(motion=motion, loose=loose, gap=now)
         closing = -(P[:n] @ v)
         falls = ~touching & (closing > _CLOSING_TOL * np.linalg.norm(v) * np.linalg.norm(P[:n], axis=1))
         if not falls.any():
             escape = _escape(P, friction, load, v)
-            return None if escape is None else Approach(motion=motion, loose=loose, gap=now, escape=escape)
+            if escape is None or isinstance(escape, Spent):
+                return escape
+            return Approach(motion=motion, loose=loose, gap=now, escape=escape)
         time = float((now[falls] / closing[falls]).min())
         motion += time * v
         loose += 0.0 if touching.any() else time * v
         now = now - time * closing
         now[now <= width + _SAME_TIME_TOL * time * float(np.abs(closing).max())] = 0.0
-    return None
+    return Spent(most=MAX_PIECES, of="straight pieces of a rigid approach")
 
 
-def _escape(P: Array, friction: Array, load: Array, v: Array) -> Array | None:
+def _escape(P: Array, friction: Array, load: Array, v: Array) -> Array | Spent | None:
     """(k,) A motion along which the load works and which no pair resists: v, or another; None where none is known."""
     n, mu = friction.shape[1], np.minimum(friction, STICKING_FRICTION)
     along = mu * (P[n:] @ v).reshape(-1, n)
@@ -103,16 +108,17 @@ def _escape(P: Array, friction: Array, load: Array, v: Array) -> Array | None:
     return _unresisted(P, mu, load)
 
 
-def _unresisted(P: Array, mu: Array, load: Array) -> Array | None:
+def _unresisted(P: Array, mu: Array, load: Array) -> Array | Spent | None:
     return unresisted(P, FrictionSection(axes=mu, sides=np.zeros(mu.shape[1], dtype=np.int64)), load)
 
 
-def _velocity(P: Array, touching: BoolArray, friction: Array, load: Array) -> Array | None:
+def _velocity(P: Array, touching: BoolArray, friction: Array, load: Array) -> Array | Spent | None:
     """(k,) Velocity under a load of size 1, 0 where the touching pairs can bear it; None where none was found."""
     d, still = len(friction) + 1, np.zeros(len(load))
     rows, mu = P[np.tile(touching, d)], friction[:, touching]
-    if _unresisted(rows, np.minimum(mu, STICKING_FRICTION), load) is None:
-        return still
+    favoured = _unresisted(rows, np.minimum(mu, STICKING_FRICTION), load)
+    if favoured is None or isinstance(favoured, Spent):
+        return still if favoured is None else favoured
     if not touching.any():
         return load
     found = _forces(rows, mu, load)

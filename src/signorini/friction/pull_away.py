@@ -9,11 +9,19 @@ import numpy as np
 from scipy.optimize import linprog, nnls
 
 from signorini.arrays import Array
+from signorini.attempt import Spent
 from signorini.friction.problem import ContactProblem
 from signorini.law.bound import FrictionBound
 from signorini.law.section import FrictionSection
 
-_ROUNDS = 60  # of edges added to the least squares problem, which takes some ten
+ROUNDS = 60
+"""Least squares problems, each with the edges that resist the answer of the last most: some ten are usual."""
+
+EXCHANGES = 3
+"""Most exchanges of one least squares problem, per edge."""
+
+ITERATION_LIMIT = 1
+"""Status of a linear programme of SciPy that ended at its limit."""
 
 PROGRAM_TOL = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 """Of the data: what linear programs may lack, as HiGHS is told."""
@@ -42,7 +50,7 @@ class Pull:
     share: float
 
 
-def pulled_away(problem: ContactProblem, bound: FrictionBound | None = None) -> Pull | None:
+def pulled_away(problem: ContactProblem, bound: FrictionBound | None = None) -> Pull | Spent | None:
     """A rigid motion rho along which the load works more than forces can resist, or None where there is none.
 
     Equilibrium needs forces of the pairs with ``R'(r + b) = 0``. Those in the friction cones do no work against a rho
@@ -53,7 +61,8 @@ def pulled_away(problem: ContactProblem, bound: FrictionBound | None = None) -> 
     |rho_t| - p rho_n)`` of work along rho. In Coulomb's law that maximum is 0 for ``rho_n >= mu |rho_t|``, and infinite
     for other rho. What rounding leaves of ``mu |rho_t| - rho_n`` counts with forces up to `STRONGEST_FORCES`.
 
-    None where nothing is proved, which includes pairs in Tresca's law: their friction knows no cone.
+    None where nothing is proved, which includes pairs in Tresca's law: their friction knows no cone; that the budget is
+    spent, where it is.
 
     Parameters
     ----------
@@ -73,18 +82,19 @@ def pulled_away(problem: ContactProblem, bound: FrictionBound | None = None) -> 
     if not R.shape[1] or problem.bounded.any():
         return None
     load = R.T @ problem.b / (problem.scale or 1.0)
+    a: Array | Spent | None
     if bound is not None or (problem.piecewise_linear and problem.pieces.branches > 1):
         a = _by_program(problem, load, bound or problem.pieces)
     else:
         a = unresisted(R, FrictionSection(axes=problem.half_axes, sides=problem.section.sides), load)
-    if a is None:
-        return None
+    if a is None or isinstance(a, Spent):
+        return a
     rho, along = R @ a, float(load @ a)
     share = along / float(np.linalg.norm(load) * np.linalg.norm(a))
     return Pull(motion=np.asarray(rho / np.abs(rho).max(), dtype=np.float64), share=share)
 
 
-def unresisted(R: Array, cones: FrictionSection, load: Array) -> Array | None:
+def unresisted(R: Array, cones: FrictionSection, load: Array) -> Array | Spent | None:
     """The motion of the unresisted cone that a load favours, in Coulomb's law; None where friction can bear the load.
 
     The motion sought is what of the load forces in the friction cones cannot take, ``a = load + R'r`` of least length:
@@ -110,11 +120,11 @@ def unresisted(R: Array, cones: FrictionSection, load: Array) -> Array | None:
     rows = R.reshape(m + 1, n, -1)
     starts = (cones.axes, -cones.axes) if m == 1 else (np.zeros((m, n)),)
     edges = np.concatenate([work_of(unit_edges(share), rows) for share in starts])
-    for _ in range(_ROUNDS):
+    for _ in range(ROUNDS):
         try:
-            multipliers, _ = nnls(edges.T, -load)
-        except RuntimeError:  # its iteration limit: nothing proved
-            return None
+            multipliers, _ = nnls(edges.T, -load, maxiter=EXCHANGES * len(edges))
+        except RuntimeError:
+            return Spent(most=EXCHANGES * len(edges), of="exchanges of edges in a proof by a rigid motion")
         a: Array = load + edges.T @ multipliers
         size = float(np.linalg.norm(a))
         if size <= GAIN * np.sqrt(n) * most:
@@ -126,7 +136,7 @@ def unresisted(R: Array, cones: FrictionSection, load: Array) -> Array | None:
         if m == 1:
             return None
         edges = np.concatenate([edges[multipliers > 0], strongest[resisted]])
-    return None
+    return Spent(most=ROUNDS, of="rounds of a proof by a rigid motion")
 
 
 def strongest_edges(cones: FrictionSection, rho: Array) -> Array:

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.attempt import MethodRun
+from signorini.attempt import MethodRun, Spent
 from signorini.errors import InputError
 from signorini.friction.answer import impossible, not_found, nothing_to_solve, solved
 from signorini.friction.candidate import Candidate
@@ -34,7 +34,7 @@ from signorini.friction.plane.covering import Covering, PathEnd, follow_covering
 from signorini.friction.plane.restricted import restrict_to
 from signorini.friction.plane.state_tree import search_states
 from signorini.friction.problem import ContactProblem
-from signorini.friction.pull_away import pulled_away
+from signorini.friction.pull_away import Pull, pulled_away
 from signorini.friction.result import ContactAnswer
 from signorini.friction.space.proximal import proximal_rounds
 from signorini.law.states import OPEN, SLIP_MINUS, UNDECIDED
@@ -147,9 +147,11 @@ def _proof_by_rigid_motion(task: Task) -> Iterator[Candidate]:
     if not task.problem.floating:
         return
     pull = pulled_away(task.problem)
-    end = "nothing proved" if pull is None else "pulled away"
+    end = "nothing proved" if pull is None else str(pull) if isinstance(pull, Spent) else "pulled away"
     found = Candidate.without(task.problem, MethodRun(method="rigid motions", iterations=1, end=end))
-    yield found if pull is None else replace(found, proof="rigid motion", margin=pull.share, escape=pull.motion)
+    if isinstance(pull, Pull):
+        found = replace(found, proof="rigid motion", margin=pull.share, escape=pull.motion)
+    yield found
 
 
 def _paths(task: Task) -> Iterator[Candidate]:

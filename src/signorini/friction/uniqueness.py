@@ -27,7 +27,7 @@ from signorini.errors import InputError
 from signorini.friction.certificate import certify
 from signorini.friction.linear import Equilibrium
 from signorini.friction.newton import by_states, in_states, searched, y_in_states
-from signorini.friction.plane.covering import follow_covering
+from signorini.friction.plane.covering import Covering, follow_covering
 from signorini.friction.problem import ContactProblem
 from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK
 
@@ -37,12 +37,23 @@ COUNTED_PAIRS = 6
 SAME_ANSWER_TOL = 1e-7
 """Of the data: two answers closer than this are one."""
 
+PATHS = 4
+"""In the plane: paths of each covering."""
+
+GUESSES = 24
+"""States at random from which other solutions are looked for."""
+
+FEW_PAIRS_GUESSES = 100
+"""The same in space of few pairs."""
+
+TURNS = 8
+"""Directions of slip in which all pairs start in space."""
+
+_FEW_PAIRS = 10  # pairs
 _SLIDE_TOL = 1e-12  # of the largest motion of a pair: what is no rounding
 _CERTIFIED = 1e-10  # of the data: `certify` of an answer
-_PATHS, _GUESSES = 4, 24  # in the plane: paths of each covering, and states at random
-_TURNS = 8  # directions of slip in which all pairs start in space
-_SMALL_PROBLEM, _SPATIAL_GUESSES = 10, (100, 24)  # pairs; states at random in space of so few of them, and of more
 _SLIPPING = 1e3  # of the size of data: y of a pair that slips
+_ALIKE = (STICK, OPEN, SLIP_PLUS, SLIP_MINUS)  # states in which all pairs start in the plane
 
 
 def mu_low(problem: ContactProblem) -> float | None:
@@ -155,15 +166,30 @@ def search_solutions(problem: ContactProblem) -> list[Array]:
     return _certified(problem, (searched(form, problem.law.tangent(start)).y for start in _starts(problem)))
 
 
+def starts(problem: ContactProblem) -> int:
+    """How many starts `search_solutions` tries."""
+    if problem.piecewise_linear:
+        return len(_ALIKE) + GUESSES + PATHS * len(_coverings(problem))
+    return 2 + TURNS + _guesses(problem)
+
+
+def _guesses(problem: ContactProblem) -> int:
+    return FEW_PAIRS_GUESSES if not problem.piecewise_linear and problem.pairs <= _FEW_PAIRS else GUESSES
+
+
+def _coverings(problem: ContactProblem) -> tuple[Covering, ...]:
+    return ("press",) if problem.floating else ("open", "press")
+
+
 def _from_states(problem: ContactProblem) -> Iterator[Array]:
     n, rng = problem.pairs, np.random.default_rng(0)
-    for code in (STICK, OPEN, SLIP_PLUS, SLIP_MINUS):
+    for code in _ALIKE:
         yield by_states(problem, np.full(n, code)).y
-    for _ in range(_GUESSES):
+    for _ in range(GUESSES):
         yield by_states(problem, rng.integers(OPEN, SLIP_MINUS + 1, n)).y
-    for seed in range(_PATHS):
-        for covering in ("press",) if problem.floating else ("open", "press"):
-            path = follow_covering(problem, "open" if covering == "open" else "press", budget=20 * max(n, 5), seed=seed)
+    for seed in range(PATHS):
+        for covering in _coverings(problem):
+            path = follow_covering(problem, covering, budget=20 * max(n, 5), seed=seed)
             if path.end == "solution":
                 yield by_states(problem, path.state, near=path.y).y
 
@@ -174,9 +200,9 @@ def _starts(problem: ContactProblem) -> Iterator[Array]:
     axis, none = np.ones((1, n)), np.zeros((d - 1, n))
     yield np.concatenate([axis, none])
     yield np.concatenate([-axis, none])
-    for angle in 2.0 * np.pi / _TURNS * np.arange(_TURNS):
+    for angle in 2.0 * np.pi / TURNS * np.arange(TURNS):
         yield np.concatenate([axis, _SLIPPING * np.array([[np.cos(angle)], [np.sin(angle)]])[: d - 1] * axis])
-    for _ in range(_SPATIAL_GUESSES[n > _SMALL_PROBLEM]):
+    for _ in range(_guesses(problem)):
         state, angle = rng.integers(0, 3, n), rng.uniform(0.0, 2.0 * np.pi, n)
         slip = np.where(state == 2, _SLIPPING, 0.0) * np.stack([np.cos(angle), np.sin(angle)])[: d - 1]
         yield np.concatenate([np.where(state == 0, -1.0, 1.0)[None], slip])

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.friction.history import PathState, Segment, follow, initial_state, land
+from signorini.friction.history import Landing, PathState, Segment, follow, initial_state, land
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 from signorini.verify.check import Check, checks_of
@@ -42,7 +42,7 @@ def one_node_path() -> Iterator[Check]:
             found += [("gap at f_t = 4", end.h[0], 2 / 3), ("u_t at f_t = 4", end.h[1], 7 / 3)]
         else:
             landing = land(problem, pressed, path)
-            end = end if landing is None else landing.state
+            end = landing.state if isinstance(landing, Landing) else end
             found = [("jumps at f_t", 4 * path.jump.factor, 3.0), ("gap where it lands", end.h[0], 1 / 3)]
             found += [("u_t where it lands", end.h[1], 5 / 3)]
         found.append(("dissipation", end.dissipation[0], 0.5 if path.jump is None else 1.5))
@@ -77,7 +77,7 @@ def one_node_path_in_space() -> Iterator[Check]:
         pressed = follow(problem, initial_state(problem, np.zeros(3)), W @ turn @ np.array([-1.0, 0.0, 0.0])).end
         path = follow(problem, pressed, W @ turn @ np.array([-1.0, 4.0, 0.0]))
         landing = land(problem, pressed, path)
-        end = path.end if landing is None else landing.state
+        end = landing.state if isinstance(landing, Landing) else path.end
         gap, along, _ = turn.T @ end.h
         found = [("jumps at f_t", np.nan if path.jump is None else 4 * path.jump.factor, 3.0)]
         found += [("gap where it lands", gap, 1 / 3), ("u_t where it lands", along, 5 / 3)]

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.attempt import Spent
 from signorini.errors import InputError
 from signorini.friction.history.rates import NoRates
 from signorini.friction.history.segment import Breakpoint, Event, Jump, Segment, What
@@ -59,6 +60,7 @@ class PathFollower(ABC):
     now, factor : the state reached, and the part of the way behind
     events, pieces, residual : as of `Segment`, so far
     acting : pairs whose event it is
+    spent : searches on the way that ended at their budgets
 
     Raises
     ------
@@ -78,6 +80,7 @@ class PathFollower(ABC):
         self.events: list[Event] = []
         self.pieces = [Breakpoint(factor=0.0, h=start.h, r=start.r)]
         self.acting: IntArray = np.zeros(0, dtype=np.int64)
+        self.spent: list[Spent] = []
         most = self.settings.solver.path_increments
         self._most = most if problem.directions == 3 else max(most, _EVENTS_PER_PAIR * problem.pairs)
         self._gone = 0  # pieces, those included that are gone again
@@ -157,4 +160,5 @@ class PathFollower(ABC):
             updates=updates,
             residual=self.residual,
             message=message,
+            spent=tuple(dict.fromkeys(self.spent)),
         )

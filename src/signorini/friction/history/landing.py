@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from signorini.attempt import Spent
 from signorini.friction.history.follow import follower
 from signorini.friction.history.follower import PathSettings
 from signorini.friction.history.segment import Segment
@@ -21,7 +22,7 @@ from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
 
 TURNS = 100
-"""Most times that the load turns, per pair."""
+"""Most times that the load turns, per pair and once more."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,8 +41,8 @@ class Landing:
 
 def land(
     problem: ContactProblem, start: PathState, segment: Segment, *, settings: PathSettings | None = None
-) -> Landing | None:
-    """Follow a segment beyond its jump to the next equilibrium at the same load; None where none was found.
+) -> Landing | Spent | None:
+    """Follow a segment beyond its jump to the next equilibrium at the same load; where none was found, why if known.
 
     Parameters
     ----------
@@ -78,7 +79,8 @@ def land(
     limit = now = before = segment.end
     acting = np.array(jump.pairs, dtype=np.int64)
     events = 0
-    for _ in range(TURNS * (problem.pairs + 1)):
+    turns = TURNS * (problem.pairs + 1)
+    for _ in range(turns):
         back = follower(problem, now, start.b, settings)
         back.acting = acting
         departed = back.departs()
@@ -89,11 +91,11 @@ def land(
         ahead = follower(problem, back.now, limit.b, settings)
         ahead.acting = back.acting
         if not departed and not ahead.crosses(before):
-            return None
+            return next(iter(back.spent), None)
         while ahead.factor < 1.0 and not ahead.stuck() and ahead.go_on() is None:
             pass
         events += len(ahead.events)
         if ahead.factor >= 1.0:
             return Landing(state=ahead.now, events=events)
         now, acting = ahead.now, ahead.acting
-    return None
+    return Spent(most=turns, of="turns of the load behind the jump")

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from signorini.arrays import Array
+from signorini.attempt import Spent
 from signorini.friction.history.state import PathState
 from signorini.outcome import Outcome
 
@@ -93,6 +94,7 @@ class Segment:
     factorisations, updates : dense factorisations, and changes of a factorised state by one unknown
     residual : largest of the certificates, relative to the data, see `signorini.friction.certify`
     message : the same in words
+    spent : searches on the way that ended at their budgets
     """
 
     end: PathState
@@ -105,6 +107,7 @@ class Segment:
     updates: int
     residual: float
     message: str
+    spent: tuple[Spent, ...] = ()
 
     @property
     def followed(self) -> bool:

@@ -9,13 +9,26 @@ import numpy as np
 from scipy.optimize import linprog
 
 from signorini.arrays import Array, BoolArray
+from signorini.attempt import Spent
 from signorini.friction.problem import ContactProblem
-from signorini.friction.pull_away import GAIN, PROGRAM_TOL, STRONGEST_FORCES, strongest_edges, unit_edges, work_of
+from signorini.friction.pull_away import (
+    GAIN,
+    ITERATION_LIMIT,
+    PROGRAM_TOL,
+    STRONGEST_FORCES,
+    strongest_edges,
+    unit_edges,
+    work_of,
+)
 from signorini.law.section import FrictionSection
 
-_MAX_ROUNDS = 60
+MAX_ROUNDS = 60
+"""Linear programmes, each with the edges of the cones that work most against the answer of the last."""
+
+MAX_PIVOTS = 20_000
+"""Of one linear programme, which takes some hundreds."""
+
 _DIRECTIONS = 8  # of friction on every pair that the first linear programme knows
-_MAX_PIVOTS = 20_000  # of one linear programme, which takes some hundreds
 _TILT_TOL = 1e-3  # of unit motions: what sliding may lift or press, by normals that are not quite alike
 _RESISTED_WORK = 1e-2  # of the work of the loads that grow: what the largest forces may do by a motion's rounding
 
@@ -40,7 +53,9 @@ class Overload:
     share: float
 
 
-def overload(problem: ContactProblem, held: Array, b_end: Array, *, near: BoolArray | None = None) -> Overload | None:
+def overload(
+    problem: ContactProblem, held: Array, b_end: Array, *, near: BoolArray | None = None
+) -> Overload | Spent | None:
     """Where on the straight way from the problem's b to ``b_end`` rigid equilibrium ends; None where it does not.
 
     The largest s with forces r in the friction cones and ``R'(r + b + s (b_end - b)) = 0`` is a linear programme in s
@@ -57,7 +72,8 @@ def overload(problem: ContactProblem, held: Array, b_end: Array, *, near: BoolAr
 
     Returns
     -------
-    Overload, or None: also where nothing is proved, as for pairs in Tresca's law, whose friction knows no cone
+    Overload, or None: also where nothing is proved, as for pairs in Tresca's law, whose friction knows no cone; that
+        the budget is spent, where it is
 
     Examples
     --------
@@ -93,7 +109,7 @@ def overload(problem: ContactProblem, held: Array, b_end: Array, *, near: BoolAr
     around = [cones.farthest(np.tile([[np.cos(turn)], [np.sin(turn)]], n)) for turn in turns]
     for share in (np.zeros((2, n)), *around):
         edges.append(work_of(unit_edges(share)[:, may], rows[:, may]))
-    for _ in range(_MAX_ROUNDS):
+    for _ in range(MAX_ROUNDS):
         columns = np.concatenate(edges).T
         answer = linprog(
             np.append(-1.0, np.zeros(columns.shape[1])),
@@ -101,8 +117,10 @@ def overload(problem: ContactProblem, held: Array, b_end: Array, *, near: BoolAr
             b_eq=-load / unit,
             bounds=[(0.0, 1.0)] + [(0.0, None)] * columns.shape[1],
             method="highs",
-            options=PROGRAM_TOL | {"maxiter": _MAX_PIVOTS},
+            options=PROGRAM_TOL | {"maxiter": MAX_PIVOTS},
         )
+        if answer.status == ITERATION_LIMIT:
+            return Spent(most=MAX_PIVOTS, of="pivots of a linear programme about the load that contact can hold")
         if answer.status != 0 or answer.x[0] >= 1.0 - GAIN:
             return None
         a = -np.asarray(answer.eqlin.marginals)
@@ -113,7 +131,7 @@ def overload(problem: ContactProblem, held: Array, b_end: Array, *, near: BoolAr
         if not resisted.any():
             return _proved(float(answer.x[0]), a, rho, load / unit, growth / unit, float(works.min(initial=0.0)))
         edges.append(strongest[resisted])
-    return None
+    return Spent(most=MAX_ROUNDS, of="linear programmes about the load that contact can hold")
 
 
 def _proved(factor: float, a: Array, rho: Array, load: Array, growth: Array, works: float) -> Overload | None:

@@ -11,16 +11,20 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, IntArray
+from signorini.attempt import Spent
 from signorini.friction.history.plane.rate_law import CORNER, INSIDE, RATE, RateLaw
 from signorini.friction.history.plane.responses import Responses
 from signorini.friction.history.plane.state_inverse import SingularState
 from signorini.friction.history.rates import RATE_TOL, Rates
 from signorini.law.states import OPEN, STICK
 
+PIVOTS = 10
+"""Most pivots of a drive, per pair and for two more: one to three are usual."""
 
-def drive(responses: Responses, law: RateLaw, load: Array, before: Rates, acting: IntArray) -> Rates | None:
+
+def drive(responses: Responses, law: RateLaw, load: Array, before: Rates, acting: IntArray) -> Rates | Spent | None:
     """Rates under the load rate, followed from those before the event; None where the way ends in a ray
-    or the rates do not obey the law.
+    or the rates do not obey the law, and that the budget is spent, where it is.
 
     Parameters
     ----------
@@ -34,7 +38,8 @@ def drive(responses: Responses, law: RateLaw, load: Array, before: Rates, acting
     state, imposed_h, imposed_r = _imposed(law, before, acting)
     free, extra = responses.free(load), np.zeros(0)
     theta, way, last, row = 1.0, -1.0, -1, 0
-    for _ in range(10 * n + 20):
+    pivots = PIVOTS * (n + 2)
+    for _ in range(pivots):
         try:
             h0, r0 = responses.respond(state, free)
             target = law.conditions(state, h0, r0)
@@ -63,7 +68,7 @@ def drive(responses: Responses, law: RateLaw, load: Array, before: Rates, acting
             return None
         theta, last, state = theta + way * step, pair, state.copy()
         state[last] = law.following(state, now.h[n:])[which, last]
-    return None
+    return Spent(most=pivots, of="driven pivots")
 
 
 def _imposed(law: RateLaw, before: Rates, acting: IntArray) -> tuple[IntArray, Array, Array]:

@@ -34,6 +34,9 @@ _BOUNDED = 16  # combinations that one linear program is asked to rule out at on
 KINKS = 4
 """Most pairs at kinks of their bound whose branches are chosen in all ways before Lemke's method."""
 
+NEWTON_STEPS = 200
+"""Of one run from a guess of the states; where it does not settle Lemke's method follows."""
+
 
 def find_rates(
     responses: Responses, law: RateLaw, load: Array, state: IntArray, guesses: list[IntArray]
@@ -53,6 +56,8 @@ def find_rates(
         if found is not None:
             return found
     kinks, endings = np.flatnonzero(law.kink), [""]
+    if len(kinks) > KINKS:
+        endings = [f"Lemke's method is asked of {KINKS} pairs at kinks at most, these are {len(kinks)}"]
     for ways in itertools.product((False, True), repeat=len(kinks)) if len(kinks) <= KINKS else ():
         upper = np.zeros(len(state), dtype=np.bool_)
         upper[kinks] = ways
@@ -64,9 +69,9 @@ def find_rates(
     return _enumerate(responses, law, load, state, ending)
 
 
-def _newton(responses: Responses, law: RateLaw, load: Array, guess: IntArray, limit: int = 200) -> Rates | None:
+def _newton(responses: Responses, law: RateLaw, load: Array, guess: IntArray) -> Rates | None:
     state, seen = guess, set()
-    for _ in range(limit):
+    for _ in range(NEWTON_STEPS):
         seen.add(state.tobytes())
         try:
             rates = responses.rates(state, load)

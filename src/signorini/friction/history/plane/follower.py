@@ -128,13 +128,13 @@ class PlaneFollower(PathFollower):
     def _turn(self) -> NoRates | None:
         """Find the rates from here on; what changes its state is an event."""
         state, law = self.now.state, self._law()
-        found: Rates | NoRates | None = None
-        if self.rates is not None:
-            found = drive(self.responses, law, self.load, self.rates, self.acting)
-        if found is None:
-            found = find_rates(self.responses, law, self.load, state, self._guesses(law))
+        driven = None if self.rates is None else drive(self.responses, law, self.load, self.rates, self.acting)
+        if isinstance(driven, Rates):
+            self._enter(driven)
+            return None
+        found = find_rates(self.responses, law, self.load, state, self._guesses(law))
         if isinstance(found, NoRates):
-            return found
+            return found if driven is None else replace(found, proof=f"{driven}; {found.proof}")
         self._enter(found)
         return None
 

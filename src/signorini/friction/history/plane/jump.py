@@ -13,7 +13,7 @@ from signorini.friction.history.rates import NoRates
 from signorini.friction.history.segment import Jump
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
-from signorini.friction.pull_away import pulled_away
+from signorini.friction.pull_away import Pull, pulled_away
 from signorini.law.bound import FrictionBound
 
 STEP_BEYOND = 1e-4
@@ -44,20 +44,23 @@ def explain(
     beyond = now.b + STEP_BEYOND * (b_end - now.b)
     further = replace(problem, b=frozen(beyond))
     pull = pulled_away(further) if problem.floating else None
-    leaves = pull is not None
+    leaves = isinstance(pull, Pull)
     pressed = now.r[:n] > width
     slides = problem.floating and bool(pressed.any() and spent[pressed].all())
     # friction that is not in proportion to the pressures depends on how they are shared
     limit = pulled_away(further, FrictionBound.constant(problem.bound.at(now.r[:n]))) if slides and not leaves else None
+    limits = isinstance(limit, Pull)
     pairs = acting if len(acting) else np.flatnonzero(spent)
-    reason = (SLIDING if slides else LEAVING) if leaves else LIMITED if limit is not None else ""
-    shown = limit if pull is None else pull
-    if shown is not None:
+    reason = (SLIDING if slides else LEAVING) if leaves else LIMITED if limits else ""
+    shown = pull if leaves else limit
+    if isinstance(shown, Pull):
         reason += f": {STEP_BEYOND:g} of the way further nothing takes {shown.share:.2g} of the load on the bodies"
+    elif shown is not None:
+        reason = str(shown)
     return Jump(
         factor=factor,
         pairs=tuple(int(k) for k in pairs),
         proof=f"{lost.proof}; {reason}" if reason else lost.proof,
-        margin=lost.margin or (0.0 if shown is None else shown.share),
-        gross_sliding=(leaves and slides) or limit is not None,
+        margin=lost.margin or (shown.share if isinstance(shown, Pull) else 0.0),
+        gross_sliding=slides and (leaves or limits),
     )

@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.arrays import Array, BoolArray
+from signorini.attempt import Spent
 from signorini.friction.history.segment import Breakpoint, Jump
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
@@ -39,6 +40,10 @@ class Bearing:
     b_end : (3n,) load at the end of the way
     behind : of a longer straight way that this one ends, in lengths of this one: what is near a limit, is near it alike
         wherever on that way the look begins
+
+    Attributes
+    ----------
+    spent : searches that ended at their budgets, of which nothing is known
     """
 
     def __init__(self, problem: ContactProblem, b_end: Array, behind: float = 0.0) -> None:
@@ -47,6 +52,7 @@ class Bearing:
         self._found: Overload | None = None  # with the pairs that are near
         self._least: Overload | None = None  # with those of any state since equilibrium was seen to go on beyond one
         self._crossed = 0.0
+        self.spent: list[Spent] = []
 
     def reach(self, now: PathState, factor: float) -> float:
         """Part of the way just before the pairs that are near can hold the bodies no more, 1 while nothing presses."""
@@ -57,11 +63,19 @@ class Bearing:
         if not self._known(near):
             found = overload(replace(problem, b=now.b), now.r, self.b_end, near=near)
             self._near = near
-            self._found = found and replace(found, factor=_along(factor, found.factor))
+            known = self._told(found)
+            self._found = known and replace(known, factor=_along(factor, known.factor))
         ahead = self._found
         if ahead is not None and ahead.factor > self._crossed:
             self._least = ahead if self._least is None else min(self._least, ahead, key=lambda one: one.factor)
         return 1.0 if self._least is None else (1.0 - _SHORT_OF_LIMIT) * self.limit - _SHORT_OF_LIMIT * self.behind
+
+    def _told(self, found: Overload | Spent | None) -> Overload | None:
+        """What is known; that a search ended at its budget is kept."""
+        if isinstance(found, Spent):
+            self.spent.append(found)
+            return None
+        return found
 
     def _known(self, near: BoolArray) -> bool:
         """Whether these pairs are known to hold as much; more of them hold no less."""
@@ -95,7 +109,7 @@ class Bearing:
         """
         assert self._least is not None
         problem, over = replace(self.problem, b=now.b), self._least
-        every = overload(problem, now.r, self.b_end)
+        every = self._told(overload(problem, now.r, self.b_end))
         sure = every is not None and every.share > GAIN
         who, share = ("nothing", every.share) if every is not None and sure else ("none of them", over.share)
         return Jump(

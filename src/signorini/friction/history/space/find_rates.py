@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from itertools import islice, product
 from typing import Literal
@@ -11,6 +12,7 @@ import numpy as np
 
 from signorini import lcp
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.attempt import Spent
 from signorini.friction.history.rates import RATE_TOL, NoRates, Rates, evidence, refused
 from signorini.friction.history.space.no_rates_proof import Exhausted, search_regions
 from signorini.friction.history.space.rate_problem import CONE, FACET, GAP, KINK, RateProblem
@@ -22,7 +24,8 @@ from signorini.law.states import OPEN, SLIP, STICK
 ENUMERATED = 16
 """Most complementary numbers of which every combination is tried."""
 
-_DEPARTURES = 64  # most combinations of next states of the acting pairs
+DEPARTURES = 64
+"""Most combinations of next states of the acting pairs."""
 
 Departure = tuple[tuple[int, bool], ...] | Literal["opens", "closes", "stays"]
 """How a pair leaves its state: some of its complementary numbers move, or do not; or it opens, closes, or stays."""
@@ -68,18 +71,18 @@ def find_rates(problem: ContactProblem, now: PathState, width: float) -> Rates |
     return NoRates(proof=choice, proved=False) if isinstance(choice, str) else _solved(choice)
 
 
-def departures(problem: ContactProblem, now: PathState, width: float) -> Iterator[Rates]:
+def departures(problem: ContactProblem, now: PathState, width: float) -> Iterator[Rates | Spent]:
     """Rates in which acting pairs leave their state, all of them first, then only some; others slip on, or may stick.
 
     Where no pair acts, in the middle of a curve, those in which every pair stays in its state. For problem, now and
-    width see `find_rates`.
+    width see `find_rates`. Where there are more combinations than are tried, that is said last.
     """
     whole = RateProblem.at(problem, now, width)
     if isinstance(whole, str):
         return
     slide = np.isin(np.arange(problem.pairs), whole.acting, invert=True) & (now.state == SLIP)
     ways = [_ways(whole, k, int(now.state[k])) for k in whole.acting]
-    for taken in islice(product(*ways), _DEPARTURES):
+    for taken in islice(product(*ways), DEPARTURES):
         opened = np.zeros(problem.pairs, dtype=np.bool_)
         opened[[k for k, way in zip(whole.acting, taken, strict=True) if way == _OPENS]] = True
         choice = RateProblem.at(problem, now, width, opened=opened) if opened.any() else whole
@@ -98,6 +101,8 @@ def departures(problem: ContactProblem, now: PathState, width: float) -> Iterato
             found = _solved(choice, chosen, closed)
             if isinstance(found, Rates):
                 yield found
+    if (count := math.prod(map(len, ways))) > DEPARTURES:
+        yield Spent(most=DEPARTURES, of=f"of {count} combinations of next states of acting pairs")
 
 
 def acting_pairs(problem: ContactProblem, now: PathState, width: float) -> IntArray:

@@ -16,6 +16,7 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
+from signorini.attempt import Spent
 from signorini.friction.history.follower import ZERO_WIDTH, PathFollower, PathSettings
 from signorini.friction.history.rates import NoRates, Rates
 from signorini.friction.history.segment import Breakpoint, Jump, Segment
@@ -33,7 +34,7 @@ from signorini.friction.history.space.straight import (
 )
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
-from signorini.friction.pull_away import pulled_away
+from signorini.friction.pull_away import Pull, pulled_away
 from signorini.friction.result import ContactAnswer
 from signorini.friction.solve import solve_contact
 from signorini.law.bound import ADHESION_SLOPE
@@ -42,6 +43,9 @@ from signorini.outcome import Outcome
 
 LEAST_STEP = 1e-12
 """Part of the segment below which an increment counts as none."""
+
+TRIES = 60
+"""Most increments tried to find where one ends."""
 
 _FIRST = 2.0**-6  # part of the segment that is tried first
 _PROBE = 2.0**-4  # part of the last increment that shows the rates behind an event
@@ -58,7 +62,6 @@ _FOLD_REACH = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)  # times the last increment: wher
 _FOLD, _TURNED = 1e-9, 0.3  # part of the way in which it is looked for, and what friction may turn in it
 _PATIENCE = 4  # tries
 _LOST = 1e-7  # part of the segment: where not even that has a solution nothing goes on gradually
-_TRIES = 60  # at one increment
 _EVENT_WIDTH = 1e-6  # of the data: width of zero at an event that smooth sections make uncertain
 _QUICK_STEPS = 12  # of Newton's method, in an increment that may be shorter
 
@@ -83,6 +86,7 @@ class SpaceFollower(PathFollower):
         self._rate: Array | None = None  # of r - h in the last increment that was found, per part of the segment
         self._overloaded = False  # whether the pairs that are near hold the bodies no more
         self.bearing = Bearing(problem, self.b_end, settings.behind)
+        self.spent = self.bearing.spent
         # the load as rates see it; what smooth sections know of an event is less sharp
         self.rate_problem = replace(problem, b=frozen(self.b_end - start.b))
         self.near, self._astray = (_EVENT_WIDTH * (problem.scale or 1.0), 0.5) if self.smooth else (self.width, 1e-6)
@@ -103,15 +107,17 @@ class SpaceFollower(PathFollower):
         if self._leaves:
             return NoRates(proof=words, proved=True)
         found = find_rates(self.rate_problem, self.now, self.near)
+        tried = self.tried
         if isinstance(found, Rates) and self._along(found):
             return None
+        followed = self.tried - tried
         if isinstance(found, NoRates) and found.proved:
             return replace(found, proof=f"{words}; {found.proof}")
-        words = self._advance(patience=_TRIES)  # also where increments do not go along the rates, one of several
+        words = self._advance(patience=TRIES)  # also where increments do not go along the rates, one of several
         if words and self.careful > self.factor:
             self.careful, self.trusting = 0.0, True
             return self._piece()
-        rest = f"; {found.proof}" if isinstance(found, NoRates) else ", though there are rates"
+        rest = f"; {found.proof}" if isinstance(found, NoRates) else f", though there are rates; {followed} tried along"
         return NoRates(proof=f"{words}{rest}", proved=False) if words else None
 
     def goes_back(self) -> bool:
@@ -166,7 +172,7 @@ class SpaceFollower(PathFollower):
         short = 0.5 * self._pressed_for(rates)
         piece = replace(now, h=now.h + short * rates.h, r=now.r + short * rates.r, state=rates.state)
         step = min(short * extrapolated_length(self.problem, now, piece, self.width), self.reach - self.factor)
-        for _ in range(_TRIES):
+        for _ in range(TRIES):
             if step < LEAST_STEP:
                 return False
             h, r = step * rates.h, now.r + step * rates.r
@@ -187,7 +193,12 @@ class SpaceFollower(PathFollower):
 
     def departs(self) -> bool:
         """One increment in rates in which acting pairs are in a next state, not in those that led here."""
-        return any(self._along(rates) for rates in departures(self.rate_problem, self.now, self.near))
+        for found in departures(self.rate_problem, self.now, self.near):
+            if isinstance(found, Spent):
+                self.spent.append(found)
+            elif self._along(found):
+                return True
+        return False
 
     def stuck(self) -> bool:
         """Whether it is known beforehand that no rates lead on."""
@@ -233,7 +244,7 @@ class SpaceFollower(PathFollower):
         if _LOST < barrier <= step:  # where the last one was refused is not tried again before it is near
             step, longest = 0.5 * barrier, barrier
         self._barrier = np.inf
-        for number in range(_TRIES):
+        for number in range(TRIES):
             late = _LATE_EVENT_TOL if self.smooth and number >= _PATIENCE else _EVENT_TOL
             longer = late * (_LOOSER ** (number - _PATIENCE) if late == _LATE_EVENT_TOL else 1.0)
             ahead = None
@@ -273,7 +284,7 @@ class SpaceFollower(PathFollower):
             if step < LEAST_STEP:
                 break
         if best is None or inner is None:
-            tries = f"{self.tried - tried} tried"
+            tries = f"{self.tried - tried} tried, at most {TRIES}"
             return f"at factor {self.factor:.12g}: no increment, however short, goes on gradually ({tries}: {words})"
         exact = best.until >= 1.0 - END_ROUNDING
         after = settled(self.problem, self.now, best, inner.after.state if exact else best.after.state)
@@ -369,7 +380,7 @@ class SpaceFollower(PathFollower):
             return self.segment(Outcome.JUMP, self.bearing.jump(self.now, self.factor, pressed, lost.proof), lost.proof)
         slide = sliding(self.problem, self.pieces[-2:], pressed) if self.limited else None
         pull = pulled_away(replace(self.problem, b=frozen(self.b_end))) if leaves else None
-        share = 0.0 if pull is None else pull.share
+        share = pull.share if isinstance(pull, Pull) else 0.0
         jump = Jump(
             factor=self.factor,
             pairs=tuple(int(k) for k in (acting if len(acting) else np.flatnonzero(spent))),

@@ -22,7 +22,7 @@ from signorini.arrays import Array, BoolArray
 from signorini.law.section import FrictionSection
 
 _SIDES = (8, 12)  # of the polygons whose answers Newton's method starts from
-_STEPS = 30
+_NEWTON_STEPS = 30  # of one run from one start
 _SOLVED = 1e-11  # of the data: what a solution may lack
 _PULLS = 1e-10  # of the data: a normal force of a pair that must stay closed, below zero
 
@@ -97,7 +97,7 @@ class ConeProblem:
     def newton(self, y: Array) -> Array | None:
         """A solution x, by Newton's method from a y; None where it finds none."""
         unit = self.unit
-        for _ in range(_STEPS):
+        for _ in range(_NEWTON_STEPS):
             w, slope = self.obeyed(y)
             off = w - self.M @ (w - y) - self.q
             if np.abs(off).max(initial=0.0) <= _SOLVED * unit:
