@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where a straight part of a step first makes a point yield, followed up to there as elastic bodies are.
+
+On a straight piece of an elastic path stresses are linear and the yield function is convex, so that its ends tell
+whether anything yields on it, and the load of first yield is the root of a quadratic.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.engine.increments import advance
+from signorini.engine.plastic_solver import PlasticSolver
+from signorini.engine.prepare import Prepared
+from signorini.engine.step_parts import FollowedPart, StepPart, joined, keep, reached
+from signorini.errors import SolveFailed
+from signorini.outcome import Outcome
+from signorini.plasticity.bodies import YieldingBodies
+from signorini.plasticity.measure import FlowViolation, deviator, fullness, inner, size, violation, yield_stress
+from signorini.plasticity.state import PlasticState
+from signorini.solution.state import State
+
+ELASTIC = "nothing yields: bodies answer as elastic ones"
+"""What a part says in which no point yields."""
+
+AT_ONCE = 1e-9
+"""Of a part: first yield before that is at its start."""
+
+_YIELD_TOL = 1e-9  # of the yield stress: rounding of a point that is about to flow
+_SOON = 1e-3  # of a part: a point that flows by then flows from the start
+_YIELD_ROUNDS = 30  # of regula falsi: a few where contact grows, as pressures do with a power of the load
+_NEAR_YIELD = 1e-6  # of the yield stress: how near it the fullest point is where first yield is found
+_INSIDE = 1e-3  # of the bracket: how near its ends the next try may be
+_AHEAD = 1.5  # times the load at which Hertz's line contact yields: so far ahead first yield is looked for
+_MOST_AHEAD = 0.5  # of a part: where that is more, all of it
+
+
+def _frozen(part: StepPart) -> StepPart:
+    """The part with bodies that answer as elastic ones whatever their stresses are."""
+    plastic = points_of(part.prepared, part.before)[1]
+
+    def elastic(prepared: Prepared) -> Prepared:
+        assert isinstance(prepared.solver, PlasticSolver)
+        return replace(prepared, solver=prepared.solver.elastic, flowed=plastic.forces)
+
+    awake = None if part.awake is None else elastic(part.awake)
+    return replace(part, prepared=elastic(part.prepared), awake=awake, whole=True)
+
+
+def flows_at_once(part: StepPart) -> bool:
+    """Whether points that are about to flow do, as soon as the load of a part changes."""
+    if fullest(part.prepared, part.before) < 1.0 - _YIELD_TOL:
+        return False
+    calm = _frozen(part)
+    point = part.before.point.towards(part.end, _SOON)
+    try:
+        state, _, _ = advance(calm.prepared, part.before, point, part.where)
+    except SolveFailed:
+        return True
+    return fullest(part.prepared, state) > 1.0 + _YIELD_TOL
+
+
+def elastic_part(
+    part: StepPart, elastically: Callable[[StepPart], FollowedPart]
+) -> tuple[FollowedPart | None, StepPart | None]:
+    """What is followed until a point yields, and what is left of the part; None where nothing is.
+
+    Parameters
+    ----------
+    part : of a model with bodies that yield
+    elastically : follows a part in which nothing yields
+    """
+    prepared, behind = part.prepared, list[FollowedPart]()
+    while True:
+        ahead, lost = _ahead(part, len(behind)), None
+        try:
+            followed: FollowedPart | None = elastically(_frozen(ahead))
+        except SolveFailed as failure:
+            followed, lost = reached(failure), failure
+        found = None if followed is None else _first_yield(ahead, followed)
+        if found is not None:
+            break
+        if lost is not None:
+            raise keep(lost, behind)
+        assert followed is not None
+        behind.append(followed)
+        if ahead is part:
+            return _below_yield(prepared, joined(behind), ELASTIC), None
+        part = part.rest(ahead, followed.after)
+    reached_yield = _up_to_yield(ahead, found, elastically)
+    if reached_yield is None:
+        return (joined(behind) if behind else None), part
+    cut, begun = reached_yield
+    words = f"{part.where} at {cut.interval.high:.6%}: first yield, {_place(prepared, begun.after)}"
+    return _below_yield(prepared, joined([*behind, begun]), words), part.rest(cut, begun.after)
+
+
+def _ahead(part: StepPart, tried: int) -> StepPart:
+    """As much of a part as first yield may be in, more the more was tried: under a contact stresses grow as roots."""
+    try:
+        end, _, _ = advance(_frozen(part).prepared, part.before, part.end, part.where)
+    except SolveFailed:
+        return part
+    share = 4.0**tried * _AHEAD / max(fullest(part.prepared, end), 1.0) ** 2
+    return part if share > _MOST_AHEAD else part.cut(share, "event")
+
+
+def _up_to_yield(
+    part: StepPart, bracket: _Bracket, elastically: Callable[[StepPart], FollowedPart]
+) -> tuple[StepPart, FollowedPart] | None:
+    """The part up to where its first point yields, and how it was followed; None where that is at its beginning.
+
+    On a straight piece of an exact path the first try is it; between increments stresses bend, and it is found by
+    regula falsi from the side that does not yield.
+    """
+    (low, below), (high, above), factor = bracket.low, bracket.high, bracket.factor
+    best: tuple[StepPart, FollowedPart] | None = None
+    side = 0
+    for _ in range(_YIELD_ROUNDS):
+        if factor <= AT_ONCE:
+            break
+        cut = part.cut(factor, "event")
+        begun = elastically(_frozen(cut))
+        excess = fullest(part.prepared, begun.after) - 1.0
+        if excess <= _YIELD_TOL:
+            best = cut, begun
+            if excess >= -_NEAR_YIELD:
+                break
+            low, below, above, side = factor, excess, above * (0.5 if side < 0 else 1.0), -1
+        else:
+            high, above, below, side = factor, excess, below * (0.5 if side > 0 else 1.0), 1
+        aim = -0.5 * _NEAR_YIELD
+        factor = low + (high - low) * min(max((aim - below) / (above - below), _INSIDE), 1.0 - _INSIDE)
+    return best
+
+
+def _below_yield(prepared: Prepared, followed: FollowedPart, note: str) -> FollowedPart:
+    """What was followed elastically with a note, certified to leave no point beyond its yield stress."""
+    states = [*(shot.state for shot in followed.snapshots if shot.whole), followed.after]
+    fullest = max((_still(prepared, state) for state in states), key=lambda found: found.excess)
+    *others, last = followed.certificates
+    certificates = (*others, replace(last, plastic=fullest))
+    if not certificates[-1].passed:
+        raise SolveFailed(f"{note}: but a point is beyond it, {certificates[-1]}", status=Outcome.NOT_FOUND)
+    return replace(followed, certificates=certificates, notes=(*followed.notes, note))
+
+
+def _still(prepared: Prepared, state: State) -> FlowViolation:
+    """What a state in which nothing flows lacks of the flow rule."""
+    bodies, plastic = points_of(prepared, state)
+    return violation(bodies, state.displacement, plastic, plastic, bodies.swelling(state.point.factors))
+
+
+def points_of(prepared: Prepared, state: State) -> tuple[YieldingBodies, PlasticState]:
+    """The points of bodies that yield, and what they remember in a state."""
+    assert prepared.yielding is not None
+    assert state.plastic is not None
+    return prepared.yielding, state.plastic
+
+
+def fullest(prepared: Prepared, state: State) -> float:
+    """The largest relative stress of any point over its yield stress."""
+    bodies, plastic = points_of(prepared, state)
+    return float(fullness(bodies, state.displacement, plastic, bodies.swelling(state.point.factors)).max())
+
+
+class _Bracket(NamedTuple):
+    """Where on an elastic path the first point yields, as fractions of a part.
+
+    Attributes
+    ----------
+    low, high : of states before and behind, with what the fullest point has beyond its yield stress, of that
+    factor : where it does if stresses are straight between them
+    """
+
+    low: tuple[float, float]
+    high: tuple[float, float]
+    factor: float
+
+
+def _first_yield(part: StepPart, followed: FollowedPart) -> _Bracket | None:
+    """Where the first point yields on an elastic path; None where none does."""
+    prepared = part.prepared
+    states = [(0.0, followed.before)]
+    for shot in followed.snapshots:
+        if shot.whole:
+            states.append((part.interval.within(shot.fraction), shot.state))
+    for (begin, one), (end, two) in pairwise(states):
+        excess = fullest(prepared, two) - 1.0
+        if excess > _YIELD_TOL:
+            low = begin, min(fullest(prepared, one) - 1.0, 0.0)
+            return _Bracket(low, (end, excess), begin + (end - begin) * _root(prepared, one, two))
+    return None
+
+
+def _root(prepared: Prepared, one: State, two: State) -> float:
+    """How far from one state to another the first point yields, 0 .. 1."""
+    first, last = _relative(prepared, one), _relative(prepared, two)
+    bodies, plastic = points_of(prepared, one)
+    limit = np.sqrt(2.0 / 3.0) * yield_stress(bodies, plastic.equivalent)
+    step = last - first
+    a, c = size(step) ** 2, size(first) ** 2 - limit**2
+    b = inner(first, step)
+    yields = size(last) > limit * (1.0 + _YIELD_TOL)
+    a, b, c = a[yields], b[yields], np.minimum(c[yields], 0.0)
+    inside = np.sqrt(np.maximum(b * b - a * c, 0.0))
+    tiny = np.finfo(np.float64).tiny
+    # of the two forms of the positive root the one that adds numbers of one sign
+    root = np.where(b > 0.0, -c / np.maximum(b + inside, tiny), (inside - b) / np.maximum(a, tiny))
+    return float(np.clip(root.min(), 0.0, 1.0))
+
+
+def _relative(prepared: Prepared, state: State) -> Array:
+    """(p, n) Deviators of the stresses less the back stresses."""
+    bodies, plastic = points_of(prepared, state)
+    stress = deviator(bodies, state.displacement, plastic.strain, bodies.swelling(state.point.factors))
+    return stress - plastic.back.sum(axis=1)
+
+
+def _place(prepared: Prepared, state: State) -> str:
+    """Where the fullest point is, in words."""
+    bodies, plastic = points_of(prepared, state)
+    full = fullness(bodies, state.displacement, plastic, bodies.swelling(state.point.factors))
+    i = int(np.argmax(full))
+    at = ", ".join(f"{x:.4g}" for x in bodies.places()[i])
+    return f"in '{prepared.model.bodies[int(bodies.body[i])].name}' at ({at})"
