@@ -126,7 +126,9 @@ def by_calculix(text: str, folder: Path, seconds: float = _SECONDS) -> Values:
     everything = "*NSET, NSET=EVERYTHING, GENERATE\n1, 999999\n"
     text = re.sub(r"(?im)^\*STEP", f"{everything}*STEP", text, count=1)
     text = re.sub(r"(?im)^\*(NODE|EL|CONTACT) *(PRINT|FILE)[^*]*", "", text)
-    text = re.sub(r"(?im)^\*END *STEP", "*NODE PRINT, NSET=EVERYTHING, FREQUENCY=100000\nU\n*END STEP", text)
+    text = re.sub(
+        r"(?im)^\*END *STEP", "*NODE PRINT, NSET=EVERYTHING, FREQUENCY=100000, GLOBAL=YES\nU\n*END STEP", text
+    )
     (folder / "deck.inp").write_text(text)
     (folder / "deck.dat").unlink(missing_ok=True)
     try:

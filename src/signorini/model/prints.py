@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from signorini.arrays import IntArray
+from signorini.arrays import Array, IntArray
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -24,6 +24,7 @@ class Table:
         "CFS"
     totals : "no", "yes": the sum too, "only"
     rotations : nodes that stand for the rotation of a rigid body, with its name
+    axes : of nodes: index of a member to the unit vectors (d, d) that its components are along, where not x, y, z
     """
 
     step: int
@@ -33,6 +34,7 @@ class Table:
     quantities: tuple[str, ...]
     totals: Literal["no", "yes", "only"] = "no"
     rotations: Mapping[int, str] = field(default_factory=dict)
+    axes: Mapping[int, Array] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Container, Iterator, Mapping, Sequence, Set
 from pathlib import Path
 
 import numpy as np
@@ -87,12 +87,14 @@ def _nodes(model: Model, step: StepResult, table: Table, quantity: str, end: str
     values = step.displacement if quantity == "U" else step.external
     rows = padded(values[table.members], 3)
     total = rows.sum(axis=0)
+    for row, own in table.axes.items():
+        rows[row, : len(own)] = own @ rows[row, : len(own)]
     turned = np.flatnonzero(np.isin(table.members, list(table.rotations)))
     for row in turned.tolist():
         rows[row] = _turn(step.rigid_bodies, table.rotations[int(table.members[row])], quantity)
     if table.totals != "only" or quantity == "U":
         head = "displacements (vx,vy,vz)" if quantity == "U" else "forces (fx,fy,fz)"
-        yield from _numbered(f" {head} {end}", model.mesh.labels[table.members], rows)
+        yield from _numbered(f" {head} {end}", model.mesh.labels[table.members], rows, table.axes)
     if table.totals != "no" and quantity == "RF":
         yield from _single(f" total force (fx,fy,fz) {end}", total)
 
@@ -176,10 +178,11 @@ def _in_space(vector: Array) -> Array:
     return padded(vector[None], 3)[0]
 
 
-def _numbered(head: str, labels: IntArray, rows: Array) -> Iterator[str]:
-    """A table of rows that begin with a number."""
+def _numbered(head: str, labels: IntArray, rows: Array, local: Container[int] = ()) -> Iterator[str]:
+    """A table of rows that begin with a number, and end in L where they are ``local``: along axes of their own."""
     yield from ("", head, "")
-    yield from (f"{label:10d} {_spelled(row)}" for label, row in zip(labels.tolist(), rows, strict=True))
+    for i, (label, row) in enumerate(zip(labels.tolist(), rows, strict=True)):
+        yield f"{label:10d} {_spelled(row)}{' L' if i in local else ''}"
 
 
 def _single(head: str, row: Array) -> Iterator[str]:

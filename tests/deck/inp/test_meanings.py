@@ -113,6 +113,12 @@ BODIES = {
     "engineering constants in space, turned": eight_cells()
     .replace("*ELASTIC\n1000.,.27", "*ELASTIC,TYPE=ENGINEERING CONSTANTS\n1000,700,400,.2,.25,.3,300,250,\n200,20.")
     .replace("MATERIAL=M\n", "MATERIAL=M,ORIENTATION=O\n*ORIENTATION,NAME=O\n2.,1.,0.,0.,1.,0.\n3,20.\n"),
+    "stiffnesses of an orthotropic material": eight_cells().replace(
+        "*ELASTIC\n1000.,.27", "*ELASTIC,TYPE=ORTHO\n1250.,330.,900.,240.,210.,560.,300.,250.,\n200."
+    ),
+    "elements of two sections": eight_cells().replace(
+        "*BOUNDARY", "*SOLID SECTION,ELSET=LOW,MATERIAL=N\n*MATERIAL,NAME=N\n*ELASTIC\n300.,.2\n*BOUNDARY"
+    ),
     "one direction of a coupling": eight_cells()
     + "*NODE\n101,3.,.7,.4\n*SURFACE,NAME=RS,TYPE=NODE\nR\n*COUPLING,REF NODE=101,SURFACE=RS,CONSTRAINT NAME=C\n"
     "*KINEMATIC\n1,1\n*BOUNDARY\n101,4,6\n101,1,1,.02\n",
@@ -158,6 +164,39 @@ def test_incompatible_modes_are_those_of_their_own_elements(tmp_path: Path) -> N
     assert {body.name: body.formulation for body in model.bodies} == {"E": "standard", "E C3D8I": "incompatible"}
     one, two = (displacements(deck(tmp_path, [PULL], words)) for words in (head, apart))
     np.testing.assert_allclose(one, two, rtol=0.0, atol=1e-13)
+
+
+def test_the_last_section_of_an_element_counts(tmp_path: Path) -> None:
+    """As in CalculiX, with a note; a section of which nothing is left is no body."""
+    found = load_deck(deck(tmp_path, [PULL], BODIES["elements of two sections"]))
+    assert [(body.name, body.material.E) for body in found.model.bodies] == [("E", 1000.0), ("LOW", 300.0)]
+    assert "elements in several sections are of the last one, as in CalculiX; Abaqus refuses them" in found.notes
+    again = HEAD.replace("*BOUNDARY", "*ELSET,ELSET=ALSO\nE\n*SOLID SECTION,ELSET=ALSO,MATERIAL=M\n*BOUNDARY")
+    assert [body.name for body in load_deck(deck(tmp_path, [PULL], again)).model.bodies] == ["ALSO"]
+
+
+def test_a_viscous_step_of_what_does_not_creep_is_static(tmp_path: Path) -> None:
+    plain, viscous = (f"*{word}\n.1,2.\n*CLOAD\nR,3,1." for word in ("STATIC", "VISCO,CETOL=1."))
+    one, two = (
+        displacements(deck(tmp_path, [step, step.replace("1.", ".5")])) for step in (plain, f"*STEP\n{viscous}")
+    )
+    np.testing.assert_array_equal(one, two)
+    assert "*VISCO is taken as *STATIC: no material of the deck creeps" in load_deck(tmp_path / "deck.inp").notes
+    creeps = HEAD.replace("*DENSITY", "*CREEP\n1.,2.,0.\n*DENSITY")
+    with pytest.raises(DeckError, match=r"\*CREEP: is not supported, and it may change the answer"):
+        load_deck(deck(tmp_path, [f"*STEP\n{viscous}"], creeps))
+
+
+def test_a_surface_of_faces_has_its_name_before_one_of_nodes(tmp_path: Path) -> None:
+    """CalculiX keeps two kinds of one name apart; two of a kind are a mistake."""
+    surface = "*SURFACE,NAME=TOP,TYPE=NODE\n19\n"
+    press = ["*DSLOAD\nTOP,P,1."]
+    plain = displacements(deck(tmp_path, press))
+    first = HEAD.replace("*SURFACE,NAME=TOP", f"{surface}*SURFACE,NAME=TOP", 1)
+    for head in (HEAD + surface, first):
+        np.testing.assert_array_equal(displacements(deck(tmp_path, press, head)), plain)
+    with pytest.raises(DeckError, match="there is another surface 'TOP'"):
+        load_deck(deck(tmp_path, press, HEAD + surface + surface))
 
 
 def test_a_surface_of_nodes_holds_whole_faces(tmp_path: Path) -> None:

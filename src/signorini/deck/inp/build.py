@@ -91,7 +91,7 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
         "load": [(load, conditions.cards[load.label]) for load in conditions.loads],
         "contact": [(pair.contact, pair.card) for pair in contacts],
         "rigid_body": [(item.body, item.card) for item in rigid],
-        "equation": [(item.equation, item.card) for item in equations],
+        "equation": [(item.equation, item.card) for item in [*equations, *conditions.equations]],
         "step": [(_step(k, steps, conditions, changes[k], deck_increments), steps[k].card) for k in range(len(steps))],
     }
     places: dict[Where, Card] = {(key, i): card for key, found in made.items() for i, (_, card) in enumerate(found)}
@@ -103,6 +103,7 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
     notes = [
         *_notes(known.grid, steps, contacts, small_strain, deck_increments),
         *_flow_notes(known.sections, model.bodies),
+        *_overlap_notes(outside, known),
     ]
     return KeywordDeck(
         model=model,
@@ -243,6 +244,8 @@ def _notes(
         notes.append(_SMALL_SLIDING)
     if any(pair.contact.tied and pair.card.keyword == "CONTACT PAIR" for pair in contacts):
         notes.append("surfaces of a TIED contact pair are tied exactly: a stiffness given with it is not used")
+    if any(card.keyword == "VISCO" for step in steps for card in step.cards):
+        notes.append("*VISCO is taken as *STATIC: no material of the deck creeps")
     if small_strain and any(step.nlgeom for step in steps):
         notes.append("NLGEOM is ignored: displacements and strains are taken as small")
     if not deck_increments and any(step.increments > 1 for step in steps):
@@ -250,6 +253,13 @@ def _notes(
     if grid.nodes.shifted:
         notes.append("instances share node numbers: those of later instances are raised to be unique")
     return notes
+
+
+def _overlap_notes(outside: Sequence[Card], known: Known) -> Iterator[str]:
+    """A note on elements in several sections."""
+    found = [known.elements.find(card.value("ELSET"), card)[1] for card in of_keyword(outside, "SOLID SECTION")]
+    if len(np.unique(np.concatenate(found))) < sum(len(np.unique(members)) for members in found):
+        yield "elements in several sections are of the last one, as in CalculiX; Abaqus refuses them"
 
 
 def _flow_notes(sections: Sequence[Section], bodies: Sequence[Body]) -> Iterator[str]:

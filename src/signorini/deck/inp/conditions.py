@@ -13,13 +13,24 @@ from signorini.arrays import Array, IntArray, distinct
 from signorini.deck.inp.card import Card
 from signorini.deck.inp.course import Courses, Hold, Pattern
 from signorini.deck.inp.known import Known
-from signorini.deck.inp.links import DeckRigid, NodeSlots, rigid_motion
+from signorini.deck.inp.links import (
+    DeckEquation,
+    DeckRigid,
+    NodeSlots,
+    node_motion,
+    refuse_turned,
+    rigid_motion,
+)
 from signorini.deck.inp.sets import unique_label
 from signorini.deck.inp.steps import DeckStep
 from signorini.model.conditions import Load, Support
-from signorini.model.links import directions
+from signorini.model.links import Equation, directions
 
 _MAX_LOADS = 1000  # more would be a field, which takes memory for each of them
+_OBLIQUE_NOTE = (
+    "supports along directions of *TRANSFORM that are no axes of the model are equations: their forces are not among "
+    "the reactions, nor in tables of RF"
+)
 
 
 @dataclass(kw_only=True)
@@ -32,6 +43,7 @@ class Conditions:
     cards : the keyword of each support and load, by label
     factors : label to its pattern, of what moves or loads
     holds : label of a support that some step takes away, brings or freezes to what it holds at, step by step
+    equations : of what is held across the axes of the model
     notes : where Abaqus and CalculiX differ, and which of them is followed
     """
 
@@ -40,6 +52,7 @@ class Conditions:
     cards: dict[str, Card] = field(default_factory=dict)
     factors: dict[str, Pattern] = field(default_factory=dict)
     holds: dict[str, tuple[Hold, ...]] = field(default_factory=dict)
+    equations: list[DeckEquation] = field(default_factory=list)
     notes: Sequence[str] = ()
 
     def label(self, name: str) -> str:
@@ -115,7 +128,7 @@ def make_conditions(courses: Courses, known: Known) -> Conditions:
 
 
 def _apart(
-    pattern: Pattern, rigid: Sequence[DeckRigid], dimension: int
+    pattern: Pattern, rigid: Sequence[DeckRigid], known: Known
 ) -> tuple[Pattern, list[tuple[DeckRigid, int, float]]]:
     """What a pattern has on nodes; and rigid bodies with the motion and the value that it has on them."""
     found, packed = [], NodeSlots(pattern.slots)
@@ -124,8 +137,9 @@ def _apart(
         own = packed.nodes == item.reference
         rest &= ~own
         for axis, value in zip(packed.axes[own].tolist(), pattern.values[own].tolist(), strict=True):
-            motion = rigid_motion(axis, dimension)
+            motion = rigid_motion(axis, known.dimension)
             if motion is not None:
+                refuse_turned(pattern.card, item.reference, known)
                 found.append((item, motion, value))
     return (replace(pattern, slots=pattern.slots[rest], values=pattern.values[rest]) if found else pattern), found
 
@@ -140,7 +154,8 @@ def _supports(courses: Courses, conditions: Conditions, known: Known) -> None:
     dimension, words = known.dimension, directions(known.dimension)
     resting: dict[tuple[str, tuple[Hold, ...]], list[Pattern]] = {}
     for whole in courses.displacement.patterns():
-        pattern, rigid = _apart(whole, courses.rigid, dimension)
+        pattern, rigid = _apart(whole, courses.rigid, known)
+        pattern = _along_axes(pattern, conditions, known)
         for item, motion, value in rigid:
             u, name = _only(motion, value, len(words)), item.body.name
             conditions.add_support(pattern, on=name, u=u, name=f"{name} {words[motion]}")
@@ -154,6 +169,43 @@ def _supports(courses: Courses, conditions: Conditions, known: Known) -> None:
         for which in np.unique(held, axis=0)[::-1]:
             on = known.places.at_nodes(nodes[(held == which).all(axis=1)], label)
             conditions.add_support(patterns[0], on=on, u=tuple(0.0 if part else None for part in which), name=label)
+
+
+def _along_axes(pattern: Pattern, conditions: Conditions, known: Known) -> Pattern:
+    """What a pattern holds along the axes of the model; what it holds across them at rest becomes equations.
+
+    Raises
+    ------
+    DeckError
+        Where supports across the axes move, or come and go.
+    """
+    packed = NodeSlots(pattern.slots)
+    own = known.axes.own(packed.nodes)
+    if not own.any():
+        return pattern
+    nodes, axes = packed.nodes[own], packed.axes[own]
+    units = known.axes.of(nodes)[np.arange(len(nodes)), axes]
+    still = not any(pattern.shares)
+    _, which, count = np.unique(nodes, return_inverse=True, return_counts=True)
+    whole = still & (count[which] == known.dimension)  # a node at rest in all directions is so along any axes
+    along = np.where(whole, axes, np.abs(units).argmax(axis=1))
+    oblique = ~whole & (np.count_nonzero(units, axis=1) > 1)
+    if oblique.any() and not (still and all(hold == "value" for hold in pattern.holds)):
+        number = known.nodes.numbering.labels[nodes[oblique][0]]
+        raise pattern.card.error(
+            f"moves node {number} along direction {axes[oblique][0] + 1} of its *TRANSFORM, across the axes of the "
+            "model, or holds it so in some steps only; expected nodes at rest there in all steps"
+        )
+    if oblique.any() and not conditions.equations:
+        conditions.notes = [*conditions.notes, _OBLIQUE_NOTE]
+    for node, axis in zip(nodes[oblique].tolist(), axes[oblique].tolist(), strict=True):
+        equation = Equation(node_motion(node, axis, known))
+        conditions.equations.append(DeckEquation(equation=equation, card=pattern.card))
+    signs = np.where(whole, 1.0, np.sign(units[np.arange(len(nodes)), along]))
+    slots = np.concatenate([pattern.slots[~own], NodeSlots.pack(nodes, along)[~oblique]])
+    values = np.concatenate([pattern.values[~own], (pattern.values[own] * signs)[~oblique]])
+    order = np.argsort(slots)
+    return replace(pattern, slots=slots[order], values=values[order])
 
 
 def _moving(pattern: Pattern, conditions: Conditions, known: Known) -> None:
@@ -191,7 +243,7 @@ def _hold_idle(rigid: Sequence[DeckRigid], conditions: Conditions, dimension: in
 def _forces(courses: Courses, conditions: Conditions, known: Known) -> None:
     dimension, words = known.dimension, directions(known.dimension)
     for whole in courses.force.patterns():
-        pattern, rigid = _apart(whole, courses.rigid, dimension)
+        pattern, rigid = _apart(whole, courses.rigid, known)
         for item, motion, value in rigid:
             if value and motion in item.idle:
                 raise pattern.card.error(
@@ -202,6 +254,8 @@ def _forces(courses: Courses, conditions: Conditions, known: Known) -> None:
                 name = item.body.name
                 conditions.add_load(pattern, on=name, force=_only(motion, value, len(words), 0.0), name=name)
         nodes, forces = _by_node(pattern.slots, pattern.values, dimension)
+        if known.axes.own(nodes).any():
+            forces = np.einsum("ni,nij->nj", forces, known.axes.of(nodes))
         if not forces.any():
             continue
         on = known.places.at_nodes(nodes, pattern.label)

@@ -16,6 +16,7 @@ from signorini.deck.inp.interactions import Interaction, make_interactions
 from signorini.deck.inp.materials import Section, make_materials, make_sections
 from signorini.deck.inp.sets import Sets, make_sets, unique_label
 from signorini.deck.inp.surfaces import ElementFaces, Surfaces, make_surfaces
+from signorini.deck.inp.transforms import NodeAxes, make_node_axes
 
 
 class Places:
@@ -71,6 +72,7 @@ class Known:
     ----------
     grid : nodes and elements
     nodes, elements : their sets
+    axes : directions of the nodes
     sections : bodies
     faces : of the elements
     surfaces : by name
@@ -83,6 +85,7 @@ class Known:
     grid: DeckGrid
     nodes: Sets
     elements: Sets
+    axes: NodeAxes
     sections: Sequence[Section]
     faces: ElementFaces
     surfaces: Surfaces
@@ -110,6 +113,7 @@ def make_known(cards: Sequence[Card], outside: Sequence[Card]) -> Known:
         grid=grid,
         nodes=nodes,
         elements=elements,
+        axes=make_node_axes(outside, grid, nodes),
         sections=sections,
         faces=faces,
         surfaces=surfaces,

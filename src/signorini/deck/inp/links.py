@@ -202,12 +202,12 @@ def make_equations(cards: Sequence[Card], known: Known, rigid: Sequence[DeckRigi
 
 def _terms(
     row: Row, rows: Iterator[Row], known: Known, rigid: Sequence[DeckRigid]
-) -> list[tuple[list[str | int], str, float]]:
-    """Places, direction and coefficient of every term of an equation; they follow the line with their number."""
+) -> list[tuple[list[list[Term]], float]]:
+    """Motions and coefficient of every term of an equation; they follow the line with their number."""
     count = row.whole(0, "the number of terms")
     if count < 1:
         raise row.error(f"*EQUATION: has {count} terms; expected 1 or more")
-    terms: list[tuple[list[str | int], str, float]] = []
+    terms: list[tuple[list[list[Term]], float]] = []
     while len(terms) < count:
         line = next(rows, None)
         if line is None:
@@ -222,40 +222,68 @@ def _terms(
                 raise line.error("*EQUATION: has the coefficient 0; expected another, or no such term")
             if not len(members):
                 raise line.error(f"*EQUATION: '{line.fields[start]}' holds no node")
-            places, word = _place(members, axis, known, rigid, line)
-            terms.append((places, word, value))
+            terms.append((_motions(members, axis, known, rigid, line), value))
     return terms
 
 
-def _place(
-    members: IntArray, axis: int, known: Known, rigid: Sequence[DeckRigid], row: Row
-) -> tuple[list[str | int], str]:
-    """Places and the direction as the model calls them."""
+def _motions(members: IntArray, axis: int, known: Known, rigid: Sequence[DeckRigid], row: Row) -> list[list[Term]]:
+    """Motion of every member in a direction, as the sum of terms that the model has for it."""
     slots, rest = rigid_slots(rigid, members, [axis])
     if len(slots) and len(members) == 1:
         packed = NodeSlots(slots[:1])
         motion = rigid_motion(int(packed.axes[0]), known.dimension)
         if motion is None:
             raise row.error(f"*EQUATION: direction {axis} is not one of a plane model")
+        refuse_turned(row, int(packed.nodes[0]), known)
         name = next(item.body.name for item in rigid if item.reference == packed.nodes[0])
-        return [name], directions(known.dimension)[motion]
+        return [[(name, directions(known.dimension)[motion], 1.0)]]
     if len(rest) < len(members):
         raise row.error("*EQUATION: a set holds the node of a rigid body; expected its number")
     if not 1 <= axis <= known.dimension:
         raise row.error(f"*EQUATION: direction {axis}; expected 1 to {known.dimension}")
-    return known.nodes.numbering.labels[members].tolist(), AXES[axis - 1]
+    return [node_motion(int(node), axis - 1, known) for node in members]
 
 
-def _spread(terms: list[tuple[list[str | int], str, float]], row: Row) -> Iterator[list[Term]]:
+def node_motion(node: int, axis: int, known: Known) -> list[Term]:
+    """The displacement of a node along a direction of its own: terms whose sum it is, largest first.
+
+    Parameters
+    ----------
+    node, axis : index of the node, and its direction, both from 0
+    known : directions and labels of the nodes
+    """
+    label, unit = int(known.nodes.numbering.labels[node]), known.axes.along(node, axis)
+    return [(label, AXES[i], float(unit[i])) for i in np.argsort(-np.abs(unit), kind="stable").tolist() if unit[i]]
+
+
+def refuse_turned(at: Card | Row, node: int, known: Known) -> None:
+    """Stop where a reference node has axes of its own: its motions are those of the model.
+
+    Parameters
+    ----------
+    at : the keyword or line that acts on it
+    node : its index
+    known : directions and labels of the nodes
+    """
+    if known.axes.own(node):
+        number = known.nodes.numbering.labels[node]
+        raise at.error(f"acts on the reference node {number}, which *TRANSFORM turns; expected no axes of its own")
+
+
+def _spread(terms: list[tuple[list[list[Term]], float]], row: Row) -> Iterator[list[Term]]:
     """One equation for every node of the sets."""
-    count = max(len(places) for places, _, _ in terms)
-    for places, _, _ in terms:
-        if len(places) not in (1, count):
-            raise row.error(f"*EQUATION: one set has {len(places)} nodes, another {count}; expected as many, or one")
+    count = max(len(motions) for motions, _ in terms)
+    for motions, _ in terms:
+        if len(motions) not in (1, count):
+            raise row.error(f"*EQUATION: one set has {len(motions)} nodes, another {count}; expected as many, or one")
     if count * len(terms) > _MAX_TERMS:
         raise row.error(f"*EQUATION: has {len(terms)} terms of up to {count} nodes; expected at most {_MAX_TERMS}")
     for i in range(count):
-        yield [(places[i if len(places) > 1 else 0], axis, value) for places, axis, value in terms]
+        yield [
+            (place, direction, share * value)
+            for motions, value in terms
+            for place, direction, share in motions[i if len(motions) > 1 else 0]
+        ]
 
 
 _ARM_TOL = 1e-12  # of the longest arm: shorter ones are rounding of the coordinates

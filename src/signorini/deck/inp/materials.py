@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from signorini.arrays import IntArray, distinct
-from signorini.deck.inp.card import Card
+from signorini.deck.inp.card import Card, Row
 from signorini.deck.inp.grid import DeckGrid, nodes_of
 from signorini.deck.inp.keywords import collect, look_up, of_keyword
 from signorini.deck.inp.plasticity import Flow, make_flow, with_cyclic_hardening
@@ -93,9 +93,9 @@ def _with(substance: Substance, card: Card) -> Substance:
         return replace(substance, flow=with_cyclic_hardening(substance.flow, card))
     card.refuse_unknown(("TYPE", "MODULI"))
     card.choice("MODULI", ("LONG TERM", "INSTANTANEOUS"), "LONG TERM")
-    kind = card.choice("TYPE", ("ISO", "ISOTROPIC", "ENGINEERING CONSTANTS"), "ISO")
-    if kind == "ENGINEERING CONSTANTS":
-        return replace(substance, elastic=_orthotropic(card))
+    kind = card.choice("TYPE", ("ISO", "ISOTROPIC", "ENGINEERING CONSTANTS", "ORTHO", "ORTHOTROPIC"), "ISO")
+    if kind.startswith(("ENGINEERING", "ORTHO")):
+        return replace(substance, elastic=_orthotropic(card, stiffnesses=kind.startswith("ORTHO")))
     rows = [(row, row.number(0, "Young's modulus"), row.number(1, "Poisson's ratio")) for row in card.rows()]
     if not rows:
         raise card.error("has no data line; expected Young's modulus and Poisson's ratio")
@@ -108,18 +108,34 @@ def _with(substance: Substance, card: Card) -> Substance:
         raise row.error(f"*ELASTIC: {error}") from error
 
 
-def _orthotropic(card: Card) -> Orthotropic:
-    """Nine constants in two lines: E1, E2, E3, nu12, nu13, nu23, G12, G13, G23."""
-    rows = list(card.rows())
+_MODULI = ("E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23")
+_STIFFNESSES = ("D1111", "D1122", "D2222", "D1133", "D2233", "D3333", "D1212", "D1313", "D2323")
+
+
+def _orthotropic(card: Card, *, stiffnesses: bool) -> Orthotropic:
+    """Nine constants in two lines: moduli and ratios, or entries of the stiffness."""
+    rows, names = list(card.rows()), _STIFFNESSES if stiffnesses else _MODULI
     words = [(row, i) for row in rows for i in range(len(row.fields))]
     if len(words) not in (9, 10):
-        raise card.error(f"has {len(words)} constants; expected 9: E1, E2, E3, nu12, nu13, nu23, G12, G13, G23")
+        raise card.error(f"has {len(words)} constants; expected 9: {', '.join(names)}")
     values = [row.number(i, "a constant") for row, i in words[:9]]  # a tenth is the temperature that they belong to
-    keys = ("E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23")
+    if stiffnesses:
+        values = _moduli(values, rows[0])
     try:
-        return Orthotropic(**dict(zip(keys, values, strict=True)))
+        return Orthotropic(**dict(zip(_MODULI, values, strict=True)))
     except InputError as error:
         raise rows[0].error(f"*ELASTIC: {error}") from error
+
+
+def _moduli(stiffnesses: list[float], row: Row) -> list[float]:
+    """The engineering constants of entries of the stiffness: those of its inverse."""
+    d11, d12, d22, d13, d23, d33, *shear = stiffnesses
+    try:
+        C = np.linalg.inv(np.array([[d11, d12, d13], [d12, d22, d23], [d13, d23, d33]]))
+    except np.linalg.LinAlgError as error:
+        raise row.error("*ELASTIC: the stiffness is singular; expected that of a material") from error
+    moduli = 1.0 / np.diag(C)
+    return [*moduli.tolist(), *(-moduli[i] * C[i, j] for i, j in ((0, 1), (0, 2), (1, 2))), *shear]
 
 
 def _constant(card: Card, what: str) -> float:
@@ -133,7 +149,7 @@ def _constant(card: Card, what: str) -> float:
 def make_sections(
     cards: Sequence[Card], grid: DeckGrid, elements: Sets, materials: Mapping[str, Substance]
 ) -> list[Section]:
-    """Read all ``*SOLID SECTION`` keywords; every element has exactly one, and bodies are of one formulation.
+    """Read all ``*SOLID SECTION`` keywords; of several for one element the last counts; bodies are of one formulation.
 
     Parameters
     ----------
@@ -156,10 +172,6 @@ def make_sections(
         if not len(members):
             raise card.error(f"element set '{name}' is empty")
         _refuse_skins(card, name, members, grid)
-        if (owner[members] >= 0).any():
-            first = members[owner[members] >= 0][0]
-            number = elements.numbering.labels[first]
-            raise card.error(f"element {number} has the section of '{sections[owner[first]].name}' already")
         angle, thickness = _angle(card, angles), _thickness(card)
         for kind, own in _by_formulation(members, grid):
             owner[own] = len(sections)
@@ -179,7 +191,17 @@ def make_sections(
     if (owner[bodies] < 0).any():
         bare = int(bodies[owner[bodies] < 0].min())
         raise grid.at(bare).error(f"element {elements.numbering.labels[bare]} has no section; expected *SOLID SECTION")
-    return sections
+    return list(_what_is_left(sections, owner, grid))
+
+
+def _what_is_left(sections: Sequence[Section], owner: IntArray, grid: DeckGrid) -> Iterator[Section]:
+    """Sections without the elements that later ones have taken, ``owner`` (elements,) by index of the section."""
+    for i, section in enumerate(sections):
+        own = section.elements[owner[section.elements] == i]
+        if len(own) == len(section.elements):
+            yield section
+        elif len(own):
+            yield replace(section, elements=own, nodes=nodes_of(grid, own))
 
 
 def _refuse_skins(card: Card, name: str, members: IntArray, grid: DeckGrid) -> None:

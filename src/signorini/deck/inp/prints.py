@@ -9,7 +9,7 @@ from typing import Literal
 
 import numpy as np
 
-from signorini.arrays import IntArray
+from signorini.arrays import Array, IntArray
 from signorini.deck.inp.card import Card
 from signorini.deck.inp.known import Known
 from signorini.deck.inp.links import DeckRigid
@@ -77,6 +77,7 @@ def _tables(k: int, card: Card, known: Known, pairs: Sequence[Pair], cell_of: In
             members=members if nodes else np.sort(cell_of[members][cell_of[members] >= 0]),
             quantities=quantities,
             totals=_totals(card),
+            axes=_axes(card, members, known) if nodes else {},
         )
 
 
@@ -104,6 +105,14 @@ def _members(card: Card, key: str, sets: Sets) -> tuple[str, IntArray]:
     if card.parameters.get(key):
         return sets.find(card.parameters[key], card)
     return "all", np.arange(len(sets.numbering.labels))
+
+
+def _axes(card: Card, members: IntArray, known: Known) -> dict[int, Array]:
+    """Members whose values are along axes of their own, unless the card asks for those of the model, and these axes."""
+    if card.choice("GLOBAL", ("YES", "NO"), "NO") == "YES":
+        return {}
+    rows = np.flatnonzero(known.axes.own(members))
+    return dict(zip(rows.tolist(), known.axes.of(members[rows]), strict=True))
 
 
 def _totals(card: Card) -> Literal["no", "yes", "only"]:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from signorini.deck.inp.card import Card, to_number
-from signorini.deck.inp.keywords import HARMLESS, STEP_WORDS, of_keyword
+from signorini.deck.inp.keywords import HARMLESS, STEP_WORDS
 
 _MAX_INCREMENTS = 100_000  # of a step: more are no path but a mistake in the units of time
 IGNORED = ("INC", "INCF", "NAME", "UNSYMM", "SOLVER", "CONVERT SDI", "EXTRAPOLATION", "PERTURBATION MASS")
@@ -71,7 +71,7 @@ def split_steps(cards: list[Card]) -> tuple[list[Card], list[DeckStep]]:
 
 def _step(card: Card, members: list[Card], before: Sequence[DeckStep]) -> DeckStep:
     card.refuse_unknown(("NLGEOM", "AMPLITUDE"), IGNORED)
-    statics = list(of_keyword(members, "STATIC"))
+    statics = [other for other in members if other.keyword in ("STATIC", "VISCO")]
     if len(statics) != 1:
         other = next((other for other in members if other.keyword not in (*STEP_WORDS, *HARMLESS)), None)
         if not statics and other is not None:
@@ -81,7 +81,7 @@ def _step(card: Card, members: list[Card], before: Sequence[DeckStep]) -> DeckSt
     static = statics[0]
     static.refuse_unknown(
         ("SOLVER", "DIRECT", "TIME RESET", "TOTAL TIME AT START"),
-        ("STABILIZE", "FACTOR", "ALLSDTOL", "CONTINUE", "FULLY PLASTIC"),
+        ("STABILIZE", "FACTOR", "ALLSDTOL", "CONTINUE", "FULLY PLASTIC", "CETOL"),
     )
     row = next(static.rows(), None)
     first = row.number(0, "the first increment", 1.0) if row else 1.0

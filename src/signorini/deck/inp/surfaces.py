@@ -146,12 +146,23 @@ class Surfaces:
 
     def __init__(self) -> None:
         self._by_name: dict[str, DeckSurface] = {}
+        self._of_nodes: dict[str, set[bool]] = {}  # by name: kinds of surfaces that bear it
 
     def add(self, surface: DeckSurface, card: Card) -> None:
-        """Add the surface of a card."""
-        if surface.name.upper() in self._by_name:
+        """Add the surface of a card; where one of nodes has the name of one of faces, as CalculiX allows, faces count.
+
+        Raises
+        ------
+        DeckError
+            Where there is another of its kind by that name.
+        """
+        name, of_nodes = surface.name.upper(), surface.given is not None
+        kinds = self._of_nodes.setdefault(name, set())
+        if of_nodes in kinds:
             raise card.error(f"there is another surface '{surface.name}'")
-        self._by_name[surface.name.upper()] = surface
+        if not (kinds and of_nodes):
+            self._by_name[name] = surface
+        kinds.add(of_nodes)
 
     def find(self, word: str, at: Card | Row) -> DeckSurface:
         """The surface that a card or one of its lines calls ``word``."""
