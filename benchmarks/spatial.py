@@ -58,9 +58,9 @@ def facets() -> str:
         for mu, circle in exact.items():
             polygon = solve_contact(from_compliance(A, c, np.full(100, mu), facets=count)[0])
             error = polygon.tangential_force - circle.tangential_force
-            nodal = max(nodal, np.linalg.norm(error, axis=1).max() / (mu * circle.normal_force.max()))
-            total = np.linalg.norm(circle.tangential_force.sum(axis=0))
-            resultant = max(resultant, np.linalg.norm(error.sum(axis=0)) / total)
+            nodal = max(nodal, np.linalg.norm(error, axis=0).max() / (mu * circle.normal_force.max()))
+            total = np.linalg.norm(circle.tangential_force.sum(axis=1))
+            resultant = max(resultant, np.linalg.norm(error.sum(axis=1)) / total)
         rows.append((count, f"{100 * nodal:.1f} %", f"{100 * resultant:.2f} %", f"{100 * bound:.0f} %"))
     return table(("facets", "largest nodal error / (mu p_max)", "resultant", "half a facet, 2 sin(pi / 2m)"), rows)
 
@@ -96,16 +96,16 @@ def histories() -> str:
     def ends(count: int) -> tuple[ContactProblem, PathState]:
         problem, root = from_compliance(A, c, np.full(n, mu), facets=count)
         begin = from_compliance(A, touching, np.full(n, mu))[0].b
-        return problem, initial_state(problem, begin, motion=root * touching)
+        return problem, initial_state(problem, begin, motion=problem.by_pair(root * touching))
 
     def equal(problem: ContactProblem, state: PathState, number: int) -> tuple[Array, int, int]:
         h, y = state.h, None
         for k in range(1, number + 1):
-            origin = np.concatenate([np.zeros(n), h[n:]])
-            b = state.b + k / number * (problem.b - state.b) + problem.W @ origin - origin
+            origin = np.concatenate([np.zeros((1, n)), h[1:]])
+            b = state.b + k / number * (problem.b - state.b) + problem.W @ origin.ravel() - origin.ravel()
             result = solve_contact(replace(problem, b=b), y)
-            h, y = np.concatenate([result.gap, result.slip.T.ravel()]) + origin, result.y
-        return np.concatenate([result.normal_force, result.tangential_force.T.ravel()]), number, number
+            h, y = result.h + origin, result.y
+        return result.r, number, number
 
     def stopping(problem: ContactProblem, state: PathState, **settings: float) -> tuple[Array, int, int]:
         segment = follow(problem, state, problem.b, settings=PathSettings(**settings))
@@ -123,7 +123,7 @@ def histories() -> str:
         start = time.process_time()
         r, number, solved = way(problem, state)
         spent = time.process_time() - start
-        error = np.linalg.norm((r - exact)[n:].reshape(2, n), axis=0).max() / (mu * exact[:n].max())
+        error = np.linalg.norm((r - exact)[1:], axis=0).max() / (mu * exact[0].max())
         rows.append((words, number, solved, f"{100 * error:.2f} %", seconds(spent)))
     return table(("increments", "number", "solved", "largest nodal error / (mu p_max)", "seconds"), rows)
 

@@ -81,7 +81,7 @@ def test_an_unloaded_block_stays():
     problem = block_on_floor(4, (0.0, 0.0, 0.0))
     result = solve_contact(dataclasses.replace(problem, scale=0.0))
     assert result.solved
-    np.testing.assert_array_equal(result.slip, np.zeros(4))
+    np.testing.assert_array_equal(result.slip, np.zeros((1, 4)))
 
 
 def test_motions_that_are_none_are_refused():
@@ -114,4 +114,4 @@ def test_unlimited_friction_on_the_verge_of_opening_is_said():
     assert result.solved
     assert "verge of opening" in result.message
     verge = result.state > STICK
-    np.testing.assert_allclose(result.normal_force[verge], np.abs(result.tangential_force[verge]) / 1e6, rtol=1e-9)
+    np.testing.assert_allclose(result.normal_force[verge], np.abs(result.tangential_force[0, verge]) / 1e6, rtol=1e-9)

@@ -36,8 +36,8 @@ def test_one_pair(normal, tangential, mu, state, force, motion):
     result = solve_contact(one_pair(normal, tangential, mu))
     assert result.solved
     assert result.state.tolist() == [state]
-    np.testing.assert_allclose([result.normal_force[0], result.tangential_force[0]], force, atol=1e-14)
-    np.testing.assert_allclose([result.gap[0], result.slip[0]], motion, atol=1e-14)
+    np.testing.assert_allclose([result.normal_force[0], result.tangential_force[0, 0]], force, atol=1e-14)
+    np.testing.assert_allclose([result.gap[0], result.slip[0, 0]], motion, atol=1e-14)
 
 
 @pytest.mark.parametrize("drag", [-0.2, 0.0, 0.2])
@@ -47,7 +47,9 @@ def test_locked_pair_slips_as_its_support_moves(drag):
     )
     result = solve_contact(problem)
     assert result.solved
-    np.testing.assert_allclose([result.slip[0], result.tangential_force[0]], [drag, -0.6 * np.sign(drag)], atol=1e-14)
+    np.testing.assert_allclose(
+        [result.slip[0, 0], result.tangential_force[0, 0]], [drag, -0.6 * np.sign(drag)], atol=1e-14
+    )
 
 
 def test_no_pairs():

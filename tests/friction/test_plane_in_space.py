@@ -72,7 +72,7 @@ def check_alike(flat, deep, rubs):
     for name in ("gap", "normal_force"):
         np.testing.assert_allclose(getattr(deep, name), getattr(flat, name), rtol=ROUNDING, atol=ROUNDING)
     for name in ("slip", "tangential_force"):
-        both = np.column_stack([getattr(flat, name), np.zeros(n)])
+        both = np.concatenate([getattr(flat, name), np.zeros((1, n))])
         np.testing.assert_allclose(getattr(deep, name), both, rtol=ROUNDING, atol=ROUNDING)
     assert np.minimum(flat.state, SLIP)[rubs].tolist() == deep.state[rubs].tolist()
 

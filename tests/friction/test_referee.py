@@ -95,8 +95,8 @@ def test_one_node(friction, load, solutions):
         assert sorted(sign for _, sign in found) == [-1, 1, 1]
         np.testing.assert_allclose(result.y, [[1.0], [-2.5]], atol=1e-12)
         opened = solve_contact(problem, np.array([0]))
-        np.testing.assert_allclose([opened.gap[0], opened.slip[0]], [1 / 6, 4 / 3], atol=1e-12)
+        np.testing.assert_allclose([opened.gap[0], opened.slip[0, 0]], [1 / 6, 4 / 3], atol=1e-12)
         sliding = solve_contact(problem, np.array([3]))
-        np.testing.assert_allclose([sliding.normal_force[0], sliding.slip[0]], [0.5, 0.5], atol=1e-12)
+        np.testing.assert_allclose([sliding.normal_force[0], sliding.slip[0, 0]], [0.5, 0.5], atol=1e-12)
         assert sliding.index == -1
         assert "more solutions" in sliding.message

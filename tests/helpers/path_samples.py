@@ -44,10 +44,10 @@ class EqualBodies:
 
     def travel(self, state):
         """Tangential motion of the body as a whole, on which Q works."""
-        return float(self.R[:, 1] @ state.h) / self.n
+        return float(self.R[:, 1] @ state.h.ravel()) / self.n
 
     def start(self):
-        return initial_state(self.problem, self.load(0.0, 0.0), motion=self.gap)
+        return initial_state(self.problem, self.load(0.0, 0.0), motion=self.gap.reshape(2, -1))
 
     def run(self, *loads):
         """Segments through the loads (P, Q)."""
@@ -62,7 +62,9 @@ def at(segment, factor):
     """(h, r) of a followed segment at a factor: linear between breakpoints."""
     s = np.array([piece.factor for piece in segment.pieces])
     return tuple(
-        np.array([np.interp(factor, s, column) for column in np.array([getattr(p, name) for p in segment.pieces]).T])
+        np.array(
+            [np.interp(factor, s, column) for column in np.array([getattr(p, name).ravel() for p in segment.pieces]).T]
+        )
         for name in ("h", "r")
     )
 
@@ -93,7 +95,10 @@ class Springs:
 
     def run(self, *forces):
         """Segments from rest through nodal forces, up to one that is not followed."""
-        state, segments = initial_state(self.problem, self.load(np.zeros_like(self.gap)), motion=self.gap), []
+        state, segments = (
+            initial_state(self.problem, self.load(np.zeros_like(self.gap)), motion=self.gap.reshape(2, -1)),
+            [],
+        )
         for F in forces:
             segments.append(follow(self.problem, state, self.load(F)))
             state = segments[-1].end
@@ -103,7 +108,7 @@ class Springs:
 
     def strain_energy(self, state):
         """Of the body."""
-        u = state.h - self.gap
+        u = state.h.ravel() - self.gap
         return 0.5 * u @ self.S @ u
 
     def work(self, segments, forces):
@@ -111,7 +116,7 @@ class Springs:
         total, start = 0.0, np.zeros_like(self.gap)
         for segment, F in zip(segments, forces, strict=False):
             s = np.array([piece.factor for piece in segment.pieces])
-            u = np.array([piece.h for piece in segment.pieces])
+            u = np.array([piece.h.ravel() for piece in segment.pieces])
             f = (1 - s)[:, None] * start + s[:, None] * F
             total += 0.5 * np.sum((f[1:] + f[:-1]) * np.diff(u, axis=0))
             start = F
@@ -120,14 +125,13 @@ class Springs:
 
 def increments(problem, start, ends):
     """Implicit increments that end at given loads b: the last (h, r)."""
-    n, travelled, states = problem.pairs, start.h[problem.pairs :], None
+    travelled, states = start.h[1], None
     for b in ends:
-        origin = np.append(np.zeros(n), travelled)
+        origin = np.append(np.zeros(problem.pairs), travelled)
         result = solve_contact(replace(problem, b=b + problem.W @ origin - origin), states)
         assert result.solved, result.message
-        travelled, states = travelled + result.slip, result.state
-    h = np.concatenate([result.gap, travelled])
-    return h, np.concatenate([result.normal_force, result.tangential_force])
+        travelled, states = travelled + result.slip[0], result.state
+    return np.stack([result.gap, travelled]), result.r
 
 
 def loads_at_breakpoints(segment, start, end):

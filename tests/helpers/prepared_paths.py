@@ -31,7 +31,7 @@ class PreparedPath:
     def start(self):
         """Nothing acts yet."""
         root = self.prepared.paths.condensed.root
-        return initial_state(self.problem, self.load({}), motion=root * self.offset)
+        return initial_state(self.problem, self.load({}), motion=self.problem.by_pair(root * self.offset))
 
     def run(self, *loads):
         """Segments through the loads, up to one that is not followed."""
@@ -46,13 +46,13 @@ class PreparedPath:
     def traction(self, r):
         """Forces of the pairs per area."""
         area = self.prepared.interface.area[self.prepared.paths.condensed.active]
-        return self.prepared.paths.condensed.root * r / np.tile(area, 2)
+        return self.problem.by_pair(self.prepared.paths.condensed.root * r.ravel() / np.tile(area, 2))
 
     def displacement(self, factors, piece):
         """Of every degree of freedom, at a breakpoint."""
         condensed, T = self.prepared.paths.condensed, self.prepared.constraints.transform
         f = T.T @ self.forces(factors)
-        h, r = piece.h / condensed.root, piece.r * condensed.root
+        h, r = piece.h.ravel() / condensed.root, piece.r.ravel() * condensed.root
         return T @ condensed.displacement(condensed.reduce(f), h, r, self.offset)
 
     def energies(self, loads):

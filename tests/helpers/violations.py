@@ -52,9 +52,9 @@ def violations(
     Parameters
     ----------
     gap : (n,) total gap, length
-    slip : (n, 2) slip increment, length
+    slip : (2, n) slip increment, length
     normal_force : (n,) pressing > 0
-    tangential_force : (n, 2) on body 1
+    tangential_force : (2, n) on body 1
     friction : mu, (n,) or (2, n) along the two tangents
     length, force : sizes from the data, > 0
     facets : see `ContactProblem`
@@ -62,21 +62,21 @@ def violations(
     Examples
     --------
     >>> one = violations(
-    ...     np.zeros(1), np.array([[0.0, 1.0]]), np.ones(1), np.array([[0.0, -0.3]]), [0.3], length=1.0, force=1.0
+    ...     np.zeros(1), np.array([[0.0], [1.0]]), np.ones(1), np.array([[0.0], [-0.3]]), [0.3], length=1.0, force=1.0
     ... )
     >>> one.worst
     0.0
     """
     mu = np.asarray(friction, dtype=np.float64) * np.ones((2, 1))
     cones = FrictionSection(axes=mu, sides=np.broadcast_to(np.asarray(facets, dtype=np.int64), gap.shape).copy())
-    nearest = cones.nearest(tangential_force.T, np.maximum(normal_force, 0.0)).T
-    reach = (cones.farthest(slip.T).T * slip).sum(axis=1)
+    nearest = cones.nearest(tangential_force, np.maximum(normal_force, 0.0))
+    reach = (cones.farthest(slip) * slip).sum(axis=0)
     pressing = np.maximum(normal_force, 0.0)
-    power = pressing * reach + (tangential_force * slip).sum(axis=1)
+    power = pressing * reach + (tangential_force * slip).sum(axis=0)
     return Violations(
         penetration=float(np.maximum(-gap, 0.0).max(initial=0.0)) / length,
         tension=float(np.maximum(-normal_force, 0.0).max(initial=0.0)) / force,
-        cone=float(np.linalg.norm(tangential_force - nearest, axis=1).max(initial=0.0)) / force,
+        cone=float(np.linalg.norm(tangential_force - nearest, axis=0).max(initial=0.0)) / force,
         dissipation=float(np.abs(power).max(initial=0.0)) / (force * length),
         complementarity=float(np.abs(normal_force * gap).max(initial=0.0)) / (force * length),
     )

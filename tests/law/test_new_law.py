@@ -151,7 +151,7 @@ def test_what_floats_is_solved_or_proved_to_leave(seed, directions):
 def test_what_needs_straight_branches_says_so():
     problem = posed(1, 3)
     with pytest.raises(InputError, match="friction: has no straight branches, which exact histories follow"):
-        follow(problem, initial_state(problem, np.zeros(18), motion=np.zeros(18)), problem.b)
+        follow(problem, initial_state(problem, np.zeros(18), motion=np.zeros((3, 6))), problem.b)
 
 
 LAW = '{ law = "quadratic", friction = 0.4, limit = 3.0 }'

@@ -58,6 +58,6 @@ def compared(law, p, p_t, gap, slip):
     assert 0 < closed.sum() < len(p)
     assert np.abs(slip[closed]).max() > 1e-6 * size
     np.testing.assert_allclose(p, result.normal_force, atol=1e-8 * size)
-    np.testing.assert_allclose(p_t, result.tangential_force, atol=1e-8 * size)
+    np.testing.assert_allclose(p_t, result.tangential_force[0], atol=1e-8 * size)
     np.testing.assert_allclose(gap, result.gap, atol=1e-8 * size)
     np.testing.assert_allclose(slip[closed], result.slip[closed], atol=1e-8 * size)

@@ -41,7 +41,7 @@ def test_facets_approach_the_cone(upper):
     for facets in (4, 8, 16, 32, 64):
         found = solve_contact(replace(law, facets=facets))
         assert found.solved
-        errors.append(np.linalg.norm(found.tangential_force - exact.tangential_force, axis=1).max() / bound)
+        errors.append(np.linalg.norm(found.tangential_force - exact.tangential_force, axis=0).max() / bound)
     assert all(fine < coarse for coarse, fine in pairwise(errors)), errors
     assert errors[-1] < 0.1 * errors[0]
 

@@ -168,5 +168,5 @@ def test_friction_holds_the_upper_block_up_to_its_coefficient(drag, outcome):
     assert result.outcome == outcome
     if result.solved:
         assert (result.state == STICK).any()
-        total = (result.tangential_force * root[:n, None]).sum(axis=0)
+        total = (result.tangential_force * root[:n]).sum(axis=1)
         np.testing.assert_allclose(total, -drag * PRESSURE * np.array([np.cos(angle), np.sin(angle)]), rtol=1e-9)

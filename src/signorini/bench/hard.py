@@ -115,7 +115,7 @@ def hard(
             if not result.solved:
                 break
             certified.append((f"{problem.name}, step {k}", step))
-            slipped, start = slipped + result.slip, result.state
+            slipped, start = slipped + result.slip[0], result.state
     return HardReport(
         problems=len(numbers),
         held=dict(counts[False]),

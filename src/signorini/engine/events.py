@@ -287,7 +287,9 @@ def _visited(path: _Path) -> tuple[Snapshot, ...]:
 
 def _losses(segment: Segment) -> list[tuple[float, float]]:
     """What contact takes on every linear piece, ``-int r . dh``, by the factor at its end."""
-    return [(two.factor, float(-0.5 * (one.r + two.r) @ (two.h - one.h))) for one, two in pairwise(segment.pieces)]
+    return [
+        (two.factor, float((-0.5 * (one.r + two.r) * (two.h - one.h)).sum())) for one, two in pairwise(segment.pieces)
+    ]
 
 
 def _events(path: _Path) -> tuple[PairEvent, ...]:

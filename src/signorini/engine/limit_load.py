@@ -33,7 +33,7 @@ def known(stop: SolveFailed, part: StepPart) -> SolveFailed:
     followed = reached(stop)
     state = part.before if followed is None else followed.after
     low = interval.low if followed is None else followed.snapshots[-1].fraction
-    held = state.forces[paths.condensed.active_rows] / paths.condensed.root
+    held = paths.law.by_pair(state.forces[paths.condensed.active_rows] / paths.condensed.root)
     problem = replace(paths.law, b=frozen(right_hand_side(prepared, state.point)))
     found = overload(problem, held, right_hand_side(prepared, part.end))
     if found is None:

@@ -46,17 +46,18 @@ def right_hand_side(prepared: Prepared, point: LoadPoint, slipped: Array | None 
 def path_state(prepared: Prepared, state: State) -> PathState:
     """A state in the scaled units of the law; overlaps of bodies that nothing has moved yet press first."""
     paths, condensed, active = prepared.paths, prepared.paths.condensed, prepared.paths.active
-    b, n, rows = right_hand_side(prepared, state.point), paths.law.pairs, condensed.active_rows
-    h = condensed.root * np.concatenate([state.gap, state.tangential])[rows]
-    slip, dissipation = condensed.root[n:] * state.slip[_tangential_rows(prepared)], state.dissipation[active]
-    if not state.forces.any() and not state.displacement.any() and (h[:n] < 0.0).any():
-        pressed = initial_state(paths.law, b, settings=prepared.settings)
+    b, rows, law = right_hand_side(prepared, state.point), condensed.active_rows, paths.law
+    h = law.by_pair(condensed.root * np.concatenate([state.gap, state.tangential])[rows])
+    slip = (condensed.root[law.pairs :] * state.slip[_tangential_rows(prepared)]).reshape(h[1:].shape)
+    dissipation = state.dissipation[active]
+    if not state.forces.any() and not state.displacement.any() and (h[0] < 0.0).any():
+        pressed = initial_state(law, b, settings=prepared.settings)
         return replace(pressed, slip=slip + pressed.slip, dissipation=dissipation + pressed.dissipation)
-    r, status = state.forces[rows] / condensed.root, state.status[active]
+    r, status = law.by_pair(state.forces[rows] / condensed.root), state.status[active]
     if prepared.interface.directions == 2:  # friction that has risen since leaves some to spare
-        spare = (status > STICK) & (np.abs(r[n:]) < (1.0 - _SPENT) * paths.law.bound.at(r[:n]))
+        spare = (status > STICK) & (np.abs(r[1]) < (1.0 - _SPENT) * law.bound.at(r[0]))
         status = np.where(spare, STICK, status)
-    return PathState(b=b, h=h, r=r, state=status, anchor=h[n:], slip=slip, dissipation=dissipation)
+    return PathState(b=b, h=h, r=r, state=status, anchor=h[1:], slip=slip, dissipation=dissipation)
 
 
 def on_the_way(prepared: Prepared, last: State, point: LoadPoint, now: PathState) -> State:
@@ -72,12 +73,12 @@ def on_the_way(prepared: Prepared, last: State, point: LoadPoint, now: PathState
     condensed, n = prepared.paths.condensed, len(prepared.interface)
     rows, active = condensed.active_rows, condensed.active
     forces, moved = np.zeros(len(point.given)), np.full(prepared.interface.directions * n, np.nan)
-    forces[rows] = condensed.root * now.r
-    moved[rows] = now.h / condensed.root
+    forces[rows] = condensed.root * now.r.ravel()
+    moved[rows] = now.h.ravel() / condensed.root
     status, slip, dissipation = np.full(n, OPEN), last.slip.copy(), last.dissipation.copy()
     status[active], status[prepared.interface.tied] = plain(now.state), STICK
     forces, status = settled(prepared, forces, status)
-    slip[_tangential_rows(prepared)] = now.slip / condensed.root[now.pairs :]
+    slip[_tangential_rows(prepared)] = now.slip.ravel() / condensed.root[now.pairs :]
     dissipation[active] = now.dissipation
     return replace(
         last,
@@ -149,11 +150,11 @@ def tangential(prepared: Prepared, state: State, h: Array) -> Array:
     ----------
     prepared : condensed
     state : of all pairs
-    h : (d a,) motions of the active pairs, scaled
+    h : (d, a) motions of the active pairs, scaled
     """
     paths, moved = prepared.paths, state.tangential.copy()
     n = paths.law.pairs
-    moved[_tangential_rows(prepared)] = h[n:] / paths.condensed.root[n:]
+    moved[_tangential_rows(prepared)] = h[1:].ravel() / paths.condensed.root[n:]
     return moved
 
 

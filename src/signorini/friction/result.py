@@ -62,8 +62,8 @@ class ContactAnswer:
 
     @property
     def slip(self) -> Array:
-        """(n,) Slip increment; in space (n, 2)."""
-        return _columns(self.h)
+        """(d - 1, n) Slip increment."""
+        return self.h[1:]
 
     @property
     def normal_force(self) -> Array:
@@ -72,9 +72,5 @@ class ContactAnswer:
 
     @property
     def tangential_force(self) -> Array:
-        """(n,) Tangential force; in space (n, 2)."""
-        return _columns(self.r)
-
-
-def _columns(rows: Array) -> Array:
-    return rows[1] if len(rows) == 2 else rows[1:].T
+        """(d - 1, n) Tangential force."""
+        return self.r[1:]

@@ -69,7 +69,7 @@ def solve_contact(
     ... )
     >>> answer = solve_contact(problem)
     >>> answer.outcome, answer.normal_force.round(12).tolist(), answer.tangential_force.round(12).tolist()
-    ('solved', [2.0], [-0.6])
+    ('solved', [2.0], [[-0.6]])
     >>> problem = ContactProblem.of(
     ...     W=0.5 * np.eye(3), b=np.array([-1.0, 0.3, 0.4]), friction=[0.1], motions=np.zeros((3, 0)), scale=1.0
     ... )

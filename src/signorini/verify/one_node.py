@@ -39,12 +39,12 @@ def one_node_path() -> Iterator[Check]:
         if path.jump is None:
             slips, opens = (4 * event.factor for event in path.events[:2])
             found = [("slips at f_t", slips, 1.0), ("opens at f_t", opens, 2.0)]
-            found += [("gap at f_t = 4", end.h[0], 2 / 3), ("u_t at f_t = 4", end.h[1], 7 / 3)]
+            found += [("gap at f_t = 4", end.h[0, 0], 2 / 3), ("u_t at f_t = 4", end.h[1, 0], 7 / 3)]
         else:
             landing = land(problem, pressed, path)
             end = landing.state if isinstance(landing, Landing) else end
-            found = [("jumps at f_t", 4 * path.jump.factor, 3.0), ("gap where it lands", end.h[0], 1 / 3)]
-            found += [("u_t where it lands", end.h[1], 5 / 3)]
+            found = [("jumps at f_t", 4 * path.jump.factor, 3.0), ("gap where it lands", end.h[0, 0], 1 / 3)]
+            found += [("u_t where it lands", end.h[1, 0], 5 / 3)]
         found.append(("dissipation", end.dissipation[0], 0.5 if path.jump is None else 1.5))
         yield from checks_of(
             "one-node Coulomb problem, exact path",
@@ -78,7 +78,7 @@ def one_node_path_in_space() -> Iterator[Check]:
         path = follow(problem, pressed, W @ turn @ np.array([-1.0, 4.0, 0.0]))
         landing = land(problem, pressed, path)
         end = landing.state if isinstance(landing, Landing) else path.end
-        gap, along, _ = turn.T @ end.h
+        gap, along, _ = turn.T @ end.h[:, 0]
         found = [("jumps at f_t", np.nan if path.jump is None else 4 * path.jump.factor, 3.0)]
         found += [("gap where it lands", gap, 1 / 3), ("u_t where it lands", along, 5 / 3)]
         found.append(("dissipation", end.dissipation[0], 1.5))
@@ -94,4 +94,4 @@ def _gap_and_slip(*, friction: float, push: float) -> Array:
     b = _IMAGE @ np.array([-1.0, push])
     problem = ContactProblem.of(W=_IMAGE, b=b, friction=np.array([friction]), motions=np.zeros((2, 0)), scale=1.0)
     result = solve_contact(problem)
-    return np.concatenate([result.gap, result.slip])
+    return result.h[:, 0]

@@ -78,9 +78,9 @@ def slab(friction=0.3):
 @pytest.mark.parametrize(("limit", "of"), [("MAX_ROUNDS", "linear programmes"), ("MAX_PIVOTS", "pivots")])
 def test_the_load_that_contact_holds_is_told_or_that_the_budget_is_spent(monkeypatch, limit, of):
     problem, end = slab()
-    assert overload(problem, -problem.b, end).factor == pytest.approx(0.25, abs=1e-6)
+    assert overload(problem, -problem.by_pair(problem.b), end).factor == pytest.approx(0.25, abs=1e-6)
     monkeypatch.setattr(f"signorini.friction.space.overload.{limit}", 1 if limit == "MAX_ROUNDS" else 0)
-    found = overload(problem, -problem.b, end)
+    found = overload(problem, -problem.by_pair(problem.b), end)
     assert isinstance(found, Spent)
     assert (
         found.of

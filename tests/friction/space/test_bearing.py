@@ -49,7 +49,7 @@ def test_beyond_an_overload_a_rigid_motion_proves_that_nothing_holds_and_none_do
     rng = np.random.default_rng(seed)
     problem = floating(rng, pairs, friction)
     end = problem.b + 10.0 * rng.normal(size=3 * pairs)
-    found = overload(problem, -problem.b, end)
+    found = overload(problem, -problem.by_pair(problem.b), end)
 
     def at(s):
         return replace(problem, b=frozen(problem.b + s * (end - problem.b)))
@@ -62,7 +62,9 @@ def test_beyond_an_overload_a_rigid_motion_proves_that_nothing_holds_and_none_do
     assert pulled_away(at(found.factor * (1.0 + 1e-2))) is not None
     assert found.factor <= found.proved < found.factor + 1e-2
     assert 0.0 < found.share <= pulled_away(at(1.0)).share + 1e-9
-    edge, beyond = (overload(problem, -problem.b, at(found.factor * (1.0 + part)).b) for part in (1e-11, 1e-2))
+    edge, beyond = (
+        overload(problem, -problem.by_pair(problem.b), at(found.factor * (1.0 + part)).b) for part in (1e-11, 1e-2)
+    )
     assert edge is None or edge.share <= GAIN
     assert beyond.share > GAIN
 
@@ -72,11 +74,13 @@ def test_a_limit_is_looked_at_from_as_near_wherever_on_the_way_the_look_begins(b
     rng = np.random.default_rng(5)
     problem = floating(rng, 6, 0.4)
     growth = rng.normal(size=18)
-    way = growth * 100.0 * overload(problem, -problem.b, problem.b + 100.0 * growth).factor / 0.75  # it ends at 75 %
+    way = (
+        growth * 100.0 * overload(problem, -problem.by_pair(problem.b), problem.b + 100.0 * growth).factor / 0.75
+    )  # it ends at 75 %
 
     def seen(since, before):
         b = problem.b + since * way
-        now = replace(initial_state(problem, np.zeros(18), motion=np.zeros(18)), b=b, r=-problem.b)
+        now = replace(initial_state(problem, np.zeros(18), motion=np.zeros((3, 6))), b=b, r=-problem.by_pair(problem.b))
         look = Bearing(problem, problem.b + way, before)
         return [since + (1.0 - since) * part for part in (look.reach(now, 0.0), look.limit, look.beyond)]
 

@@ -39,7 +39,7 @@ def one_pair(b, friction, **more):
 def test_one_pair_opens_sticks_or_slips_against_its_motion(b, state, force):
     result = solve_contact(one_pair(b, [0.3]))
     assert result.state.tolist() == [state]
-    np.testing.assert_allclose([result.normal_force[0], *result.tangential_force[0]], force, atol=1e-14)
+    np.testing.assert_allclose(result.r[:, 0], force, atol=1e-14)
 
 
 def test_one_pair_of_coupled_directions():
@@ -53,7 +53,7 @@ def test_one_pair_of_coupled_directions():
 
 def test_slip_on_an_ellipse_is_normal_to_it_and_more_along_the_slippery_axis():
     result = solve_contact(one_pair((-1.0, 1.0, 1.0), [[0.1], [0.4]]))
-    r, slip = result.tangential_force[0], result.slip[0]
+    r, slip = result.tangential_force[:, 0], result.slip[:, 0]
     np.testing.assert_allclose(np.linalg.norm(r / [0.2, 0.8]), 1.0, rtol=1e-14)
     normal = r / np.array([0.2, 0.8]) ** 2
     np.testing.assert_allclose(slip[0] * normal[1], slip[1] * normal[0], rtol=1e-12)
@@ -96,7 +96,7 @@ def test_tresca_with_the_bounds_that_coulomb_found_gives_the_same(seed):
 def test_a_pair_in_trescas_law_resists_also_where_it_is_open():
     result = solve_contact(one_pair((0.5, 1.0, 0.0), [0.3], tresca=[True]))
     assert result.state.tolist() == [OPEN]
-    np.testing.assert_allclose(result.tangential_force, [[-0.3, 0.0]], atol=1e-14)
+    np.testing.assert_allclose(result.tangential_force, [[-0.3], [0.0]], atol=1e-14)
 
 
 def test_a_tresca_bound_is_a_force_of_any_size():
@@ -105,7 +105,7 @@ def test_a_tresca_bound_is_a_force_of_any_size():
         W=0.5 * np.eye(3), b=force * np.array([-1.0, 5.0, 0.0]), friction=[2 * force], motions=np.zeros((3, 0)),
         scale=force, tresca=[True],
     )  # fmt: skip
-    np.testing.assert_allclose(solve_contact(problem).tangential_force, [[-2 * force, 0.0]], rtol=1e-14)
+    np.testing.assert_allclose(solve_contact(problem).tangential_force, [[-2 * force], [0.0]], rtol=1e-14)
     with pytest.raises(InputError, match="is infinite at a pair in Tresca's law"):
         one_pair((0, 0, 0), [np.inf], tresca=[True])
 
@@ -114,7 +114,7 @@ def test_unlimited_friction_sticks_wherever_it_is_closed():
     result = solve_contact(pressed_punch(25, np.inf)[2])
     assert result.solved
     assert set(result.state.tolist()) == {OPEN, STICK}
-    assert not result.slip[result.state == STICK].any()
+    assert not result.slip[:, result.state == STICK].any()
 
 
 @pytest.mark.parametrize("guided", [False, True])
@@ -130,9 +130,9 @@ def test_motion_in_a_plane_is_the_plane_problem(seed, guided):
     assert flat.solved
     assert spatial.solved
     np.testing.assert_allclose(spatial.normal_force, flat.normal_force, atol=1e-12)
-    np.testing.assert_allclose(spatial.tangential_force[:, axis], flat.tangential_force, atol=1e-12)
-    np.testing.assert_allclose(spatial.slip[:, axis], flat.slip, atol=1e-12)
-    assert not spatial.tangential_force[:, 1 - axis].any()
+    np.testing.assert_allclose(spatial.tangential_force[axis], flat.tangential_force[0], atol=1e-12)
+    np.testing.assert_allclose(spatial.slip[axis], flat.slip[0], atol=1e-12)
+    assert not spatial.tangential_force[1 - axis].any()
 
 
 @pytest.mark.parametrize("friction", [0.5, np.outer([0.3, 0.6], np.ones(4))])
@@ -144,7 +144,7 @@ def test_a_pair_that_supports_drag_slips_as_it_is_dragged(friction):
     b[[0, 4, 8]] = -2.0, 0.3, 0.4
     result = solve_contact(ContactProblem.of(W=W, b=b, friction=problem.friction, motions=np.zeros((12, 0)), scale=1.0))
     assert result.solved
-    np.testing.assert_allclose(result.slip[0], [0.3, 0.4], atol=1e-12)
+    np.testing.assert_allclose(result.slip[:, 0], [0.3, 0.4], atol=1e-12)
     found = violations(
         result.gap, result.slip, result.normal_force, result.tangential_force, problem.friction, length=1.0, force=1.0
     )

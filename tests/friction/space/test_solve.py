@@ -102,7 +102,7 @@ def test_the_error_of_facets_falls_with_their_number():
     errors = []
     for facets in (4, 8, 16, 32):
         polygon = solve_contact(pressed_punch(49, 0.3, facets=facets)[2])
-        error = np.linalg.norm(polygon.tangential_force - exact.tangential_force, axis=1).max() / largest
+        error = np.linalg.norm(polygon.tangential_force - exact.tangential_force, axis=0).max() / largest
         assert error <= 2 * np.sin(np.pi / (2 * facets))
         errors.append(error)
     assert errors == sorted(errors, reverse=True)

@@ -63,7 +63,7 @@ def follow(
     >>> pressed = follow(problem, initial_state(problem, np.zeros(2)), W @ [-1.0, 0.0])
     >>> pulled = follow(problem, pressed.end, W @ [-1.0, 4.0])
     >>> [(round(4.0 * event.factor, 9), event.what) for event in pulled.events], pulled.end.h.round(6).tolist()
-    ([(1.0, 'slips'), (2.0, 'opens')], [0.666667, 2.333333])
+    ([(1.0, 'slips'), (2.0, 'opens')], [[0.666667], [2.333333]])
 
     One pair in space, pressed by 1 and pulled sideways by up to 1 across an octagon of friction: slips at 0.5.
 
@@ -73,7 +73,7 @@ def follow(
     >>> pressed = follow(problem, initial_state(problem, np.zeros(3)), np.array([-0.5, 0.0, 0.0]))
     >>> pulled = follow(problem, pressed.end, np.array([-0.5, 0.5, 0.0]))
     >>> [(round(event.factor, 12), event.what) for event in pulled.events], (pulled.end.h.round(12) + 0.0).tolist()
-    ([(0.5, 'slips')], [0.0, 0.5, 0.0])
+    ([(0.5, 'slips')], [[0.0], [0.5], [0.0]])
     """
     walk = follower(problem, start, b_end, settings or PathSettings())
     while True:

@@ -66,7 +66,7 @@ def land(
     ...     problem = ContactProblem.of(W=W, b=none, friction=[3.0], motions=np.zeros((len(K), 0)), scale=1.0, **law)
     ...     pressed = follow(problem, initial_state(problem, none), -W[:, 0]).end
     ...     landing = land(problem, pressed, follow(problem, pressed, -W[:, 0] + 4.0 * W[:, 1]))
-    ...     return (landing.state.h.round(9) + 0.0).tolist(), round(float(landing.state.dissipation[0]), 9)
+    ...     return (landing.state.h.ravel().round(9) + 0.0).tolist(), round(float(landing.state.dissipation[0]), 9)
     >>> landed([[3.0, -1.0], [-1.0, 3.0]])
     ([0.333333333, 1.666666667], 1.5)
     >>> landed([[3.0, -1.0, 0.0], [-1.0, 3.0, 0.0], [0.0, 0.0, 3.0]], facets=8)

@@ -35,7 +35,7 @@ class Rates:
     Attributes
     ----------
     state : (n,) from here on
-    h, r : (d n,)
+    h, r : (d, n)
     """
 
     state: IntArray

@@ -40,7 +40,7 @@ class Breakpoint:
     Attributes
     ----------
     factor : part of the segment behind
-    h, r : (2n,) as in `PathState`
+    h, r : (d, n) as in `PathState`
     state : the whole state, in space, where a piece is an increment
     tried : increments tried to find where it ends, in space
     """

@@ -26,12 +26,12 @@ class PathState:
     Attributes
     ----------
     b : (d n,) load, with the slip of no step before in it
-    h : (d n,) gap >= 0, then the total tangential displacement
-    r : (d n,) normal force >= 0, then the tangential force on body 1
+    h : (d, n) gap >= 0, then the total tangential displacement
+    r : (d, n) normal force >= 0, then the tangential force on body 1
     state : (n,) codes of `signorini.law.states`; SLIP_PLUS in the plane: friction along +t, slip rate <= 0. Within a
         path there with the branch of the bound that a pair slips on, see `signorini.law.bound`
-    anchor : ((d - 1) n,) tangential displacement at which a sticking pair is held; of others, where they last stuck
-    slip : ((d - 1) n,) slip accumulated while closed, with its sign
+    anchor : (d - 1, n) tangential displacement at which a sticking pair is held; of others, where they last stuck
+    slip : (d - 1, n) slip accumulated while closed, with its sign
     dissipation : (n,) work that friction has consumed
     note : how the first state was found
     """
@@ -65,7 +65,7 @@ def initial_state(
     ----------
     problem : the problem; its own b is not used
     b : (d n,) load at the start; ``G h0`` for h0 = (initial gap, 0) where nothing acts yet
-    motion : (d n,) h0. Where it is not given and b is not in equilibrium without forces, or bodies float (b does not
+    motion : (d, n) h0. Where it is not given and b is not in equilibrium without forces, or bodies float (b does not
         tell where), one Coulomb problem with zero slip as anchor is solved, and the note says so
     settings : limits of the methods that solve it
 
@@ -83,7 +83,7 @@ def initial_state(
     ... )
     >>> state = initial_state(problem, np.array([0.1, 0.0]))
     >>> state.h.round(12).tolist(), state.state.tolist(), state.note
-    ([0.2, 0.0], [0], 'nothing has moved')
+    ([[0.2], [0.0]], [0], 'nothing has moved')
     """
     n = problem.pairs
     load = np.asarray(b, dtype=np.float64)
@@ -91,18 +91,18 @@ def initial_state(
         raise InputError(f"has shape {load.shape}; expected {problem.b.shape}", where=("b",))
     posed = replace(problem, b=frozen(load))
     tolerance = 1e-10 * (problem.scale or 1.0)
-    h = posed.free_motion(load) if motion is None else np.asarray(motion, dtype=np.float64)
+    h = problem.by_pair(posed.free_motion(load)) if motion is None else np.asarray(motion, dtype=np.float64)
     if motion is not None:
-        if h.shape != load.shape or (h[:n] < 0).any():
+        if h.shape != (problem.directions, n) or (h[0] < 0).any():
             raise InputError("expected a gap >= 0 and a tangential displacement for each pair", where=("motion",))
         if np.abs(posed.misfit(h, np.zeros_like(h))).max(initial=0.0) > tolerance:
             raise InputError("is not in equilibrium with b without forces", where=("motion",))
-    elif problem.floating or h[:n].min(initial=0.0) < -tolerance:
+    elif problem.floating or h[0].min(initial=0.0) < -tolerance:
         return _pressed(posed, settings)
-    h = np.concatenate([np.maximum(h[:n], 0.0), h[n:]])
+    h = np.concatenate([np.maximum(h[:1], 0.0), h[1:]])
     none = np.zeros_like(h)
     return PathState(
-        b=load, h=h, r=none, state=np.full(n, OPEN), anchor=h[n:], slip=none[n:], dissipation=none[:n], note=AT_REST
+        b=load, h=h, r=none, state=np.full(n, OPEN), anchor=h[1:], slip=none[1:], dissipation=none[0], note=AT_REST
     )
 
 
@@ -113,11 +113,11 @@ def _pressed(problem: ContactProblem, settings: SolverSettings | None) -> PathSt
     slip = np.where(result.state == OPEN, 0.0, result.h[1:])
     return PathState(
         b=problem.b,
-        h=result.h.ravel(),
-        r=result.r.ravel(),
+        h=result.h,
+        r=result.r,
         state=result.state,
-        anchor=result.h[1:].ravel(),
-        slip=slip.ravel(),
+        anchor=result.h[1:],
+        slip=slip,
         dissipation=np.maximum(-(result.r[1:] * slip).sum(axis=0), 0.0),
         note=PRESSED,
     )

@@ -79,14 +79,18 @@ class _Course:
     loosened: float
 
     def walls(self, state: IntArray) -> tuple[Array, Array]:
-        """(slots, n, 2) coefficients of the walls of every pair, and (slots, n) where they are: see `placed`."""
+        """(slots, 2, n) coefficients of the walls of every pair, and (slots, n) where they are: see `placed`."""
         return placed(state, self.problem.pieces, self.problem.law.closed)
 
-    def room(self, walls: tuple[Array, Array], y: Array, here: float) -> Array:
+    def y(self, point: Array) -> Array:
+        """(2, n) The y of a point, (2 n + 1,), of the path: y row by row, then theta."""
+        return point[:-1].reshape(2, -1)
+
+    def room(self, walls: tuple[Array, Array], point: Array, here: float) -> Array:
         """(slots, n) Of a point (y, theta) to the walls (here = 1), or what a direction (here = 0) adds to it."""
-        (wall, offset), n = walls, self.problem.pairs
-        room: Array = wall[:, :, 0] * y[:n] + wall[:, :, 1] * y[n : 2 * n]
-        return room if self.problem.pieces.branches == 1 else room - (here + self.loosened * y[2 * n]) * offset
+        (wall, offset), (normal, tangential) = walls, self.y(point)
+        room: Array = wall[:, 0] * normal + wall[:, 1] * tangential
+        return room if self.problem.pieces.branches == 1 else room - (here + self.loosened * point[-1]) * offset
 
     def load(self, state: IntArray) -> tuple[Array, Array]:
         """``(b, d)`` of a state: without the friction that its slipping pairs carry at no pressure."""
@@ -153,31 +157,31 @@ def _walk(course: _Course, state: IntArray) -> PathEnd:
     pair, slot, theta = _entry(course, walls, np.concatenate([ray, [[0.0, 1.0]]]))
     point, pivots = np.append(ray[:, 0] + max(theta, 0.0) * ray[:, 1], max(theta, 0.0)), 0
     if theta <= 0:
-        return PathEnd(end="solution", state=state, y=point[:-1].reshape(2, n), pivots=0)
+        return PathEnd(end="solution", state=state, y=course.y(point), pivots=0)
     X = np.zeros((0, 0))
     while pivots < course.budget:
         before, at = state, walls[1][slot, pair]
-        here = np.append(walls[0][slot, pair], -course.loosened * at)
+        here = np.append(walls[0][slot, :, pair], -course.loosened * at)
         state = state.copy()
-        state[pair], slot = beyond(int(before[pair]), slot, point[n + pair], int(problem.law.closed[pair]))
+        state[pair], slot = beyond(int(before[pair]), slot, course.y(point)[1, pair], int(problem.law.closed[pair]))
         updated = None if pivots % REFACTOR_PIVOTS == 0 else _cross(course, X, before, state, pair, -here)
         fresh = _inverse(course, state, pair, -here) if updated is None else updated
         pivots += 1
         if fresh is None:
-            return PathEnd(end="singular", state=state, y=point[:-1].reshape(2, n), pivots=pivots)
+            return PathEnd(end="singular", state=state, y=course.y(point), pivots=pivots)
         X = fresh
         entry, way = X[:, :-1] @ course.load(state)[0] - at * X[:, -1], X[:, -1].copy()
         walls = course.walls(state)
         length, pair, slot = _next_wall(course, walls, entry, way, pair, slot)
         to_end = entry[-1] / -way[-1] if way[-1] < 0 else np.inf
         if not np.isfinite(min(length, to_end)):
-            return PathEnd(end="ray", state=state, y=way[:-1].reshape(2, n), pivots=pivots)
+            return PathEnd(end="ray", state=state, y=course.y(way), pivots=pivots)
         point = entry + min(length, to_end) * way
         if np.abs(point[:-1]).max() > course.far:
-            return PathEnd(end="ray", state=state, y=point[:-1].reshape(2, n), pivots=pivots)
+            return PathEnd(end="ray", state=state, y=course.y(point), pivots=pivots)
         if to_end <= length:
-            return PathEnd(end="solution", state=state, y=point[:-1].reshape(2, n), pivots=pivots)
-    return PathEnd(end="budget spent", state=state, y=point[:-1].reshape(2, n), pivots=pivots)
+            return PathEnd(end="solution", state=state, y=course.y(point), pivots=pivots)
+    return PathEnd(end="budget spent", state=state, y=course.y(point), pivots=pivots)
 
 
 def _entry(course: _Course, walls: tuple[Array, Array], ray: Array) -> tuple[int, int, float]:

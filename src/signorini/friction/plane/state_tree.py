@@ -152,7 +152,7 @@ def _program(problem: ContactProblem) -> _Program:
 
 
 def _relaxed(program: _Program, node: IntArray) -> tuple[float, float, Array, Array] | None:
-    """Least misfit (sum of its entries over scale) of a node, what its multipliers prove of it, and h, r (2n,) there.
+    """Least misfit (sum of its entries over scale) of a node, what its multipliers prove of it, and h, r (2, n) there.
 
     None where they prove too little.
     """
@@ -174,7 +174,7 @@ def _relaxed(program: _Program, node: IntArray) -> tuple[float, float, Array, Ar
     proved = _proved(program, np.asarray(answer.eqlin.marginals), low, high)
     if lacking > MARGIN and proved <= 0.5 * MARGIN * program.load:
         return None
-    return float(lacking), proved, x[: 2 * n], program.forces @ x[:size]
+    return float(lacking), proved, x[: 2 * n].reshape(2, n), (program.forces @ x[:size]).reshape(2, n)
 
 
 def _proved(program: _Program, z: Array, low: Array, high: Array) -> float:
@@ -224,8 +224,7 @@ def _bounds(program: _Program, node: IntArray) -> tuple[Array, Array]:
 
 def _worst(problem: ContactProblem, node: IntArray, h: Array, r: Array) -> tuple[int | None, IntArray]:
     """The pair that breaks the law worst (None where none does), and the state that each pair comes nearest to."""
-    n, unit, bound = problem.pairs, problem.scale or 1.0, problem.pieces
-    gap, slip, p, friction = h[:n], h[n:], r[:n], r[n:]
+    unit, bound, (gap, slip), (p, friction) = problem.scale or 1.0, problem.pieces, h, r
     pressed = np.hypot(p, friction)
     spare = (bound.at(unit * p) / unit + np.sign(slip) * friction) / np.hypot(1.0, problem.mu)
     against = np.where((problem.mu == 0) | (slip == 0), 0.0, np.maximum(spare, 0.0))

@@ -25,7 +25,7 @@ LOWER, EDGE, UPPER = 0, 1, 2
 
 
 def placed(state: IntArray, bound: FrictionBound, closed: IntArray) -> tuple[Array, Array]:
-    """Coefficients (a_n, a_t) of the walls of every pair, (slots, n, 2), of length 1 or 0 for none, and a, (slots, n).
+    """Coefficients (a_n, a_t) of the walls of every pair, (slots, 2, n), of length 1 or 0 for none, and a, (slots, n).
 
     Parameters
     ----------
@@ -36,21 +36,21 @@ def placed(state: IntArray, bound: FrictionBound, closed: IntArray) -> tuple[Arr
     Examples
     --------
     >>> placed(np.array([SLIP_MINUS]), FrictionBound.of([0.75]), np.array([UNDECIDED]))[0].tolist()
-    [[[1.0, 0.0]], [[-0.6, -0.8]]]
+    [[[1.0], [0.0]], [[-0.6], [-0.8]]]
     >>> wall, a = placed(np.array([SLIP_MINUS + 2]), FrictionBound.of([0.75], limit=1.5), np.array([UNDECIDED]))
-    >>> wall[:3, 0].tolist(), a[:3, 0].tolist()
+    >>> wall[:3, :, 0].tolist(), a[:3, 0].tolist()
     ([[1.0, 0.0], [-0.0, -1.0], [0.0, 0.0]], [2.0, 1.5, 0.0])
     """
     count = bound.branches
-    wall = np.zeros((2 if count == 1 else max(3, 2 * count), len(state), 2))
-    offset = np.zeros(wall.shape[:2])
-    wall[LOWER, :, 0] = np.where(state == OPEN, -1.0, 1.0)
+    wall = np.zeros((2 if count == 1 else max(3, 2 * count), 2, len(state)))
+    offset = np.zeros((len(wall), len(state)))
+    wall[LOWER, 0] = np.where(state == OPEN, -1.0, 1.0)
     free = closed == UNDECIDED
     stick, slip = free & (state == STICK), state > STICK
     for j in range(count):
         has = stick & np.isfinite(bound.kinks[j])
         for slot, sign in ((2 * j, 1.0), (2 * j + 1, -1.0)):
-            wall[slot, has, 0], wall[slot, has, 1] = bound.slopes[j, has], -sign
+            wall[slot, 0, has], wall[slot, 1, has] = bound.slopes[j, has], -sign
             offset[slot, has] = -bound.starts[j, has]
     if count > 1:
         own = np.flatnonzero(slip)
@@ -58,14 +58,14 @@ def placed(state: IntArray, bound: FrictionBound, closed: IntArray) -> tuple[Arr
         offset[LOWER, own] = bound.kinks[branch, own]
         following = bound.kinks[branch + 1, own]
         more = own[np.isfinite(following)]
-        wall[UPPER, more, 0], offset[UPPER, more] = -1.0, -following[np.isfinite(following)]
+        wall[UPPER, 0, more], offset[UPPER, more] = -1.0, -following[np.isfinite(following)]
     slip = slip & free
     sign = SIGN[state[slip]]
-    wall[EDGE, slip, 0] = -np.abs(bound.slope(state)[slip])
-    wall[EDGE, slip, 1], offset[EDGE, slip] = sign, np.abs(bound.start(state)[slip])
-    length = np.hypot(wall[:, :, 0], wall[:, :, 1])
+    wall[EDGE, 0, slip] = -np.abs(bound.slope(state)[slip])
+    wall[EDGE, 1, slip], offset[EDGE, slip] = sign, np.abs(bound.start(state)[slip])
+    length = np.hypot(wall[:, 0], wall[:, 1])
     length = np.where(length > 0, length, 1.0)
-    return wall / length[:, :, None], offset / length
+    return wall / length[:, None], offset / length
 
 
 def beyond(state: int, slot: int, y_t: float, closed: int) -> tuple[int, int]:

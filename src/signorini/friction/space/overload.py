@@ -40,7 +40,7 @@ class Overload:
     Attributes
     ----------
     factor : part of the way between two loads, to the last digit
-    motion : (3n,) rigid motion that proves it, largest entry 1
+    motion : (3 n,) rigid motion that proves it, largest entry 1
     proved : part of the way beyond which none is in equilibrium even under forces of 1e6 times the loads, which work
         against the motion by its rounding; not less than the factor
     share : of the load at the end of the way on rigid motions what no force takes, at least; not positive where nothing
@@ -66,8 +66,8 @@ def overload(
     Parameters
     ----------
     problem : at a load that is in equilibrium
-    held : (3n,) its forces, from which the first programme has a solution
-    b_end : (3n,) load at the end of the way
+    held : (3, n) its forces, from which the first programme has a solution
+    b_end : (3 n,) load at the end of the way
     near : (n,) pairs that may close; all where not given
 
     Returns
@@ -82,7 +82,7 @@ def overload(
     >>> problem = ContactProblem.of(
     ...     W=np.eye(3), b=np.array([-1.0, 0.0, 0.0]), friction=[0.3], motions=np.eye(3), scale=1.0
     ... )
-    >>> found = overload(problem, np.array([1.0, 0.0, 0.0]), np.array([-1.0, 1.2, 0.0]))
+    >>> found = overload(problem, np.array([[1.0], [0.0], [0.0]]), np.array([-1.0, 1.2, 0.0]))
     >>> round(found.factor, 9), found.motion.round(9).tolist()
     (0.25, [0.3, 1.0, 0.0])
 
@@ -100,10 +100,9 @@ def overload(
     if np.abs(growth).max() <= GAIN * (problem.scale or 1.0):
         return None
     rows = R.reshape(3, n, -1)
-    forces = problem.by_pair(held)
-    sizes = np.linalg.norm(forces, axis=0)
+    sizes = np.linalg.norm(held, axis=0)
     presses = sizes > 0.0
-    edges = [work_of(forces[:, presses] / sizes[presses], rows[:, presses])]
+    edges = [work_of(held[:, presses] / sizes[presses], rows[:, presses])]
     cones = FrictionSection(axes=problem.half_axes, sides=problem.section.sides)
     turns = 2.0 * np.pi / _DIRECTIONS * np.arange(_DIRECTIONS)
     around = [cones.farthest(np.tile([[np.cos(turn)], [np.sin(turn)]], n)) for turn in turns]

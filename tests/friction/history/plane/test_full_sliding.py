@@ -32,8 +32,8 @@ def test_there_and_back(pairs, coupling):
     assert segments[-1].followed
     assert max(segment.factorisations for segment in segments) <= 2
     for segment in segments[1:]:
-        r = segment.end.r
-        assert abs(r[pairs:].sum()) == pytest.approx(MU * r[:pairs].sum(), rel=1e-12)
+        p, friction = segment.end.r
+        assert abs(friction.sum()) == pytest.approx(MU * p.sum(), rel=1e-12)
         assert set(segment.end.state) <= {0, 2, 3}
     for first, second in ((segments[2], segments[4]), (segments[3], segments[5])):
         np.testing.assert_allclose(second.end.r, first.end.r, rtol=0, atol=1e-12)

@@ -24,23 +24,23 @@ def test_one_node_leaves_the_wall(mu):
     problem, load, pressed, path = pulled(mu, 8.0)
     landing = land(problem, pressed, path)
     f_t = mu
-    np.testing.assert_allclose(landing.state.h, [(f_t - 2) / 3, (2 * f_t - 1) / 3], rtol=0, atol=1e-13)
+    np.testing.assert_allclose(landing.state.h[:, 0], [(f_t - 2) / 3, (2 * f_t - 1) / 3], rtol=0, atol=1e-13)
     assert landing.state.state.tolist() == [OPEN]
     # friction mu (2 - f_t(u)) with u from 0 to 1 on the way back: the force falls linearly from mu to 0
     assert landing.state.dissipation == pytest.approx(0.5 * mu, abs=1e-12)
     on = follow(problem, landing.state, load(-1.0, 8.0))
     assert on.followed
     assert not on.events
-    np.testing.assert_allclose(on.end.h, [2.0, 5.0], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(on.end.h[:, 0], [2.0, 5.0], rtol=0, atol=1e-12)
 
 
 def test_the_catalogue_with_its_energy():
     """mu = 3: from stick at f_t = 3 to (gap, u_t) = (1/3, 5/3); friction takes 1.5, 5/6 are set free."""
     problem, _, pressed, path = pulled(3.0)
     landing = land(problem, pressed, path)
-    np.testing.assert_allclose(landing.state.h, [1 / 3, 5 / 3], rtol=0, atol=1e-13)
+    np.testing.assert_allclose(landing.state.h[:, 0], [1 / 3, 5 / 3], rtol=0, atol=1e-13)
     assert landing.state.dissipation == pytest.approx(1.5, abs=1e-13)
-    K, force, u = np.array([[2.0, -1.0], [-1.0, 2.0]]), np.array([-1.0, 3.0]), landing.state.h
+    K, force, u = np.array([[2.0, -1.0], [-1.0, 2.0]]), np.array([-1.0, 3.0]), landing.state.h[:, 0]
     assert force @ u - 0.5 * u @ K @ u - 1.5 == pytest.approx(5 / 6, abs=1e-12)
 
 
@@ -52,7 +52,7 @@ def test_back_down_from_the_landing_is_another_branch():
     assert [event.what for event in down.events] == ["closes"]
     assert 3.0 * (1.0 - down.events[0].factor) == pytest.approx(2.0, abs=1e-12)
     assert down.end.state.tolist() == [SLIP_PLUS]
-    np.testing.assert_allclose([*down.end.h, *down.end.r], [0.0, 0.6, 0.4, 1.2], rtol=0, atol=1e-12)
+    np.testing.assert_allclose([*down.end.h[:, 0], *down.end.r[:, 0]], [0.0, 0.6, 0.4, 1.2], rtol=0, atol=1e-12)
 
 
 def test_gross_sliding_lands_nowhere():
@@ -66,7 +66,10 @@ def histories(seed, pairs, mu):
     """Random loads one after the other; yields (problem, start, segment, its nodal forces) at every jump, and lands."""
     rng = np.random.default_rng(seed)
     springs = Springs(stiff(seed, pairs), np.full(pairs, mu))
-    state, before = initial_state(springs.problem, springs.load(np.zeros(2 * pairs)), motion=springs.gap), None
+    state, before = (
+        initial_state(springs.problem, springs.load(np.zeros(2 * pairs)), motion=springs.gap.reshape(2, -1)),
+        None,
+    )
     before = np.zeros(2 * pairs)
     for _ in range(3):
         F = rng.normal(size=2 * pairs)
@@ -94,13 +97,10 @@ def test_landings_are_equilibria_where_less_is_stored_than_the_loads_gave():
                     continue
                 landed += 1
                 state = landing.state
-                origin = np.concatenate([np.zeros(pairs), state.h[pairs:]])
-                b = limit.b + springs.problem.W @ origin - origin
-                assert (
-                    certify(replace(springs.problem, b=b), springs.problem.by_pair(state.r - (state.h - origin)))
-                    < 1e-10
-                )
-                work = F @ (state.h - limit.h)
+                origin = np.stack([np.zeros(pairs), state.h[1]])
+                b = limit.b + springs.problem.W @ origin.ravel() - origin.ravel()
+                assert certify(replace(springs.problem, b=b), state.r - (state.h - origin)) < 1e-10
+                work = F @ (state.h - limit.h).ravel()
                 stored = springs.strain_energy(state) - springs.strain_energy(limit)
                 assert (state.dissipation >= limit.dissipation - 1e-12).all()
                 assert work > stored

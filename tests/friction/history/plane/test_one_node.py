@@ -21,9 +21,9 @@ def test_slips_then_opens():
     assert [(event.what, event.pairs) for event in path.events] == [("slips", (0,)), ("opens", (0,))]
     np.testing.assert_allclose([4 * event.factor for event in path.events], [1.0, 2.0], rtol=0, atol=1e-13)
     assert [event.state.state.tolist() for event in path.events] == [[SLIP_MINUS], [OPEN]]
-    np.testing.assert_allclose(path.end.h, [2 / 3, 7 / 3], rtol=0, atol=1e-13)
+    np.testing.assert_allclose(path.end.h[:, 0], [2 / 3, 7 / 3], rtol=0, atol=1e-13)
     assert path.end.dissipation == pytest.approx(0.5, abs=1e-13)
-    assert path.end.slip == pytest.approx(1.0, abs=1e-13)
+    assert path.end.slip[0] == pytest.approx(1.0, abs=1e-13)
     assert path.residual < 1e-14
 
 
@@ -54,8 +54,8 @@ def test_a_jump_is_named_and_proved():
     assert "none of the 2 combinations" in path.jump.proof
     assert "lacks 0.33 of the data" in path.jump.proof  # sticking 4/3 of a pull of 4, slip 4 of a force of 12
     assert path.end.state.tolist() == [STICK]
-    np.testing.assert_allclose(path.end.h, [0.0, 0.0], atol=1e-14)
-    np.testing.assert_allclose(path.end.r, [1.0, -3.0], atol=1e-13)
+    np.testing.assert_allclose(path.end.h[:, 0], [0.0, 0.0], atol=1e-14)
+    np.testing.assert_allclose(path.end.r[:, 0], [1.0, -3.0], atol=1e-13)
 
 
 @pytest.mark.parametrize(

@@ -51,15 +51,15 @@ def test_one_node_jumps_and_lands_by_hand(f_t, facets, angle, share):
     assert not path.jump.gross_sliding
     assert "combinations of states has rates" in path.jump.proof
     assert path.end.state.tolist() == [STICK]
-    np.testing.assert_allclose(turn.T @ path.end.r, [1.0, -f_t, 0.0], atol=1e-12)
+    np.testing.assert_allclose(turn.T @ path.end.r[:, 0], [1.0, -f_t, 0.0], atol=1e-12)
     landing = land(problem, pressed, path)
-    np.testing.assert_allclose(turn.T @ landing.state.h, [(f_t - 2) / 3, (2 * f_t - 1) / 3, 0.0], atol=1e-12)
+    np.testing.assert_allclose(turn.T @ landing.state.h[:, 0], [(f_t - 2) / 3, (2 * f_t - 1) / 3, 0.0], atol=1e-12)
     assert landing.state.state.tolist() == [OPEN]
     assert landing.state.dissipation == pytest.approx(0.5 * f_t, abs=1e-12)
     on = follow(problem, landing.state, load(-1.0, 8.0))
     assert on.followed
     assert not on.events
-    np.testing.assert_allclose(turn.T @ on.end.h, [2.0, 5.0, 0.0], atol=1e-11)
+    np.testing.assert_allclose(turn.T @ on.end.h[:, 0], [2.0, 5.0, 0.0], atol=1e-11)
 
 
 @pytest.mark.parametrize(("facets", "angle"), [(4, np.pi / 2), (8, np.pi / 4), (0, 0.3)])
@@ -112,9 +112,9 @@ def plane_and_space(seed, pairs, mu, facets):
         scale=1.0,
         facets=facets,
     )
-    flat = initial_state(springs.problem, springs.load(np.zeros(2 * pairs)), motion=springs.gap)
+    flat = initial_state(springs.problem, springs.load(np.zeros(2 * pairs)), motion=springs.gap.reshape(2, -1))
     none = np.zeros(pairs)
-    deep = initial_state(wide, np.append(flat.b, none), motion=np.append(flat.h, none))
+    deep = initial_state(wide, np.append(flat.b, none), motion=np.stack([*flat.h, none]))
     for _ in range(3):
         F = rng.normal(size=2 * pairs)
         F[:pairs] -= 1.0
@@ -137,7 +137,7 @@ def test_the_jumps_of_the_plane_are_those_of_space(facets, pairs, seeds):
         assert two.jump.factor == pytest.approx(one.jump.factor, abs=1e-9)
         assert two.jump.pairs == one.jump.pairs
         assert flat is not None
-        np.testing.assert_allclose(deep.state.h[: 2 * pairs], flat.state.h, atol=1e-8)
+        np.testing.assert_allclose(deep.state.h[:2], flat.state.h, atol=1e-8)
         np.testing.assert_allclose(deep.state.dissipation, flat.state.dissipation, atol=1e-8)
 
 
@@ -161,7 +161,8 @@ def test_landings_are_equilibria_where_less_is_stored_than_the_loads_gave(pairs,
     problem = ContactProblem.of(
         W=(W + W.T) / 2, b=none, friction=friction, motions=np.zeros((3 * pairs, 0)), scale=1.0, facets=facets
     )
-    state, before, rng = initial_state(problem, none, motion=none), none, np.random.default_rng((seed, 1))
+    state, before = initial_state(problem, none, motion=problem.by_pair(none)), none
+    rng = np.random.default_rng((seed, 1))
     for _ in range(4):
         F = rng.normal(size=3 * pairs)
         F[:pairs] -= 1.0
@@ -171,11 +172,12 @@ def test_landings_are_equilibria_where_less_is_stored_than_the_loads_gave(pairs,
         state, before = segment.end, F
     assert segment.outcome == "jump"
     limit, landed = segment.end, land(problem, state, segment).state
-    origin = np.concatenate([np.zeros(pairs), landed.h[pairs:]])
-    b = limit.b + problem.W @ origin - origin
-    assert certify(replace(problem, b=b), problem.by_pair(landed.r - (landed.h - origin))) < 1e-10
-    force, moved = before + segment.jump.factor * (F - before), landed.h - limit.h
-    stored = 0.5 * (landed.h @ S @ landed.h - limit.h @ S @ limit.h)
+    origin = np.concatenate([np.zeros((1, pairs)), landed.h[1:]])
+    b = limit.b + problem.W @ origin.ravel() - origin.ravel()
+    assert certify(replace(problem, b=b), landed.r - (landed.h - origin)) < 1e-10
+    end, start = landed.h.ravel(), limit.h.ravel()
+    force, moved = before + segment.jump.factor * (F - before), end - start
+    stored = 0.5 * (end @ S @ end - start @ S @ start)
     assert (landed.dissipation >= limit.dissipation - 1e-12).all()
     assert force @ moved > stored
 
@@ -188,7 +190,7 @@ def test_increments_find_the_random_jumps_that_every_event_finds(behind, pairs, 
     W = np.linalg.inv(S + np.eye(3 * pairs))
     given = {"W": (W + W.T) / 2, "b": none, "friction": np.full(pairs, mu), "motions": np.zeros((3 * pairs, 0))}
     problem, rng = ContactProblem.of(**given, scale=1.0), np.random.default_rng((seed, 1))
-    state, fine = initial_state(problem, none, motion=none), PathSettings(turn=0.1)
+    state, fine = initial_state(problem, none, motion=problem.by_pair(none)), PathSettings(turn=0.1)
     for _ in range(4):
         F = rng.normal(size=3 * pairs)
         F[:pairs] -= 1.0

@@ -19,9 +19,8 @@ def test_forces_that_turn_while_nothing_moves_miss_no_energy(slip, missed):
     problem = ContactProblem.of(W=0.5 * np.eye(3), b=np.zeros(3), friction=[0.5], motions=np.zeros((3, 0)), scale=1.0)
 
     def at(h, r):
-        none = np.zeros(2)
-        h, r = np.array(h), np.array(r)
-        return PathState(b=h, h=h, r=r, state=np.array([STICK]), anchor=none, slip=h[1:], dissipation=np.zeros(1))
+        h, r = np.array([h]).T, np.array([r]).T
+        return PathState(b=h[:, 0], h=h, r=r, state=[STICK], anchor=0.0 * h[1:], slip=h[1:], dissipation=np.zeros(1))
 
     states = [at([0, 0, 0], [1, -0.3, 0]), at([0, 0, 0], [1, -0.3, 0]), at([0, slip, 0], [1, 0, -0.5])]
     states.append(at([0, slip, 0], [1, 0, -0.5]))

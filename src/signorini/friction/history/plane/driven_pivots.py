@@ -67,21 +67,21 @@ def drive(responses: Responses, law: RateLaw, load: Array, before: Rates, acting
         if not np.isfinite(step):
             return None
         theta, last, state = theta + way * step, pair, state.copy()
-        state[last] = law.following(state, now.h[n:])[which, last]
+        state[last] = law.following(state, now.h[1])[which, last]
     return Spent(most=pivots, of="driven pivots")
 
 
 def _imposed(law: RateLaw, before: Rates, acting: IntArray) -> tuple[IntArray, Array, Array]:
     """The next state of the acting pairs, and what of the old motions and forces it does not allow."""
     n = len(law.kind)
-    state, h, r = before.state.copy(), np.zeros(2 * n), np.zeros(2 * n)
-    touching, other = law.touching(before.h[n:]), law.across(state)
+    state, h, r = before.state.copy(), np.zeros((2, n)), np.zeros((2, n))
+    touching, other = law.touching(before.h[1]), law.across(state)
     for k in acting:
         if before.state[k] == OPEN:
-            state[k], h[k] = touching[k], before.h[k]
-        elif law.kind[k] == CORNER and before.r[k] < 0:
-            state[k], r[k], r[n + k] = OPEN, before.r[k], before.r[n + k]
+            state[k], h[0, k] = touching[k], before.h[0, k]
+        elif law.kind[k] == CORNER and before.r[0, k] < 0:
+            state[k], r[:, k] = OPEN, before.r[:, k]
         elif law.kind[k] not in (CORNER, INSIDE) and (before.state[k] == STICK or law.kink[k]):
             state[k] = law.kind[k] if before.state[k] == STICK else other[k]
-            r[n + k] = before.r[n + k] - law.bound.slope(state)[k] * before.r[k]
+            r[1, k] = before.r[1, k] - law.bound.slope(state)[k] * before.r[0, k]
     return state, h, r

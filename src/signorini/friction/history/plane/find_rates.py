@@ -106,33 +106,33 @@ def _lemke(
     M, q = np.zeros((len(columns), len(columns))), np.zeros(len(columns))
 
     def forces(r: Array) -> Array:
-        return np.array([r[k] if not s else mu[k] * r[k] + s * r[n + k] for k, _, s in columns])
+        return np.array([r[0, k] if not s else mu[k] * r[0, k] + s * r[1, k] for k, _, s in columns])
 
     try:
         q[:] = forces(responses.rates(base, load).r)
-        for j, (_, dof, sign) in enumerate(columns):
-            motion = np.zeros(2 * n)
-            motion[dof] = sign or 1.0
-            M[:, j] = forces(responses.respond(base, responses.imposed(motion, np.zeros(2 * n)))[1])
+        for j, (k, row, sign) in enumerate(columns):
+            motion = np.zeros((2, n))
+            motion[row, k] = sign or 1.0
+            M[:, j] = forces(responses.respond(base, responses.imposed(motion, np.zeros((2, n))))[1])
     except SingularState:
         return None, "the state in which all of them hold is singular"
     answer = lcp.solve(M, q / (np.abs(q).max() or 1.0), method="lemke")
     if answer.z is None or answer.w is None:
         return None, f"Lemke's method: {answer.status.name.lower().replace('_', ' ')}"
-    for (k, dof, sign), z, w in zip(columns, answer.z, answer.w, strict=True):
+    for (k, row, sign), z, w in zip(columns, answer.z, answer.w, strict=True):
         if z > w and base[k] != OPEN:
             slips = law.kind[k] if law.kind[k] > CORNER else SLIP_MINUS if sign > 0 else SLIP_PLUS
-            base[k] = OPEN if dof < n else slips if law.forced[k] == UNDECIDED else law.forced[k]
+            base[k] = OPEN if not row else slips if law.forced[k] == UNDECIDED else law.forced[k]
     try:
         found = responses.rates(base, load)
     except SingularState:
         found = None
     if found is None or whole.violation(found) > 10.0 * RATE:
-        motion = np.zeros(2 * n)
-        for (_, dof, sign), rate in zip(columns, answer.z * (np.abs(q).max() or 1.0), strict=True):
-            motion[dof] += (sign or 1.0) * rate
+        motion = np.zeros((2, n))
+        for (k, row, sign), rate in zip(columns, answer.z * (np.abs(q).max() or 1.0), strict=True):
+            motion[row, k] += (sign or 1.0) * rate
         slips = (law.kind == CORNER) & (base > STICK)  # without pressure both ways may be in the answer
-        found = _moving(responses, held, np.where(slips, law.touching(motion[n:]), base), load, motion)
+        found = _moving(responses, held, np.where(slips, law.touching(motion[1]), base), load, motion)
         if found.size > RUNAWAY_RATE * np.abs(load).max(initial=0.0):  # a body that the load carries away
             found = None
     lawful = found is not None and whole.violation(found) <= 10.0 * RATE
@@ -146,9 +146,9 @@ def _moving(responses: Responses, held: IntArray, state: IntArray, load: Array, 
     ----------
     held, state : (n,) the state in which the pairs hold, and that in which they move
     load : (2n,) rate of b
-    motion : (2n,) rates of the motions that the pairs make from the first
+    motion : (2, n) rates of the motions that the pairs make from the first
     """
-    h, r = responses.respond(held, responses.free(load) + responses.imposed(motion, np.zeros(len(load))))
+    h, r = responses.respond(held, responses.free(load) + responses.imposed(motion, np.zeros_like(motion)))
     h, r = responses.balanced(held, load, h + motion, r)
     return Rates(state=state, h=h, r=r)
 
@@ -158,11 +158,10 @@ def _moves(law: RateLaw, k: int) -> list[tuple[int, float]]:
 
     A pair of infinite friction is free to slip where it opens.
     """
-    n = len(law.kind)
     if law.kind[k] != CORNER:
-        return [(n + k, -SIGN[law.kind[k]])]
-    gap = [(k, 0.0)]
-    return gap if law.forced[k] > STICK else [(n + k, 1.0), (n + k, -1.0), *gap]
+        return [(1, -SIGN[law.kind[k]])]
+    gap = [(0, 0.0)]
+    return gap if law.forced[k] > STICK else [(1, 1.0), (1, -1.0), *gap]
 
 
 def _enumerate(responses: Responses, law: RateLaw, load: Array, state: IntArray, ending: str) -> Rates | NoRates:
@@ -227,7 +226,7 @@ def _by_program(responses: Responses, law: RateLaw, load: Array, choices: Sequen
     first, last = (np.array([f(states) for states in choices], dtype=np.int64) for f in (min, max))
     presses, slides = np.flatnonzero(last != OPEN), np.flatnonzero(one & (last > STICK))
     holds = np.setdiff1d(presses, slides)
-    unit, nothing = float(np.abs(load).max(initial=0.0)) or 1.0, np.zeros(2 * n)
+    unit, nothing = float(np.abs(load).max(initial=0.0)) or 1.0, np.zeros((2, n))
     forces = np.zeros((2 * n, 2 * n))  # of the normal ones, and of the tangential ones that are free
     forces[presses, presses] = forces[n + holds, n + holds] = 1.0
     forces[n + slides, slides] = problem.pieces.slope(last)[slides]
@@ -235,8 +234,9 @@ def _by_program(responses: Responses, law: RateLaw, load: Array, choices: Sequen
 
     def needs(state: IntArray, which: BoolArray) -> Array:
         asked = np.isfinite(law.conditions(state, nothing, nothing)) & which
-        columns = [law.conditions(state, motion, nothing)[asked] for motion in motions.T]
-        return -np.array([*columns, *(law.conditions(state, nothing, force)[asked] for force in forces.T)]).T
+        columns = [law.conditions(state, motion, nothing)[asked] for motion in motions.T.reshape(-1, 2, n)]
+        columns += [law.conditions(state, nothing, force)[asked] for force in forces.T.reshape(-1, 2, n)]
+        return -np.array(columns).T
 
     balance = np.hstack([motions - problem.W @ motions, -problem.W @ forces])
     closed, open_ = (

@@ -66,12 +66,11 @@ class PlaneFollower(PathFollower):
 
     def _entered(self, start: PathState) -> PathState:
         """The first state; pairs that supports drag turn their friction at once where the load turns."""
-        n = self.problem.pairs
         turned = (start.state != OPEN) & (self.forced != UNDECIDED) & (plain(start.state) != self.forced)
-        state = self._on_branch(np.where(turned, self.forced, start.state), start.r[:n])
+        state = self._on_branch(np.where(turned, self.forced, start.state), start.r[0])
         slides = turned & (state > STICK)
-        bound = self.bound.at(start.r[:n])
-        friction = np.where(slides, SIGN[state] * bound, start.r[n:])
+        bound = self.bound.at(start.r[0])
+        friction = np.where(slides, SIGN[state] * bound, start.r[1])
         most = np.where(self.unbounded, np.inf, bound)
         beyond = np.flatnonzero((np.abs(friction) - most) / weight(self.problem.mu) > 1e2 * self.width)
         if len(beyond):
@@ -80,7 +79,7 @@ class PlaneFollower(PathFollower):
                 "that one increment at the same load has brought into the law",
                 where=("start",),
             )
-        return replace(start, state=state, r=np.concatenate([start.r[:n], friction]))
+        return replace(start, state=state, r=np.stack([start.r[0], friction]))
 
     def _on_branch(self, state: IntArray, p: Array) -> IntArray:
         """The states with the branch that each pair slips on; at a kink the one given stays."""
@@ -159,7 +158,7 @@ class PlaneFollower(PathFollower):
         if np.array_equal(state, old):
             return
         sticking = (state == STICK) & (old != STICK)
-        self.now = replace(now, state=state, anchor=np.where(sticking, now.h[len(state) :], now.anchor))
+        self.now = replace(now, state=state, anchor=np.where(sticking, now.h[1:], now.anchor))
         self.happens(old, self.now, free=self.forced == UNDECIDED)
 
     def _guesses(self, law: RateLaw) -> list[IntArray]:
@@ -190,16 +189,17 @@ class PlaneFollower(PathFollower):
         self.pieces.append(Breakpoint(factor=factor, h=after.h, r=after.r))
         if len(lost):
             self.acting = lost
-            held = float(np.abs(after.r[after.pairs + lost]).max()) / (self.problem.scale or 1.0)
+            held = float(np.abs(after.r[1, lost]).max()) / (self.problem.scale or 1.0)
             return NoRates(proof=f"{LET_GO}: {held:.2g} of the data", proved=held > MARGIN, margin=held)
         self.residual = max(self.residual, residual)
         return None
 
     def _let_go(self, after: PathState) -> IntArray:
         """Acting pairs of infinite friction that lose their pressure while they hold back a tangential force."""
-        n, k = self.problem.pairs, self.acting
+        k = self.acting
         holds = self.unbounded[k] & (after.state[k] == STICK)
-        return k[holds & (after.r[k] <= self.width[k]) & (np.abs(after.r[n + k]) > self.width[k])]
+        p, friction = after.r[:, k]
+        return k[holds & (p <= self.width[k]) & (np.abs(friction) > self.width[k])]
 
     def _times(self, rates: Rates) -> Array:
         """(n,) Part of the segment until a gap, a normal force or the friction to spare of a pair vanishes.
@@ -207,11 +207,10 @@ class PlaneFollower(PathFollower):
         Or until a slipping pair comes to a kink of its bound.
         """
         n, state, bound = self.problem.pairs, rates.state, self.bound
-        gap, p, q = self.now.h[:n], self.now.r[:n], self.now.r[n:]
-        normal, tangential = rates.r[:n], rates.r[n:]
+        gap, (p, q), (normal, tangential) = self.now.h[0], self.now.r, rates.r
         stick, opened = (state == STICK) & (self.forced == UNDECIDED), state == OPEN
         every = np.ones(n, dtype=np.bool_)
-        vanishing = [(every, np.where(opened, gap, p), np.where(opened, rates.h[:n], normal))]
+        vanishing = [(every, np.where(opened, gap, p), np.where(opened, rates.h[0], normal))]
         for mu, start, begins in zip(bound.slopes, bound.starts, bound.kinks[:-1], strict=True):
             has, unit, most, grows = stick & np.isfinite(begins), weight(mu), start + mu * p, mu * normal
             vanishing += [(has, (most - sign * q) / unit, (grows - sign * tangential) / unit) for sign in (1.0, -1.0)]
@@ -237,40 +236,39 @@ class PlaneFollower(PathFollower):
         return after, residual
 
     def _afresh(self, b: Array) -> tuple[Array, Array]:
-        """(2n,) Motions and forces under a load in the present states, whatever has led there."""
-        now, n, state = self.now, self.problem.pairs, self.now.state
-        held = np.concatenate([np.zeros(n), np.where(state == STICK, now.anchor, now.h[n:])])
-        given = np.concatenate([np.zeros(n), self.bound.start(state)])
+        """(2, n) Motions and forces under a load in the present states, whatever has led there."""
+        now, state, none = self.now, self.now.state, np.zeros(self.problem.pairs)
+        held = np.stack([none, np.where(state == STICK, now.anchor[0], now.h[1])])
+        given = np.stack([none, self.bound.start(state)])
         free = self.responses.free(b) + self.responses.imposed(held, given)
         h, r = self.responses.respond(state, free)
         return self.responses.balanced(state, b, h + held, r + given)
 
     def _lawful(self, b: Array, h: Array, r: Array) -> PathState:
         """The state with motions and forces of its law to the last digit, the slip and the dissipation of the piece."""
-        now, n, state = self.now, self.problem.pairs, self.now.state
+        now, state = self.now, self.now.state
         opened, slips = state == OPEN, state > STICK
-        p = np.where(opened, 0.0, np.maximum(r[:n], 0.0))
+        p = np.where(opened, 0.0, np.maximum(r[0], 0.0))
         bound = self.bound.at(p)
         most = np.where(self.unbounded, np.inf, bound)
-        friction = np.where(slips, SIGN[state] * bound, np.where(opened, 0.0, np.clip(r[n:], -most, most)))
-        gap, tangential = np.where(opened, np.maximum(h[:n], 0.0), 0.0), np.where(state == STICK, now.anchor, h[n:])
-        moved = np.where(slips, tangential - now.h[n:], 0.0)
+        friction = np.where(slips, SIGN[state] * bound, np.where(opened, 0.0, np.clip(r[1], -most, most)))
+        gap, tangential = np.where(opened, np.maximum(h[0], 0.0), 0.0), np.where(state == STICK, now.anchor[0], h[1])
+        moved = np.where(slips, tangential - now.h[1], 0.0)
         return PathState(
             b=b,
-            h=np.concatenate([gap, tangential]),
-            r=np.concatenate([p, friction]),
+            h=np.stack([gap, tangential]),
+            r=np.stack([p, friction]),
             state=state,
             anchor=now.anchor,
             slip=now.slip + moved,
-            dissipation=now.dissipation - 0.5 * (friction + now.r[n:]) * moved,
+            dissipation=now.dissipation - 0.5 * (friction + now.r[1]) * moved,
         )
 
     def _certificate(self, after: PathState) -> float:
         """Of the piece as one increment: equilibrium, no tension, the friction cone, slip against friction."""
-        by_pair = self.problem.by_pair
-        origin = by_pair(self.now.h).copy()
+        origin = self.now.h.copy()
         origin[0] = 0.0
-        return certify(self.problem, by_pair(after.r) - (by_pair(after.h) - origin), b=after.b, origin=origin)
+        return certify(self.problem, after.r - (after.h - origin), b=after.b, origin=origin)
 
     def ended(self, failure: NoRates) -> Segment:
         """The segment up to a jump, or to where nothing was found."""

@@ -39,16 +39,16 @@ def explain(
     lost : what the search for rates found
     width : (n,) of zero for a force
     """
-    n = now.pairs
-    spent = (problem.bound.at(now.r[:n]) - np.abs(now.r[n:])) / weight(problem.mu) <= width
+    p, friction = now.r
+    spent = (problem.bound.at(p) - np.abs(friction)) / weight(problem.mu) <= width
     beyond = now.b + STEP_BEYOND * (b_end - now.b)
     further = replace(problem, b=frozen(beyond))
     pull = pulled_away(further) if problem.floating else None
     leaves = isinstance(pull, Pull)
-    pressed = now.r[:n] > width
+    pressed = p > width
     slides = problem.floating and bool(pressed.any() and spent[pressed].all())
     # friction that is not in proportion to the pressures depends on how they are shared
-    limit = pulled_away(further, FrictionBound.constant(problem.bound.at(now.r[:n]))) if slides and not leaves else None
+    limit = pulled_away(further, FrictionBound.constant(problem.bound.at(p))) if slides and not leaves else None
     limits = isinstance(limit, Pull)
     pairs = acting if len(acting) else np.flatnonzero(spent)
     reason = (SLIDING if slides else LEAVING) if leaves else LIMITED if limits else ""

@@ -50,11 +50,11 @@ class RateLaw:
     --------
     >>> law = RateLaw.at(
     ...     bound=FrictionBound.of([0.5]), forced=np.array([UNDECIDED]), state=np.array([STICK]),
-    ...     h=np.zeros(2), r=np.array([1.0, 0.5]), width=np.array([1e-10]),
+    ...     h=np.zeros((2, 1)), r=np.array([[1.0], [0.5]]), width=np.array([1e-10]),
     ... )
     >>> law.kind.tolist()
     [2]
-    >>> law.proposal(Rates(state=np.array([STICK]), h=np.zeros(2), r=np.array([0.0, 1.0]))).tolist()
+    >>> law.proposal(Rates(state=np.array([STICK]), h=np.zeros((2, 1)), r=np.array([[0.0], [1.0]]))).tolist()
     [2]
     """
 
@@ -75,18 +75,18 @@ class RateLaw:
         width: Array,
         closing: Array | None = None,
     ) -> RateLaw:
-        """The law at motions h and forces r, (2n,) each.
+        """The law at motions h and forces r, (2, n) each.
 
         Parameters
         ----------
         bound : of the friction
         forced, state : (n,) codes: of each pair where it is closed, UNDECIDED where it decides, and at present
-        h, r : (2n,) motions and forces
+        h, r : (2, n) motions and forces
         width : (n,) of zero
         closing : (n,) pairs that are at a corner anyway
         """
         n = len(state)
-        gap, p, q = h[:n], r[:n], r[n:]
+        gap, (p, q) = h[0], r
         corner = np.where(state == OPEN, gap <= width, p <= width)
         if closing is not None:
             corner[closing] = True
@@ -123,9 +123,9 @@ class RateLaw:
         return np.abs(self.bound.slope(np.where(self.kind > CORNER, self.kind, SLIP_PLUS)))
 
     def conditions(self, state: IntArray, h: Array, r: Array) -> Array:
-        """(3, n) What must not be negative in a state at rates h, r (2n,); linear in them, inf where nothing is."""
+        """(3, n) What must not be negative in a state at rates h, r (2, n); linear in them, inf where nothing is."""
         n, (corner, plus, minus, rubs, weights) = len(state), self._asked
-        gap, t, p, q = h[:n], h[n:], r[:n], r[n:]
+        (gap, t), (p, q) = h, r
         stick, slips, most = state == STICK, state > STICK, self.mu * p
         values = np.full((3, n), np.inf)
         np.copyto(values[0], np.where(state == OPEN, gap, p), where=corner)
@@ -175,7 +175,7 @@ class RateLaw:
         """(n,) Every pair in the state that its worst violation asks for."""
         values = self.conditions(rates.state, rates.h, rates.r)
         worst, pairs = values.argmin(axis=0), np.arange(len(self.kind))
-        following = self.following(rates.state, rates.h[len(pairs) :])
+        following = self.following(rates.state, rates.h[1])
         return np.where(values[worst, pairs] < -RATE * rates.size, following[worst, pairs], rates.state)
 
     @property

@@ -42,7 +42,7 @@ class Responses:
     >>> responses = Responses(problem)
     >>> h, r = responses.respond(np.array([STICK]), responses.free(np.array([-1.0, 0.2])))
     >>> h.round(12).tolist(), r.round(12).tolist()
-    ([0.0, 0.0], [2.0, -0.4])
+    ([[0.0], [0.0]], [[2.0], [-0.4]])
     """
 
     def __init__(self, problem: ContactProblem) -> None:
@@ -56,12 +56,14 @@ class Responses:
         return np.concatenate([self.problem.free_motion(b), self.problem.image.R.T @ b])
 
     def imposed(self, h: Array, r: Array) -> Array:
-        """(2n + k,) What motions and forces, (2n,), are worth that come on top of what a state allows."""
-        interface, acting = self.problem.image, np.flatnonzero(r)
-        return np.concatenate([r[acting] @ interface.A[acting] - h, r[acting] @ interface.R[acting]])
+        """(2n + k,) What motions and forces, (2, n), are worth that come on top of what a state allows."""
+        interface, flat = self.problem.image, r.ravel()
+        acting = np.flatnonzero(flat)
+        given = flat[acting]
+        return np.concatenate([given @ interface.A[acting] - h.ravel(), given @ interface.R[acting]])
 
     def respond(self, state: IntArray, free: Array) -> tuple[Array, Array]:
-        """Motion h and force r, (2n,), with ``G h - W r = b``, h = 0 where a state holds and r = 0 where it is open.
+        """Motion h and force r, (2, n), with ``G h - W r = b``, h = 0 where a state holds and r = 0 where it is open.
 
         Parameters
         ----------
@@ -82,10 +84,10 @@ class Responses:
         x, seen = self.inverse.solve(free)
         full = np.zeros(len(free))
         full[unknowns] = x
-        r = full[: 2 * n]
-        r[n:] += self.inverse.slope * r[:n]
+        r = full[: 2 * n].reshape(2, n)
+        r[1] += self.inverse.slope * r[0]
         seen[unknowns] = 0.0
-        return seen[: 2 * n], r
+        return seen[: 2 * n].reshape(2, n), r
 
     def rates(self, state: IntArray, load: Array) -> Rates:
         """The rates of a state, (n,), under a load rate, (2n,), refined; raises SingularState."""
@@ -103,7 +105,8 @@ class Responses:
         Parameters
         ----------
         state : (n,) codes
-        b, h, r : (2n,) load, and the motions and forces that respond to it
+        b : (2n,) load
+        h, r : (2, n) motions and forces that respond to it
         """
         error = self.problem.misfit(h, r, b)
         size = max(np.abs(part).max(initial=0.0) for part in (b, h, r))

@@ -37,7 +37,7 @@ class Bearing:
     Parameters
     ----------
     problem : its b is not used
-    b_end : (3n,) load at the end of the way
+    b_end : (3 n,) load at the end of the way
     behind : of a longer straight way that this one ends, in lengths of this one: what is near a limit, is near it alike
         wherever on that way the look begins
 
@@ -130,7 +130,7 @@ def bears(problem: ContactProblem, now: PathState, b_end: Array) -> bool:
     ----------
     problem : its b is not used
     now : the state at the beginning of the way
-    b_end : (3n,) load at its end
+    b_end : (3 n,) load at its end
     """
     if problem.bounded.any():
         return False
@@ -139,7 +139,7 @@ def bears(problem: ContactProblem, now: PathState, b_end: Array) -> bool:
 
 def _near(problem: ContactProblem, now: PathState) -> BoolArray:
     """(n,) Pairs that touch in a state, or nearly do."""
-    return np.asarray(now.h[: problem.pairs] <= _NEAR_GAP * (problem.scale or 1.0))
+    return np.asarray(now.h[0] <= _NEAR_GAP * (problem.scale or 1.0))
 
 
 def _along(behind: float, part: float) -> float:
@@ -148,7 +148,7 @@ def _along(behind: float, part: float) -> float:
 
 
 def sliding(problem: ContactProblem, ends: Sequence[Breakpoint], pressed: BoolArray) -> Array | None:
-    """The rigid motion (3n,) of an increment in which a floating body slides on pressed pairs (n,) that hold no more.
+    """The rigid motion (3, n) of an increment in which a floating body slides on pressed pairs (n,) that hold no more.
 
     Parameters
     ----------
@@ -160,10 +160,10 @@ def sliding(problem: ContactProblem, ends: Sequence[Breakpoint], pressed: BoolAr
     if not problem.floating or not pressed.any() or not _spent(problem, two.r, pressed):
         return None
     R = problem.image.R
-    return along_contact(problem, R @ (R.T @ (two.h - one.h)), pressed)
+    return along_contact(problem, R @ (R.T @ (two.h - one.h).ravel()), pressed)
 
 
 def _spent(problem: ContactProblem, r: Array, pressed: BoolArray) -> bool:
     """Whether next to nothing is left of the friction of pressed pairs, all of them together."""
-    most = problem.bound.at(np.maximum(r[: problem.pairs], 0.0))
-    return bool(problem.law.reserve(problem.by_pair(r))[pressed].sum() <= _SPENT_FRICTION * most[pressed].sum())
+    most = problem.bound.at(np.maximum(r[0], 0.0))
+    return bool(problem.law.reserve(r)[pressed].sum() <= _SPENT_FRICTION * most[pressed].sum())

@@ -65,7 +65,7 @@ def find_rates(problem: ContactProblem, now: PathState, width: float) -> Rates |
     >>> loads = (np.array([0.0, 1.0, 0.0]), np.array([0.0, -1.0, 0.0]))
     >>> rates = [find_rates(replace(problem, b=load), now, 1e-10) for load in loads]
     >>> [(each.state.tolist(), (each.h.round(12) + 0.0).tolist()) for each in rates]
-    [([2], [0.0, 2.0, 0.0]), ([1], [0.0, 0.0, 0.0])]
+    [([2], [[0.0], [2.0], [0.0]]), ([1], [[0.0], [0.0], [0.0]])]
     """
     choice = RateProblem.at(problem, now, width)
     return NoRates(proof=choice, proved=False) if isinstance(choice, str) else _solved(choice)
@@ -208,7 +208,7 @@ def _margin(answer: Exhausted, unit: float, size: float) -> float:
 
 def _states(choice: RateProblem, h: Array, r: Array, none: float) -> IntArray:
     """(n,) States in which pairs have these rates."""
-    n, standing = len(h) // 3, choice.standing
-    moves = (np.abs(h[n:]).reshape(2, n) > none).any(axis=0) | ~standing.rubs
-    closed = standing.closed & ~(standing.corner & (r[:n] <= none))
+    standing = choice.standing
+    moves = (np.abs(h[1:]) > none).any(axis=0) | ~standing.rubs
+    closed = standing.closed & ~(standing.corner & (r[0] <= none))
     return np.where(closed, np.where(moves, SLIP, STICK), OPEN).astype(np.int64)

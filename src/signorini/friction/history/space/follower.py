@@ -83,7 +83,7 @@ class SpaceFollower(PathFollower):
         self.limited = False  # whether the load has a limit where motions run away
         self._barrier = np.inf  # part of the segment where the last increment was refused
         self._searched = False  # long, once in vain: shorter increments are near where they begin, or there are none
-        self._rate: Array | None = None  # of r - h in the last increment that was found, per part of the segment
+        self._rate: Array | None = None  # (3, n) of r - h in the last increment that was found, per part of the segment
         self._overloaded = False  # whether the pairs that are near hold the bodies no more
         self.bearing = Bearing(problem, self.b_end, settings.behind)
         self.spent = self.bearing.spent
@@ -217,14 +217,14 @@ class SpaceFollower(PathFollower):
             if isinstance(trial, ContactAnswer) or trial.turn > _TURNED:
                 continue
             moved = trial.after.h - now.h
-            if moved @ h > 0.5 * float(h @ h):
+            if (moved * h).sum() > 0.5 * (h * h).sum():
                 self._enter(trial, settled(self.problem, self.now, trial, trial.after.state), 1)
                 return True
         return False
 
     def _pressed_for(self, rates: Rates) -> float:
         """How long no normal force vanishes or comes to a kink of the bound on friction, within the segment."""
-        p, rate = self.now.r[: self.problem.pairs], rates.r[: self.problem.pairs]
+        p, rate = self.now.r[0], rates.r[0]
         times = [self.reach - self.factor]
         for kink in self.problem.pieces.kinks[:-1]:
             away = np.where(np.isfinite(kink), kink, np.inf) - p
@@ -324,31 +324,30 @@ class SpaceFollower(PathFollower):
         return min(whole, max(_EARLY_GROWTH * self.factor, _EARLY_SHARE * whole), self.reach - self.factor)
 
     def _counted(self, y: Array) -> Array:
-        """(3n,) r - h of an increment from here, of an r - h whose gaps change by h."""
-        n = self.problem.pairs
-        return np.concatenate([y[:n] - self.now.h[:n], y[n:]])
+        """(3, n) r - h of an increment from here, of an r - h whose gaps change by h."""
+        return np.concatenate([y[:1] - self.now.h[:1], y[1:]])
 
     def _trial(self, step: float, shortest: float, ahead: Array | None = None) -> SolvedIncrement | ContactAnswer:
         """The increment of a part of the segment, sought from its beginning or ahead; or why it has none."""
-        now, n, problem = self.now, self.problem.pairs, self.problem
+        now, problem = self.now, self.problem
         factor = self.factor + step
         if factor >= 1.0 - LEAST_STEP:
             factor, step = 1.0, 1.0 - self.factor
         b = self.b_end if factor == 1.0 else (1.0 - factor) * self.start.b + factor * self.b_end
-        origin = np.concatenate([np.zeros(n), now.h[n:]])
-        increment = replace(problem, b=frozen(problem.misfit(origin, np.zeros(3 * n), b)))
+        origin = now.h.copy()
+        origin[0] = 0.0
+        increment = replace(problem, b=frozen(problem.misfit(origin, np.zeros_like(origin), b)))
         self.tried += 1
         if ahead is None and now.r.any():
             ahead = self._counted(now.r)
-        start = None if ahead is None else problem.by_pair(ahead)
         long = step <= shortest and not self._searched
-        result = solve_contact(increment, start, settings=self.settings.solver if long else self._quick)
+        result = solve_contact(increment, ahead, settings=self.settings.solver if long else self._quick)
         if not result.solved:
             self._searched |= long
             return result
-        h, r, slip = result.h.ravel(), result.r.ravel(), result.h[1:]
+        h, r = result.h, result.r
         self._rate = (r - now.r - (h + origin - now.h)) / step
-        until = held_until(increment, now, h, r, slip, self.width)
+        until = held_until(increment, now, h, r, self.width)
         least = float(until.min(initial=1.0))
         return SolvedIncrement(
             step=step,
@@ -356,7 +355,7 @@ class SpaceFollower(PathFollower):
             result=result,
             until=least,
             each=until,
-            turn=friction_turn(increment, now, r, slip, self.width),
+            turn=friction_turn(increment, now, r, h[1:], self.width),
         )
 
     def _enter(self, trial: SolvedIncrement, after: PathState, tried: int) -> None:
@@ -371,9 +370,9 @@ class SpaceFollower(PathFollower):
         """The segment up to a jump, or to where nothing was found."""
         if not lost.proved:
             return self.segment(Outcome.NOT_FOUND, None, lost.proof)
-        n, r = self.problem.pairs, self.now.r
-        pressed = r[:n] > self.width
-        spent = pressed & (self.problem.law.reserve(self.problem.by_pair(r)) <= self.near)
+        r = self.now.r
+        pressed = r[0] > self.width
+        spent = pressed & (self.problem.law.reserve(r) <= self.near)
         leaves, refused = self._leaves, self.refused
         acting = np.flatnonzero(spent) if leaves else acting_pairs(self.rate_problem, self.now, self.near)
         if self._overloaded:

@@ -46,10 +46,8 @@ def first_missed_jump(
     ...     W=0.5 * np.eye(3), b=np.zeros(3), friction=[1.0], motions=np.zeros((3, 0)), scale=1.0
     ... )
     >>> def at(h, r, lost):
-    ...     none = np.zeros(2)
-    ...     slip, state = np.array([h[1], h[2]]), np.array([2 if r[0] else 0])
-    ...     h, r = np.array(h), np.array(r)
-    ...     return PathState(b=h, h=h, r=r, state=state, anchor=none, slip=slip, dissipation=np.array([lost]))
+    ...     h, r, state = np.array([h]).T, np.array([r]).T, np.array([2 if r[0] else 0])
+    ...     return PathState(b=h[:, 0], h=h, r=r, state=state, anchor=0 * h[1:], slip=h[1:], dissipation=[lost])
     >>> states = [at([0, 0, 0], [1, -1, 0], 0), at([0, 1, 0], [1, -1, 0], 1), at([1, 2, 0], [0, 0, 0], 1)]
     >>> pieces = [Breakpoint(factor=s, h=now.h, r=now.r, state=now) for s, now in zip([0, 0.9, 1], states)]
     >>> [first_missed_jump(problem, states[0], pieces, since, 1e-10) for since in (0.0, 1.0)]
@@ -63,7 +61,7 @@ def first_missed_jump(
     change = 0.5 * float((_sizes(end.r - start.r) * _sizes(end.h - start.h)).sum()) / reached**2
     for k, (one, two) in enumerate(pairwise(states), start=1):
         moved, missing = two.h - one.h, _missing(problem, one, two)
-        rounding = _ENERGY_ROUNDING * float(np.abs(one.r) @ np.abs(moved) + two.dissipation.sum())
+        rounding = _ENERGY_ROUNDING * float(np.abs(one.r * moved).sum() + two.dissipation.sum())
         rounding += width * float(np.maximum(np.abs(one.r), np.abs(two.r)).sum())
         allowed = _MISSED_ENERGY * change * max(float(factors[k] - factors[k - 1]) ** 2, _ENERGY_ROUNDING) + rounding
         if factors[k] > since and missing > allowed:
@@ -73,10 +71,10 @@ def first_missed_jump(
 
 def _missing(problem: ContactProblem, one: PathState, two: PathState) -> float:
     """The energy that an increment misses, pair by pair; of one that slips what its first force lacks of the most."""
-    n, moved = problem.pairs, two.h - one.h
-    normal, *along = (0.5 * (one.r + two.r) * moved).reshape(3, n)
-    slip, force = moved[n:].reshape(2, n), one.r[n:].reshape(2, n)
-    most = problem.bound.at(np.maximum(one.r[:n], 0.0)) * problem.section.farthest(slip)
+    moved = two.h - one.h
+    normal, *along = 0.5 * (one.r + two.r) * moved
+    slip, force = moved[1:], one.r[1:]
+    most = problem.bound.at(np.maximum(one.r[0], 0.0)) * problem.section.farthest(slip)
     rubs = (one.state != OPEN) & (two.state != OPEN)
     lacking = 0.5 * ((most + force) * slip).sum(axis=0)
     friction = np.where(rubs, lacking, along[0] + along[1] + two.dissipation - one.dissipation)
@@ -84,5 +82,5 @@ def _missing(problem: ContactProblem, one: PathState, two: PathState) -> float:
 
 
 def _sizes(rows: Array) -> Array:
-    """(n,) Of the three numbers of every pair."""
-    return np.asarray(np.linalg.norm(rows.reshape(3, -1), axis=0))
+    """(n,) Of the numbers of every pair, (d, n)."""
+    return np.asarray(np.linalg.norm(rows, axis=0))

@@ -24,7 +24,6 @@ import numpy as np
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.friction.history.rates import widths_of_zero
 from signorini.friction.history.space.sticking_response import StickingResponse
-from signorini.friction.history.space.straight import tangents
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
 from signorini.law.states import SLIP
@@ -67,7 +66,7 @@ class PairSituation:
         """Pairs of a problem at a state now, with a width of zero; those ``opened`` (n,) are taken to open."""
         n, bound, law = problem.pairs, problem.pieces, problem.law
         widths = widths_of_zero(problem, width)
-        gap, p = now.h[:n], now.r[:n]
+        gap, p = now.h[0], now.r[0]
         corner = (gap <= widths) & (p <= widths) & ~opened
         closed = (corner | (p > widths)) & ~opened
         rubs = closed & ((bound.slopes[0] > 0) | (bound.starts[0] > 0))
@@ -182,22 +181,21 @@ class RateProblem:
         return np.flatnonzero(self.pair == k)
 
     def rates(self, z: Array) -> tuple[Array, Array]:
-        """Rates of motions and forces, each (3n,), of a z."""
+        """Rates of motions and forces, each (3, n), of a z."""
         problem = self.held.problem
-        n, dragged = problem.pairs, np.flatnonzero(problem.law.dragged & self.standing.closed)
+        dragged = np.flatnonzero(problem.law.dragged & self.standing.closed)
         h, r = self.held.whole(self.motion @ z)
         if len(dragged):
-            most = problem.section.among(dragged).farthest(-tangents(problem.b[n:])[:, dragged])
-            r[n + dragged], r[2 * n + dragged] = most * (self.standing.above * r[:n])[dragged]
+            most = problem.section.among(dragged).farthest(-problem.by_pair(problem.b)[1:, dragged])
+            r[1:, dragged] = most * (self.standing.above * r[0])[dragged]
         return h, r
 
 
 def _facets(problem: ContactProblem, standing: PairSituation, now: PathState) -> tuple[IntArray, Array, Array]:
     """Pairs, normals (2, m) and reaches (m,) of the facets that they may slip on."""
-    n = problem.pairs
-    force = tangents(now.r[n:])
+    force = now.r[1:]
     normals, reach = problem.section.facets(force)
-    most = problem.bound.at(np.maximum(now.r[:n], 0.0))
+    most = problem.bound.at(np.maximum(now.r[0], 0.0))
     spare = np.where(np.isfinite(reach), reach, 0.0) * most - (normals * force).sum(axis=1)
     spare = np.where(np.isfinite(reach), spare, np.inf)
     nearest = np.where(now.state == SLIP, spare.min(axis=0, initial=np.inf), 0.0)

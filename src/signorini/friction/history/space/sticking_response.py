@@ -24,7 +24,7 @@ class StickingResponse:
     ----------
     problem : the problem, its b included
     rows : (c,) of h and r that hold
-    place : (3n,) where a row stands in ``rows``, -1 where it does not
+    place : (3 n,) where a row stands in ``rows``, -1 where it does not
     force : (c,) forces under the load while nothing held moves
 
     Examples
@@ -85,9 +85,9 @@ class StickingResponse:
         return np.asarray(cho_solve(self._factor, motion) - motion, dtype=np.float64)
 
     def whole(self, motion: Array) -> tuple[Array, Array]:
-        """Motions h and forces r of all rows, each (3n,), under the load and motions (c,) of the held rows."""
+        """Motions h and forces r of all pairs, each (3, n), under the load and motions (c,) of the held rows."""
         h, r = self.problem.b.copy(), np.zeros(3 * self.problem.pairs)
         r[self.rows] = self.force + self.forces(motion)
         h[self.rows] = motion
         h[self._free] = self._drift + self._coupling @ (motion + r[self.rows])
-        return h, r
+        return self.problem.by_pair(h), self.problem.by_pair(r)

@@ -52,39 +52,33 @@ class SolvedIncrement:
     turn: float
 
 
-def tangents(rows: Array) -> Array:
-    """(2, n) Tangential values that are given row by row, (2n,)."""
-    return rows.reshape(2, -1)
-
-
-def held_until(problem: ContactProblem, start: PathState, h: Array, r: Array, slip: Array, width: float) -> Array:
+def held_until(problem: ContactProblem, start: PathState, h: Array, r: Array, width: float) -> Array:
     """(n,) Estimated part of a piece up to which the law holds, 1 where it holds all the way.
 
     Parameters
     ----------
     problem : at the load of its end
     start : at its beginning
-    h, r : (3n,) at its end, where the law holds for the slip increment (2, n)
+    h, r : (3, n) gaps and slip increments, and forces at its end
     width : of zero for a gap and a force
     """
-    n = problem.pairs
-    gap, p = start.h[:n], start.r[:n]
-    until = np.ones(n)
-    closes, opens = (r[:n] > width) & (gap > width), (h[:n] > width) & (p > width)
-    until[closes] = gap[closes] / (gap + r[:n])[closes]
-    until[opens] = p[opens] / (p + h[:n])[opens]
+    gap, p, (opening, *_), (pressing, *_) = start.h[0], start.r[0], h, r
+    slip, until = h[1:], np.ones(problem.pairs)
+    closes, opens = (pressing > width) & (gap > width), (opening > width) & (p > width)
+    until[closes] = gap[closes] / (gap + pressing)[closes]
+    until[opens] = p[opens] / (p + opening)[opens]
     size = np.linalg.norm(slip, axis=0)
-    slips = (r[:n] > 0) & (size > width) & ~closes
+    slips = (pressing > 0) & (size > width) & ~closes
     most = problem.bound.at(p) * problem.section.farthest(slip)
-    lacking = ((most + tangents(start.r[n:])) * slip).sum(axis=0) / np.where(slips, size, 1.0)
+    lacking = ((most + start.r[1:]) * slip).sum(axis=0) / np.where(slips, size, 1.0)
     # on a smooth section the force turns with the slip; how far is another question, see `friction_turn`
-    inside = (problem.section.sides > 0) | (problem.law.reserve(problem.by_pair(start.r)) > width)
+    inside = (problem.section.sides > 0) | (problem.law.reserve(start.r) > width)
     starts = slips & inside & (lacking > width)
     until[starts] = lacking[starts] / (lacking + size)[starts]
     for kink in problem.pieces.kinks[1:-1]:
-        low, high = np.minimum(p, r[:n]), np.maximum(p, r[:n])
+        low, high = np.minimum(p, pressing), np.maximum(p, pressing)
         passes = slips & (low < kink - width) & (kink + width < high)
-        until[passes] = np.minimum(until, (kink - p) / np.where(passes, r[:n] - p, 1.0))[passes]
+        until[passes] = np.minimum(until, (kink - p) / np.where(passes, pressing - p, 1.0))[passes]
     return until
 
 
@@ -93,13 +87,13 @@ def friction_turn(problem: ContactProblem, start: PathState, r: Array, slip: Arr
 
     Parameters
     ----------
-    problem, start, r, slip, width : see `held_until`
+    problem, start, r, width : see `held_until`
+    slip : (2, n) slip increments
     """
-    n = problem.pairs
-    one, two = tangents(start.r[n:]), tangents(r[n:])
+    one, two = start.r[1:], r[1:]
     long = np.minimum(np.linalg.norm(one, axis=0), np.linalg.norm(two, axis=0))
     slips = np.linalg.norm(slip, axis=0) > width
-    spent = problem.law.reserve(problem.by_pair(start.r)) <= width
+    spent = problem.law.reserve(start.r) <= width
     which = slips & (problem.section.sides == 0) & (long > 1e3 * width) & spent
     if not which.any():
         return 0.0
@@ -116,7 +110,7 @@ def extrapolated_length(problem: ContactProblem, start: PathState, end: PathStat
     start, end : of the piece, in which the law holds; the states of the end are those inside it
     width : of zero for a force
     """
-    n, h, r = problem.pairs, end.h, end.r
+    h, r = end.h, end.r
     dh, dr = h - start.h, r - start.r
     size = max(np.abs(dh).max(initial=0.0), np.abs(dr).max(initial=0.0))
     least = RATE_TOL * size + _VALUE_ROUNDING * max(np.abs(h).max(initial=0.0), np.abs(r).max(initial=0.0))
@@ -128,16 +122,17 @@ def extrapolated_length(problem: ContactProblem, start: PathState, end: PathStat
             times.append(float((np.maximum(value[falls], 0.0) / -rate[falls]).min()))
 
     closed = end.state != OPEN
-    vanish(~closed, start.h[:n], dh[:n])
-    vanish(closed, start.r[:n], dr[:n])
-    s = problem.bound.at(np.maximum(start.r[:n], 0.0))
-    ds = problem.bound.at(np.maximum(r[:n], 0.0)) - s
+    p, dp = start.r[0], dr[0]
+    vanish(~closed, start.h[0], dh[0])
+    vanish(closed, p, dp)
+    s = problem.bound.at(np.maximum(p, 0.0))
+    ds = problem.bound.at(np.maximum(r[0], 0.0)) - s
     rubs = closed & (s + ds > 0)
     for kink in problem.pieces.kinks[1:-1]:
-        vanish(rubs & (kink > start.r[:n] + width), kink - start.r[:n], -dr[:n])
-        vanish(rubs & (kink < start.r[:n] - width), start.r[:n] - kink, dr[:n])
+        vanish(rubs & (kink > p + width), kink - p, -dp)
+        vanish(rubs & (kink < p - width), p - kink, dp)
     axes, sides = problem.section.axes, problem.section.sides
-    f, df = _over(tangents(start.r[n:]), axes), _over(tangents(dr[n:]), axes)
+    f, df = _over(start.r[1:], axes), _over(dr[1:], axes)
     for j in range(int(sides.max(initial=0))):
         half = np.pi / np.maximum(sides, 1)
         normal = np.stack([np.cos((2 * j + 1) * half), np.sin((2 * j + 1) * half)])
@@ -167,16 +162,15 @@ def settled(problem: ContactProblem, now: PathState, trial: SolvedIncrement, sta
     now, trial : the beginning of the piece, and the increment that it is
     state : (n,) inside it
     """
-    end, n = trial.after, problem.pairs
-    closed, sticks = state != OPEN, np.tile(state == STICK, 2)
-    h = np.concatenate([np.where(closed, 0.0, end.h[:n]), np.where(sticks, now.h[n:], end.h[n:])])
-    r = np.where(np.tile(closed, 3), end.r, 0.0)
-    pressed = closed & (np.maximum(r[:n], now.r[:n]) > _IDLE * (problem.scale or 1.0))
-    moved = np.where(np.tile(pressed, 2), h[n:] - now.h[n:], 0.0)
+    end, closed = trial.after, state != OPEN
+    h, r = end.h.copy(), np.where(closed, end.r, 0.0)
+    h[0, closed] = 0.0
+    h[1:] = np.where(state == STICK, now.h[1:], h[1:])
+    pressed = closed & (np.maximum(r[0], now.r[0]) > _IDLE * (problem.scale or 1.0))
+    moved = np.where(pressed, h[1:] - now.h[1:], 0.0)
     late = (trial.each < 1.0 - END_ROUNDING) & (now.state != OPEN)
-    rubbing = np.where(np.tile(late, 2), r[n:], 0.5 * (r[n:] + now.r[n:]))
-    lost = -(tangents(rubbing) * tangents(moved)).sum(axis=0)
-    return replace(end, h=h, r=r, state=state, anchor=h[n:], slip=now.slip + moved, dissipation=now.dissipation + lost)
+    lost = -(np.where(late, r[1:], 0.5 * (r[1:] + now.r[1:])) * moved).sum(axis=0)
+    return replace(end, h=h, r=r, state=state, anchor=h[1:], slip=now.slip + moved, dissipation=now.dissipation + lost)
 
 
 def _over(force: Array, axes: Array) -> Array:
