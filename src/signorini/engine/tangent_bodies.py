@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray
 from signorini.clock import Clock
 from signorini.condense.condensed import condense
 from signorini.engine.examine import Examined
@@ -18,6 +18,7 @@ from signorini.fem.stiffness import reduced_stiffness
 from signorini.interface.active import FreeBodies
 from signorini.iterative.bodies import ITERATIVE
 from signorini.linalg.multifrontal import MultifrontalFactorisation
+from signorini.linalg.one_pattern import on_one_pattern
 from signorini.linalg.plan import Plans
 from signorini.plasticity.bodies import PlasticResponse, YieldingBodies
 from signorini.settings import SolverSettings
@@ -48,7 +49,7 @@ class TangentBodies:
     reduced: sp.csr_array
     B: sp.csr_array
     rows: sp.csr_array
-    gather: sp.csr_array
+    gather: sp.csc_array
     near: BoolArray
     whole: bool
     backend: str
@@ -79,7 +80,7 @@ class TangentBodies:
         """
         T = examined.constraints.transform
         rows = yielding.rows()
-        reduced, gather = _on_one_pattern(reduced_stiffness(K, T), rows, T)
+        reduced, gather = on_one_pattern(reduced_stiffness(K, T), rows, T)
         return TangentBodies(
             examined=examined,
             yielding=yielding,
@@ -156,40 +157,3 @@ class TangentBodies:
             return None
         kept = operations * factor.plan.nnz_factor
         return kept / (kept + factor.plan.flops)
-
-
-def _on_one_pattern(K: sp.csr_array, rows: sp.csr_array, T: sp.csr_array) -> tuple[sp.csr_array, sp.csr_array]:
-    """K, (z, z), on the pattern of all tangents, and what gathers its entries from those of ``rows``.
-
-    Entry (i, j) of ``rows`` goes to (a, b) times ``T_ia T_jb``, for every a in row i of T and b in row j.
-    """
-    count = np.diff(T.indptr)
-    i = np.repeat(np.arange(rows.shape[0]), np.diff(rows.indptr))
-    j = rows.indices
-    entry, first = _each(np.arange(len(j)), i, T, count)
-    again, second = _each(np.arange(len(entry)), j[entry], T, count)
-    row, column = T.indices[first][again], T.indices[second]
-    value = T.data[first][again] * T.data[second]
-    size = np.int64(K.shape[0])
-    key = row.astype(np.int64) * size + column
-    if not K.has_sorted_indices:
-        K = K.sorted_indices()
-    have = np.repeat(np.arange(size), np.diff(K.indptr)) * size + K.indices
-    lacking = have[np.minimum(np.searchsorted(have, key), len(have) - 1)] != key
-    both = np.union1d(have, key[lacking]) if lacking.any() else have  # seldom any: sorting all takes its time
-    data = np.zeros(len(both))
-    data[np.searchsorted(both, have)] = K.data
-    indptr = np.searchsorted(both // size, np.arange(size + 1)).astype(np.int32)
-    wide = sp.csr_array((data, (both % size).astype(np.int32), indptr), shape=K.shape)
-    at = np.searchsorted(both, key)
-    gather = sp.csr_array(sp.coo_array((value, (at, entry[again])), shape=(len(both), len(j))))
-    return wide, gather
-
-
-def _each(of: IntArray, row: IntArray, T: sp.csr_array, count: IntArray) -> tuple[IntArray, IntArray]:
-    """Every number as often as its row of T has entries, and those entries."""
-    times = count[row]
-    repeated = np.repeat(of, times)
-    begin = np.repeat(T.indptr[row], times)
-    within = np.arange(len(repeated)) - np.repeat(np.cumsum(times) - times, times)
-    return repeated, begin + within
