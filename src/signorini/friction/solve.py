@@ -137,10 +137,13 @@ def _newton(task: Task) -> Iterator[Candidate]:
         for state in (None,) if task.start is None else (np.asarray(task.start, dtype=np.int64), None):
             yield by_states(problem, state, limit=settings.newton_steps, tolerance=settings.tolerance)
         return
-    laws = [] if task.start is None else [problem.law.tangent(np.asarray(task.start, dtype=np.float64))]
-    for law in (*laws, problem.law.sticking):
-        form = Equilibrium(problem=problem)
-        yield searched(form, law, limit=settings.searched_steps, tolerance=settings.tolerance)
+    form, steps, tolerance = Equilibrium(problem=problem), settings.searched_steps, settings.tolerance
+    if task.start is not None:
+        y = np.asarray(task.start, dtype=np.float64)
+        h, r = problem.law.split(y)
+        a = problem.image.R.T @ h.ravel()
+        yield searched(form, problem.law.tangent(y), force=r, rigid=a, limit=steps, tolerance=tolerance)
+    yield searched(form, problem.law.sticking, limit=steps, tolerance=tolerance)
 
 
 def _proof_by_rigid_motion(task: Task) -> Iterator[Candidate]:
