@@ -43,7 +43,7 @@ def on_one_pattern(K: sp.csr_array, rows: sp.csr_array, T: sp.csr_array) -> tupl
     return K, gather
 
 
-def _with(K: sp.csr_array, row: Int32Array, column: Int32Array) -> sp.csr_array:
+def _with(K: sp.csr_array, row: IntArray, column: IntArray) -> sp.csr_array:
     """K with zeros at more places."""
     size = np.int64(K.shape[0])
     have = np.repeat(np.arange(size), np.diff(K.indptr)) * size + K.indices
@@ -51,8 +51,8 @@ def _with(K: sp.csr_array, row: Int32Array, column: Int32Array) -> sp.csr_array:
     more = more[np.diff(more, prepend=-1) > 0]
     at = np.searchsorted(have, more)
     indptr = K.indptr + np.searchsorted(more, np.arange(size + 1) * size).astype(K.indptr.dtype)
-    column = (more % size).astype(K.indices.dtype)
-    return sp.csr_array((np.insert(K.data, at, 0.0), np.insert(K.indices, at, column), indptr), shape=K.shape)
+    beside = (more % size).astype(K.indices.dtype)
+    return sp.csr_array((np.insert(K.data, at, 0.0), np.insert(K.indices, at, beside), indptr), shape=K.shape)
 
 
 @njit(cache=True)
