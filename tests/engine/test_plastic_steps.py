@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.engine import plastic_steps
+from signorini.engine import first_yield, plastic_steps
+from signorini.engine.chord import Chord
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.outcome import Outcome
 
@@ -35,6 +36,42 @@ def test_first_yield_is_where_the_elastic_tube_yields():
     # Lame, incompressible: p (b/r)^2 / (b^2/a^2 - 1) is the shear strength first at the innermost of 3 Gauss points
     inside = 1.0 + (1.0 / 8.0) * 0.5 * (1.0 - 0.6**0.5)
     assert part == pytest.approx((1.0 - 0.25) * inside**2, rel=2e-3)
+
+
+def pressed(ratio, **step):
+    """A cylinder on a plane with friction, up to p_0 of the elastic contact over the yield stress."""
+    elastic = zhu_cylinder(friction=0.3, refine=2, contact_length=1.6, contact_spacing=0.1, force=6.0)
+    law = sg.Elastic(E=200.0, nu=0.3, plastic=sg.Plastic(7.25 / ratio))
+    return replace(elastic, bodies=[sg.Body("disk", law)], steps=[sg.Step(increments=1, **step)])
+
+
+@pytest.mark.parametrize("ratio", [1.0, 1.9, 2.5, 4.0])
+def test_few_events_need_a_look_to_find_first_yield(ratio):
+    """Where displacements are asked for at all events all of them are looked at: that finds the same."""
+    with mock.patch.object(Chord, "displacements", autospec=True, side_effect=Chord.displacements) as looks:
+        few = sg.solve(pressed(ratio)).steps[0]
+    assert sum(len(call.args[1]) for call in looks.call_args_list) <= 0.9 * len(few.events)
+    every = sg.solve(pressed(ratio, at="events")).steps[0]
+    assert (few.yielding.first is None) == (ratio == 1.0)
+    assert few.yielding.first == (None if ratio == 1.0 else pytest.approx(every.yielding.first, rel=1e-12))
+    assert few.notes == every.notes
+    assert len(few.events) == len(every.events)
+
+
+def test_stresses_stay_as_near_to_the_straight_way_as_energy_says():
+    with mock.patch.object(first_yield, "_between", side_effect=first_yield._between) as searched:
+        sg.solve(pressed(2.0))
+    prepared, one, two, between = searched.call_args.args
+    states = [state for _, state in between]
+    parts = np.array([(factor - one.factor) / (two.factor - one.factor) for factor, _ in between])
+    chord, reach = Chord.of(prepared, (one.state, two.state), parts, states), first_yield._full_by_energy
+    most = np.maximum(one.full, two.full) + reach(prepared, one.state) * chord.energy(-1, len(between)) ** 0.5
+    beyond = []
+    for state, u in zip(states, chord.displacements(np.arange(len(states))), strict=True):
+        full = first_yield._Look.at(prepared, 0.0, replace(state, displacement=u)).full
+        assert (full <= most).all()
+        beyond.append((full - np.maximum(one.full, two.full)).max())
+    assert max(beyond) > 0.0  # else the bound was not needed
 
 
 def test_a_step_below_yield_is_followed_exactly():

@@ -91,7 +91,7 @@ class Condensed:
         return len(self.root) // max(1, int(self.active.sum()))
 
     def reduce(self, f: Array) -> Reduced:
-        """Loads (z,) on the free displacements, condensed onto what is kept."""
+        """Loads (z,) or (z, k) on the free displacements, condensed onto what is kept."""
         return self.response.reduce(f)
 
     def right_hand_side(self, load: Array, offset: Array) -> Array:
@@ -114,14 +114,14 @@ class Condensed:
         Parameters
         ----------
         reduced : the load, see `reduce`
-        h, r : (d a,) relative displacements, length, and forces
+        h, r : (d a,) relative displacements, length, and forces; for k loads at once (d a, k)
         offset : (d a,) h_0, see `right_hand_side`
         """
         if not len(self.dofs):
             return reduced.expand(reduced.load)
 
         def travel(moved: Array) -> Array:
-            left = self.root * (h - self.compliance * r - offset - moved)
+            left = (self.root * (h.T - self.compliance * r.T - offset.T - moved.T)).T
             motion: Array = scipy.linalg.solve_triangular(self._basis.triangle, self._basis.R.T @ left)
             return motion
 

@@ -139,7 +139,7 @@ class ByPairs(Response):
     def reduce(self, f: Array) -> Reduced:
         """Condense loads (z,) to what they move, and their resultants."""
         m = self.factorisation.m
-        reduced = self.factorisation.reduce(np.concatenate([f, np.zeros(m)]))
+        reduced = self.factorisation.reduce(np.concatenate([f, np.zeros((m, *f.shape[1:]))]))
         load = np.concatenate([reduced.load, self.rigid.T @ f])
         return Reduced(load, lambda kept: reduced.expand(kept)[:-m])
 
@@ -158,7 +158,7 @@ class ByPairs(Response):
 
     def displacement(self, reduced: Reduced, r: Array, travel: Travel) -> Array:
         """Free displacements under the reduced load and the forces r that are kept, and travel."""
-        kept = np.zeros(self.factorisation.m)
+        kept = np.zeros((self.factorisation.m, *r.shape[1:]))
         kept[self.rows] = -r
         return self.travelled(reduced.expand(kept), travel)
 

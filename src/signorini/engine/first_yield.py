@@ -2,7 +2,9 @@
 """Where a straight part of a step first makes a point yield, followed up to there as elastic bodies are.
 
 On a straight piece of an elastic path stresses are linear and the yield function is convex, so that its ends tell
-whether anything yields on it, and the load of first yield is the root of a quadratic.
+whether anything yields on it, and the load of first yield is the root of a quadratic. Over several pieces they leave
+the straight way between the ends of all by no more than the energy allows that is stored off it: few events of a path
+need a look at the bodies.
 """
 
 from __future__ import annotations
@@ -15,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.engine.chord import Chord
 from signorini.engine.increments import advance
 from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.prepare import Prepared
@@ -23,6 +26,7 @@ from signorini.errors import SolveFailed
 from signorini.outcome import Outcome
 from signorini.plasticity.bodies import YieldingBodies
 from signorini.plasticity.measure import FlowViolation, deviator, fullness, inner, size, violation, yield_stress
+from signorini.plasticity.radial_return import ROOT32
 from signorini.plasticity.state import PlasticState
 from signorini.solution.state import State
 
@@ -50,7 +54,9 @@ def _frozen(part: StepPart) -> StepPart:
         return replace(prepared, solver=prepared.solver.elastic, flowed=plastic.forces)
 
     awake = None if part.awake is None else elastic(part.awake)
-    return replace(part, prepared=elastic(part.prepared), awake=awake, whole=True)
+    exact = part.prepared.interface.directions == 2 and part.prepared.solver.paths is not None
+    whole = part.whole or awake is not None or not exact  # else displacements at events are found as they are needed
+    return replace(part, prepared=elastic(part.prepared), awake=awake, whole=whole)
 
 
 def flows_at_once(part: StepPart) -> bool:
@@ -184,19 +190,92 @@ class _Bracket(NamedTuple):
     factor: float
 
 
+class _Look(NamedTuple):
+    """A state of a path that was looked at.
+
+    Attributes
+    ----------
+    factor : fraction of the part
+    state : with the displacement of the bodies
+    full : (p,) relative stresses over the yield stress
+    """
+
+    factor: float
+    state: State
+    full: Array
+
+    @staticmethod
+    def at(prepared: Prepared, factor: float, state: State) -> _Look:
+        """A whole state at a fraction of the part."""
+        bodies, plastic = points_of(prepared, state)
+        swelling = bodies.swelling(state.point.factors)
+        return _Look(factor, state, fullness(bodies, state.displacement, plastic, swelling))
+
+    @property
+    def excess(self) -> float:
+        """What the fullest point has beyond its yield stress, of that."""
+        return float(self.full.max()) - 1.0
+
+
 def _first_yield(part: StepPart, followed: FollowedPart) -> _Bracket | None:
     """Where the first point yields on an elastic path; None where none does."""
-    prepared = part.prepared
-    states = [(0.0, followed.before)]
+    prepared, between = part.prepared, list[tuple[float, State]]()
+    one = _Look.at(prepared, 0.0, followed.before)
     for shot in followed.snapshots:
-        if shot.whole:
-            states.append((part.interval.within(shot.fraction), shot.state))
-    for (begin, one), (end, two) in pairwise(states):
-        excess = fullest(prepared, two) - 1.0
-        if excess > _YIELD_TOL:
-            low = begin, min(fullest(prepared, one) - 1.0, 0.0)
-            return _Bracket(low, (end, excess), begin + (end - begin) * _root(prepared, one, two))
+        here = part.interval.within(shot.fraction), shot.state
+        if not shot.whole:
+            between.append(here)
+            continue
+        two = _Look.at(prepared, *here)
+        found = _between(prepared, one, two, between)
+        if found is not None:
+            low, high = found
+            factor = low.factor + (high.factor - low.factor) * _root(prepared, low.state, high.state)
+            return _Bracket((low.factor, min(low.excess, 0.0)), (high.factor, high.excess), factor)
+        one, between = two, []
     return None
+
+
+def _between(
+    prepared: Prepared, one: _Look, two: _Look, between: list[tuple[float, State]]
+) -> tuple[_Look, _Look] | None:
+    """The first state of a path with a point beyond its yield stress, after the one before it; None where none has.
+
+    Parameters
+    ----------
+    prepared : the model
+    one, two : whole states; only the second may have such a point
+    between : states of the path between them, and where they are
+    """
+    known = {-1: one, len(between): two}
+    if between:
+        parts = (np.array([factor for factor, _ in between]) - one.factor) / (two.factor - one.factor)
+        chord = Chord.of(prepared, (one.state, two.state), parts, [state for _, state in between])
+        reach = _full_by_energy(prepared, one.state)
+    while True:
+        beyond = next((i for i in sorted(known) if known[i].excess > _YIELD_TOL), None)
+        looks = [
+            (i + j) // 2
+            for i, j in pairwise(i for i in sorted(known) if beyond is None or i <= beyond)
+            if j > i + 1
+            and (np.maximum(known[i].full, known[j].full) + reach * chord.energy(i, j) ** 0.5).max() > 1.0 + _YIELD_TOL
+        ]
+        if not looks:
+            break
+        for i, u in zip(looks, chord.displacements(np.array(looks)), strict=True):
+            factor, state = between[i]
+            known[i] = _Look.at(prepared, factor, replace(state, displacement=u))
+    return None if beyond is None else (known[beyond - 1], known[beyond])
+
+
+def _full_by_energy(prepared: Prepared, state: State) -> Array:
+    """(p,) The most that energy E in the bodies adds to relative stresses over the yield stress, over the root of E.
+
+    The deviator s at a point of volume w stores ``w s : s / 4 G``, which is no more than all of it.
+    """
+    bodies, plastic = points_of(prepared, state)
+    stress = np.sqrt(4.0 * bodies.laws.shear[bodies.body] / bodies.weights)
+    return np.asarray(ROOT32 * stress / yield_stress(bodies, plastic.equivalent))
 
 
 def _root(prepared: Prepared, one: State, two: State) -> float:

@@ -15,6 +15,9 @@ from signorini.plasticity.bodies import YieldingBodies
 from signorini.plasticity.radial_return import ROOT32
 from signorini.plasticity.state import PlasticState
 
+_MEAN = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]) / 3.0  # of the components xx, yy, zz: products with BLAS are fastest
+_TIMES = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])  # that components stand in a tensor
+
 
 @dataclass(frozen=True, kw_only=True)
 class FlowViolation:
@@ -60,17 +63,18 @@ def deviator(bodies: YieldingBodies, u: Array, plastic: Array, swelling: Array) 
     ----------
     bodies, u, plastic, swelling : as of `full_strains`
     """
-    elastic = full_strains(bodies, u, plastic, swelling) - plastic
-    elastic[:, :3] -= elastic[:, :3].mean(axis=1)[:, None]
-    elastic[:, 3:] *= 0.5
-    stress: Array = 2.0 * bodies.laws.shear[bodies.body][:, None] * elastic
+    stress = full_strains(bodies, u, plastic, swelling)
+    stress -= plastic
+    stress[:, :3] -= (stress @ _MEAN[: stress.shape[1]])[:, None]
+    stress[:, 3:] *= 0.5
+    stress *= 2.0 * bodies.laws.shear[bodies.body][:, None]
     return stress
 
 
 def yield_stress(bodies: YieldingBodies, equivalent: Array) -> Array:
     """(p,) Yield stress at equivalent plastic strains."""
     laws, found = bodies.laws, np.empty(len(equivalent))
-    for b in np.unique(bodies.body):
+    for b in np.flatnonzero(bodies.laws.rows):
         own, rows = bodies.body == b, int(laws.rows[b])
         p, table = equivalent[own], (laws.strain[b, :rows], laws.stress[b, :rows])
         found[own] = np.interp(p, *table) + laws.beyond[b] * np.maximum(p - table[0][-1], 0.0)
@@ -185,8 +189,7 @@ def stored_by_back_stresses(bodies: YieldingBodies, state: PlasticState) -> floa
 
 def inner(one: Array, two: Array) -> Array:
     """Products of tensors (..., n) whose shear components stand once."""
-    product = one * two
-    result: Array = product[..., :3].sum(axis=-1) + 2.0 * product[..., 3:].sum(axis=-1)
+    result: Array = (one * two) @ _TIMES[: one.shape[-1]]
     return result
 
 
