@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bodies that yield whose strains are prescribed: their points, and blocks of one cell."""
 
+from dataclasses import replace
+
 import numpy as np
 
 import signorini as sg
@@ -17,19 +19,27 @@ LAWS = {
 }
 
 
-def block(kind, plastic, *, n=1, nu=0.3, E=200.0, **given):
-    """A unit square, a ring 0 .. 1 or a unit cube of n cells along each edge; ``given`` as of `Model`."""
+def block(kind, plastic, *, n=1, nu=0.3, E=200.0, formulation=None, bent=0.0, **given):
+    """A unit square, a ring 0 .. 1 or a unit cube of n cells along each edge; ``given`` as of `Model`.
+
+    Parameters
+    ----------
+    formulation : of its cells
+    bent : by how much nodes inside are moved at random, of the size of a cell
+    """
     grid = np.linspace(0.0, 1.0, n + 1)
-    body = sg.Body("block", sg.Elastic(E=E, nu=nu, plastic=plastic))
-    if kind == "space":
-        return sg.Model(sg.box(x=grid, y=grid, z=grid), bodies=[body], **given)
-    return sg.Model(sg.rectangle(x=grid, y=grid), kind=kind, bodies=[body], **given)
+    body = sg.Body("block", sg.Elastic(E=E, nu=nu, plastic=plastic), formulation)
+    mesh = sg.box(x=grid, y=grid, z=grid) if kind == "space" else sg.rectangle(x=grid, y=grid)
+    inside = ((mesh.points > 0.0) & (mesh.points < 1.0)).all(axis=1)
+    moves = np.random.default_rng(5).uniform(-1.0, 1.0, size=mesh.points.shape)
+    mesh = replace(mesh, points=mesh.points + bent / n * moves * inside[:, None])
+    return sg.Model(mesh, bodies=[body], **({} if kind == "space" else {"kind": kind}), **given)
 
 
-def points_of(kind, plastic, n=2):
-    """The points of a block that is held at its foot."""
+def points_of(kind, plastic, n=2, **given):
+    """The points of a block that is held at its foot; ``given`` as of `block`."""
     zero = (0.0,) * (3 if kind == "space" else 2)
-    return prepare(block(kind, plastic, n=n, supports=[sg.Support("bottom", u=zero)])).yielding
+    return prepare(block(kind, plastic, n=n, supports=[sg.Support("bottom", u=zero)], **given)).yielding
 
 
 def pulled(kind, plastic, *, sides=None, along=1.0, steps, **given):

@@ -73,7 +73,7 @@ def _bound(prepared: Prepared, start: LoadPoint, end: LoadPoint, mechanism: Mech
     if bodies is None or largest == 0.0:
         return None
     v = T @ (free / largest)
-    rate = bodies.strains(v)
+    rate = bodies.flow_strains(v)
     if bodies.laws.thin:  # the thickness gives way
         rate[:, 2] = -(rate[:, 0] + rate[:, 1])
     dilatation = bodies.weights @ np.abs(bodies.dilatation(rate))

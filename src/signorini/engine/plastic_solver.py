@@ -209,7 +209,7 @@ class PlasticSolver:
         swelling = bodies.swelling(increment.point.factors)
         scale = 1.0 / np.sqrt(np.maximum(self.tangents.diagonal, np.finfo(np.float64).tiny))
         tangent = _Tangent(solver=self.elastic, K=system.K)
-        model, x = bodies.at_rest(state.displacement, old), T.T @ old.forces
+        model, x = bodies.at_rest(state.displacement, old, swelling), T.T @ old.forces
         reached: tuple[IncrementAnswer, PlasticResponse] | None = None
         while True:
             answer, tangent, x = self._contact(increment, tangent, x, rounds, model, reached)

@@ -77,16 +77,10 @@ class Body:
         Raises
         ------
         InputError
-            With internal modes, and where its cells would lock: flow keeps the volume, and cells that cannot do so
-            without becoming rigid have too high a limit load, or none. In plane stress the thickness gives way.
+            Where its cells would lock: flow keeps the volume, and cells that cannot do so without becoming rigid have
+            too high a limit load, or none. In plane stress the thickness gives way.
         """
         found, where_cells = " and ".join(sorted(families)), (*where, "formulation")
-        if self.formulation == "incompatible":
-            raise InputError(
-                f"is 'incompatible', but '{self.name}' yields, which cells with internal modes cannot yet; expected "
-                f"'{'standard' if kind == 'plane stress' else 'mean dilatation'}'",
-                where=where_cells,
-            )
         if kind == "plane stress":
             return
         if families & _WITHOUT_MEAN:

@@ -19,9 +19,13 @@ from signorini.fem.thermal import temperatures, thermal_strain
 from signorini.model.material import Elastic, Material
 from signorini.model.model import Model
 from signorini.model.plastic import Plastic
-from signorini.plasticity import kernels, radial_return
+from signorini.plasticity import kernels, linearised, radial_return, softening
+from signorini.plasticity.modes import Modes, eliminated, settle
 from signorini.plasticity.radial_return import Points, YieldLaws
 from signorini.plasticity.state import PlasticState, no_flow
+
+_MODE_ROUNDS = 2  # of modes into balance: the second takes up what rounding has left where plastic strains are large
+_FLOWING = 1e4  # of the strain of first yield: so far on the elastic part is none
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -35,6 +39,7 @@ class PointGroup:
     gradients : (m, q, k, e) of the shape functions
     weights : (m, q) volumes of the points
     values : (q, k) shape functions
+    modes : internal modes of the cells
     first : where the points of the group begin among all
     """
 
@@ -43,12 +48,37 @@ class PointGroup:
     gradients: Array
     weights: Array
     values: Array
+    modes: Modes
     first: int
 
     @property
     def own(self) -> slice:
         """The points of the group among all."""
         return slice(self.first, self.first + self.weights.size)
+
+    @property
+    def internal(self) -> bool:
+        """Whether the cells have internal modes."""
+        return bool(self.modes.gradients.shape[2])
+
+    def amplitudes(self, stress: Array) -> Array:
+        """(m k' d,) By which modes give way to stresses (m q, n), compression and all: ``K_aa^-1 int G^T sigma``."""
+        cells, m = self._own_cells, len(self.cells)
+        forces = np.zeros(cells.size * (2 if stress.shape[1] == 4 else 3))
+        kernels.add_forces(cells, self.modes.gradients, self.weights, stress, len(forces) // cells.size, forces)
+        found: Array = (self.modes.inverse @ forces.reshape(m, -1, 1)).ravel()
+        return found
+
+    def add_mode_strains(self, amplitudes: Array, out: Array) -> None:
+        """Add the strains of modes at amplitudes (m k' d,) to those of the points, (m q, n)."""
+        cells = self._own_cells
+        kernels.add_strains(cells, self.modes.gradients, amplitudes, len(amplitudes) // cells.size, out)
+
+    @property
+    def _own_cells(self) -> IntArray:
+        """(m, k') Numbers of the modes, each in one cell."""
+        m, _, count, _ = self.modes.gradients.shape
+        return np.arange(m * count).reshape(m, count)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -59,7 +89,7 @@ class PlasticResponse:
     ----------
     state : after backward Euler
     points : the same with what a tangent needs
-    dual : (p, n) relative stress over the radius, of the linear model, see `radial_return.dual_stress`
+    dual : (p, n) relative stress over the radius, of the linear model, see `linearised.dual_stress`
     """
 
     state: PlasticState
@@ -123,12 +153,46 @@ class YieldingBodies:
                 found[group.own] = strain[..., :3].sum(axis=-1).ravel()
         return found
 
-    def strains(self, u: Array) -> Array:
-        """(p, n) Strains of displacements (dofs,); in plane stress without that across."""
+    @property
+    def internal(self) -> bool:
+        """Whether some cells have internal modes."""
+        return any(group.internal for group in self.groups)
+
+    @property
+    def heat_works(self) -> bool:
+        """Whether temperature does work on plastic strain: its volume is kept, but not its area, nor that of modes."""
+        return self.laws.thin or self.internal
+
+    def strains(self, u: Array, plastic: Array | None = None, swelling: Array | None = None) -> Array:
+        """(p, n) Strains of displacements; in plane stress without that across.
+
+        Parameters
+        ----------
+        u : (dofs,) displacements
+        plastic : (p, n) plastic strains that internal modes are in balance with; none where nothing has flowed
+        swelling : (p,) volume strains of the temperature that they are in balance with; none without temperatures
+        """
         found = np.zeros((len(self.body), self.components))
         for group in self.groups:
-            kernels.strains(group.cells, group.gradients, u, self.space.dimension, found[group.own])
+            own = group.own
+            kernels.add_strains(group.cells, group.gradients, u, self.space.dimension, found[own])
+            if group.internal:
+                free = np.zeros_like(found[own]) if plastic is None else plastic[own].copy()
+                if swelling is not None:
+                    free[:, :3] += swelling[own, None] / 3.0
+                for _ in range(_MODE_ROUNDS):
+                    group.add_mode_strains(group.amplitudes(self._elastic_stress(group, free - found[own])), found[own])
         return found
+
+    def flow_strains(self, v: Array) -> Array:
+        """(p, n) Strains of a motion (dofs,) in which bodies flow; internal modes as flow takes least for them."""
+        rate = self.strains(v)
+        if not self.internal:
+            return rate
+        laws, shear = self.laws, self.laws.shear[self.body]
+        largest = (laws.stress[:, -1][self.body] / (2.0 * shear)).max() / (np.abs(rate).max() or 1.0)
+        far = _FLOWING * largest
+        return self.respond(far * v, self.untouched(), np.zeros(len(self.body))).points.strain / far
 
     def dilatation(self, strain: Array) -> Array:
         """(p,) Volume strain of strains (p, n) as the stiffness sees it: projected in cells with a mean dilatation."""
@@ -148,7 +212,7 @@ class YieldingBodies:
         old : the state that the points come from
         swelling : (p,) see `swelling`
         """
-        before = self._points(old, self.strains(u))
+        before = self._points(old, self.strains(u, old.strain, swelling))
         shape = before.strain.shape
         after = Points(
             strain=before.strain,
@@ -160,6 +224,11 @@ class YieldingBodies:
             yields=np.empty(shape[0], np.bool_),
         )
         radial_return.respond(self.laws, self.body, swelling, before, after)
+        for group in self.groups:
+            if group.internal:
+                own = group.own
+                here = before.part(own), after.part(own)
+                settle(self.laws, self.body[own], swelling[own], self.elasticity, group.weights, group.modes, *here)
         forces = self.forces(after.plastic)
         state = PlasticState(strain=after.plastic, equivalent=after.equivalent, back=after.back, forces=forces)
         return PlasticResponse(state=state, points=after, dual=after.direction)
@@ -179,18 +248,19 @@ class YieldingBodies:
         dual = np.empty_like(response.dual)
         before = self._points(old, reached.points.strain)
         end = reached.points._replace(equivalent=response.points.equivalent)
-        radial_return.dual_stress(self.laws, self.body, before, model.points, model.dual, end, dual)
+        linearised.dual_stress(self.laws, self.body, before, model.points, model.dual, end, dual)
         return PlasticResponse(state=response.state, points=response.points, dual=dual)
 
-    def at_rest(self, u: Array, old: PlasticState) -> PlasticResponse:
+    def at_rest(self, u: Array, old: PlasticState, swelling: Array) -> PlasticResponse:
         """A response in which no point yields: what elastic bodies are linearised about.
 
         Parameters
         ----------
         u : (dofs,) displacements
         old : the state of the points
+        swelling : (p,) see `swelling`
         """
-        strain = self.strains(u)
+        strain = self.strains(u, old.strain, swelling)
         zero, none = np.zeros_like(strain), np.zeros(len(strain))
         points = Points(
             strain=strain,
@@ -208,8 +278,18 @@ class YieldingBodies:
         return self.internal_forces(self.eigenstress(plastic))
 
     def eigenstress(self, plastic: Array) -> Array:
-        """(p, n) ``D eps_p`` of plastic strains (p, n)."""
+        """(p, n) ``D eps_p`` of plastic strains (p, n), less what internal modes give way to."""
         stress: Array = np.einsum("pij,pj->pi", self.elasticity[self.body], plastic)
+        for group in self.groups:
+            if group.internal:
+                given = np.zeros_like(stress[group.own])
+                group.add_mode_strains(group.amplitudes(stress[group.own]), given)
+                stress[group.own] -= self._elastic_stress(group, given)
+        return stress
+
+    def _elastic_stress(self, group: PointGroup, strain: Array) -> Array:
+        """(m q, n) ``D eps`` of strains at the points of a group."""
+        stress: Array = np.einsum("pij,pj->pi", self.elasticity[self.body[group.own]], strain)
         return stress
 
     def internal_forces(self, stress: Array) -> Array:
@@ -232,8 +312,8 @@ class YieldingBodies:
         for group in self.groups:
             own = group.own
             here = response.points.part(own)
-            shape = group.gradients, group.weights
-            kernels.soften(
+            shape = group.gradients, group.weights, group.modes
+            softening.soften(
                 group.cells, shape, self.laws, self.body[own], here, response.dual[own], left, self.pattern, data
             )
         return data
@@ -266,16 +346,20 @@ def yielding_bodies(space: Space, model: Model) -> YieldingBodies:
     ----------
     space, model : the mesh and what is on it; at least one body yields
     """
-    groups, first = [], 0
+    groups, first, elasticity = [], 0, elasticities(model)
     for group in yielding_groups(space, model):
         points = kinematics(space, model, group)
+        gradients = np.ascontiguousarray(points.gradients[:, :, : points.nodes])
+        modes = np.ascontiguousarray(points.gradients[:, :, points.nodes :])
+        weights = np.ascontiguousarray(points.weights)
         groups.append(
             PointGroup(
                 group=group,
                 cells=np.ascontiguousarray(group.cells, np.int64),
-                gradients=np.ascontiguousarray(points.gradients),
-                weights=np.ascontiguousarray(points.weights),
+                gradients=gradients,
+                weights=weights,
                 values=points.values,
+                modes=eliminated(gradients, modes, weights, elasticity[group.body]),
                 first=first,
             )
         )
@@ -290,7 +374,7 @@ def yielding_bodies(space: Space, model: Model) -> YieldingBodies:
         groups=tuple(groups),
         laws=_laws(model),
         body=body.astype(np.int64),
-        elasticity=elasticities(model),
+        elasticity=elasticity,
         pattern=pattern,
     )
 

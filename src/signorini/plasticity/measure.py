@@ -47,7 +47,7 @@ def full_strains(bodies: YieldingBodies, u: Array, plastic: Array, swelling: Arr
     plastic : (p, n) plastic strains
     swelling : (p,) volume strain of the temperature
     """
-    strain = bodies.strains(u)
+    strain = bodies.strains(u, plastic, swelling)
     if bodies.laws.thin:
         G, K = bodies.laws.shear[bodies.body], bodies.laws.bulk[bodies.body]
         lame = K - 2.0 / 3.0 * G

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compiled loops of the flow rule at points: backward Euler by radial return, and its primal-dual linearisation.
+"""Compiled loops of the flow rule at points: backward Euler by radial return.
 
 Strains xx, yy, zz, xy (yz, xz) with shear strains twice the tensor's; stresses as tensors. In plane stress the strain
 across is found that leaves no stress there.
@@ -87,8 +87,8 @@ class Points(NamedTuple):
 
 
 @njit(cache=True, inline="always", error_model="numpy")
-def _yield_stress(laws: YieldLaws, body: int, p: float) -> tuple[float, float]:
-    """Yield stress and its slope at an equivalent plastic strain."""
+def yield_stress_at(laws: YieldLaws, body: int, p: float) -> tuple[float, float]:
+    """Yield stress of a body and its slope at an equivalent plastic strain p; ``laws`` are the material data."""
     n = laws.rows[body]
     last = laws.strain[body, n - 1]
     if p >= last:
@@ -131,7 +131,7 @@ def _growth(
             for c in range(n):
                 weight = 1.0 if c < 3 else 2.0
                 lean += weight * turn[c] / norm * laws.recovery[body, k] * theta * theta * old.back[i, k, c]
-        stress, hardening = _yield_stress(laws, body, p0 + dp)
+        stress, hardening = yield_stress_at(laws, body, p0 + dp)
         missing = norm - ROOT23 * stress - ROOT32 * stiff * dp
         slope = ROOT23 * hardening + ROOT32 * stiff - ROOT32 * taken * dp - lean
         if abs(missing) <= 4.0 * _RETURN_TOL * (norm + stress):
@@ -166,7 +166,7 @@ def _return(laws: YieldLaws, body: int, old: Points, i: int, new: Points, trial:
             x -= old.back[i, k, c]
         norm += x * x * (1.0 if c < 3 else 2.0)
     norm = np.sqrt(norm)
-    stress, _ = _yield_stress(laws, body, p0)
+    stress, _ = yield_stress_at(laws, body, p0)
     if norm <= ROOT23 * stress * (1.0 + _RETURN_TOL):
         return
     dp, norm, slope = _growth(laws, body, old, i, norm, trial, turn)
@@ -199,9 +199,46 @@ def _stay(laws: YieldLaws, body: IntArray, old: Points, new: Points, stays: Bool
             norm += x * x * (1.0 if c < 3 else 2.0)
             new.plastic[i, c], new.direction[i, c] = plastic[i, c], 0.0
         p = old.equivalent[i]
-        stress, _ = _yield_stress(laws, j, p)
+        stress, _ = yield_stress_at(laws, j, p)
         new.equivalent[i], new.slack[i, 0], new.slack[i, 1], new.yields[i] = p, 0.0, 0.0, False
         stays[i] = np.sqrt(norm) <= ROOT23 * stress * (1.0 + _RETURN_TOL)
+
+
+@njit(cache=True, inline="always", error_model="numpy")
+def respond_at(
+    laws: YieldLaws, body: int, swelling: float, old: Points, new: Points, i: int, trial: Array, turn: Array
+) -> None:
+    """The state of point i, see `respond`.
+
+    Parameters
+    ----------
+    laws, body, swelling : material data; body and volume strain of the temperature of the point
+    old, new : states of all points
+    i : the point
+    trial, turn : (n,) room
+    """
+    if not laws.thin:
+        _return(laws, body, old, i, new, trial, turn)
+        return
+    G2, K, e = 2.0 * laws.shear[body], laws.bulk[body], new.strain[i]
+    size = abs(e[0]) + abs(e[1]) + abs(e[3]) + abs(swelling) + abs(old.plastic[i, 2])
+    low, high = -np.inf, np.inf
+    for _ in range(_ACROSS_ROUNDS):
+        _return(laws, body, old, i, new, trial, turn)
+        volume = e[0] + e[1] + e[2]
+        across = K * (volume - swelling) + G2 * (e[2] - volume / 3.0 - new.plastic[i, 2])
+        if abs(across) <= _ACROSS_TOL * (K + G2) * size:
+            break
+        if across > 0.0:
+            high = e[2]
+        else:
+            low = e[2]
+        way = new.direction[i, 2]
+        stiff = K + G2 * (2.0 / 3.0 * (1.0 - new.slack[i, 0]) - new.slack[i, 1] * way * way)
+        following = e[2] - across / stiff
+        if not low < following < high:
+            following = 0.5 * (low + high) if np.isfinite(low) and np.isfinite(high) else following
+        e[2] = following
 
 
 @njit(cache=True, error_model="numpy")
@@ -221,85 +258,5 @@ def respond(laws: YieldLaws, body: IntArray, swelling: Array, old: Points, new: 
     if not laws.thin:
         _stay(laws, body, old, new, stays)
     for i in range(len(body)):
-        j = body[i]
-        if not laws.thin:
-            if not stays[i]:
-                _return(laws, j, old, i, new, trial, turn)
-            continue
-        G2, K, e = 2.0 * laws.shear[j], laws.bulk[j], new.strain[i]
-        size = abs(e[0]) + abs(e[1]) + abs(e[3]) + abs(swelling[i]) + abs(old.plastic[i, 2])
-        low, high = -np.inf, np.inf
-        for _ in range(_ACROSS_ROUNDS):
-            _return(laws, j, old, i, new, trial, turn)
-            volume = e[0] + e[1] + e[2]
-            across = K * (volume - swelling[i]) + G2 * (e[2] - volume / 3.0 - new.plastic[i, 2])
-            if abs(across) <= _ACROSS_TOL * (K + G2) * size:
-                break
-            if across > 0.0:
-                high = e[2]
-            else:
-                low = e[2]
-            way = new.direction[i, 2]
-            stiff = K + G2 * (2.0 / 3.0 * (1.0 - new.slack[i, 0]) - new.slack[i, 1] * way * way)
-            following = e[2] - across / stiff
-            if not low < following < high:
-                following = 0.5 * (low + high) if np.isfinite(low) and np.isfinite(high) else following
-            e[2] = following
-
-
-@njit(cache=True, error_model="numpy")
-def dual_stress(
-    laws: YieldLaws, body: IntArray, old: Points, model: Points, dual: Array, new: Points, out: Array
-) -> None:
-    """The relative stress of the last linear model at the new strains, over the radius, pulled back into the unit ball.
-
-    In place of the direction of the flow it linearises the flow rule with the stress as an unknown of its own: states
-    of points do not flip from side to side near the limit load.
-
-    Parameters
-    ----------
-    laws, body : of the bodies, and of every point (p,)
-    old : committed states
-    model, dual : the states that the linear model was made at, and its relative stresses (p, n)
-    new : the states at the strains that its solution reaches
-    out : (p, n) the new relative stresses
-
-    References
-    ----------
-    Chan, Golub, Mulet (1999), A nonlinear primal-dual method for total variation-based image restoration, SIAM J. Sci.
-    Comput. 20:1964; Hager, Wohlmuth (2009), Comput. Methods Appl. Mech. Eng. 198:3411.
-    """
-    n, M = out.shape[1], new.back.shape[1]
-    start, step = np.empty(n), np.empty(n)
-    for i in range(len(body)):
-        j = body[i]
-        G2 = 2.0 * laws.shear[j]
-        one, two = model.strain[i], new.strain[i]
-        mean_one, mean_two = (one[0] + one[1] + one[2]) / 3.0, (two[0] + two[1] + two[2]) / 3.0
-        dp = new.equivalent[i] - old.equivalent[i]
-        along, beside, stiff = 0.0, 0.0, 0.0
-        for k in range(M):
-            stiff += laws.back[j, k] / (1.0 + laws.recovery[j, k] * dp)
-        for c in range(n):
-            weight = 1.0 if c < 3 else 2.0
-            scale = G2 if c < 3 else 0.5 * G2
-            start[c] = scale * (one[c] - (mean_one if c < 3 else 0.0) - old.plastic[i, c])
-            step[c] = scale * (two[c] - one[c] - (mean_two - mean_one if c < 3 else 0.0))
-            along += weight * model.direction[i, c] * step[c]
-            beside += weight * dual[i, c] * step[c]
-        a, b = model.slack[i, 0], model.slack[i, 1]
-        if not model.yields[i]:
-            a, b = 0.0, 0.0
-        stress, _ = _yield_stress(laws, j, new.equivalent[i])
-        norm = 0.0
-        for c in range(n):
-            back = 0.0
-            for k in range(M):
-                back += old.back[i, k, c] / (1.0 + laws.recovery[j, k] * dp)
-            taken = a * (start[c] - back + step[c]) + 0.5 * b * (dual[i, c] * along + model.direction[i, c] * beside)
-            value = (start[c] + step[c] - back - (1.0 + 2.0 / 3.0 * stiff / G2) * taken) / (ROOT23 * stress)
-            out[i, c] = value
-            norm += (1.0 if c < 3 else 2.0) * value * value
-        if norm > 1.0:
-            for c in range(n):
-                out[i, c] /= np.sqrt(norm)
+        if not stays[i]:
+            respond_at(laws, body[i], swelling[i], old, new, i, trial, turn)

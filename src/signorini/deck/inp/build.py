@@ -206,9 +206,11 @@ def _body(section: Section, grid: DeckGrid, usual: float) -> Body:
 
 
 def _formulation(section: Section, grid: DeckGrid) -> Literal["standard", "incompatible"] | None:
-    """Of elements that yield the body's own, which quadratic wedges do not have: they need none."""
+    """As elements have it; of those that yield without modes the body's own, which quadratic wedges do not need."""
+    if section.incompatible:
+        return "incompatible"
     if section.substance.flow is None:
-        return "incompatible" if section.incompatible else "standard"
+        return "standard"
     wedges = [group.index for group in grid.groups if group.type.family == "wedge15"]
     return "standard" if any(np.isin(index, section.elements).any() for index in wedges) else None
 
@@ -265,12 +267,8 @@ def _overlap_notes(outside: Sequence[Card], known: Known) -> Iterator[str]:
 def _flow_notes(sections: Sequence[Section], bodies: Sequence[Body]) -> Iterator[str]:
     """How bodies that yield differ from the deck."""
     flows = [section.substance.flow for section in sections if section.substance.flow is not None]
-    modes = any(section.incompatible and section.substance.flow is not None for section in sections)
     if any(body.material.yields and body.formulation == "mean dilatation" for body in bodies):
-        instead = ", in place of incompatible modes" if modes else ""
-        yield f"elements of bodies that yield have a mean dilatation, so that they do not lock{instead}"
-    elif modes:
-        yield "elements of bodies that yield have no incompatible modes"
+        yield "elements of bodies that yield have a mean dilatation, so that they do not lock"
     yield from dict.fromkeys(note for flow in flows for note in flow.notes)
 
 
