@@ -4,7 +4,6 @@
 import numpy as np
 import pytest
 
-import signorini as sg
 from signorini.fem.kinematics import kinematics
 from signorini.plasticity.measure import deviator, full_strains, violation
 from tests.helpers.yielding import LAWS, points_of

@@ -3,82 +3,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, IntArray
 from signorini.fem import _kernels as assembly
 from signorini.fem.elasticity import elasticities
-from signorini.fem.kinematics import Group, kinematics, mean_in_cells, straining_groups
+from signorini.fem.kinematics import kinematics, mean_in_cells
 from signorini.fem.space import Space
 from signorini.fem.thermal import temperatures, thermal_strain
-from signorini.model.material import Elastic, Material
 from signorini.model.model import Model
-from signorini.model.plastic import Plastic
 from signorini.plasticity import kernels, linearised, radial_return, softening
-from signorini.plasticity.modes import Modes, eliminated, settle
-from signorini.plasticity.radial_return import Points, YieldLaws
+from signorini.plasticity.groups import PointGroup, point_groups
+from signorini.plasticity.laws import YieldLaws, yield_laws
+from signorini.plasticity.modes import settle
+from signorini.plasticity.radial_return import Points
 from signorini.plasticity.state import PlasticState, no_flow
 
 _MODE_ROUNDS = 2  # of modes into balance: the second takes up what rounding has left where plastic strains are large
 _FLOWING = 1e4  # of the strain of first yield: so far on the elastic part is none
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PointGroup:
-    """Cells of one family that may yield.
-
-    Attributes
-    ----------
-    group : the cells
-    cells : (m, k) nodes
-    gradients : (m, q, k, e) of the shape functions
-    weights : (m, q) volumes of the points
-    values : (q, k) shape functions
-    modes : internal modes of the cells
-    first : where the points of the group begin among all
-    """
-
-    group: Group
-    cells: IntArray
-    gradients: Array
-    weights: Array
-    values: Array
-    modes: Modes
-    first: int
-
-    @property
-    def own(self) -> slice:
-        """The points of the group among all."""
-        return slice(self.first, self.first + self.weights.size)
-
-    @property
-    def internal(self) -> bool:
-        """Whether the cells have internal modes."""
-        return bool(self.modes.gradients.shape[2])
-
-    def amplitudes(self, stress: Array) -> Array:
-        """(m k' d,) By which modes give way to stresses (m q, n), compression and all: ``K_aa^-1 int G^T sigma``."""
-        cells, m = self._own_cells, len(self.cells)
-        forces = np.zeros(cells.size * (2 if stress.shape[1] == 4 else 3))
-        kernels.add_forces(cells, self.modes.gradients, self.weights, stress, len(forces) // cells.size, forces)
-        found: Array = (self.modes.inverse @ forces.reshape(m, -1, 1)).ravel()
-        return found
-
-    def add_mode_strains(self, amplitudes: Array, out: Array) -> None:
-        """Add the strains of modes at amplitudes (m k' d,) to those of the points, (m q, n)."""
-        cells = self._own_cells
-        kernels.add_strains(cells, self.modes.gradients, amplitudes, len(amplitudes) // cells.size, out)
-
-    @property
-    def _own_cells(self) -> IntArray:
-        """(m, k') Numbers of the modes, each in one cell."""
-        m, _, count, _ = self.modes.gradients.shape
-        return np.arange(m * count).reshape(m, count)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -346,24 +293,8 @@ def yielding_bodies(space: Space, model: Model) -> YieldingBodies:
     ----------
     space, model : the mesh and what is on it; at least one body yields
     """
-    groups, first, elasticity = [], 0, elasticities(model)
-    for group in yielding_groups(space, model):
-        points = kinematics(space, model, group)
-        gradients = np.ascontiguousarray(points.gradients[:, :, : points.nodes])
-        modes = np.ascontiguousarray(points.gradients[:, :, points.nodes :])
-        weights = np.ascontiguousarray(points.weights)
-        groups.append(
-            PointGroup(
-                group=group,
-                cells=np.ascontiguousarray(group.cells, np.int64),
-                gradients=gradients,
-                weights=weights,
-                values=points.values,
-                modes=eliminated(gradients, modes, weights, elasticity[group.body]),
-                first=first,
-            )
-        )
-        first += points.weights.size
+    elasticity = elasticities(model)
+    groups = tuple(point_groups(space, model, elasticity))
     body = np.concatenate([np.repeat(group.group.body, group.weights.shape[1]) for group in groups])
     sizes = np.concatenate([[0], *(np.full(len(group.cells), group.cells.shape[1]) for group in groups)])
     corner = np.concatenate([group.cells.ravel() for group in groups]).astype(np.int32)
@@ -371,53 +302,9 @@ def yielding_bodies(space: Space, model: Model) -> YieldingBodies:
     return YieldingBodies(
         space=space,
         model=model,
-        groups=tuple(groups),
-        laws=_laws(model),
+        groups=groups,
+        laws=yield_laws(model),
         body=body.astype(np.int64),
         elasticity=elasticity,
         pattern=pattern,
-    )
-
-
-def yielding_groups(space: Space, model: Model) -> Iterator[Group]:
-    """Cells that may yield, by family and formulation: the order of the points."""
-    yields = np.array([_plastic(body.material) is not None for body in model.bodies])
-    for every in straining_groups(space, model):
-        group = _among(every, yields)
-        if group is not None:
-            yield group
-
-
-def _among(group: Group, yields: BoolArray) -> Group | None:
-    """The cells of a group whose bodies yield."""
-    own = yields[group.body]
-    if not own.any():
-        return None
-    return Group(block=group.block, index=group.index[own], body=group.body[own], formulation=group.formulation)
-
-
-def _plastic(material: Material) -> Plastic | None:
-    return material.plastic if isinstance(material, Elastic) else None
-
-
-def _laws(model: Model) -> YieldLaws:
-    """Material data of all bodies, with tables of one width."""
-    plastics = [_plastic(body.material) for body in model.bodies]
-    tables = [np.zeros((1, 2)) if plastic is None else plastic.curve for plastic in plastics]
-    backs = [() if plastic is None else plastic.backstresses for plastic in plastics]
-    width, most = max(len(table) for table in tables), max(len(back) for back in backs)
-    filled = np.array([[*table, *[table[-1]] * (width - len(table))] for table in tables])
-    back = np.zeros((len(backs), most, 2))
-    for b, rows in enumerate(backs):
-        back[b, : len(rows)] = np.reshape(rows, (-1, 2))
-    return YieldLaws(
-        shear=np.array([body.material.shear_modulus for body in model.bodies]),
-        bulk=np.array([body.material.bulk_modulus for body in model.bodies]),
-        strain=np.ascontiguousarray(filled[:, :, 0]),
-        stress=np.ascontiguousarray(filled[:, :, 1]),
-        rows=np.array([0 if plastic is None else len(plastic.curve) for plastic in plastics]),
-        beyond=np.array([0.0 if plastic is None else plastic.hardening for plastic in plastics]),
-        back=np.ascontiguousarray(back[..., 0]),
-        recovery=np.ascontiguousarray(back[..., 1]),
-        thin=model.kind == "plane stress",
     )

@@ -13,7 +13,7 @@ from signorini.fem.kinematics import Group, groups
 from signorini.fem.space import Space
 from signorini.fem.stress import at_best_points, nodal_averages
 from signorini.model.model import Model
-from signorini.plasticity.bodies import yielding_groups
+from signorini.plasticity.groups import yielding_groups
 from signorini.plasticity.state import PlasticState
 from signorini.short import Short
 

@@ -7,7 +7,8 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import Array, IntArray
-from signorini.plasticity.radial_return import ROOT23, Points, YieldLaws, yield_stress_at
+from signorini.plasticity.laws import YieldLaws, yield_stress_at
+from signorini.plasticity.radial_return import ROOT23, Points
 
 
 @njit(cache=True)

@@ -24,8 +24,9 @@ from numba import njit
 
 from signorini.arrays import Array, IntArray
 from signorini.plasticity.kernels import strain_rows
+from signorini.plasticity.laws import YieldLaws
 from signorini.plasticity.linearised import taken
-from signorini.plasticity.radial_return import Points, YieldLaws, respond_at
+from signorini.plasticity.radial_return import Points, respond_at
 
 _BALANCE_TOL = 1e-15  # of the trial stresses that forces on modes are summed from: zero
 _NOISE = 1e-10  # of the same: below it forces that no longer fall are what rounding leaves

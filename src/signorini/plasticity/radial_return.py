@@ -17,6 +17,7 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.plasticity.laws import YieldLaws, yield_stress_at
 
 ROOT23, ROOT32 = np.sqrt(2.0 / 3.0), np.sqrt(1.5)
 
@@ -24,31 +25,6 @@ _RETURN_TOL = 1e-14  # of the radius: rounding of the sums it is made of
 _RETURN_ROUNDS = 60  # of Newton's method with bisection in a bracket: the last resort of 1e-18
 _ACROSS_TOL = 1e-14  # of the bulk modulus times the strain: stress across that plane stress may leave
 _ACROSS_ROUNDS = 40  # of Newton's method for the strain across; 3 to 6 are the rule
-
-
-class YieldLaws(NamedTuple):
-    """Material data of all bodies, a row each; a named tuple, because compiled loops read it.
-
-    Attributes
-    ----------
-    shear, bulk : (b,) moduli, force per area
-    strain, stress : (b, w) tables of the yield stress over the equivalent plastic strain, padded with the last row
-    rows : (b,) rows of the tables; 0: the body never yields
-    beyond : (b,) slope behind the last row, force per area
-    back : (b, M) C of the back stresses, force per area; 0: none
-    recovery : (b, M) gamma of the back stresses
-    thin : whether the stress across vanishes, as in plane stress
-    """
-
-    shear: Array
-    bulk: Array
-    strain: Array
-    stress: Array
-    rows: IntArray
-    beyond: Array
-    back: Array
-    recovery: Array
-    thin: bool
 
 
 class Points(NamedTuple):
@@ -84,20 +60,6 @@ class Points(NamedTuple):
             slack=self.slack[own],
             yields=self.yields[own],
         )
-
-
-@njit(cache=True, inline="always", error_model="numpy")
-def yield_stress_at(laws: YieldLaws, body: int, p: float) -> tuple[float, float]:
-    """Yield stress of a body and its slope at an equivalent plastic strain p; ``laws`` are the material data."""
-    n = laws.rows[body]
-    last = laws.strain[body, n - 1]
-    if p >= last:
-        return laws.stress[body, n - 1] + laws.beyond[body] * (p - last), laws.beyond[body]
-    i = 0
-    while p >= laws.strain[body, i + 1]:
-        i += 1
-    slope = (laws.stress[body, i + 1] - laws.stress[body, i]) / (laws.strain[body, i + 1] - laws.strain[body, i])
-    return laws.stress[body, i] + slope * (p - laws.strain[body, i]), slope
 
 
 @njit(cache=True, inline="always", error_model="numpy")

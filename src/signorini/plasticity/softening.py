@@ -17,9 +17,10 @@ from numba import njit
 from signorini.arrays import Array, IntArray
 from signorini.fem._kernels import scatter
 from signorini.plasticity.kernels import strain_rows
+from signorini.plasticity.laws import YieldLaws
 from signorini.plasticity.linearised import taken
 from signorini.plasticity.modes import Modes, softened
-from signorini.plasticity.radial_return import Points, YieldLaws
+from signorini.plasticity.radial_return import Points
 
 
 @njit(cache=True)
