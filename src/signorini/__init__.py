@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from signorini.model.step import Step
     from signorini.model.triangulated import Surface
     from signorini.model.varying import Along
+    from signorini.model.wear import Wear
     from signorini.settings import SolverSettings
 
 __all__ = [
@@ -69,6 +70,7 @@ __all__ = [
     "Support",
     "Surface",
     "Torus",
+    "Wear",
     "__version__",
     "annulus",
     "box",
@@ -113,6 +115,7 @@ _HOMES = {
     "signorini.model.step": ("Step",),
     "signorini.model.triangulated": ("Surface",),
     "signorini.model.varying": ("Along",),
+    "signorini.model.wear": ("Wear",),
     "signorini.settings": ("SolverSettings",),
 }
 _MODULES = {"lcp": "signorini.lcp", "paper": "signorini.engine.paper"}

@@ -17,6 +17,7 @@ from signorini.model.conditions import Foundation, Load, Support
 from signorini.model.material import Elastic, Orthotropic
 from signorini.model.plastic import Plastic
 from signorini.model.step import Step
+from signorini.model.wear import Wear
 from signorini.settings import SolverSettings
 
 MANUAL = (Path(__file__).parents[2] / "docs" / "deck.md").read_text()
@@ -42,7 +43,7 @@ def test_every_key_is_explained() -> None:
     }
     keys |= {
         field.name
-        for kind in (Support, Foundation, Load, Step, Body, Elastic, Plastic, Orthotropic, SolverSettings)
+        for kind in (Support, Foundation, Load, Step, Body, Elastic, Plastic, Orthotropic, Wear, SolverSettings)
         for field in fields(kind)
     }
     keys |= {name for generator in GENERATORS.values() for name in inspect.signature(generator).parameters}

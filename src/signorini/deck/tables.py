@@ -24,6 +24,7 @@ from signorini.model.rigid import Rigid
 from signorini.model.step import Step
 from signorini.model.triangulated import Surface
 from signorini.model.varying import Along
+from signorini.model.wear import Wear
 from signorini.sources import Reach
 
 Made = TypeVar("Made")
@@ -275,6 +276,8 @@ def _contact(entry: dict[str, Any], where: Where, reach: Reach, mesh: Mesh) -> C
     given = _sided(entry, where)
     if isinstance(given.get("friction"), dict):
         given["friction"] = _friction(given["friction"], (*where, "friction"))
+    if "wear" in given:
+        given["wear"] = make(Wear, table(given["wear"], (*where, "wear")), (*where, "wear"))
     sides = [key for key in ("mortar", *OBSTACLES) if key in given]
     if len(sides) != 1:
         found = "both " + " and ".join(f"'{key}'" for key in sides) if sides else "no other side"

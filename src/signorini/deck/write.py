@@ -18,6 +18,7 @@ from signorini.law.friction import FrictionLaw
 from signorini.model.material import Material
 from signorini.model.model import Model
 from signorini.model.varying import Along
+from signorini.model.wear import Wear
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 _SHAPES = {kind: key for key, kind in reversed(OBSTACLES.items())}  # a sphere is a circle
@@ -134,6 +135,8 @@ def _value(value: Any) -> str:
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, FrictionLaw):
         value = value.table
+    if isinstance(value, Wear):
+        value = _given(value)
     if isinstance(value, Along):
         value = {value.axis: value.at, "mu": value.values}
     if callable(value):

@@ -16,7 +16,8 @@ _AHEAD = 2.0  # of the loads of a step that reaches farther than any before: gro
 
 
 def candidate_pairs(examined: Examined, loading: Loading, before: BoolArray | None = None) -> BoolArray:
-    """(n,) Pairs that can touch; all where those alone would not hold a body, and in the plane where one yields.
+    """(n,) Pairs that can touch; all where those alone would not hold a body, and in the plane where one
+    yields or a side wears.
 
     They depend on the past and on the step alone, so that a history that is cut and goes on has the same.
 
@@ -27,6 +28,8 @@ def candidate_pairs(examined: Examined, loading: Loading, before: BoolArray | No
     before : (n,) those of the steps before it, which stay and are given back where they are enough
     """
     if examined.model.yields and examined.space.dimension == 2:  # flow moves bodies farther than loads compress them
+        return np.ones(len(examined.interface), np.bool_)
+    if examined.model.wears and examined.space.dimension == 2:  # what is worn lets others touch
         return np.ones(len(examined.interface), np.bool_)
     if before is None:
         found = _reached(examined, loading)

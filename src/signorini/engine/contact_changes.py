@@ -110,10 +110,16 @@ def staged(prepared: Prepared, stage: Stage, loading: Loading) -> Prepared:
     return prepared.under(interface, loading, absent)
 
 
-def nominal_gap(prepared: Prepared, stage: Stage) -> Array:
-    """(n,) Initial gaps under the interferences at the end of a step."""
+def nominal_gap(prepared: Prepared, stage: Stage, state: State) -> Array:
+    """(n,) Gaps under the interferences at the end of a step, between sides as worn as they are at its beginning.
+
+    Parameters
+    ----------
+    prepared, stage : the model, and the step
+    state : at the beginning of the step
+    """
     gap = prepared.interface.gap.copy()
     for i, contact in enumerate(prepared.model.contacts):
         if contact.label in stage.interference:
             gap[prepared.interface.contact == i] += contact.interference - stage.interference[contact.label]
-    return gap
+    return gap + prepared.worn_gap(state)

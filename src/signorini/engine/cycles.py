@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -38,22 +39,33 @@ def make_cycles(followed: FollowedPart, ends: Sequence[float]) -> tuple[Cycle, .
         sliding, last = sliding + _across(state.slip - last, n), state.slip
         if snapshot.load_factor != ends[len(found)]:
             continue
-        size = float(np.abs(state.forces).max(initial=0.0)) or 1.0
         found.append(
-            Cycle(
-                number=len(found) + 1,
-                load_factor=snapshot.load_factor,
-                work=state.work - begin.work,
-                dissipation=float((state.dissipation - begin.dissipation).sum()),
-                released=state.released - begin.released,
-                sliding=float(sliding.max(initial=0.0)),
-                change=float(np.abs(state.forces - begin.forces).max(initial=0.0)) / size,
-                drift=_drift(begin, state),
-                **_flow(begin, state),
-            )
+            replace(cycle_between(begin, state, sliding), number=len(found) + 1, load_factor=snapshot.load_factor)
         )
         begin, sliding = state, np.zeros(n)
     return tuple(found)
+
+
+def cycle_between(begin: State, end: State, sliding: Array) -> Cycle:
+    """A cycle from one state to another; its number and load factor are left open.
+
+    Parameters
+    ----------
+    begin, end : the states
+    sliding : (n,) distance slid in it
+    """
+    size = float(np.abs(end.forces).max(initial=0.0)) or 1.0
+    return Cycle(
+        number=0,
+        load_factor=0.0,
+        work=end.work - begin.work,
+        dissipation=float((end.dissipation - begin.dissipation).sum()),
+        released=end.released - begin.released,
+        sliding=float(sliding.max(initial=0.0)),
+        change=float(np.abs(end.forces - begin.forces).max(initial=0.0)) / size,
+        drift=_drift(begin, end),
+        **_flow(begin, end),
+    )
 
 
 def _drift(begin: State, end: State) -> float:

@@ -106,6 +106,8 @@ def formulate(model: Model | Prepared, *, E_n: float, E_tau: float) -> PaperForm
     for i, contact in enumerate(prepared.model.contacts):
         if contact.friction in ("stick", "tied") or contact.normal_compliance or contact.tangential_compliance:
             raise InputError("the paper's law has a finite friction and its own penalties", where=("contact", i))
+        if contact.wear is not None:
+            raise InputError("the paper's sides do not wear; expected none", where=("contact", i, "wear"))
         if not contact.coulomb:
             raise InputError("the paper's law is Coulomb's, without adhesion or shear limit", where=("contact", i))
     if not condensed.active.any():

@@ -28,6 +28,7 @@ from signorini.fem.stiffness import reduced_stiffness, stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface, under_laws
+from signorini.interface.worn_sides import WornSides, worn_sides
 from signorini.linalg.threads import one_thread
 from signorini.model.model import Model
 from signorini.model.stage import Stage, stages
@@ -36,12 +37,17 @@ from signorini.settings import SolverSettings
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.scale import Loading, data_scale, loading_of
+from signorini.solution.state import State
 
 _UNCONDENSED = (
     "an exact path needs the condensed interface, and this model is solved by iteration, because its factor does not "
     "fit or because it was asked for; expected path = 'increments'"
 )
 
+_UNCONDENSED_WEAR = (
+    "needs the condensed interface, and this model is solved by iteration, because its factor does not fit or because "
+    "it was asked for; expected a smaller model, or none that wears"
+)
 
 _KEPT = 4  # factorisations: a history needs one for each set of supports, and seldom two for its pairs
 
@@ -63,6 +69,7 @@ class Prepared(Examined, DiscreteModel):
     multiplied : what values of moving supports are multiplied by, beyond the model's
     resting : (dofs,) rigid displacement of bodies that rest, see `engine.floating_bodies`; empty where none does
     flowed : (dofs,) forces of plastic strain that does not change, so that bodies answer as elastic ones; else empty
+    wearing : sides that wear, as the pairs see them; None where none does
     kept : the last that was factorised, by supports released and candidates, to be found again; None: nothing is kept
     """
 
@@ -77,6 +84,7 @@ class Prepared(Examined, DiscreteModel):
     multiplied: Mapping[str, float] = field(default_factory=dict)
     resting: Array = field(default_factory=lambda: np.zeros(0))
     flowed: Array = field(default_factory=lambda: np.zeros(0))
+    wearing: WornSides | None = None
     kept: dict[tuple[frozenset[str], bytes], Condensed] | None = None
 
     @property
@@ -142,7 +150,14 @@ class Prepared(Examined, DiscreteModel):
                 self.kept.pop(next(iter(self.kept)))
             self.kept[key] = made.solver.paths.condensed
         return _flowing(
-            replace(made, released=self.released, multiplied=self.multiplied, kept=self.kept), self.yielding
+            replace(
+                made,
+                released=self.released,
+                multiplied=self.multiplied,
+                kept=self.kept,
+                wearing=self.wearing,
+            ),
+            self.yielding,
         )
 
     def keeping(self) -> Prepared:
@@ -185,6 +200,12 @@ class Prepared(Examined, DiscreteModel):
     def flows(self) -> bool:
         """Whether points may yield: some body does, and what has flowed is not held as it is."""
         return self.yielding is not None and not len(self.flowed)
+
+    def worn_gap(self, state: State) -> Array:
+        """(n,) What sides that are worn as in a state add to the gaps, length."""
+        if self.wearing is None or state.wear is None:
+            return np.zeros(len(self.interface))
+        return np.asarray(self.wearing.gap @ state.wear.depth, dtype=np.float64)
 
     @property
     def watched(self) -> bool:
@@ -285,7 +306,10 @@ def prepare(
         near = candidate_pairs(examined, examined.loading, None if start is None else start.near)
     made = _made(examined, K, near, backend, settings or SolverSettings(), clock)
     before = None if start is None else start.standing
-    made = replace(made, released=next(stages(model, before=before)).released)
+    wearing = worn_sides(made.space, model, made.interface) if model.wears else None
+    if wearing is not None and made.solver.paths is None:
+        raise InputError(_UNCONDENSED_WEAR, where=("contact", int(wearing.contact[0]), "wear"))
+    made = replace(made, released=next(stages(model, before=before)).released, wearing=wearing)
     return _flowing(made, yielding_bodies(made.space, model) if model.yields else None)
 
 

@@ -50,7 +50,7 @@ def step_result(
     before, state = followed.before, followed.after
     heat = thermal_energy(prepared)
     instants = tuple(_instants(prepared, followed, cycle_ends, heat))
-    cycles = make_cycles(followed, cycle_ends) if len(cycle_ends) > 1 else ()
+    cycles = followed.cycles or (make_cycles(followed, cycle_ends) if len(cycle_ends) > 1 else ())
     steadiness, words = judge(cycles, prepared.scale) if cycles else ("", "")
     stored, dissipated = stored_energy(prepared, state), (state.dissipation - before.dissipation).sum()
     spent = stored - stored_energy(prepared, before) + float(dissipated) + state.released - before.released

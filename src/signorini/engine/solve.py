@@ -27,6 +27,7 @@ from signorini.engine.step_parts import (
 )
 from signorini.engine.support_changes import at_the_end, handed_over, refuse_moved
 from signorini.engine.ways import follow_part
+from signorini.engine.wear_steps import follow_wearing
 from signorini.engine.wellposed import assess
 from signorini.errors import InputError, Interrupted, SolveFailed
 from signorini.fem.supports import Constraints, make_constraints
@@ -42,6 +43,7 @@ from signorini.solution.history import History
 from signorini.solution.results import StepResult
 from signorini.solution.scale import Loading, data_scale
 from signorini.solution.state import LoadPoint, State, initial_state
+from signorini.solution.wear_state import unworn
 
 RELAXED = "friction is lower than what pairs carried: they slip at once, before the loads of the step"
 """What a step says whose change of friction lets pairs slip."""
@@ -116,6 +118,8 @@ def _first(prepared: Prepared) -> Checkpoint:
     state = initial_state(zero, prepared.space.number_of_dofs, interface)
     if prepared.yielding is not None:
         state = replace(state, plastic=prepared.yielding.untouched())
+    if prepared.wearing is not None:
+        state = replace(state, wear=unworn(prepared.wearing))
     standing = Standing(released=prepared.released)
     return Checkpoint.of(model, interface, state, standing, Loading(), prepared.candidates)
 
@@ -125,7 +129,7 @@ def _fitting(prepared: Prepared, start: Checkpoint) -> Checkpoint:
     model, point = prepared.model, start.state.point
     zero = dict.fromkeys(model.scaled_names, 0.0)
     factors = zero | {name: factor for name, factor in point.factors.items() if name in zero}
-    state = replace(start.state, point=replace(point, factors=factors))
+    state = _worn_alike(prepared, replace(start.state, point=replace(point, factors=factors)))
     constraints = _constraints(prepared, start.standing.released)
     now = replace(
         prepared,
@@ -142,6 +146,20 @@ def _fitting(prepared: Prepared, start: Checkpoint) -> Checkpoint:
             where=("start",),
         )
     return replace(start, state=state)
+
+
+def _worn_alike(prepared: Prepared, state: State) -> State:
+    """A state whose sides are worn where those of the model wear; nowhere, where nothing was worn before it."""
+    sides = 0 if prepared.wearing is None else len(prepared.wearing)
+    if prepared.wearing is not None and state.wear is None:
+        return replace(state, wear=unworn(prepared.wearing))
+    if state.wear is not None and len(state.wear.depth) != sides:
+        raise InputError(
+            f"has sides that are worn at {len(state.wear.depth)} nodes; sides of the model wear at {sides}, expected "
+            "the same",
+            where=("start",),
+        )
+    return state
 
 
 def _follow(
@@ -243,11 +261,17 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[FollowedPart,
     reaction, offset = at_the_end(prepared, stage, state.point)
     end = LoadPoint(
         factors=stage.ends[-1],
-        gap=nominal_gap(prepared, stage),
+        gap=nominal_gap(prepared, stage, state),
         given=np.zeros_like(state.point.given),
         reaction=reaction,
         offset=offset,
     )
+    if prepared.wearing is not None:
+        try:
+            parts, cycle_ends = follow_wearing(prepared, stage, state, end, heated=heated)
+        except (SolveFailed, KeyboardInterrupt) as stop:
+            raise keep(stop, behind) from None
+        return joined([*behind, *parts]), cycle_ends
     for interval, point in straight_parts(stage, state.point, end):
         part = StepPart(
             prepared=prepared, where=stage.name, interval=interval, before=state, end=point, whole=at_events

@@ -16,7 +16,7 @@ from signorini.engine.prepare import Prepared
 from signorini.errors import Interrupted, SolveFailed
 from signorini.model.stage import Stage
 from signorini.solution.certificate import Certificate
-from signorini.solution.results import PairEvent
+from signorini.solution.results import Cycle, PairEvent
 from signorini.solution.state import LoadPoint, State
 
 _KINK_TOL = 1e-9  # of a step: kinks and times asked for that are closer are one
@@ -30,7 +30,8 @@ class Interval:
     ----------
     number : of the step, from 1
     low, high : parts of the step, 0 .. 1
-    ends : what is at its end: "segment" of the loads, a time "asked" for, an "event" or a "jump"
+    ends : what is at its end: "segment" of the loads, a time "asked" for, an "event" or a "jump"; or "wear" of sides,
+        at one load
     cycle : number of the cycle that ends here, 0 where none does
     asked : whether its end, not that of the step, was asked for
     """
@@ -38,7 +39,7 @@ class Interval:
     number: int
     low: float
     high: float
-    ends: Literal["segment", "asked", "event", "jump"]
+    ends: Literal["segment", "asked", "event", "jump", "wear"]
     cycle: int = 0
     asked: bool = False
 
@@ -52,38 +53,42 @@ class Interval:
 
     def within(self, fraction: float) -> float:
         """The fraction of this interval at a fraction of the step; no number of the step is in its digits."""
-        return (fraction - self.low) / (self.high - self.low)
+        return (fraction - self.low) / (self.high - self.low) if self.high > self.low else 1.0
 
 
-def straight_parts(stage: Stage, start: LoadPoint, end: LoadPoint) -> Iterator[tuple[Interval, LoadPoint]]:
+def straight_parts(
+    stage: Stage, start: LoadPoint, end: LoadPoint, cycle: int | None = None
+) -> Iterator[tuple[Interval, LoadPoint]]:
     """The straight parts of a step, each with the point at its end.
 
     Parameters
     ----------
     stage : the step
     start, end : points at the ends of the step; everything but factors changes linearly from one to the other
+    cycle : the only one that is asked for, from 1; None: all
     """
     count, step = len(stage.ends), stage.step
-    kinks = [(j / count, "segment") for j in range(1, count + 1)]
-    asked = step.at if isinstance(step.at, tuple) else ()
+    first, last = (0, count) if cycle is None else ((cycle - 1) * step.segments, cycle * step.segments)
+    kinks = [(j / count, "segment") for j in range(first + 1, last + 1)]
+    low = first / count
+    begin, close = low + (_KINK_TOL if first else 0.0), last / count + _KINK_TOL
+    asked = tuple(part for part in step.at if begin < part <= close) if isinstance(step.at, tuple) else ()
     between = tuple(part for part in asked if min(abs(part - kink) for kink, _ in kinks) > _KINK_TOL)
-    low = 0.0
     for high, what in sorted([*kinks, *((part, "asked") for part in between)]):
         j = min(int(np.ceil(high * count - _KINK_TOL)), count) - 1
-        first = stage.ends[j - 1] if j else start.factors
+        before = stage.ends[j - 1] if j else start.factors
         t = high * count - j if what == "asked" else 1.0
         way = start.towards(end, high)
-        factors = {name: (1.0 - t) * first.get(name, 0.0) + t * value for name, value in stage.ends[j].items()}
+        factors = {name: (1.0 - t) * before.get(name, 0.0) + t * value for name, value in stage.ends[j].items()}
         point = replace(way, factors=stage.ends[j] if t == 1.0 else factors)
         finished = what == "segment" and (j + 1) % step.segments == 0
-        cycle = (j + 1) // step.segments if finished else 0
         yield (
             Interval(
                 number=stage.number,
                 low=low,
                 high=high,
                 ends="asked" if what == "asked" else "segment",
-                cycle=cycle,
+                cycle=(j + 1) // step.segments if finished else 0,
                 asked=high < 1.0 and any(abs(part - high) <= _KINK_TOL for part in asked),
             ),
             point,
@@ -133,7 +138,7 @@ class StepPart:
         return replace(self, before=state, interval=replace(self.interval, low=cut.interval.high))
 
 
-What = Literal["start", "event", "increment", "asked", "segment", "jump", "landing", "change", "approach"]
+What = Literal["start", "event", "increment", "asked", "segment", "jump", "landing", "change", "approach", "wear"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -187,6 +192,7 @@ class FollowedPart:
     snapshots : on the way, in order, the end last
     events : of an exact path
     notes : what a reader should know of the way
+    cycles : of sides that wear, as they were gone through; otherwise they are found in the snapshots
     """
 
     path: str
@@ -197,6 +203,7 @@ class FollowedPart:
     snapshots: tuple[Snapshot, ...]
     events: tuple[PairEvent, ...] = ()
     notes: tuple[str, ...] = ()
+    cycles: tuple[Cycle, ...] = ()
 
 
 def lightened(followed: FollowedPart, *, every: bool, end: bool, heated: bool) -> FollowedPart:
@@ -229,6 +236,7 @@ def joined(behind: Sequence[FollowedPart]) -> FollowedPart:
         snapshots=tuple(chain.from_iterable(followed.snapshots for followed in behind)),
         events=tuple(chain.from_iterable(followed.events for followed in behind)),
         notes=tuple(dict.fromkeys(chain.from_iterable(followed.notes for followed in behind))),
+        cycles=tuple(chain.from_iterable(followed.cycles for followed in behind)),
     )
 
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
@@ -14,6 +14,7 @@ from signorini.checks import choice, number, text, vector, whole
 from signorini.errors import InputError, Where
 from signorini.law.friction import Coulomb, FrictionLaw
 from signorini.model.obstacle import Obstacle
+from signorini.model.wear import Wear
 
 COUPLINGS = ("auto", "nodes", "mortar", "node-to-segment")
 
@@ -55,6 +56,7 @@ class Contact:
     search : how far apart facets can be and still be opposite each other, length; by default half the size of the
         smaller side
     adjust : initial gaps up to this length are closed, and overlaps removed; None leaves them
+    wear : how sliding wears the sides; None (default): not at all
 
     Examples
     --------
@@ -79,6 +81,7 @@ class Contact:
     adjust: float | None = None
     friction_axis: tuple[float, float, float] | None = None
     facets: int = 0
+    wear: Wear | None = None
 
     def __post_init__(self) -> None:
         text(self.nonmortar, ("nonmortar",))
@@ -107,6 +110,21 @@ class Contact:
                     raise InputError("is given, but a tied contact is neither pressed nor compliant", where=(key,))
         if self.adjust is not None and self.gap != "geometry":
             raise InputError("goes with gap = 'geometry' only", where=("adjust",))
+        if self.wear is not None:
+            self._check_wear(self.wear)
+
+    def _check_wear(self, wear: Wear) -> None:
+        """What wears slides, by friction that does work where the law is one of energy."""
+        if not isinstance(wear, Wear):
+            raise InputError(f"is {wear!r}; expected a Wear", where=("wear",))
+        if self.friction in ("stick", "tied"):
+            words = "is tied" if self.tied else "never slips"
+            raise InputError(f"is given, but the contact {words}, and nothing wears", where=("wear",))
+        if wear.by_energy and self.friction == 0.0 and self.adhesion == 0.0:
+            raise InputError(
+                "goes by the work of friction, and the contact has none; expected a coefficient",
+                where=("wear", "energy"),
+            )
 
     def _check_law(self) -> None:
         """What a law of friction says of itself, and what goes with it."""
@@ -139,6 +157,19 @@ class Contact:
         if self.facets and self.tied:
             raise InputError(f"is {self.facets}, but a tied contact has no friction cone", where=("facets",))
 
+    def check_bodies(self, yielding: Sequence[str]) -> None:
+        """What goes with bodies some of which yield, by name.
+
+        Raises
+        ------
+        InputError
+            If the contact wears.
+        """
+        if self.wear is not None and yielding:
+            raise InputError(
+                f"is given, but '{yielding[0]}' yields; expected elastic bodies where sides wear", where=("wear",)
+            )
+
     def check_plane(self) -> None:
         """What goes with a plane model.
 
@@ -169,6 +200,11 @@ class Contact:
                     f"is {getattr(self, key)!r}; that is for two meshed sides, and the other is a rigid obstacle",
                     where=(key,),
                 )
+        if self.wear is not None and self.wear.mortar:
+            raise InputError(
+                f"is {self.wear.mortar:g}, but the other side is a rigid obstacle, which does not wear; expected 0",
+                where=("wear", "mortar"),
+            )
 
     def check_exact(self, where: Where, *, in_space: bool) -> None:
         """What goes with an exact path: straight branches of friction, and in space no smooth section.

@@ -146,6 +146,11 @@ class Model(Short):
         return any(body.material.yields for body in self.bodies)
 
     @property
+    def wears(self) -> bool:
+        """Whether sliding wears any contact."""
+        return any(contact.wear is not None for contact in self.contacts)
+
+    @property
     def thicknesses(self) -> list[float]:
         """Of every body, length; 1 in models that have none."""
         return [self.thickness if body.thickness is None else body.thickness for body in self.bodies]
@@ -241,11 +246,12 @@ class Model(Short):
             raise InputError("an axisymmetric body rotates about its axis", where=("load", i, "centre"))
 
     def _check_contact(self, i: int, contact: Contact) -> None:
-        if self.dimension == 2:
-            try:
+        try:
+            contact.check_bodies([body.name for body in self.bodies if body.material.yields])
+            if self.dimension == 2:
                 contact.check_plane()
-            except InputError as error:
-                raise error.inside("contact", i) from error
+        except InputError as error:
+            raise error.inside("contact", i) from error
         self._check_place(contact.nonmortar, ("contact", i, "nonmortar"), nodes=False)
         if isinstance(contact.mortar, Obstacle):
             if contact.mortar.dimension != self.dimension:
@@ -354,6 +360,8 @@ class Model(Short):
                     raise InputError(one_of(name, names, "load or moving support"), where=("step", i, "scale"))
             self._check_contact_names(i, step)
             self._check_support_names(i, step)
+            if step.block is not None and not self.wears:
+                raise InputError("is given, but no contact wears", where=("step", i, "block"))
             if step.path == "exact":
                 for contact in self.contacts:
                     contact.check_exact(("step", i, "path"), in_space=self.kind == "3d")

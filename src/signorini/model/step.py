@@ -44,11 +44,14 @@ class Step:
     increments : equal parts in which every segment is solved, or "auto": more and more until the contact forces
         change less than ``tolerance``, in space such as end at events; None leaves it to ``path``
     tolerance : of "auto", relative to the largest contact force; None: 1e-3. Where bodies yield, of tractions in
-        the norm of areas and of plastic work; None: 1e-2
+        the norm of areas and of plastic work; None: 1e-2. Where contacts wear, of ``block = "auto"``; None: 1e-2
     path : "increments", or "exact": from event to event (a pair closes, opens, slips, sticks), without any step size;
         in space for contacts with ``facets``. None chooses: "increments" where their number is given or nothing rubs
         (one is exact then), otherwise "exact", in space increments as with "auto", some tens at most, and the notes
         say what they left
+    block : where contacts wear, cycles that one of them stands for, implicitly: what wears in a block is what the
+        last of its cycles wears on the worn surfaces, times their number; "auto": as many as keep the error of a
+        block below ``tolerance`` of what it wears. None wears after every cycle what it has worn, explicitly
     jump : where an exact path, in space also one in increments that end at events, has no gradual continuation, "stop"
         there, or "follow" the equilibria to the next one at that load, which is called a candidate. None stops where
         the path is asked to be exact, otherwise follows
@@ -74,6 +77,7 @@ class Step:
     tolerance: float | None = None
     path: Literal["increments", "exact"] | None = None
     jump: Literal["stop", "follow"] | None = None
+    block: int | Literal["auto"] | None = None
 
     def __post_init__(self) -> None:
         if self.name:
@@ -89,6 +93,10 @@ class Step:
             choice(self.path, ("increments", "exact"), ("path",), "path")
         if self.jump is not None:
             choice(self.jump, ("stop", "follow"), ("jump",), "answer to jumps")
+        if isinstance(self.block, str):
+            choice(self.block, ("auto",), ("block",), "number of cycles")
+        elif self.block is not None:
+            whole(self.block, ("block",), most=_MAX_COUNT)
         if self.path == "exact" and self.increments is not None:
             raise InputError("has a number of increments, but the path is exact; expected one of both")
         if self.scale is not None:

@@ -34,6 +34,7 @@ _HOMES = (
     "signorini.model.stage",
     "signorini.model.step",
     "signorini.model.varying",
+    "signorini.model.wear",
     "signorini.plasticity.measure",
     "signorini.plasticity.state",
     "signorini.solution.certificate",
@@ -42,6 +43,7 @@ _HOMES = (
     "signorini.solution.results",
     "signorini.solution.scale",
     "signorini.solution.state",
+    "signorini.solution.wear_state",
 )
 _FORMER_NAMES = {"Attempt": "MethodRun"}  # of classes: files that were written before are read
 _MARK = "$"

@@ -200,7 +200,7 @@ class Instant(Short):
     load_factor : step k goes from k - 1 to k
     what : "start", "event", "increment", "asked", "segment" (of the step ends), "jump" and "landing" (its two ends),
         "change" (of the law of contact, before the loads of the step), "approach" (of bodies that float, up to where
-        they touch)
+        they touch), "wear" (of the sides, at one load)
     contacts : in the order of the model; gaps are NaN where the bodies were not looked at and a pair is far from
         touching, dissipation counts from the beginning of the step
     work : since the beginning of the step, NaN where the bodies were not looked at
@@ -251,6 +251,7 @@ class Cycle:
     drift : how far a pair that touches at both ends of it has moved along, length
     flow : largest growth of the equivalent plastic strain of a point in it
     plastic_drift : largest change of a point's plastic strain from its beginning to its end, equivalent
+    worn : volume that it wears, on both sides of all contacts
     """
 
     number: int
@@ -263,6 +264,7 @@ class Cycle:
     drift: float
     flow: float = 0.0
     plastic_drift: float = 0.0
+    worn: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)

@@ -16,6 +16,7 @@ from signorini.plasticity.measure import heat_work
 from signorini.plasticity.state import PlasticState
 from signorini.short import Short
 from signorini.solution.discrete_model import DiscreteModel
+from signorini.solution.wear_state import WearState
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -70,6 +71,7 @@ class State(Short):
     dissipation : (n,) frictional dissipation since the beginning
     released : energy set free at once since the beginning: in jumps, by changes of the law, by contacts switched off
     plastic : what the points of the bodies remember of plastic flow; None where no body yields
+    wear : what the sides have lost by wear; None where none wears
     """
 
     point: LoadPoint
@@ -85,6 +87,7 @@ class State(Short):
     dissipation: Array
     released: float
     plastic: PlasticState | None = None
+    wear: WearState | None = None
 
     @property
     def plastic_work(self) -> float:
@@ -176,4 +179,5 @@ def next_state(
         dissipation=state.dissipation + np.where(status == OPEN, 0.0, np.maximum(-spent, 0.0)),
         released=state.released - float(taken),
         plastic=plastic,
+        wear=state.wear,
     )

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contacts that wear: a cylinder that is rubbed on a flat."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from signorini.gallery.large_bodies import graded_lines, with_seat
+from signorini.meshing.plane import half_disk, rectangle
+from signorini.model.body import Body
+from signorini.model.conditions import Load, Support
+from signorini.model.contact import Contact
+from signorini.model.material import Elastic
+from signorini.model.mesh import Mesh, join
+from signorini.model.model import Model
+from signorini.model.step import Step
+from signorini.model.wear import Wear
+
+E, NU, RADIUS, FORCE, FRICTION = 200e3, 0.3, 6.0, 18.5, 0.9
+"""Of McColl, Ding and Leen's cylinder on a flat of the same steel: MPa, mm, N per mm of length."""
+
+WEAR = Wear(1.9e-8, mortar=2.9e-8)
+"""Of their cylinder and their flat, 1/MPa."""
+
+
+def rubbed_cylinder(
+    steps: Sequence[Step],
+    *,
+    wear: Wear | None = WEAR,
+    spacing: float = 0.01,
+    ratio: float = 1.0,
+    stroke: float = 0.0025,
+) -> Model:
+    """A cylinder pressed on a flat that is driven to and fro under it: "press" is the force, "drive" the motion.
+
+    Parameters
+    ----------
+    steps : factors of "press" and "drive"
+    wear : of cylinder and flat
+    spacing : of the nodes of the cylinder where they touch, length
+    ratio : of the flat's spacing to it; 1: nodes are opposite nodes
+    stroke : displacement of the flat at factor 1, length
+
+    References
+    ----------
+    McColl, Ding, Leen (2004), Finite element simulation and experimental validation of fretting wear, Wear 256:1114.
+    """
+    reach = 0.3
+    pad = _with_pole(half_disk(radius=RADIUS, contact_length=reach, contact_spacing=spacing), reach)
+    right = graded_lines(reach, ratio * spacing, RADIUS, 1.3)
+    down = graded_lines(0.1, spacing, RADIUS, 1.3)
+    flat = with_seat(rectangle(x=np.concatenate([-right[:0:-1], right]), y=-down[::-1]), "top", reach)
+    steel = Elastic(E=E, nu=NU)
+    return Model(
+        join({"pad": pad, "flat": flat}),
+        title="A cylinder rubbed on a flat",
+        bodies=[Body("pad", steel), Body("flat", steel)],
+        supports=[Support("pad.cut", u=(0.0, None)), Support("flat.bottom", u=(stroke, 0.0), name="drive")],
+        loads=[Load("pad.cut", force=(None, -FORCE), spread="displacement", name="press")],
+        contacts=[Contact("pad.seat", "flat.seat", friction=FRICTION, wear=wear, name="contact")],
+        steps=steps,
+    )
+
+
+def _with_pole(disk: Mesh, reach: float) -> Mesh:
+    """The disk with the facets of its arc around the lowest point as the boundary "seat"."""
+    (facets,) = disk.facets("arc")
+    x, y = np.moveaxis(disk.points[facets], -1, 0)
+    own = (np.abs(x).max(axis=1) <= reach * (1.0 + 1e-9)) & (y.max(axis=1) < 0.5 * RADIUS)
+    return replace(disk, boundaries={**disk.boundaries, "seat": facets[own]})
+
+
+def to_and_fro(cycles: int, **options: object) -> list[Step]:
+    """A force that stays, and a motion to and fro, as often as asked.
+
+    Parameters
+    ----------
+    cycles : how often
+    options : of the step that repeats
+    """
+    rub = Step(name="rub", scale={"drive": [1.0, 0.0, -1.0, 0.0]}, repeat=cycles, **options)  # type: ignore[arg-type]
+    return [Step(name="press", scale={"press": 1.0}), rub]

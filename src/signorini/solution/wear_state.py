@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the sides of contacts have lost by wear."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.interface.worn_sides import WornSides
+from signorini.short import Short
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class WearState(Short):
+    """Worn depths at the m corners of the sides that wear, in the order of `interface.worn_sides.WornSides`.
+
+    Attributes
+    ----------
+    depth : (m,) length
+    volume : (m,) worn volume there
+    distance : (n,) slid by every pair where it is closed, either way
+    rubbed : (n,) ``int p |ds|``, or the work of friction per area, that has not worn the sides yet
+    energy : elastic energy that was set free with what is worn: forces of the pairs times what they give way
+    cycles : worn so far
+    """
+
+    depth: Array
+    volume: Array
+    distance: Array
+    rubbed: Array
+    energy: float = 0.0
+    cycles: int = 0
+
+
+def unworn(sides: WornSides) -> WearState:
+    """Nothing is worn yet."""
+    depth, pairs = np.zeros(len(sides)), np.zeros(len(sides.by_energy))
+    return WearState(depth=depth, volume=depth, distance=pairs, rubbed=pairs)
