@@ -7,8 +7,8 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.friction.problem import ContactProblem
-from signorini.friction.result import ContactAnswer
 from signorini.friction.solve import solve_contact
+from signorini.law.result import ContactAnswer
 from signorini.law.states import OPEN, STICK
 from signorini.settings import SolverSettings
 

@@ -14,9 +14,9 @@ from signorini.arrays import IntArray
 from signorini.friction.certificate import certify
 from signorini.friction.newton import by_states
 from signorini.friction.problem import ContactProblem
-from signorini.friction.result import ContactAnswer
 from signorini.friction.solve import solve_contact
 from signorini.gallery.hard import PROBLEMS, hard_problem
+from signorini.law.result import ContactAnswer
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -105,16 +105,16 @@ class MultiplierSolver:
         )
         start = bodies.blocks.spread(free)
         with increment.clock.phase("complementarity"):
-            found = solve_iteratively(bodies, load, start, forces[rows].reshape(bodies.directions, -1))
+            found, near = solve_iteratively(bodies, load, start, forces[rows].reshape(bodies.directions, -1))
         carried, moved = np.zeros(len(increment.offset)), np.zeros(len(increment.offset))
-        carried[rows], moved[rows] = found.forces, found.moved
+        carried[rows], moved[rows] = found.r.ravel(), found.h.ravel()
         return IncrementAnswer(
             outcome=found.outcome,
             message=found.message,
             forces=carried,
             moved=moved,
-            free=found.free,
-            status=found.state,
+            free=near,
+            status=found.state[~bodies.tied],
             trace=found.trace,
         )
 

@@ -4,9 +4,9 @@
 from signorini.attempt import MethodRun
 from signorini.friction.certificate import certify
 from signorini.friction.problem import ContactProblem
-from signorini.friction.result import ContactAnswer
 from signorini.friction.solve import solve_contact
 from signorini.friction.uniqueness import mu_low
+from signorini.law.result import ContactAnswer
 from signorini.law.states import OPEN, SLIP, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 
 __all__ = [

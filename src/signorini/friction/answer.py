@@ -13,8 +13,8 @@ from signorini.attempt import MethodRun
 from signorini.errors import told
 from signorini.friction.candidate import Candidate
 from signorini.friction.problem import ContactProblem
-from signorini.friction.result import ContactAnswer
 from signorini.law.bound import ADHESION_SLOPE, plain
+from signorini.law.result import ContactAnswer
 from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 from signorini.outcome import Outcome
 

@@ -35,8 +35,8 @@ from signorini.friction.plane.restricted import restrict_to
 from signorini.friction.plane.state_tree import search_states
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import Pull, pulled_away
-from signorini.friction.result import ContactAnswer
 from signorini.friction.space.proximal import proximal_rounds
+from signorini.law.result import ContactAnswer
 from signorini.law.states import OPEN, SLIP_MINUS, UNDECIDED
 from signorini.settings import SolverSettings
 

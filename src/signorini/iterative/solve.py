@@ -24,12 +24,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, frozen
 from signorini.attempt import MethodRun
 from signorini.errors import told
 from signorini.iterative.bodies import Bodies
-from signorini.iterative.law import BoundedLaw, Slope
-from signorini.law.bound import Bound
+from signorini.iterative.springs import PairSprings
+from signorini.law.bound import Bound, FrictionBound
+from signorini.law.pair import PairLaw
+from signorini.law.result import ContactAnswer
 from signorini.law.section import FrictionSection
 from signorini.law.states import OPEN, STICK
 from signorini.linalg.krylov import conjugate_gradients
@@ -42,45 +44,11 @@ _STIFFNESS_FLOOR = 1e-4  # of their stiffness: what pairs that resist nothing ke
 _SPRING_CHANGE = 0.1  # of the stiffest spring: change of springs up to which a cycle serves
 _DRAGGED_STIFFNESS = 1e12  # force per slip: far beyond every bound, so that what is dragged slips
 
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Answer:
-    """What the iteration found, in the units of the problem.
-
-    Attributes
-    ----------
-    solved : whether it converged
-    free : (z,) free displacements
-    forces, moved : (d a,) forces of the pairs; gaps and slip increments
-    state : codes of :mod:`signorini.law.states`, of the pairs that are not tied
-    trace : one entry
-    residual : largest residual, of the sizes of the data
-    """
-
-    solved: bool
-    free: Array
-    forces: Array
-    moved: Array
-    state: IntArray
-    trace: tuple[MethodRun, ...]
-    residual: float
-
-    @property
-    def outcome(self) -> Outcome:
-        """In one word."""
-        return Outcome.SOLVED if self.solved else Outcome.NOT_FOUND
-
-    @property
-    def message(self) -> str:
-        """In words."""
-        rounds = self.trace[0].iterations
-        if self.solved:
-            return f"solved by {self.trace[0].method}, {rounds} rounds"
-        return told(
-            "no certified equilibrium, and no proof that there is none: multipliers did not settle",
-            remedy="smaller increments, less friction, or a model small enough to be condensed",
-            evidence=f"{rounds} rounds, residual {self.residual:.1e}",
-        )
+NOT_SETTLED = told(
+    "no certified equilibrium, and no proof that there is none: multipliers did not settle",
+    remedy="smaller increments, less friction, or a model small enough to be condensed",
+    evidence="{rounds} rounds, residual {worst:.1e}",
+)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -108,8 +76,8 @@ class IncrementLoad:
     rounds: int
 
 
-def solve_iteratively(bodies: Bodies, load: IncrementLoad, z: Array, forces: Array) -> Answer:
-    """Solve one increment.
+def solve_iteratively(bodies: Bodies, load: IncrementLoad, z: Array, forces: Array) -> tuple[ContactAnswer, Array]:
+    """Solve one increment: the answer of the pairs, tied ones too, in their own units, and (z,) free displacements.
 
     Parameters
     ----------
@@ -145,15 +113,16 @@ class _Rounds:
         self.E = 1.0 / (1.0 + self.D * self.C)
         self.softened = self.E * self.D
         self.transposed = bodies.B.T.tocsr()
-        self.law = BoundedLaw(section=FrictionSection.round(d - 1, a), tied=bodies.tied)
-        self.rubs = load.bound.steepest > 0
+        self.section = FrictionSection.round(d - 1, a)
         self.moves = np.diff(bodies.B.indptr).reshape(d, a) > 0
         self.internal = bodies.K @ self.z
         self.relative = self._seen(self.z) + load.offset
         self.y = self._trial()
         touching = self.y[0] >= 0
-        self.bound = self._bound(forces[0]) if forces.any() else np.where(self.rubs & touching, np.inf, 0.0)
-        self.cycle: tuple[Slope, Callable[[Array], Array]] | None = None
+        sticks = np.where(touching & (load.bound.steepest > 0), np.inf, 0.0)
+        self.bound = self._bound(forces[0]) if forces.any() else sticks
+        self.law = self._law()
+        self.cycle: tuple[PairSprings, Callable[[Array], Array]] | None = None
         self.iterations: list[int] = []
         self.changes: list[int] = []
 
@@ -167,8 +136,7 @@ class _Rounds:
             left = float(np.linalg.norm(g))
             if left <= _EQUILIBRIUM_SHARE * float(np.linalg.norm(lag)) or left <= 0.1 * load.tolerance * load.force:
                 return
-            law = self.law.slope(self.y, self.bound, self.softened, _STIFFNESS_FLOOR if load.floating else 0.0)
-            step, count = self._step(law, g)
+            step, count = self._step(g)
             self._go(step, forces)
             self.iterations.append(count)
 
@@ -182,16 +150,18 @@ class _Rounds:
         motion = np.where(self.moves, change / np.maximum(self.D, 1e-300), 0.0).max(initial=0.0)
         before = self.state
         self.multiplier, self.bound = forces, self._bound(forces[0])
+        self.law = self._law()
         self.y = self._trial()
         self.changes.append(int(np.count_nonzero(self.state != before)))
         return float(max(balance / load.force, change.max(initial=0.0) / load.force, motion / load.length))
 
     @property
     def state(self) -> IntArray:
-        return self.law.states(self.y, self.bound)
+        """(a,) What each pair does."""
+        return np.where(self.bodies.tied, STICK, self.law.states(self.y))
 
-    def answer(self, worst: float) -> Answer:
-        bodies = self.bodies
+    def answer(self, worst: float) -> tuple[ContactAnswer, Array]:
+        """The last iterate as an answer, and its displacements."""
         state, r = self.state, self.multiplier.copy()
         # bounds lag by what the last round changed: what slips carries exactly what friction bears
         slips = (state != OPEN) & (state != STICK)
@@ -201,18 +171,26 @@ class _Rounds:
         closed = state != OPEN
         moved[0] = np.where(closed, 0.0, np.maximum(moved[0], 0.0))
         moved[1:] = np.where(state == STICK, 0.0, moved[1:])
-        solved = worst <= self.load.tolerance
+        solved, rounds = worst <= self.load.tolerance, len(self.changes)
+        message = (
+            f"solved by multipliers, {rounds} rounds" if solved else NOT_SETTLED.format(rounds=rounds, worst=worst)
+        )
         end = f"{sum(self.iterations)} conjugate gradients, residual {worst:.0e}"
-        attempt = MethodRun(method="multipliers", iterations=len(self.changes), changes=tuple(self.changes), end=end)
-        return Answer(
-            solved=solved,
-            free=self.z[bodies.blocks.place],
-            forces=r.ravel(),
-            moved=moved.ravel(),
-            state=state[~bodies.tied],
+        attempt = MethodRun(method="multipliers", iterations=rounds, changes=tuple(self.changes), end=end)
+        answer = ContactAnswer(
+            outcome=Outcome.SOLVED if solved else Outcome.NOT_FOUND,
+            h=frozen(moved),
+            r=frozen(r),
+            state=state,
             trace=(attempt,),
             residual=worst,
+            message=message,
         )
+        return answer, self.z[self.bodies.blocks.place]
+
+    def _law(self) -> PairLaw:
+        """The law under the friction bounds of this round, but for ties, which carry any force."""
+        return PairLaw(bound=FrictionBound.constant(self.bound), section=self.section)
 
     def _seen(self, z: Array) -> Array:
         return (self.bodies.B @ z).reshape(self.load.offset.shape)
@@ -228,12 +206,16 @@ class _Rounds:
         return y
 
     def _project(self, y: Array) -> Array:
-        return self.law.project(y, self.bound)
+        return np.where(self.bodies.tied, y, self.law.split(y)[1])
 
-    def _step(self, law: Slope, g: Array) -> tuple[Array, int]:
-        bodies, springs = self.bodies, self.transposed @ law.matrix() @ self.bodies.B
-        if self.cycle is None or law.change(self.cycle[0]) > _SPRING_CHANGE * float(self.softened.max(initial=0.0)):
-            self.cycle = law, bodies.preconditioner.under(springs)
+    def _step(self, g: Array) -> tuple[Array, int]:
+        bodies = self.bodies
+        pairs = PairSprings.of(self.section, self.y, self.bound, self.softened, bodies.tied)
+        if self.load.floating:
+            pairs = pairs.floored(_STIFFNESS_FLOOR * self.softened)
+        springs = self.transposed @ pairs.matrix() @ bodies.B
+        if self.cycle is None or pairs.change(self.cycle[0]) > _SPRING_CHANGE * float(self.softened.max(initial=0.0)):
+            self.cycle = pairs, bodies.preconditioner.under(springs)
         return conjugate_gradients(lambda v: bodies.K @ v + springs @ v, self.cycle[1], g, _NEWTON_RESIDUAL)
 
     def _go(self, step: Array, forces: Array) -> None:

@@ -35,9 +35,9 @@ from signorini.friction.history.space.straight import (
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import Pull, pulled_away
-from signorini.friction.result import ContactAnswer
 from signorini.friction.solve import solve_contact
 from signorini.law.bound import ADHESION_SLOPE
+from signorini.law.result import ContactAnswer
 from signorini.law.states import OPEN
 from signorini.outcome import Outcome
 

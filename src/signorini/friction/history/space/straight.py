@@ -22,7 +22,7 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.friction.history.rates import RATE_TOL
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
-from signorini.friction.result import ContactAnswer
+from signorini.law.result import ContactAnswer
 from signorini.law.states import OPEN, STICK
 
 END_ROUNDING = 1e-9  # part of an increment: what comes so late does not happen in it

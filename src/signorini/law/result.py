@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the solver of a contact problem answers, and how it got there."""
+"""What a solver of the law of contact answers for its pairs, and how it got there."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from signorini.outcome import Outcome
 
 @dataclass(frozen=True, kw_only=True)
 class ContactAnswer:
-    """The answer, in the scaled units of the problem.
+    """The answer, in the units of the problem; those of a `ContactProblem` are scaled.
 
     Attributes
     ----------
     outcome : SOLVED (certified), NO_EQUILIBRIUM (proved) or NOT_FOUND
     h, r : (d, n) motions (gap >= 0, slip increments) and forces (normal >= 0 pressing, tangential on body 1) of the
-        pairs; NaN unless solved
+        pairs; unless solved the last iterate, or NaN
     state : (n,) OPEN, STICK, and SLIP_PLUS (in the plane: tangential force +mu p, slip <= 0) or SLIP_MINUS, in space
         SLIP; UNDECIDED (-1) unless solved
     trace : the methods tried, in order
     residual : largest violation of equilibrium and resultants relative to scale, see `certify`; the least that was
         found where not solved
-    escape : (d n,) motion of the pairs, largest entry 1, along which the loads carry the bodies away, or None
+    escape : (d n,) rigid motion of the pairs, largest entry 1, along which the loads carry the bodies away, or None
     index : in the plane, sign of the determinant in the state found (+1 or -1; -1 proves two more solutions); 0 where
         the state leaves a motion or a force undetermined, None where it was not asked for
     message : the answer in words
