@@ -308,9 +308,9 @@ def test_the_command_line_goes_on(tmp_path: Path) -> None:
 STEEL = sg.Plastic([(0.0, 20.0), (0.01, 24.0)], hardening=10.0, backstresses=[(500.0, 20.0)])
 
 
-def yielding(steps, plastic=STEEL, **changes):
+def yielding(steps, plastic=STEEL, formulation=None, **changes):
     """The block of a material that yields under the loads of the steps."""
-    bodies = [sg.Body("block", sg.Elastic(E=1000.0, nu=0.3, plastic=plastic))]
+    bodies = [sg.Body("block", sg.Elastic(E=1000.0, nu=0.3, plastic=plastic), formulation)]
     loads = [sg.Load("right", traction=(6.0, 1.5), name="pull"), sg.Load("top", pressure=30.0, name="press")]
     supports = [sg.Support((0, 1), u=(0, None)), sg.Support((1, 1), u=(None, 0), name="rest")]
     return block(steps, bodies=bodies, loads=loads, supports=supports, **changes)
@@ -324,12 +324,15 @@ CYCLE = [
 ]
 
 
-@pytest.mark.parametrize("through", ["memory", "state", "archive"])
-def test_bodies_that_have_yielded_go_on_to_the_last_bit(through, tmp_path):
-    whole = sg.solve(yielding(CYCLE))
+@pytest.mark.parametrize(
+    ("through", "formulation"),
+    [("memory", None), ("state", None), ("archive", None), ("memory", "incompatible"), ("archive", "incompatible")],
+)
+def test_bodies_that_have_yielded_go_on_to_the_last_bit(through, formulation, tmp_path):
+    whole = sg.solve(yielding(CYCLE, formulation=formulation))
     assert whole.steps[0].yielding.first is not None
     assert whole.steps[2].plastic.dissipation > 0.0
-    cut = sg.solve(yielding(CYCLE[:2]))
+    cut = sg.solve(yielding(CYCLE[:2], formulation=formulation))
     if through == "state":
         cut.save_state(tmp_path / "state.npz")
         start = tmp_path / "state.npz"
@@ -340,7 +343,7 @@ def test_bodies_that_have_yielded_go_on_to_the_last_bit(through, tmp_path):
             assert not list(different(one, two))
     else:
         start = cut
-    rest = sg.solve(yielding(CYCLE[2:]), start=start)
+    rest = sg.solve(yielding(CYCLE[2:], formulation=formulation), start=start)
     for one, two in zip(whole.steps[2:], rest.steps, strict=True):
         assert not list(different(one, two))
     assert not list(different(whole.end.state, rest.end.state))
