@@ -20,6 +20,9 @@ Index = NDArray[np.int64]
 _SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 _MIDDLES = [(0.5, 0), (1, 0.5), (0.5, 1), (0, 0.5)]
 _CUBE = [(x, y, z) for z in (0, 1) for x, y in _SQUARE]
+_TRILINEAR = [(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+_TETRA = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+_EDGES = [(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)]
 FAMILIES = {
     "quad": (_SQUARE, [(0, 0), (1, 0), (0, 1), (1, 1)]),
     "quad8": (_SQUARE + _MIDDLES, [(0, 0), (1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2)]),
@@ -27,7 +30,16 @@ FAMILIES = {
         [(0, 0), (1, 0), (0, 1), (0.5, 0), (0.5, 0.5), (0, 0.5)],
         [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)],
     ),
-    "hexahedron": (_CUBE, [(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)]),
+    "hexahedron": (_CUBE, _TRILINEAR),
+    "hexahedron20": (
+        _CUBE + [(x, y, z) for z in (0, 1) for x, y in _MIDDLES] + [(x, y, 0.5) for x, y in _SQUARE],
+        _TRILINEAR
+        + [tuple(2 if i == axis else e[i] for i in range(3)) for axis in range(3) for e in _TRILINEAR if not e[axis]],
+    ),
+    "tetra10": (
+        _TETRA + [tuple((a + b) / 2 for a, b in zip(_TETRA[i], _TETRA[j], strict=True)) for i, j in _EDGES],
+        [(i, j, k) for i in range(3) for j in range(3) for k in range(3) if i + j + k < 3],
+    ),
 }
 """Corners of the reference cell, and the monomials that shape functions are made of."""
 
@@ -42,10 +54,19 @@ _BALANCED = 1e-11  # of the largest force
 
 def rule(family: str, axisymmetric: bool) -> tuple[Array, Array]:
     """Points (q, d) and weights (q,) of a quadrature on the reference cell."""
+    if family == "triangle6" and axisymmetric:  # Strang and Fix, of degree 4
+        root, other = np.sqrt(10), np.sqrt(38 - 44 * np.sqrt(0.4))
+        near, far = (8 - root + other) / 18, (8 - root - other) / 18
+        share = (620 + np.sqrt(213125 - 53320 * root)) / 3720, (620 - np.sqrt(213125 - 53320 * root)) / 3720
+        at = [[a, b] for x in (near, far) for a, b in ((x, x), (1 - 2 * x, x), (x, 1 - 2 * x))]
+        return np.array(at), np.repeat(share, 3) / 2
     if family == "triangle6":
         return np.array([[1, 1], [4, 1], [1, 4]]) / 6, np.full(3, 1 / 6)
-    count = {"quad": 2, "hexahedron": 2, "quad8": 4 if axisymmetric else 3}[family]
-    d = 3 if family == "hexahedron" else 2
+    if family == "tetra10":
+        near = (5 - np.sqrt(5)) / 20
+        return near + (1 - 4 * near) * np.array([[0, 0, 0], *np.eye(3)]), np.full(4, 1 / 24)
+    count = {"quad": 2, "hexahedron": 2, "hexahedron20": 3, "quad8": 4 if axisymmetric else 3}[family]
+    d = 3 if family.startswith("hexahedron") else 2
     line, share = np.polynomial.legendre.leggauss(count)
     grid = np.stack(np.meshgrid(*[(line + 1) / 2] * d, indexing="ij"), axis=-1).reshape(-1, d)
     weights = np.prod(np.stack(np.meshgrid(*[share / 2] * d, indexing="ij"), axis=-1).reshape(-1, d), axis=1)
@@ -91,7 +112,8 @@ def points(
 ) -> Points:
     """The points of cells of one family.
 
-    ``projected``: the volume strain is that of the mean over the cell, in quad8 of the nearest linear function.
+    ``projected``: the volume strain is that of the mean over the cell, in quad8 and hexahedron20 of the nearest
+    linear function.
     """
     d, (corners, exponents) = nodes.shape[1], FAMILIES[family]
     ring = kind == "axisymmetric"
@@ -99,7 +121,7 @@ def points(
     inverse = np.linalg.inv(powers(np.array(corners, float), exponents))
     values = powers(at, exponents) @ inverse
     gradients = np.einsum("qmd,mk->qkd", slopes(at, exponents), inverse)
-    few = np.column_stack([np.ones(len(at)), at]) if family == "quad8" else np.ones((len(at), 1))
+    few = np.column_stack([np.ones(len(at)), at]) if family in ("quad8", "hexahedron20") else np.ones((len(at), 1))
     B = np.zeros((len(cells), len(at), 3, 3, nodes.size))
     weights, places = np.zeros((len(cells), len(at))), np.zeros((len(cells), len(at), d))
     for c, cell in enumerate(cells):
@@ -241,6 +263,7 @@ class Structure:
     T : (dofs, z) displacements by free unknowns
     pairs : (d, n, dofs) motions of the pairs, normal first
     gap, friction : (n,)
+    tied : (n,) pairs that neither open nor slip
     """
 
     points: Points
@@ -250,15 +273,16 @@ class Structure:
     pairs: Array
     gap: Array
     friction: Array
+    tied: NDArray[np.bool_]
 
     def untouched(self) -> State:
         """Nothing has flowed."""
         p, most = len(self.points.body), max(len(law.backs) for law in self.laws)
         return State(strain=np.zeros((p, 3, 3)), equivalent=np.zeros(p), back=np.zeros((p, most, 3, 3)))
 
-    def respond(self, u: Array, old: State) -> tuple[Array, State]:
-        """Stresses (p, 3, 3) and states at displacements (dofs,)."""
-        return self.at(self.points.B @ u, old)
+    def respond(self, u: Array, heat: Array, old: State) -> tuple[Array, State]:
+        """Stresses (p, 3, 3) and states at displacements (dofs,) and thermal strains (p,)."""
+        return self.at(self.points.B @ u - heat[:, None, None] * EYE, old)
 
     def at(self, strain: Array, old: State) -> tuple[Array, State]:
         """Stresses (p, 3, 3) and states at strains (p, 3, 3)."""
@@ -278,9 +302,9 @@ class Structure:
         found: Array = np.einsum("p,pij,pijd->d", self.points.weights, stress, self.points.B)
         return found
 
-    def tangent(self, u: Array, old: State) -> Array:
+    def tangent(self, u: Array, heat: Array, old: State) -> Array:
         """(dofs, dofs) derivative of the internal forces, by differences of the stresses."""
-        strain = self.points.B @ u
+        strain = self.points.B @ u - heat[:, None, None] * EYE
         K = np.zeros((len(u), len(u)))
         yields = min(law.rows[0, 1] / law.E for law in self.laws)
         h = 1e-6 * min(yields, 1.0)
@@ -315,6 +339,39 @@ def projected(q: Array, bound: Array) -> Array:
 
 
 @dataclass(kw_only=True)
+class Acts:
+    """What acts on a structure.
+
+    Attributes
+    ----------
+    force : (dofs,)
+    held : (dofs,) prescribed displacements
+    apart : (d, n) by what the other sides of the pairs move, beyond the displacements: obstacles, overlaps
+    heat : (p,) thermal strains
+    """
+
+    force: Array
+    held: Array
+    apart: Array
+    heat: Array
+
+    @classmethod
+    def none(cls, structure: Structure) -> Acts:
+        dofs = len(structure.T)
+        heat = np.zeros(len(structure.points.body))
+        return cls(force=np.zeros(dofs), held=np.zeros(dofs), apart=np.zeros(structure.pairs.shape[:2]), heat=heat)
+
+    def plus(self, other: Acts, times: float) -> Acts:
+        """Both, the other as many times."""
+        names = ("force", "held", "apart", "heat")
+        return Acts(**{name: getattr(self, name) + times * getattr(other, name) for name in names})
+
+    def towards(self, end: Acts, part: float) -> Acts:
+        """What acts on the way to an end."""
+        return self.plus(self, -part).plus(end, part)
+
+
+@dataclass(kw_only=True)
 class Follower:
     """A history as it is told, looked at instant by instant: the points follow its displacements by their own law.
 
@@ -322,8 +379,7 @@ class Follower:
     ----------
     structure : bodies and pairs
     stiffness : (dofs, dofs) before anything flows
-    u, state, r, load, held : of the instant before: displacements (dofs,), points, forces of the pairs (d, n), and
-        what acts, (dofs,) forces and prescribed displacements
+    u, state, r, acts : of the instant before: displacements (dofs,), points, forces of the pairs (d, n), what acts
     force, length : the largest so far
     """
 
@@ -332,8 +388,7 @@ class Follower:
     u: Array
     state: State
     r: Array
-    load: Array
-    held: Array
+    acts: Acts
     force: float = 0.0
     length: float = 0.0
 
@@ -342,21 +397,25 @@ class Follower:
         """At the beginning, at rest."""
         zero = np.zeros(len(structure.T))
         r = np.zeros(structure.pairs.shape[:2])
-        state = structure.untouched()
-        K = structure.tangent(zero, state)
-        return cls(structure=structure, stiffness=K, u=zero, state=state, r=r, load=zero, held=zero)
+        state, acts = structure.untouched(), Acts.none(structure)
+        K = structure.tangent(zero, acts.heat, state)
+        return cls(structure=structure, stiffness=K, u=zero, state=state, r=r, acts=acts)
 
-    def violations(self, u: Array, load: Array, held: Array, *, incremental: bool = True) -> dict[str, float]:
+    def motion(self, u: Array, acts: Acts) -> Array:
+        """(d, n) Of the pairs."""
+        return self.structure.pairs @ u + acts.apart
+
+    def violations(self, u: Array, acts: Acts, *, incremental: bool = True) -> dict[str, float]:
         """How far the next instant is from equilibrium and from the laws; then it is the instant before.
 
         Parameters
         ----------
         u : (dofs,) displacements
-        load : (dofs,) forces
-        held : (dofs,) prescribed displacements
+        acts : what acts
+        incremental : whether the law of slip is asked for
         """
-        s = self.structure
-        stress, state = s.respond(u, self.state)
+        s, load, held = self.structure, acts.force, acts.held
+        stress, state = s.respond(u, acts.heat, self.state)
         inner = s.forces(stress)
         left = s.T.T @ (inner - load)
         d, n = s.pairs.shape[:2]
@@ -368,20 +427,41 @@ class Follower:
         lead = u - held
         found = {"equilibrium": np.abs(left - BT.T @ r).max(initial=0.0) / self.force}
         found["supports"] = np.abs(lead - s.T @ np.linalg.lstsq(s.T, lead, rcond=None)[0]).max() / self.length
-        motion, before = s.pairs @ u, s.pairs @ self.u
-        self.r, self.load, self.held = r.reshape(d, n), load, held
-        r = self.r / self.force
-        gap, slip = (motion[0] + s.gap) / self.length, (motion - before)[1:] / self.length
-        found["penetration"], found["tension"] = np.maximum(-gap, 0).max(), np.maximum(-r[0], 0).max()
-        found["complementarity"] = np.minimum(gap, r[0]).max()
-        bound = s.friction * np.maximum(r[0], 0.0)
-        found["cone"] = (np.linalg.norm(r[1:], axis=0) - bound).max()
+        motion, before = self.motion(u, acts), self.motion(self.u, self.acts)
+        found["ties"] = np.abs(motion[:, s.tied]).max(initial=0.0) / self.length
+        loose, self.r, self.acts = ~s.tied, r.reshape(d, n), acts
+        r, motion, before, gap, friction = (
+            self.r[:, loose],
+            motion[:, loose],
+            before[:, loose],
+            s.gap[loose],
+            s.friction[loose],
+        )
+        r = r / self.force
+        gap, slip = (motion[0] + gap) / self.length, (motion - before)[1:] / self.length
+        found["penetration"], found["tension"] = (np.maximum(-one, 0).max(initial=0.0) for one in (gap, r[0]))
+        found["complementarity"] = np.minimum(gap, r[0]).max(initial=0.0)
+        bound = friction * np.maximum(r[0], 0.0)
+        found["cone"] = (np.linalg.norm(r[1:], axis=0) - bound).max(initial=0.0)
         if incremental:
-            found["slip"] = np.abs(r[1:] - projected(r[1:] - slip, bound)).max()
+            found["slip"] = np.abs(r[1:] - projected(r[1:] - slip, bound)).max(initial=0.0)
         self.u, self.state = u, state
         return {name: max(float(value), 0.0) for name, value in found.items()}
 
-    def reached(self, load: Array, held: Array, *, parts: int = 4) -> tuple[Array, float]:
+    def follow(self, acts: Acts) -> None:
+        """Go on by an increment of its own.
+
+        Raises
+        ------
+        ArithmeticError
+            If none is found.
+        """
+        u, part = self.reached(acts, parts=1)
+        if part < 1.0:
+            raise ArithmeticError
+        self.violations(u, acts)
+
+    def reached(self, acts: Acts, *, parts: int = 4) -> tuple[Array, float]:
         """Displacements of one increment by backward Euler, and how far along its load they were found, 0 .. 1.
 
         Newton's method on everything at loads that grow in small parts from those of the instant before; parts that
@@ -389,19 +469,18 @@ class Follower:
 
         Parameters
         ----------
-        load, held : (dofs,) what acts at its end
+        acts : what acts at its end
         parts : of the load, at least
         """
         u, r, at, part = self.u, self.r, 0.0, 1.0 / parts
         T, K = self.structure.T, self.stiffness
-        follows = self.held - held  # elastically, where supports move and pairs do not
+        follows = self.acts.held - acts.held  # elastically, where supports move and pairs do not
         P = self.structure.pairs.reshape(-1, len(u)) if self.structure.gap.size else np.zeros((1, len(u)))
         springs = np.diag(K).mean() * P.T @ P
-        moved = held - self.held + T @ np.linalg.lstsq(T.T @ (K + springs) @ T, T.T @ K @ follows, rcond=None)[0]
+        moved = -follows + T @ np.linalg.lstsq(T.T @ (K + springs) @ T, T.T @ K @ follows, rcond=None)[0]
         while at < 1.0:
             goal = min(1.0, at + part)
-            now = [a + goal * (b - a) for a, b in ((self.load, load), (self.held, held))]
-            found = self._solved(now[0], u + (goal - at) * moved, r)
+            found = self._solved(self.acts.towards(acts, goal), u + (goal - at) * moved, r)
             if found is None:
                 part /= 2
                 if part < _LEAST_PART:
@@ -410,31 +489,33 @@ class Follower:
                 (u, r), at, part = found, goal, min(2 * part, 1.0 / parts)
         return u, 1.0
 
-    def _solved(self, load: Array, u: Array, r: Array) -> tuple[Array, Array] | None:
-        """Displacements and forces of the pairs under a load, by Newton's method; None where it does not end."""
-        s = self.structure
+    def _solved(self, acts: Acts, u: Array, r: Array) -> tuple[Array, Array] | None:
+        """Displacements and forces of the pairs under what acts, by Newton's method; None where it does not end."""
+        s, load = self.structure, acts.force
         d, n = s.pairs.shape[:2]
         P = s.pairs.reshape(d * n, len(u))
-        before = s.pairs @ self.u
+        before = self.motion(self.u, self.acts)
         rho = float(np.diag(self.stiffness).mean())
         scale = max(np.abs(load).max(), np.abs(r).max(initial=0.0), np.abs(self.stiffness @ u).max()) or 1.0
         for _ in range(_NEWTON_ROUNDS):
-            motion = s.pairs @ u
-            tries = r - rho * np.concatenate([(motion[0] + s.gap)[None], (motion - before)[1:]])
+            motion = self.motion(u, acts)
+            loose = motion - np.concatenate([-s.gap[None], before[1:]])
+            tries = r - rho * np.where(s.tied, motion, loose)
             bound = s.friction * np.maximum(tries[0], 0.0)
-            stress, _ = s.respond(u, self.state)
+            stress, _ = s.respond(u, acts.heat, self.state)
             first = s.T.T @ (s.forces(stress) - load - P.T @ r.ravel())
-            rows = r - np.concatenate([np.maximum(tries[:1], 0.0), projected(tries[1:], bound)])
+            law = np.concatenate([np.maximum(tries[:1], 0.0), projected(tries[1:], bound)])
+            rows = r - np.where(s.tied, tries, law)
             lack = max(np.abs(first).max(), np.abs(rows).max(initial=0.0))
             if lack <= _BALANCED * scale:
                 return u, r
             if not np.isfinite(lack) or np.abs(u).max() > 1e3 * np.abs(s.points.places).max():
                 return None
-            law = self._slopes(tries, bound)
+            slopes = self._slopes(tries, bound)
             A = np.block(
                 [
-                    [s.T.T @ s.tangent(u, self.state) @ s.T, -(P @ s.T).T],
-                    [rho * law @ P @ s.T, np.eye(d * n) - law],
+                    [s.T.T @ s.tangent(u, acts.heat, self.state) @ s.T, -(P @ s.T).T],
+                    [rho * slopes @ P @ s.T, np.eye(d * n) - slopes],
                 ]
             )
             try:
@@ -458,4 +539,8 @@ class Follower:
                 turned = bound / safe * ((a == b) - unit[a] * unit[b])
                 J[a + 1, index, b + 1, index] = np.where(slides, turned, float(a == b))
             J[a + 1, index, 0, index] = np.where(slides & press, self.structure.friction * unit[a], 0.0)
+        tied = np.flatnonzero(self.structure.tied)
+        J[:, tied] = 0.0
+        for a in range(d):
+            J[a, tied, a, tied] = 1.0
         return J.reshape(d * n, d * n)
