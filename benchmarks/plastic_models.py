@@ -329,7 +329,7 @@ def _interface_motions(model: sg.Model) -> np.ndarray:
     """(d, n, dofs) What pairs measure of all displacements, those of obstacles too."""
     interface = prepare(model).interface
     B: np.ndarray = interface.B.toarray()
-    return B.reshape(interface.directions, len(interface), -1)
+    return B.reshape(interface.directions, len(interface), B.shape[1])
 
 
 def in_words(

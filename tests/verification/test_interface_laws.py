@@ -12,6 +12,7 @@ from signorini.engine.solve import solve
 from signorini.errors import InputError
 from signorini.gallery.blocks import four_blocks, stacked_blocks
 from signorini.meshing.plane import rectangle
+from signorini.meshing.solid import box
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
@@ -158,6 +159,35 @@ def test_a_tied_punch_pulls():
 def test_tied_contacts_take_no_other_law(change, said):
     with pytest.raises(InputError, match=said):
         cantilever(4, 4, **change)
+
+
+@pytest.mark.parametrize("path", [{"increments": 2}, {"increments": "auto"}, {"path": "exact"}])
+def test_a_model_in_space_of_tied_contacts_alone_has_a_path(path):
+    """No pair is left that a law is asked of."""
+    line = np.linspace(0.0, 1.0, 3)
+    mesh = join({"up": box(x=line, y=line, z=1.0 + line), "low": box(x=line, y=line, z=line)})
+    model = Model(
+        mesh,
+        kind="3d",
+        bodies=[Body("up", ELASTIC), Body("low", ELASTIC)],
+        supports=[Support("low.bottom", u=(0, 0, 0))],
+        loads=[Load("up.top", traction=(0.5, 0.0, -1.0))],
+        contacts=[Contact("up.bottom", "low.top", friction="tied")],
+        steps=[Step(**path)],
+    )
+    whole = box(x=line, y=line, z=np.linspace(0.0, 2.0, 5))
+    one = replace(
+        model,
+        mesh=whole,
+        bodies=[Body(name, ELASTIC) for name in whole.bodies],
+        supports=[Support("bottom", u=(0, 0, 0))],
+        loads=[Load("top", traction=(0.5, 0.0, -1.0))],
+        contacts=[],
+        steps=[Step()],
+    )
+    tied, solid = solve(model).last.displacement, solve(one).last.displacement
+    ends = model.mesh.nodes_of("up.top"), whole.nodes_of("top")
+    np.testing.assert_allclose(tied[ends[0]], solid[ends[1]], atol=1e-9 * np.abs(solid).max())
 
 
 def test_tied_contacts_stay_tied():

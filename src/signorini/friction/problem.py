@@ -205,7 +205,7 @@ class ContactProblem:
     def section(self) -> FrictionSection:
         """Of the friction cones, for a larger friction of 1."""
         shape = np.ones((self.directions - 1, self.pairs))
-        if not isinstance(self.friction, Bound) and self.friction.ndim == 2:
+        if self.pairs and not isinstance(self.friction, Bound) and self.friction.ndim == 2:
             given = np.minimum(self.friction, STICKING_FRICTION)
             largest = given.max(axis=0)
             shape = np.divide(given, largest, out=shape, where=largest > 0)
