@@ -129,3 +129,20 @@ def test_violation_sees_flow_against_the_stress():
     bodies, u, old, new, still = wrong()
     found = violation(bodies, u, replace(old, strain=2.0 * new.strain), new, still)
     assert found.dissipation > 1e-2
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_back_stress_of_next_to_no_size_changes_next_to_nothing(kind):
+    """Yield stresses that harden alone have a loop of their own, exact row by row; the other one finds roots."""
+    table = [(0.0, 1.0), (0.004, 1.3), (0.01, 1.5), (0.03, 1.6)]
+    alone, both = (points_of(kind, Plastic(table, hardening=2.0, backstresses=back)) for back in ((), [(1e-11, 0.0)]))
+    old, other = alone.untouched(), both.untouched()
+    for seed in range(3):  # strains grow over all rows of the table
+        u = (seed + 0.1) * flowing(alone, seed)
+        old, other = (
+            bodies.respond(u, state, np.zeros(len(bodies.body))) for bodies, state in ((alone, old), (both, other))
+        )
+        for name in ("plastic", "equivalent", "direction", "slack", "yields"):
+            one, two = getattr(old.points, name), getattr(other.points, name)
+            np.testing.assert_allclose(one, two, rtol=1e-9, atol=1e-11, err_msg=name)
+        old, other = old.state, other.state

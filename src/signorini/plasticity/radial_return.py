@@ -166,6 +166,51 @@ def _stay(laws: YieldLaws, body: IntArray, old: Points, new: Points, stays: Bool
         stays[i] = np.sqrt(norm) <= ROOT23 * stress * (1.0 + _RETURN_TOL)
 
 
+@njit(cache=True, error_model="numpy")
+def _without_back_stresses(laws: YieldLaws, body: IntArray, old: Points, new: Points) -> None:
+    """The states of all points where yield stresses alone harden: exact row by row, without a call for each point."""
+    strain, plastic, direction, slack = new.strain, new.plastic, new.direction, new.slack
+    rows, begin, stress, beyond, before = laws.rows, laws.strain, laws.stress, laws.beyond, old.plastic
+    n = strain.shape[1]
+    for i in range(len(body)):
+        j, p0 = body[i], old.equivalent[i]
+        G2, mean = 2.0 * laws.shear[j], (strain[i, 0] + strain[i, 1] + strain[i, 2]) / 3.0
+        square = 0.0
+        for c in range(n):
+            x = G2 * (strain[i, c] - mean - before[i, c]) if c < 3 else 0.5 * G2 * (strain[i, c] - before[i, c])
+            direction[i, c] = x
+            square += x * x * (1.0 if c < 3 else 2.0)
+        norm, row, last = np.sqrt(square), 0, rows[j] - 1
+        while row < last and p0 >= begin[j, row + 1]:
+            row += 1
+        dp, slope = 0.0, 1.0
+        while True:
+            hardening = beyond[j]
+            if row < last:
+                hardening = (stress[j, row + 1] - stress[j, row]) / (begin[j, row + 1] - begin[j, row])
+            radius = ROOT23 * (stress[j, row] + hardening * (p0 - begin[j, row]))
+            slope = ROOT23 * hardening + ROOT32 * G2
+            dp = (norm - radius) / slope
+            if row == last or p0 + dp < begin[j, row + 1]:
+                break
+            row += 1
+        yields = norm > radius * (1.0 + _RETURN_TOL)
+        new.yields[i] = yields
+        if not yields:
+            new.equivalent[i], slack[i, 0], slack[i, 1] = p0, 0.0, 0.0
+            for c in range(n):
+                direction[i, c], plastic[i, c] = 0.0, before[i, c]
+            continue
+        new.equivalent[i] = p0 + dp
+        slack[i, 0] = G2 * ROOT32 * dp / norm
+        slack[i, 1] = G2 * ROOT32 / slope - slack[i, 0]
+        over, length = 1.0 / norm, ROOT32 * dp
+        for c in range(n):
+            way = direction[i, c] * over
+            direction[i, c] = way
+            plastic[i, c] = before[i, c] + length * way * (1.0 if c < 3 else 2.0)
+
+
 @njit(cache=True, inline="always", error_model="numpy")
 def respond_at(
     laws: YieldLaws, body: int, swelling: float, old: Points, new: Points, i: int, trial: Array, turn: Array
@@ -217,6 +262,9 @@ def respond(laws: YieldLaws, body: IntArray, swelling: Array, old: Points, new: 
     n = new.strain.shape[1]
     trial, turn = np.empty(n), np.empty(n)
     stays = np.zeros(len(body), np.bool_)
+    if not laws.thin and old.back.shape[1] == 0:
+        _without_back_stresses(laws, body, old, new)
+        return
     if not laws.thin:
         _stay(laws, body, old, new, stays)
     for i in range(len(body)):
