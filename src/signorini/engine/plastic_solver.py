@@ -36,6 +36,9 @@ from signorini.plasticity.measure import plastic_work, stored_by_back_stresses
 from signorini.solution.scale import Scale
 
 _BALANCED = 1e-9  # of the size of forces: a tenth of what the certificate allows
+_LACK_IN_ROUNDS = (
+    1e-3  # of what the round before lacks: so much contact may lack in a round, the next one makes it anew
+)
 _MAX_ROUNDS = 200  # of one increment: Newton takes 4 to 16, kept factors some 40
 _LEFT_PARTS = (0.0, 1e-6, 1e-4, 1e-2)  # of the elastic law, left in place where a tangent is singular without it
 _STIFFER_PARTS = (1e-4, 0.1)  # of the elastic law, left in place where contact finds no answer on a softer tangent
@@ -234,7 +237,8 @@ class PlasticSolver:
                 after = bodies.with_dual(after, old, model, linear)
             kept = rounds.last
             rounds.add(lack, step, Mechanism(answer.free - before, answer.forces))
-            if step == 1.0 and lack <= _BALANCED:
+            fine = _LACK_IN_ROUNDS * kept <= _BALANCED or answer.lost <= _BALANCED * self.scale.length
+            if step == 1.0 and lack <= _BALANCED and (fine or len(rounds.steps) == 1):
                 work = old.dissipation + plastic_work(
                     bodies,
                     (state.displacement, old),
@@ -311,8 +315,11 @@ class PlasticSolver:
         reached: tuple[IncrementAnswer, PlasticResponse] | None,
     ) -> tuple[IncrementAnswer, _Tangent, Array]:
         """Contact on the bodies of a round; on stiffer ones where that finds no answer, at last on the elastic ones."""
-        answer = self._on(increment, tangent, x, None if reached is None else reached[0])
-        if answer.solved or tangent.S is None or reached is None:
+        if reached is None:
+            return self._on(increment, tangent, x, None), tangent, x
+        increment = replace(increment, allowed_lack=_LACK_IN_ROUNDS * rounds.last)
+        answer = self._on(increment, tangent, x, reached[0])
+        if answer.solved or tangent.S is None:
             return answer, tangent, x
         T = increment.system.constraints.transform
         rounds.least = _STIFFER_PARTS[0]

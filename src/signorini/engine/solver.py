@@ -52,6 +52,7 @@ class Increment:
     imposed : (dofs,) displacements that supports impose
     point : of the load history, at its end
     clock : counts the seconds
+    allowed_lack : of the sizes of the data, what an answer may lack that others follow
     """
 
     system: DiscreteModel
@@ -65,6 +66,7 @@ class Increment:
     imposed: Array
     point: LoadPoint
     clock: Clock
+    allowed_lack: float = 0.0
 
 
 class Mechanism(NamedTuple):
@@ -264,7 +266,8 @@ class CondensedSolver:
                 misfit = (offset + interface.B @ u - moved)[rows] + condensed.compliance * forces[rows]
                 misfit[guided] = 0.0
             lost = float(np.abs(misfit).max(initial=0.0))
-            if max(np.abs(residual).max(initial=0.0) / scale.force, lost / scale.length) <= _BALANCED:
+            lack = max(np.abs(residual).max(initial=0.0) / scale.force, lost / scale.length)
+            if lack <= max(_BALANCED, increment.allowed_lack):
                 break
             start = result.state if law.piecewise_linear else result.y
         return IncrementAnswer(
