@@ -37,11 +37,11 @@ from benchmarks import command, page
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.errors import InputError, SolveFailed
-from signorini.friction import krylov, newton
+from signorini.friction import krylov, newton, overload
 from signorini.friction.history import rates
 from signorini.friction.history.space import find_rates as space_rates
 from signorini.friction.history.space import sticking_response as held
-from signorini.friction.space import overload, proximal
+from signorini.friction.space import proximal
 from signorini.linalg import multifrontal
 from signorini.meshing.solid import box
 from signorini.model.mesh import join

@@ -77,7 +77,7 @@ def test_where_contact_is_iterated_a_note_says_that_slides_are_not_looked_for():
 
 
 def test_that_the_load_which_contact_holds_is_not_known_is_told(monkeypatch):
-    monkeypatch.setattr("signorini.friction.space.overload.MAX_ROUNDS", 0)
+    monkeypatch.setattr("signorini.friction.overload.MAX_ROUNDS", 0)
     notes = sg.solve(block(pull=0.28, increments=None)).steps[-1].notes
     spent = "all 0 linear programmes about the load that contact can hold that may be tried are spent"
     assert [note for note in notes if "programmes" in note] == [f"step 'pull': {spent}"]

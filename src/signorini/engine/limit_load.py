@@ -11,7 +11,7 @@ from signorini.engine.increments import leaving
 from signorini.engine.path_states import right_hand_side
 from signorini.engine.step_parts import StepPart, reached
 from signorini.errors import SolveFailed, told
-from signorini.friction.space.overload import overload
+from signorini.friction.overload import overload
 from signorini.outcome import Outcome
 
 _WORDS = "forces in the friction cones of all pairs cannot balance more load, however they are shared"

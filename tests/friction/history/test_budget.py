@@ -7,10 +7,10 @@ import pytest
 from signorini.attempt import Spent
 from signorini.friction.approach import approach
 from signorini.friction.history import PathSettings, follow, initial_state, land
+from signorini.friction.overload import overload
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import pulled_away
 from signorini.friction.solve import solve_contact
-from signorini.friction.space.overload import overload
 from signorini.friction.uniqueness import _from_states, _starts, starts
 from signorini.outcome import Outcome
 from signorini.settings import SolverSettings
@@ -79,7 +79,7 @@ def slab(friction=0.3):
 def test_the_load_that_contact_holds_is_told_or_that_the_budget_is_spent(monkeypatch, limit, of):
     problem, end = slab()
     assert overload(problem, -problem.by_pair(problem.b), end).factor == pytest.approx(0.25, abs=1e-6)
-    monkeypatch.setattr(f"signorini.friction.space.overload.{limit}", 1 if limit == "MAX_ROUNDS" else 0)
+    monkeypatch.setattr(f"signorini.friction.overload.{limit}", 1 if limit == "MAX_ROUNDS" else 0)
     found = overload(problem, -problem.by_pair(problem.b), end)
     assert isinstance(found, Spent)
     assert (

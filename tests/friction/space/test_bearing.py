@@ -18,9 +18,9 @@ from signorini.friction.history import initial_state
 from signorini.friction.history.space.bearing import Bearing
 from signorini.friction.history.space.no_rates_proof import Exhausted, search_regions
 from signorini.friction.history.space.smooth_cones import ConeProblem
+from signorini.friction.overload import overload
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import GAIN, pulled_away
-from signorini.friction.space.overload import overload
 
 HERE, EXAMPLES = Path(__file__).parent, Path(__file__).parents[3] / "examples"
 

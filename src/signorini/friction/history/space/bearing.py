@@ -17,9 +17,9 @@ from signorini.arrays import Array, BoolArray
 from signorini.attempt import Spent
 from signorini.friction.history.segment import Breakpoint, Jump
 from signorini.friction.history.state import PathState
+from signorini.friction.overload import Overload, along_contact, overload
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import GAIN
-from signorini.friction.space.overload import Overload, along_contact, overload
 
 OVERLOADED = (
     "forces in the friction cones of the pairs that touch, or nearly do, cannot balance more load, however they are "
