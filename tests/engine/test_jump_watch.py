@@ -9,7 +9,6 @@ import pytest
 
 import signorini as sg
 from signorini import deck
-from signorini.engine.jump_watch import UNWATCHED
 from signorini.meshing.solid import box
 from signorini.model.mesh import join
 
@@ -39,21 +38,27 @@ def block(*, pull, increments, jump=None):
     )
 
 
+@pytest.mark.parametrize("backend", ["auto", "iterative"])
 @pytest.mark.parametrize(("increments", "words"), [(1, "1 increment"), (3, "3 increments")])
-def test_the_equilibrium_behind_a_slide_is_called_a_candidate(increments, words):
-    solution = sg.solve(block(pull=0.6, increments=increments))
+def test_the_equilibrium_behind_a_slide_is_called_a_candidate(increments, words, backend):
+    solution = sg.solve(block(pull=0.6, increments=increments), backend=backend)
     assert solution.last.displacement[:, 0].min() > 0.49  # it stands at the wall
     notes = [note for note in solution.steps[-1].notes if note.startswith(SLIDES)]
     assert len(notes) == 1
     assert notes[0].endswith(f"; followed in {words} to what is a candidate")
 
 
-@pytest.mark.parametrize("increments", [1, 3])
-def test_a_step_that_stops_at_jumps_stops_at_the_slide(increments):
-    solution = sg.solve(block(pull=0.6, increments=increments, jump="stop"), raise_on_failure=False)
+@pytest.mark.parametrize(
+    ("backend", "increments", "reached"),
+    [("auto", 1, 1.5), ("auto", 3, 1.5), ("iterative", 1, 1.0), ("iterative", 3, 4 / 3)],
+)
+def test_a_step_that_stops_at_jumps_stops_at_the_slide(backend, increments, reached):
+    """At it where events are followed, at the last increment before it where contact is iterated."""
+    model = block(pull=0.6, increments=increments, jump="stop")
+    solution = sg.solve(model, backend=backend, raise_on_failure=False)
     assert solution.status == "jump"
     assert solution.message.startswith(SLIDES)
-    assert 1.4 < solution.steps[-1].load_factor <= 1.5
+    assert reached - 0.1 < (solution.steps[-1].load_factor if len(solution.steps) > 1 else 1.0) <= reached + 1e-12
 
 
 def test_where_no_increment_goes_on_the_slide_is_named():
@@ -63,17 +68,53 @@ def test_where_no_increment_goes_on_the_slide_is_named():
     assert solution.message.startswith(SLIDES)
 
 
+@pytest.mark.parametrize("backend", ["auto", "iterative"])
 @pytest.mark.parametrize("increments", [1, 3, 10])
-def test_what_friction_holds_says_nothing(increments):
-    solution = sg.solve(block(pull=0.28, increments=increments))
+def test_what_friction_holds_says_nothing(increments, backend):
+    solution = sg.solve(block(pull=0.28, increments=increments), backend=backend)
     assert not [note for note in solution.steps[-1].notes if "gross sliding" in note]
 
 
-def test_where_contact_is_iterated_a_note_says_that_slides_are_not_looked_for():
-    said = [
-        sg.solve(block(pull=0.28, increments=1), backend=backend).steps[-1].notes for backend in ("auto", "iterative")
+def square(*, pull, wall, **step):
+    """The same in the plane, with the wall or without."""
+    sides = np.linspace(0.0, 1.0, 5)
+    contacts = [
+        sg.Contact("bottom", sg.Plane((0.0, 0.0), (0.0, 1.0)), friction=0.3, name="floor"),
+        sg.Contact("right", sg.Plane((1.5, 0.0), (-1.0, 0.0)), friction=0.3, name="wall"),
     ]
-    assert [notes.count(UNWATCHED) for notes in said] == [0, 1]
+    return sg.Model(
+        sg.rectangle(x=sides, y=sides),
+        kind="plane strain",
+        bodies=[sg.Body("block", sg.Elastic(E=1000.0, nu=0.3))],
+        loads=[sg.Load("top", force=(0.0, -1.0), name="press"), sg.Load("bottom", force=(pull, 0.0), name="pull")],
+        contacts=contacts if wall else contacts[:1],
+        steps=[
+            sg.Step(name="press", scale={"press": 1.0}, increments=1),
+            sg.Step(name="pull", scale={"pull": 1.0}, **step),
+        ],
+    )
+
+
+@pytest.mark.parametrize(("increments", "reached"), [(3, 100 / 3), (4, 25.0), ("auto", 49.95)])
+@pytest.mark.parametrize("space", [False, True])
+def test_where_contact_is_iterated_what_it_cannot_hold_is_proved_first(space, increments, reached):
+    model = block(pull=0.6, increments=increments) if space else square(pull=0.6, wall=False, increments=increments)
+    if space:
+        model = replace(model, contacts=model.contacts[:1])
+    solution = sg.solve(model, backend="iterative", raise_on_failure=False)
+    assert solution.status == "no_equilibrium"
+    said = f"step 'pull': no equilibrium beyond 50%, up to {reached:.6g}% it was followed: body "
+    assert solution.message.startswith(said)
+    assert solution.steps[-1].load_factor == pytest.approx(1.0 + 0.01 * reached, abs=1e-6)
+    way = solution.escape / np.abs(solution.escape).max()
+    np.testing.assert_allclose(way - [[1.0, *([0.0] * (way.shape[1] - 2)), 0.3]], 0.0, atol=1e-6)
+
+
+def test_in_the_plane_an_iterated_slide_is_named_where_nothing_is_behind_it():
+    """Two increments find the block at the wall, four are lost there: it has slid before."""
+    solution = sg.solve(square(pull=0.6, wall=True, increments=4), backend="iterative", raise_on_failure=False)
+    assert solution.status == "jump"
+    assert solution.message.startswith("step 'pull' at 50.000000%: gross sliding: body 'block' can move along x: no")
 
 
 def test_that_the_load_which_contact_holds_is_not_known_is_told(monkeypatch):

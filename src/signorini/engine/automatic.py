@@ -18,7 +18,7 @@ import numpy as np
 from signorini.engine.energy import stored_energy
 from signorini.engine.events import follow_to_events
 from signorini.engine.increments import follow_increments, is_straight
-from signorini.engine.jump_watch import sudden_change, unwatched
+from signorini.engine.jump_watch import follow_watchfully, sudden_change
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, StepPart
 from signorini.errors import SolveFailed, told
@@ -129,7 +129,7 @@ def _defect(prepared: Prepared, followed: FollowedPart) -> float:
 def _followed(part: StepPart, number: int, jump: Literal["stop", "follow"] | None) -> tuple[FollowedPart, str]:
     """A way in at most so many increments, and their number in words; equal ones where those to events are lost."""
     if not part.prepared.watched:
-        return unwatched(part, follow_increments(part, number)), _counted(number)
+        return follow_watchfully(part, number, stops=jump == "stop"), _counted(number)
     try:
         followed = follow_to_events(part, number, jumps=jump == "follow")
         return followed, f"{_counted(len(followed.trace))} to events, none needs to be shorter than 1/{number}"

@@ -13,6 +13,7 @@ from signorini.attempt import MethodRun, Spent
 from signorini.engine.energy import set_free
 from signorini.engine.floating_bodies import approached, resting, undisturbed
 from signorini.engine.increments import certified, leaving, refuse_overlap
+from signorini.engine.limit_load import HOLD
 from signorini.engine.path_states import (
     balanced,
     offsets,
@@ -34,7 +35,6 @@ JUMPS = 100
 
 _NAMED = 12  # nodes that a message lists
 _TURN = 0.04  # radians over the root of the number: what friction may turn in an increment that could be shorter
-_HOLD = "hold the bodies that slide, press them more, or prescribe their motion in place of the load"
 _LESS = "less friction, or a prescribed motion in place of the load"
 _FOLLOW = f'{_LESS}; jump = "follow" looks for the equilibrium behind the jump'
 _NO_LANDING = "no equilibrium that it could land on was found"
@@ -328,7 +328,7 @@ def _lost(path: _Path, *, follows: bool) -> SolveFailed:
     nodes = ", ".join(str(node) for node in prepared.model.mesh.labels[prepared.interface.node[pairs[:_NAMED]]])
     if len(pairs) > _NAMED:
         nodes += f" and {len(pairs) - _NAMED} more"
-    what, remedy = ("gross sliding", _HOLD) if segment.jump.gross_sliding else ("a jump", _LESS if follows else _FOLLOW)
+    what, remedy = ("gross sliding", HOLD) if segment.jump.gross_sliding else ("a jump", _LESS if follows else _FOLLOW)
     where = f"{where} at {part.interval.fraction(segment.jump.factor):.6%}"
     motion = None
     if segment.jump.escape is not None:

@@ -7,6 +7,7 @@ holds bodies, and which moves a pair farther than all loads compress them, is lo
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
 
@@ -14,15 +15,16 @@ import numpy as np
 
 from signorini.engine.events import follow_to_events
 from signorini.engine.increments import follow_increments
-from signorini.engine.limit_load import known
+from signorini.engine.limit_load import LimitLoad, known, limit_load, slide
 from signorini.engine.path_states import path_state, right_hand_side
+from signorini.engine.prepare import Prepared
+from signorini.engine.solver import compression
 from signorini.engine.step_parts import FollowedPart, StepPart, keep, reached
 from signorini.errors import SolveFailed, told
 from signorini.friction.history.space.bearing import bears
 from signorini.outcome import Outcome
 from signorini.solution.state import State
 
-UNWATCHED = "contact alone holds bodies and is iterated with multipliers: slides of them are not looked for"
 CURVED = "contact alone holds bodies and its friction has no straight branches: slides of them are not looked for"
 
 ZOOMS = 4
@@ -31,6 +33,7 @@ ZOOMS = 4
 WATCH_INCREMENTS = 16
 """In as many each time."""
 
+_SHORT_OF_LIMIT = 0.999  # of the load that contact can hold: how far one increment goes
 _SUDDEN = 0.5  # of that change, in one of them each time: no increments resolve it
 _SAME_LOAD = 1e-9  # part of a step: how far behind the end of an increment a jump at its very end may be seen
 
@@ -49,30 +52,69 @@ def follow_watchfully(part: StepPart, number: int, *, stops: bool = False) -> Fo
         If an increment has no certified solution; with status "jump" where the history does not lead there gradually.
     """
     try:
-        followed = follow_increments(part, number)
+        followed = _up_to_the_limit(part, number)
     except SolveFailed as failure:
         lost, found = known(failure, part), reached(failure)
         if lost.status != Outcome.NOT_FOUND:
             raise lost from None
+        passed = None if found is None else next(_jumps(part, found, number), None)
+        if found is not None and passed is not None:
+            raise keep(passed[1], [_up_to(found, passed[0])] if passed[0] else []) from lost
         held = found.after if found else part.before
         jump = None if _bears(part, held) else _jump(part, held, _done(part, found), 1.0)
         if jump is None:
             raise
         raise keep(jump, [] if found is None else [found]) from lost
-    notes, before, told_at = [], part.before, -1
-    for k, shot in enumerate(followed.snapshots, start=1):
+    notes = []
+    for k, jump in _jumps(part, followed, number):
+        if stops:
+            raise keep(jump, [_up_to(followed, k)] if k else [])
+        words = f"{number} increment{'s' if number > 1 else ''}"
+        notes.append(f"{jump.sentence}; followed in {words} to what is a candidate")
+    return unwatched(part, replace(followed, notes=(*followed.notes, *notes)))
+
+
+def _jumps(part: StepPart, followed: FollowedPart, number: int) -> Iterator[tuple[int, SolveFailed]]:
+    """Jumps that equal increments have stepped over, each with how many increments were before it.
+
+    Parameters
+    ----------
+    followed : as much of the part as was followed
+    number : of increments in all of it
+    """
+    before, told_at = part.before, -2
+    for k, shot in enumerate(followed.snapshots):
         if _far(part, before, shot.state):
-            jump = _jump(part, before, (k - 1) / number, min(1.0, (k + 1) / number))
+            jump = _jump(part, before, k / number, min(1.0, (k + 2) / number))
             here = None if jump is None else reached(jump)
             if jump is not None and (here is None or here.snapshots[-1].load_factor <= shot.load_factor + _SAME_LOAD):
-                if stops:
-                    raise keep(jump, [_up_to(followed, k - 1)] if k > 1 else [])
-                if here is not None or told_at != k - 1:  # else seen already, just before the end of the last one
-                    words = f"{number} increment{'s' if number > 1 else ''}"
-                    notes.append(f"{jump.sentence}; followed in {words} to what is a candidate")
-                    told_at = k
+                seen = here is None and told_at == k - 1  # just before the end of the last one
+                if not seen:
+                    yield k, jump
+                told_at = told_at if seen and part.prepared.watched else k
         before = shot.state
-    return unwatched(part, replace(followed, notes=(*followed.notes, *notes)))
+
+
+def _up_to_the_limit(part: StepPart, number: int) -> FollowedPart:
+    """A part in equal increments; where contact is iterated, and can hold bodies no longer than that, up to there.
+
+    Multipliers take many rounds to find nothing, so what the loads and the friction alone tell is asked first.
+
+    Raises
+    ------
+    SolveFailed
+        As `follow_increments` does, and at the limit.
+    """
+    prepared = part.prepared
+    found = None if prepared.solver.paths is not None else limit_load(prepared, part.before, part.end, near=False)
+    if not isinstance(found, LimitLoad):
+        return follow_increments(part, number)
+    whole = int((1.0 - _SAME_LOAD) * found.factor * number)
+    reach = whole / number if whole else _SHORT_OF_LIMIT * found.factor
+    begun: list[FollowedPart] = []
+    if reach > 0.0:
+        begun = [follow_increments(part.cut(reach, "jump"), whole or 1)]
+    raise keep(SolveFailed(f"{part.where}: contact cannot hold the bodies any longer", status=Outcome.NOT_FOUND), begun)
 
 
 def unwatched(part: StepPart, followed: FollowedPart) -> FollowedPart:
@@ -84,10 +126,10 @@ def unwatched(part: StepPart, followed: FollowedPart) -> FollowedPart:
     """
     prepared, interface = part.prepared, part.prepared.interface
     rubbing = bool((interface.friction.bounded & ~prepared.absent).any())
-    if interface.directions == 2 or prepared.watched or not prepared.floating.shape[1] or not rubbing:
+    curved = interface.directions == 3 and not interface.friction.straight
+    if not curved or not prepared.floating.shape[1] or not rubbing or not followed.after.forces.any():
         return followed
-    note = UNWATCHED if prepared.solver.paths is None else CURVED
-    return replace(followed, notes=(*followed.notes, note)) if followed.after.forces.any() else followed
+    return replace(followed, notes=(*followed.notes, CURVED))
 
 
 def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
@@ -133,12 +175,18 @@ def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
 
 def _far(part: StepPart, before: State, after: State) -> bool:
     """Whether an increment moves a pair farther than all loads compress bodies that contact alone holds."""
-    if not part.prepared.watched or not part.prepared.paths.law.floating or not before.forces.any():
+    prepared = part.prepared
+    if not _looked_at(prepared) or not prepared.floating.shape[1] or not before.forces.any():
         return False
-    paths = part.prepared.paths
-    condensed = paths.condensed
-    moved = np.concatenate([after.gap - before.gap, after.tangential - before.tangential])[condensed.active_rows]
-    return bool(np.abs(condensed.root * moved).max(initial=0.0) > (paths.law.scale or 1.0))
+    rows = prepared.interface.rows(prepared.solver.active & ~prepared.absent)
+    moved = np.concatenate([after.gap - before.gap, after.tangential - before.tangential])[rows]
+    far = compression(prepared.interface, prepared.scale, prepared.solver.active)
+    return bool(np.abs(moved).max(initial=0.0) > far)
+
+
+def _looked_at(prepared: Prepared) -> bool:
+    """Whether slides are looked for: in space, and where contact is iterated."""
+    return prepared.interface.directions == 3 or prepared.solver.paths is None
 
 
 def _bears(part: StepPart, state: State) -> bool:
@@ -159,7 +207,7 @@ def _done(part: StepPart, followed: FollowedPart | None) -> float:
 def _jump(part: StepPart, state: State, low: float, high: float) -> SolveFailed | None:
     """The first jump between the fractions low and high of a part, from the state at low; None where none is seen."""
     if not part.prepared.watched:
-        return None
+        return slide(part, state, low, high) if _looked_at(part.prepared) else None
     try:
         follow_to_events(_between(part, state, low, high), 1, behind=low / (high - low))
     except SolveFailed as failure:

@@ -344,6 +344,16 @@ def _size(condensed: Condensed, interface: Interface, scale: Scale) -> float:
 
     Gaps far larger than that, and displacements of what bends, leave their rounding in it.
     """
-    gap = float(np.abs(interface.gap[condensed.active]).max(initial=0.0))
-    size = max(scale.compressed, _LENGTH_PER_GAP * max(gap, scale.length))
-    return size * (float(condensed.root.max(initial=0.0)) or 1.0)
+    return compression(interface, scale, condensed.active) * (float(condensed.root.max(initial=0.0)) or 1.0)
+
+
+def compression(interface: Interface, scale: Scale, active: BoolArray) -> float:
+    """How far loads move pairs by compressing bodies, length, no less than the digits of all that pairs are moved by.
+
+    Parameters
+    ----------
+    interface, scale : gaps and sizes of the data of the moment
+    active : (n,) pairs that the law is asked of
+    """
+    gap = float(np.abs(interface.gap[active]).max(initial=0.0))
+    return max(scale.compressed, _LENGTH_PER_GAP * max(gap, scale.length))

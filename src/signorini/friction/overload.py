@@ -40,7 +40,7 @@ class Overload:
     Attributes
     ----------
     factor : part of the way between two loads, to the last digit
-    motion : (3 n,) rigid motion that proves it, largest entry 1
+    motion : (d n,) rigid motion that proves it, largest entry 1
     proved : part of the way beyond which none is in equilibrium even under forces of 1e6 times the loads, which work
         against the motion by its rounding; not less than the factor
     share : of the load at the end of the way on rigid motions what no force takes, at least; not positive where nothing
@@ -66,8 +66,8 @@ def overload(
     Parameters
     ----------
     problem : at a load that is in equilibrium
-    held : (3, n) its forces, from which the first programme has a solution
-    b_end : (3 n,) load at the end of the way
+    held : (d, n) its forces, from which the first programme has a solution
+    b_end : (d n,) load at the end of the way
     near : (n,) pairs that may close; all where not given
 
     Returns
@@ -91,22 +91,47 @@ def overload(
     >>> round(float(found.share * np.hypot(1.0, 1.2) * np.hypot(0.3, 1.0)), 9), found.proved - found.factor < 1e-9
     (0.9, True)
     """
-    R, n = problem.image.R, problem.pairs
-    may = np.ones(n, dtype=np.bool_) if near is None else near
+    R = problem.image.R
     if not R.shape[1] or problem.bounded.any():
         return None
     load, growth = R.T @ problem.b, R.T @ (b_end - problem.b)
-    unit = max(float(np.abs(load).max()), float(np.abs(growth).max()))
     if np.abs(growth).max() <= GAIN * (problem.scale or 1.0):
         return None
-    rows = R.reshape(3, n, -1)
-    sizes = np.linalg.norm(held, axis=0)
+    cones = FrictionSection(axes=problem.half_axes, sides=problem.section.sides)
+    return unheld(R, cones, held, load, growth, near=near)
+
+
+def unheld(
+    R: Array, cones: FrictionSection, held: Array, load: Array, growth: Array, *, near: BoolArray | None = None
+) -> Overload | Spent | None:
+    """Where on a way rigid equilibrium ends, of what pairs see of rigid motions alone, see `overload`; None where not.
+
+    Parameters
+    ----------
+    R : (d n, k) orthonormal motions of the pairs
+    cones : sections of the friction cones at a normal force of 1, finite
+    held : (d, n) forces in equilibrium at the beginning of the way
+    load, growth : (k,) work of the loads along each motion there, and what the way adds to it
+    near : (n,) pairs that may close; all where not given
+
+    Examples
+    --------
+    A point of the plane, pressed by 1 and pulled by 1.2:
+
+    >>> floor = FrictionSection(axes=np.array([[0.3]]), sides=np.array([0]))
+    >>> found = unheld(np.eye(2), floor, np.array([[1.0], [0.0]]), np.array([-1.0, 0.0]), np.array([0.0, 1.2]))
+    >>> round(found.factor, 9), found.motion.round(9).tolist()
+    (0.25, [0.3, 1.0])
+    """
+    m, n = cones.axes.shape
+    may = np.ones(n, dtype=np.bool_) if near is None else near
+    unit = max(float(np.abs(load).max()), float(np.abs(growth).max()))
+    rows, sizes = R.reshape(m + 1, n, -1), np.linalg.norm(held, axis=0)
     presses = sizes > 0.0
     edges = [work_of(held[:, presses] / sizes[presses], rows[:, presses])]
-    cones = FrictionSection(axes=problem.half_axes, sides=problem.section.sides)
-    turns = 2.0 * np.pi / _DIRECTIONS * np.arange(_DIRECTIONS)
-    around = [cones.farthest(np.tile([[np.cos(turn)], [np.sin(turn)]], n)) for turn in turns]
-    for share in (np.zeros((2, n)), *around):
+    turns = 2.0 * np.pi / _DIRECTIONS * np.arange(_DIRECTIONS) if m == 2 else np.array([0.0, np.pi])
+    ways = np.array([np.cos(turns), np.sin(turns)])[:m]
+    for share in (np.zeros((m, n)), *(cones.farthest(np.tile(way[:, None], n)) for way in ways.T)):
         edges.append(work_of(unit_edges(share)[:, may], rows[:, may]))
     for _ in range(MAX_ROUNDS):
         columns = np.concatenate(edges).T
@@ -149,14 +174,20 @@ def _proved(factor: float, a: Array, rho: Array, load: Array, growth: Array, wor
     return Overload(factor=factor, motion=rho / np.abs(rho).max(), proved=factor + max(0.0, -left / grows), share=share)
 
 
-def along_contact(problem: ContactProblem, motion: Array, pressed: BoolArray) -> Array:
-    """What of a rigid motion (3n,) neither presses nor lifts pressed pairs (n,), largest entry 1; all where nothing is.
+def along_contact(R: Array, motion: Array, pressed: BoolArray) -> Array | None:
+    """What of a rigid motion neither presses nor lifts pressed pairs, largest entry 1; None where that is nothing.
 
-    A motion that proves an overload lifts as it slides; friction of Coulomb's law does not. Of a problem.
+    A motion that proves an overload lifts as it slides; friction of Coulomb's law does not.
+
+    Parameters
+    ----------
+    R : (d n, k) orthonormal motions of the pairs
+    motion : (d n,) one of their combinations
+    pressed : (n,) pairs that carry load
     """
-    R, n = problem.image.R, problem.pairs
+    n = len(pressed)
     _, sizes, ways = np.linalg.svd(R[:n][pressed], full_matrices=True)
     null = ways[np.count_nonzero(sizes > _TILT_TOL) :]
     rho = R @ (null.T @ (null @ (R.T @ motion)))
     size = float(np.abs(rho).max(initial=0.0))
-    return rho / size if size > _TILT_TOL * float(np.abs(motion).max(initial=0.0)) else motion
+    return rho / size if size > _TILT_TOL * float(np.abs(motion).max(initial=0.0)) else None

@@ -26,7 +26,9 @@ OVERLOADED = (
     "shared"
 )
 
-_NEAR_GAP = 0.1  # of the motions that the loads cause: a gap that bodies close by deforming a little more
+NEAR_GAP = 0.1
+"""Of the motions that the loads cause: a gap that bodies close by deforming a little more."""
+
 _SHORT_OF_LIMIT = 1e-3  # of the load that can be held: so near to it slip grows without bound, and nothing is gained
 _SPENT_FRICTION = 0.05  # of the friction of all pairs: what is left of it where bodies slide rather than tip
 
@@ -118,7 +120,7 @@ class Bearing:
             proof=f"{proof}: {who} takes {share:.2g} of the load at the end, or more" if share > GAIN else proof,
             margin=share if share > GAIN else 0.0,
             gross_sliding=bool(pressed.any()) and _spent(problem, now.r, pressed),
-            escape=along_contact(problem, over.motion, pressed),
+            escape=_sliding(problem, over.motion, pressed),
             hopeless=_along(factor, every.proved) if every is not None and sure else None,
         )
 
@@ -139,7 +141,7 @@ def bears(problem: ContactProblem, now: PathState, b_end: Array) -> bool:
 
 def _near(problem: ContactProblem, now: PathState) -> BoolArray:
     """(n,) Pairs that touch in a state, or nearly do."""
-    return np.asarray(now.h[0] <= _NEAR_GAP * (problem.scale or 1.0))
+    return np.asarray(now.h[0] <= NEAR_GAP * (problem.scale or 1.0))
 
 
 def _along(behind: float, part: float) -> float:
@@ -160,7 +162,13 @@ def sliding(problem: ContactProblem, ends: Sequence[Breakpoint], pressed: BoolAr
     if not problem.floating or not pressed.any() or not _spent(problem, two.r, pressed):
         return None
     R = problem.image.R
-    return along_contact(problem, R @ (R.T @ (two.h - one.h).ravel()), pressed)
+    return _sliding(problem, R @ (R.T @ (two.h - one.h).ravel()), pressed)
+
+
+def _sliding(problem: ContactProblem, motion: Array, pressed: BoolArray) -> Array:
+    """A rigid motion (3 n,) as far as it slides on pressed pairs (n,), as a whole where it does not."""
+    along = along_contact(problem.image.R, motion, pressed)
+    return motion if along is None else along
 
 
 def _spent(problem: ContactProblem, r: Array, pressed: BoolArray) -> bool:
