@@ -51,7 +51,7 @@ def limits(path):
         heads = []
         if isinstance(node, ast.For | ast.comprehension):
             heads = [node.iter] if isinstance(node.iter, ast.Call) else []
-            heads = [head for head in heads if getattr(head.func, "id", "") in ("range", "islice")]
+            heads = [head.args[:2][-1] for head in heads if getattr(head.func, "id", "") in ("range", "islice")]
         elif isinstance(node, ast.While):
             heads = [node.test]
         for head in heads:
