@@ -16,8 +16,9 @@ from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
 from signorini.model.material import Elastic
 from signorini.model.model import Kind, Model
-from signorini.model.obstacle import Plane
+from signorini.model.obstacle import Obstacle, Plane
 from signorini.model.plastic import Plastic
+from signorini.model.rigid import Rigid
 from signorini.model.step import Step
 from signorini.reference.hertz import contact_modulus
 
@@ -153,6 +154,41 @@ def round_body(
     )
 
 
+def indented_block(
+    tool: Obstacle,
+    depth: float,
+    *,
+    x: Array,
+    y: Array,
+    seat: float,
+    material: Elastic,
+    steps: Sequence[Step],
+) -> Model:
+    """A cylinder about the y axis, held at its lower end, into whose top a rigid tool is driven without friction.
+
+    Parameters
+    ----------
+    tool : a solid of revolution, at rest where it touches the top
+    depth : to which it is driven at factor 1 of "tool", length
+    x, y : lines between the cells, from the axis out, and up to the top at 0
+    seat : radius in which it may touch, length
+    material : of the cylinder
+    steps : of the tool
+    """
+    mesh = with_seat(rectangle(x=x, y=y), "top", seat)
+    (name,) = mesh.bodies
+    return Model(
+        mesh,
+        kind="axisymmetric",
+        title="Block that yields under a rigid tool",
+        bodies=[Body(name, material)],
+        supports=[Support("bottom", u=(0.0, 0.0))],
+        contacts=[Contact("seat", "tool", name="contact")],
+        obstacles=[Rigid("tool", tool, u=(0.0, -depth))],
+        steps=steps,
+    )
+
+
 def bent_beam(*, curvature: float, n: int, cells: Cells = "quad8") -> Model:
     """A slice of a beam of height 2 and length 1 whose end sections turn but stay plane, E 1000 k, nearly nu 0.5.
 
@@ -172,6 +208,30 @@ def bent_beam(*, curvature: float, n: int, cells: Cells = "quad8") -> Model:
         bodies=[Body(name, Elastic(E=1000.0 * SHEAR_STRENGTH, nu=0.4999, plastic=PERFECT))],
         supports=[Support("left", u=(0.0, None)), Support((0.0, -1.0), u=(None, 0.0), name="height"), *turned],
         steps=[Step(name="bend", increments=1)],
+    )
+
+
+def stretched(hardening: float, *, steps: Sequence[Step]) -> Model:
+    """NAFEMS NL1: one square of side 1 and thickness 1 whose sides "x" and "y" move by 1e-4, mm and MPa.
+
+    Parameters
+    ----------
+    hardening : slope of the yield stress
+    steps : with the factors of both sides
+    """
+    mesh = rectangle(x=np.array([0.0, 1.0]), y=np.array([0.0, 1.0]))
+    (name,) = mesh.bodies
+    return Model(
+        mesh,
+        title="NAFEMS NL1",
+        bodies=[Body(name, Elastic(E=250e3, nu=0.25, plastic=Plastic(5.0, hardening=hardening)))],
+        supports=[
+            Support("left", u=(0.0, None)),
+            Support("bottom", u=(None, 0.0)),
+            Support("right", u=(1e-4, None), name="x"),
+            Support("top", u=(None, 1e-4), name="y"),
+        ],
+        steps=steps,
     )
 
 

@@ -10,9 +10,12 @@ from itertools import pairwise
 import numpy as np
 
 from signorini.api import solve
-from signorini.gallery.yielding import NU, SHEAR_STRENGTH, E, rolled_half_plane, round_body
+from signorini.gallery.large_bodies import graded_lines
+from signorini.gallery.yielding import NU, SHEAR_STRENGTH, E, indented_block, rolled_half_plane, round_body
 from signorini.meshing.plane import Cells
+from signorini.model.material import Elastic
 from signorini.model.model import Kind
+from signorini.model.obstacle import Circle, Profile
 from signorini.model.plastic import Plastic
 from signorini.model.step import Step
 from signorini.reference.hertz import contact_modulus
@@ -20,6 +23,7 @@ from signorini.reference.plasticity import first_yield_line, first_yield_point, 
 from signorini.verify.check import Check, checks_of
 
 _RADIUS = 1000.0
+_DEPTH = 0.368  # depth R / a^2 of a ball in a perfectly plastic body: Richmond, Morrison, Devenpeck (1974)
 _PASSES = 5  # of the cylinder that rolls: by then what they add above the limit is the same to a thousandth
 _MODULUS = contact_modulus((E, NU))
 _MESHES: tuple[tuple[Cells, int, float], ...] = (("quad", 16, 0.015), ("quad8", 8, 0.008))
@@ -102,6 +106,60 @@ def full_plasticity() -> Iterator[Check]:
             ("mean pressure / Y", np.mean(far) if far else np.nan, expected, tolerance),
             source=source,
         )
+
+
+def ball_in_a_block() -> Iterator[Check]:
+    """Code_Aster's SSNV506, a rigid ball in a perfectly plastic block, at a fiftieth of the depth.
+
+    At its depths, 20 and more, the edge of contact is 20 degrees up the ball, strains are 1.3 and the surface slides by
+    a sixth of the contact: no small displacements.
+    """
+    yield_stress, radius, depth = 50.0, 500.0, 2.0
+    a = np.sqrt(depth * radius / _DEPTH)
+    size = a / 20
+    ball = indented_block(
+        Circle(centre=(0.0, radius), radius=radius),
+        depth,
+        x=graded_lines(1.4 * a, size, 1620.0),
+        y=-graded_lines(1.4 * a, size, 1920.0)[::-1],
+        seat=1.4 * a,
+        material=Elastic(E=210e3, nu=0.3, plastic=Plastic(yield_stress)),
+        steps=[Step(increments=30)],
+    )
+    contact = solve(ball).last.contacts[0]
+    within = contact.points[contact.closed, 0].max() + 0.5 * size
+    force = 3.0 * yield_stress * np.pi * radius * depth / _DEPTH
+    yield from checks_of(
+        "B13 Code_Aster SSNV506: rigid ball in a perfectly plastic block, E* a / R Y 480",
+        ("depth R / a^2", depth * radius / within**2, _DEPTH, 0.06),
+        ("force / 3 pi R Y depth / 0.368", -contact.normal_force[1] / force, 1.0, 0.1),
+        source="V6.04.506; Johnson (1985), sections 6.3 and 7.2: mean pressure 3 Y, 0.368 of Richmond et al.",
+    )
+
+
+def cone_in_a_block() -> Iterator[Check]:
+    """Code_Aster's SSNA111: a rigid cone goes down by 0.4 and back by 0.008; its mesh, in small displacements."""
+    wide = np.cumsum(1.02 ** np.arange(49))
+    slope = 5e3 / (1.0 - 5e3 / 200e3)  # of the yield stress, from that of the stress
+    steps = [Step(scale={"tool": 0.625}, increments=10), Step(increments=6), Step(scale={"tool": 0.98}, increments=1)]
+    cone = indented_block(
+        Profile(((2.7, 1.0), (0.0, 0.0), (-2.7, 1.0))),
+        0.4,
+        x=np.append(0.0, 10.0 * wide / wide[-1]),
+        y=np.linspace(-5.0, 0.0, 36),
+        seat=3.0,
+        material=Elastic(E=200e3, nu=0.3, plastic=Plastic(300.0, hardening=slope)),
+        steps=steps,
+    )
+    history = solve(cone)
+    (tip,) = np.flatnonzero((history.model.mesh.points == 0.0).all(axis=1))
+    down, _, back = (step.displacement[tip, 1] for step in history.steps)
+    yield from checks_of(
+        "B13 Code_Aster SSNA111: rigid cone in a block that hardens, and back by 2 %",
+        ("displacement below its tip", down, -0.25, 1e-9),
+        ("the same as it goes back: it still touches there", back, -0.392, 1e-9),
+        source="V6.01.111",
+    )
 
 
 def rolling() -> Iterator[Check]:

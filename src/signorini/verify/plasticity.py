@@ -13,7 +13,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.engine.solve import solve
 from signorini.gallery.press_fit import press_fit
-from signorini.gallery.yielding import PERFECT, SHEAR_STRENGTH, bent_beam, footing, tube
+from signorini.gallery.yielding import PERFECT, SHEAR_STRENGTH, bent_beam, footing, stretched, tube
 from signorini.meshing.plane import Cells
 from signorini.model.body import Body
 from signorini.model.material import Elastic
@@ -43,6 +43,14 @@ _TUBES: tuple[tuple[Cells, int, Kind, tuple[float, float, float]], ...] = (
 _COARSE_PUNCHES: tuple[tuple[Cells, int, float], ...] = (("quad", 8, 0.06), ("quad8", 4, 0.06), ("triangle6", 4, 0.02))
 _FINE_PUNCHES: tuple[tuple[Cells, int, float], ...] = (("quad", 32, 0.02), ("quad8", 16, 0.02), ("triangle6", 8, 0.01))
 """Cells, how many under half the punch; its edge is singular: errors are of the first order in their size."""
+
+_NL1_STRAINS = ((0.25, 0.0), (0.5, 0.0), (0.5, 0.25), (0.5, 0.5), (0.25, 0.5), (0.0, 0.5), (0.0, 0.25), (0.0, 0.0))
+"""Of NAFEMS NL1 along x and y, in 1e-4."""
+_NL1: dict[float, tuple[float, ...]] = {
+    0.0: (5.0, 5.0, 5.0, 5.0, 5.0, 5.0, 3.917, 5.0),
+    62.5: (5.0, 5.862, 5.482, 6.362, 6.640, 7.322, 4.230, 5.673),
+}
+"""Hardening, GPa, and the equivalent stress that is printed after each of its steps, MPa."""
 
 _NEXT_LOAD = 0.998  # of the limit that is named: the next load
 _ATTEMPTS = 8  # loads, from twice the limit on: 2 to 5 are the rule
@@ -142,6 +150,26 @@ def bending() -> Iterator[Check]:
             rows.append((f"moment at {part:g} of the curvature of first yield", moment, exact, tolerance))
         case = f"B12 bending beyond yield, plane strain, {cells}, {n} cells"
         yield from checks_of(case, *rows, source="Hill (1950), chapter IV.6")
+
+
+def stretched_square() -> Iterator[Check]:
+    """NAFEMS NL1: the strains of one cell to and fro, and its equivalent stress.
+
+    The last two stresses that are printed for a hardening square are 1 % above the exact ones, 4.190 and 5.624.
+    """
+    for hardening, printed in _NL1.items():
+        steps = [Step(scale={"x": x, "y": y}, increments=100) for x, y in _NL1_STRAINS]
+        history = solve(stretched(hardening * 1e3, steps=steps))
+        found = [float(yielding_points(history, k).mises[0]) for k in range(len(steps))]
+        errors = np.abs(np.array(found) / printed - 1.0)
+        yield from checks_of(
+            f"B12 NAFEMS NL1: prescribed strains in plane strain, hardening {hardening:g} GPa",
+            ("equivalent stress after six steps, MPa", found[5], printed[5], 3e-3),
+            ("after the seventh, elastic at first", found[6], printed[6], 3e-3 if hardening == 0.0 else 0.012),
+            ("after the eighth", found[7], printed[7], 3e-3 if hardening == 0.0 else 0.012),
+            ("largest error of those before", errors[:6].max(), 0.0, 3e-3),
+            source="NAFEMS Non-Linear Benchmarks (1989), as in Abaqus Benchmarks",
+        )
 
 
 def _lack(history: History, stress: Callable[[Array, float], tuple[Array, Array]]) -> float:

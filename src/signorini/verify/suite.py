@@ -74,6 +74,7 @@ QUICK: tuple[Case, ...] = (
     plasticity.flat_punch,
     plasticity.yielding_press_fits,
     plasticity.bending,
+    plasticity.stretched_square,
     indentation.first_yield,
 )
 SLOW: tuple[Case, ...] = (
@@ -90,6 +91,8 @@ SLOW: tuple[Case, ...] = (
     rates.corners,
     plasticity.flat_punch_refined,
     indentation.full_plasticity,
+    indentation.ball_in_a_block,
+    indentation.cone_in_a_block,
     indentation.rolling,
 )
 

@@ -52,19 +52,19 @@ class YieldingPoints:
         return r, xx * x**2 + yy * y**2 + 2.0 * xy * x * y, xx * y**2 + yy * x**2 - 2.0 * xy * x * y
 
 
-def yielding_points(history: History) -> YieldingPoints:
-    """At the end of the last finished step; without temperatures.
+def yielding_points(history: History, step: int = -1) -> YieldingPoints:
+    """At the end of a step, by default the last; without temperatures.
 
     Raises
     ------
     ValueError
         If no step was finished, or nothing yields.
     """
-    end, model = history.end, history.model
-    if end is None or end.state.plastic is None:
+    end, model = history.steps[step] if history.steps else None, history.model
+    if end is None or end.plastic is None:
         raise ValueError("no step was finished, or no body yields")
     bodies = yielding_bodies(make_space(model.mesh, axisymmetric=model.kind == "axisymmetric"), model)
-    u, plastic, still = end.state.displacement, end.state.plastic, np.zeros(len(bodies.body))
+    u, plastic, still = end.displacement.ravel(), end.plastic.state, np.zeros(len(bodies.body))
     stress = deviator(bodies, u, plastic.strain, still)
     volume = bodies.dilatation(full_strains(bodies, u, plastic.strain, still))
     stress[:, :3] += (bodies.laws.bulk[bodies.body] * volume)[:, None]
