@@ -56,11 +56,16 @@ def example() -> None:
 
 def quick() -> None:
     """What most mistakes do not survive, in two minutes on two cores once everything is compiled."""
-    check()
-    say("fast tests and doctests")
-    pytest("not slow and not suite")
+    lint()
+    say("fast tests and doctests, types beside them")
     with tempfile.TemporaryDirectory() as folder:
-        run_deck(ROOT / "examples" / "zhu_cylinder.toml", folder)
+        found = Path(folder) / "types.txt"
+        with found.open("w") as told, subprocess.Popen([str(BIN / "mypy")], cwd=ROOT, stdout=told) as types:
+            pytest("not slow and not suite")
+            run_deck(ROOT / "examples" / "zhu_cylinder.toml", folder)
+        print(found.read_text(), end="")
+        if types.returncode:
+            sys.exit(types.returncode)
     say("quick checks passed; python3 dev.py test runs the others")
 
 
@@ -85,14 +90,17 @@ def test() -> None:
 
 def check() -> None:
     """Install the development tools; lint, format and types."""
+    lint()
+    say("types")
+    run("mypy")
+
+
+def lint() -> None:
+    """Install the development tools; lint and format."""
     install("[dev]")
-    for words, *command in (
-        ("lint", "ruff", "check"),
-        ("format", "ruff", "format", "--check"),
-        ("types", "mypy"),
-    ):
-        say(words)
-        run(*command)
+    say("lint and format")
+    run("ruff", "check")
+    run("ruff", "format", "--check")
 
 
 def pytest(marks: str) -> None:
