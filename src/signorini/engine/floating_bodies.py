@@ -10,7 +10,6 @@ import numpy as np
 from signorini.arrays import Array, BoolArray, extent
 from signorini.attempt import Spent
 from signorini.engine.increments import applied, certified, moving_away
-from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart
 from signorini.errors import SolveFailed
@@ -179,8 +178,7 @@ def resting(part: StepPart) -> StepPart:
     part as given where there is no such body, and where bodies are not condensed.
     """
     prepared, state = part.prepared, part.before
-    paths = prepared.solver.paths
-    if not prepared.floating.shape[1] or paths is None:
+    if not prepared.floating.shape[1] or prepared.solver.paths is None:
         return part
     presses, apart, width = standing(prepared, state)
     touches = presses | (apart & (state.gap <= width))
@@ -194,12 +192,11 @@ def resting(part: StepPart) -> StepPart:
     ways = unfelt(loose.T)
     rigid = np.asarray(prepared.motions @ (prepared.floating @ loose))
     place = np.linalg.lstsq(rigid, state.displacement - applied(prepared, state.point)[1])[0]
-    solver = prepared.solver if isinstance(prepared.solver, PlasticSolver) else paths
     return replace(
         part,
         prepared=replace(
             prepared,
-            solver=solver.moving(ways, prepared.interface, prepared.scale),
+            solver=prepared.solver.moving(ways, prepared.interface, prepared.scale),
             floating=prepared.floating @ ways,
             resting=rigid @ place,
         ),

@@ -73,6 +73,15 @@ class MultiplierSolver:
         """
         return replace(self, bodies=self.bodies.among(~absent)) if absent.any() else self
 
+    def moving(self, ways: Array, interface: Interface, scale: Scale) -> MultiplierSolver:  # noqa: ARG002
+        """Itself: multipliers need no springs.
+
+        Parameters
+        ----------
+        ways, interface, scale : not looked at
+        """
+        return self
+
     def solve(self, increment: Increment) -> IncrementAnswer:
         """Solve one increment, from an answer near it or from as far ahead of the state as the last increment led."""
         state, last, near = increment.state, increment.last, increment.near

@@ -194,14 +194,14 @@ class PlasticSolver:
         return replace(self, elastic=elastic, interface=interface, scale=scale, absent=absent)
 
     def moving(self, ways: Array, interface: Interface, scale: Scale) -> PlasticSolver:
-        """Bodies of which some rest, see `CondensedSolver.moving`.
+        """Bodies of which some rest, see `ContactSolver.moving`.
 
         Parameters
         ----------
         ways : (k, m) the combinations of floating motions that occur
         interface, scale : as of `under`
         """
-        elastic = self.elastic if self.elastic.paths is None else self.elastic.paths.moving(ways, interface, scale)
+        elastic = self.elastic.moving(ways, interface, scale)
         return replace(self, elastic=elastic, interface=interface, scale=scale, ways=ways)
 
     def solve(self, increment: Increment) -> IncrementAnswer:

@@ -151,6 +151,15 @@ class ContactSolver(Protocol):
             If the pairs that are left do not hold the bodies.
         """
 
+    def moving(self, ways: Array, interface: Interface, scale: Scale) -> Self:
+        """Bodies of whose k rigid motions only some combinations occur: springs hold the others, where it is condensed.
+
+        Parameters
+        ----------
+        ways : (k, m) the combinations
+        interface, scale : as of `under`
+        """
+
     def solve(self, increment: Increment) -> IncrementAnswer:
         """Solve one increment."""
 
@@ -221,11 +230,11 @@ class CondensedSolver:
         return replace(self, law=replace(self.law, scale=size, **_friction(self.condensed, interface)))
 
     def moving(self, ways: Array, interface: Interface, scale: Scale) -> CondensedSolver:
-        """Bodies of whose k rigid motions only some combinations occur: springs hold the others.
+        """Bodies of which some rest, see `ContactSolver.moving`.
 
         Parameters
         ----------
-        ways : (k, m) the combinations
+        ways : (k, m) combinations of the rigid motions
         interface, scale : as of `of`
         """
         return CondensedSolver.of(self.condensed.moving(ways), interface, scale, self.settings)
