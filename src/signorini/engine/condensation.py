@@ -13,11 +13,17 @@ from signorini.errors import InputError
 from signorini.fem.rigid import hinged
 from signorini.interface.active import FreeBodies
 from signorini.iterative.bodies import ITERATIVE
+from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import NotPositiveDefinite
 
 
 def condense_bodies(
-    examined: Examined, bodies: FreeBodies, candidates: BoolArray, backend: str, clock: Clock
+    examined: Examined,
+    bodies: FreeBodies,
+    candidates: BoolArray,
+    backend: str,
+    clock: Clock,
+    plans: Plans | None = None,
 ) -> Condensed:
     """Factorise the bodies with the nodes of the candidates last.
 
@@ -28,6 +34,7 @@ def condense_bodies(
     candidates : (n,) pairs that the law is asked of
     backend : of the factorisation, or "iterative"
     clock : counts the seconds
+    plans : see :func:`signorini.linalg.registry.factorise`
 
     Raises
     ------
@@ -44,6 +51,7 @@ def condense_bodies(
             stiffness=examined.scale.stiffness,
             backend="auto" if backend == ITERATIVE else backend,
             clock=clock,
+            plans=plans,
         )
     except NotPositiveDefinite as error:
         raise _singular(examined, error) from error

@@ -29,6 +29,7 @@ from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface, under_laws
 from signorini.interface.worn_sides import WornSides, worn_sides
+from signorini.linalg.plan import Plans
 from signorini.linalg.threads import one_thread
 from signorini.model.model import Model
 from signorini.model.stage import Stage, stages
@@ -70,6 +71,7 @@ class Prepared(Examined, DiscreteModel):
     resting : (dofs,) rigid displacement of bodies that rest, see `engine.floating_bodies`; empty where none does
     flowed : (dofs,) forces of plastic strain that does not change, so that bodies answer as elastic ones; else empty
     wearing : sides that wear, as the pairs see them; None where none does
+    plans : of the factorisation, for tangents of bodies that yield; None where none does
     kept : the last that was factorised, by supports released and candidates, to be found again; None: nothing is kept
     """
 
@@ -85,6 +87,7 @@ class Prepared(Examined, DiscreteModel):
     resting: Array = field(default_factory=lambda: np.zeros(0))
     flowed: Array = field(default_factory=lambda: np.zeros(0))
     wearing: WornSides | None = None
+    plans: Plans | None = None
     kept: dict[tuple[frozenset[str], bytes], Condensed] | None = None
 
     @property
@@ -150,13 +153,7 @@ class Prepared(Examined, DiscreteModel):
                 self.kept.pop(next(iter(self.kept)))
             self.kept[key] = made.solver.paths.condensed
         return _flowing(
-            replace(
-                made,
-                released=self.released,
-                multiplied=self.multiplied,
-                kept=self.kept,
-                wearing=self.wearing,
-            ),
+            replace(made, released=self.released, multiplied=self.multiplied, kept=self.kept, wearing=self.wearing),
             self.yielding,
         )
 
@@ -325,6 +322,7 @@ def _flowing(made: Prepared, yielding: YieldingBodies | None) -> Prepared:
         whole=made.solver.paths is None,
         backend=made.backend,
         settings=made.settings,
+        plans=made.plans or Plans(),
     )
     solver = PlasticSolver(
         elastic=made.solver, tangents=tangents, interface=made.interface, scale=made.scale, absent=made.absent
@@ -351,7 +349,7 @@ def _made(
     """
     interface, T = examined.interface, examined.constraints.transform
     data = {field.name: getattr(examined, field.name) for field in fields(Examined)}
-    softness, condensed = 0.0, known
+    softness, condensed, plans = 0.0, known, Plans() if examined.model.yields else None
     solver: ContactSolver
     if condensed is None:
         with clock.phase("assembly"):
@@ -362,7 +360,7 @@ def _made(
             if whole:
                 solver = make_multipliers(examined, reduced, relative, candidates, settings)
         if not whole:
-            condensed = condense_bodies(examined, bodies, candidates, backend, clock)
+            condensed = condense_bodies(examined, bodies, candidates, backend, clock, plans)
     if condensed is not None:
         softness = _softness(examined, condensed)
         data["scale"] = examined.scale.bent(softness)
@@ -379,6 +377,7 @@ def _made(
         posed=examined.constraints.prescribed,
         settings=settings,
         softness=softness,
+        plans=plans,
     )
 
 

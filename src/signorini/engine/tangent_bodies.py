@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -40,7 +40,7 @@ class TangentBodies:
     near : (n,) pairs that the law is asked of
     whole : whether contact is iterated on the bodies as they are
     backend, settings : of the factorisation and the methods
-    plans : the plan of the factorisation, made once
+    plans : the plan of the factorisation, made once, with the elastic bodies if they have the pattern
     """
 
     examined: Examined
@@ -54,7 +54,7 @@ class TangentBodies:
     whole: bool
     backend: str
     settings: SolverSettings
-    plans: Plans = field(default_factory=Plans)
+    plans: Plans
 
     @staticmethod
     def of(
@@ -66,6 +66,7 @@ class TangentBodies:
         whole: bool,
         backend: str,
         settings: SolverSettings,
+        plans: Plans,
     ) -> TangentBodies:
         """Patterns, once for all tangents.
 
@@ -76,7 +77,7 @@ class TangentBodies:
         yielding : the points of the bodies that yield
         near : (n,) pairs that the law is asked of
         whole : whether contact is iterated on the bodies as they are
-        backend, settings : of the factorisation and the methods
+        backend, settings, plans : of the factorisation and the methods
         """
         T = examined.constraints.transform
         rows = yielding.rows()
@@ -93,6 +94,7 @@ class TangentBodies:
             whole=whole,
             backend="auto" if backend == ITERATIVE else backend,
             settings=settings,
+            plans=plans,
         )
 
     @property

@@ -128,7 +128,9 @@ class YieldingBodies:
                 if swelling is not None:
                     free[:, :3] += swelling[own, None] / 3.0
                 for _ in range(_MODE_ROUNDS):
-                    group.add_mode_strains(group.amplitudes(self._elastic_stress(group, free - found[own])), found[own])
+                    group.add_mode_strains(
+                        group.amplitudes(self._elastic_stress(self.body[own], free - found[own])), found[own]
+                    )
         return found
 
     def flow_strains(self, v: Array) -> Array:
@@ -226,17 +228,22 @@ class YieldingBodies:
 
     def eigenstress(self, plastic: Array) -> Array:
         """(p, n) ``D eps_p`` of plastic strains (p, n), less what internal modes give way to."""
-        stress: Array = np.einsum("pij,pj->pi", self.elasticity[self.body], plastic)
+        stress = self._elastic_stress(self.body, plastic)
         for group in self.groups:
             if group.internal:
                 given = np.zeros_like(stress[group.own])
                 group.add_mode_strains(group.amplitudes(stress[group.own]), given)
-                stress[group.own] -= self._elastic_stress(group, given)
+                stress[group.own] -= self._elastic_stress(self.body[group.own], given)
         return stress
 
-    def _elastic_stress(self, group: PointGroup, strain: Array) -> Array:
-        """(m q, n) ``D eps`` of strains at the points of a group."""
-        stress: Array = np.einsum("pij,pj->pi", self.elasticity[self.body[group.own]], strain)
+    def _elastic_stress(self, body: IntArray, strain: Array) -> Array:
+        """(p, n) ``D eps`` of strains (p, n) at points of bodies (p,)."""
+        stress = np.zeros_like(strain)
+        for b in np.flatnonzero(self.laws.rows):
+            own = body == b
+            if own.all():
+                return np.asarray(strain @ self.elasticity[b])
+            stress[own] = strain[own] @ self.elasticity[b]
         return stress
 
     def internal_forces(self, stress: Array) -> Array:
