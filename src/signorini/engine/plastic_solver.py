@@ -45,8 +45,11 @@ _STIFFER_PARTS = (1e-4, 0.1)  # of the elastic law, left in place where contact 
 _SEARCH_FROM = 0.5  # of the residual before: a step that leaves more is looked at
 _KEPT_GAIN = 0.03  # of the residual before: a full step that leaves less has a tangent that will do once more
 _KEPT_FROM = 1e-6  # of the size of forces: below it that pays, above it costs rounds
-_ANDERSON_DEPTH = 6  # rounds that Anderson's method looks back on
+_ANDERSON_DEPTH = 10  # rounds that Anderson's method looks back on: with 6 a tenth more of them, with 15 as many
 _TANGENT_DECADES = 0.7  # that a new tangent gains; a kept one is worth it as long as it gains its share of the price
+_PATIENCE = 3  # rounds in which a kept tangent has to gain that, together: single ones rise and fall
+_SHORTER = 0.5  # of the first step on it: a tangent whose steps are shorter than that may be waited for
+_LOST = 10.0  # times the first residual on it: beyond that it is not
 _SUBSTITUTION = 40.0  # operations that take as long as to move an entry of the factor through memory in one round
 _FLOWING = 30.0  # of the first, elastic step: steps beyond that, again and again, are bodies that flow away
 _MAX_LEAP = 10.0  # of how far bodies have moved: a longer step is cut, a soft tangent knows no better
@@ -121,6 +124,18 @@ class _Rounds:
         self.residuals.append(residual)
         self.steps.append(step)
         self.lengths.append(length)
+
+    def gains(self, share: float) -> bool:
+        """Whether the factor at hand still gains that share of a new tangent's decades a round, or soon will again.
+
+        Residuals on it rise and fall; while steps shorten, those of a few rounds count together.
+        """
+        here, steps = (each[-len(self.inputs) - 1 :] for each in (self.residuals, self.lengths))
+        within = _PATIENCE if steps[-1] < _SHORTER * steps[0] else 1
+        if len(here) <= within:
+            return here[-1] <= _LOST * here[0]
+        before, now = min(here[:-within]), min(here[-within:])
+        return now <= 10.0 ** (-_TANGENT_DECADES * share * within) * before
 
     def gained(self) -> bool:
         """Whether the last full step gained so much that its tangent will do once more."""
@@ -228,14 +243,13 @@ class PlasticSolver:
                         bodies=bodies, increment=increment, old=old, swelling=swelling, one=reached[0], two=answer
                     )
                     most = _MAX_LEAP * max(rounds.lengths[0], float(np.abs(reached[0].free).max(initial=0.0)))
-                    if not rounds.inputs and way.length > most:
+                    if way.length > most:
                         step, answer, after = way.cut(most / way.length)
                     elif not rounds.inputs and lack > max(_BALANCED, _SEARCH_FROM * rounds.last):
                         step, answer, after = way.shortened(reached[1], after)
                     lack = lack if step == 1.0 else self._lack(increment, answer, after)
                 before = state.displacement[system.constraints.leaders] if reached is None else reached[0].free
                 after = bodies.with_dual(after, old, model, linear)
-            kept = rounds.last
             rounds.add(lack, step, Mechanism(answer.free - before, answer.forces))
             fine = _LACK_IN_ROUNDS * kept <= _BALANCED or answer.lost <= _BALANCED * self.scale.length
             if step == 1.0 and lack <= _BALANCED and (fine or len(rounds.steps) == 1):
@@ -253,7 +267,7 @@ class PlasticSolver:
                 words = f"plastic flow did not settle in {len(rounds.steps)} rounds ({lack:.1e} of the forces left)"
                 return replace(answer, outcome=Outcome.NOT_FOUND, message=words, mechanisms=rounds.mechanisms)
             reached = answer, after
-            if step < 1.0 or self._pays(tangent, lack, kept, rounds):
+            if step < 1.0 or self._pays(tangent, rounds):
                 del tangent  # one factor less while the next is made
                 tangent, model = self._softened(after, increment, rounds), after
                 x = self._right(after, tangent, answer, T)
@@ -275,12 +289,12 @@ class PlasticSolver:
         forces = after.state.forces + system.interface.B.T @ answer.forces - system.K @ (T @ answer.free)
         return float(np.abs(increment.f + T.T @ forces).max(initial=0.0)) / system.scale.force
 
-    def _pays(self, tangent: _Tangent, lack: float, before: float, rounds: _Rounds) -> bool:
+    def _pays(self, tangent: _Tangent, rounds: _Rounds) -> bool:
         """Whether a new tangent is worth its factorisation."""
         if rounds.gained():
             return False
         share = self.tangents.substitution_share(tangent.solver, _SUBSTITUTION)
-        return share is None or lack > 10.0 ** (-_TANGENT_DECADES * share) * before
+        return share is None or not rounds.gains(share)
 
     def _softened(
         self, at: PlasticResponse, increment: Increment, rounds: _Rounds, left: tuple[float, ...] = _LEFT_PARTS
