@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 
 import signorini as sg
+from signorini.engine.cycles import judge
+from signorini.solution.results import Cycle
 
 E, Y = 200.0, 1.0
 
@@ -50,3 +52,22 @@ def test_a_bar_of_armstrong_and_frederick_ratchets():
         assert result.steadiness == "ratchets"
         errors.append(result.cycles[-1].plastic_drift - drift)
     assert 1.9 <= errors[0] / errors[1] <= 2.3  # backward Euler is of first order
+
+
+@pytest.mark.parametrize(
+    ("flows", "dies"),
+    [
+        ([9.0, 4.0, 2.0, 1.0], True),
+        ([2.0, 1.5, 1.2, 1.06, 1.02], False),  # just above a shakedown limit: falls to what every cycle adds
+        ([9.0, 4.0, 2.0], False),  # too few to tell
+        ([9.0, 1.0, 0.9, 0.88], False),
+    ],
+)
+def test_flow_dies_out_where_its_decay_leaves_nothing(flows, dies):
+    idle = dict.fromkeys(("load_factor", "work", "dissipation", "released", "sliding", "change", "drift"), 0.0)
+    cycles = [Cycle(number=i, flow=flow, plastic_drift=flow, **idle) for i, flow in enumerate(flows)]
+    verdict, words = judge(cycles, None)
+    assert verdict == "not yet"
+    assert words.endswith(
+        ": flow dies out, bodies tend to shake down" if dies else ", not decided whether flow dies out"
+    )

@@ -21,6 +21,9 @@ REPEAT_TOL = 1e-8
 STEADY_TOL = 0.02
 """Of the plastic strain that grows in a cycle: less tells no steady cycle from one that settles slowly."""
 
+_DECAYING_CYCLES = 4  # the first, in which flow begins, and three that a decay is seen by
+_DEAD = 0.1  # of what the last cycle adds: where no more is left in the limit it is nothing
+
 
 def make_cycles(followed: FollowedPart, ends: Sequence[float]) -> tuple[Cycle, ...]:
     """The cycles of a step.
@@ -127,11 +130,29 @@ def _judge_flow(cycles: Sequence[Cycle]) -> tuple[str, str]:
         )
         if np.isfinite(ratio):
             words += f", {ratio:.3g} times as much as in the one before"
-        return "not yet", words + (": flow dies out, bodies tend to shake down" if ratio < 1.0 else "")
+        if ratio < 1.0:
+            dies = _dies_out([cycle.flow for cycle in cycles])
+            words += ": flow dies out, bodies tend to shake down" if dies else ", not decided whether flow dies out"
+        return "not yet", words
     if last.plastic_drift <= STEADY_TOL * last.flow:
         words = f"plastic flow alternates: {last.flow:.3g} of equivalent strain a cycle, and ends where it began"
         return "steady", words
     return "ratchets", f"ratchets: plastic strain grows by {last.plastic_drift:.3g} a cycle, steadily"
+
+
+def _dies_out(flows: Sequence[float]) -> bool:
+    """Whether what the last three of four cycles or more add falls as a geometric sequence to nothing.
+
+    With ``f_k = f + c q^k`` what is left is ``f = f_3 - (f_3 - f_2)^2 / (f_3 - 2 f_2 + f_1)`` (Aitken).
+
+    >>> _dies_out([9.0, 4.0, 2.0, 1.0]), _dies_out([9.0, 4.0, 2.5, 1.75]), _dies_out([4.0, 2.0, 1.0])
+    (True, False, False)
+    """
+    if len(flows) < _DECAYING_CYCLES:
+        return False
+    first, second, third = flows[-3:]
+    before, now = second - first, third - second
+    return before < now < 0.0 and third + now**2 / (before - now) <= _DEAD * third
 
 
 def _since(cycles: Sequence[Cycle], holds: Sequence[bool]) -> int | None:
