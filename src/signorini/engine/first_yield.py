@@ -122,10 +122,12 @@ def _up_to_yield(
 ) -> tuple[StepPart, FollowedPart] | None:
     """The part up to where its first point yields, and how it was followed; None where that is at its beginning.
 
-    On a straight piece of an exact path the first try is it; between increments stresses bend, and it is found by
-    regula falsi from the side that does not yield.
+    On a straight piece of an exact path the first try is it; between increments stresses grow with a power of the load
+    as contact does, and where that law no longer halves what is lacking regula falsi goes on, from the side that does
+    not yield.
     """
     (low, below), (high, above), factor = bracket.low, bracket.high, bracket.factor
+    last = bracket.high
     best: tuple[StepPart, FollowedPart] | None = None
     side = 0
     for _ in range(_YIELD_ROUNDS):
@@ -142,8 +144,20 @@ def _up_to_yield(
         else:
             high, above, below, side = factor, excess, below * (0.5 if side > 0 else 1.0), 1
         aim = -0.5 * _NEAR_YIELD
+        guess = _by_power(last, (factor, excess), aim) if abs(excess) < 0.5 * abs(last[1]) else None
+        last = factor, excess
         factor = low + (high - low) * min(max((aim - below) / (above - below), _INSIDE), 1.0 - _INSIDE)
+        if guess is not None and low < guess < high:
+            factor = guess
     return best
+
+
+def _by_power(one: tuple[float, float], two: tuple[float, float], aim: float) -> float | None:
+    """The load factor at which a power of it, through two of them with what exceeds 1 there, exceeds 1 by an aim."""
+    grown, stretched = (1.0 + two[1]) / (1.0 + one[1]), two[0] / one[0]
+    if min(grown, stretched) <= 0.0 or grown == 1.0:
+        return None
+    return float(two[0] * ((1.0 + aim) / (1.0 + two[1])) ** (np.log(stretched) / np.log(grown)))
 
 
 def _below_yield(prepared: Prepared, followed: FollowedPart, note: str) -> FollowedPart:
