@@ -71,3 +71,13 @@ def test_flow_dies_out_where_its_decay_leaves_nothing(flows, dies):
     assert words.endswith(
         ": flow dies out, bodies tend to shake down" if dies else ", not decided whether flow dies out"
     )
+
+
+def test_a_drift_that_still_falls_is_no_ratchet():
+    """Of a line contact that rolls just below its shakedown limit: as much flow to and fro, less of it left."""
+    idle = dict.fromkeys(("load_factor", "work", "dissipation", "released", "sliding", "change", "drift"), 0.0)
+    passes = [(3.92e-4, 2.36e-5), (3.853e-4, 1.98e-5), (3.805e-4, 1.74e-5)]
+    cycles = [Cycle(number=i, flow=flow, plastic_drift=left, **idle) for i, (flow, left) in enumerate(passes)]
+    verdict, words = judge(cycles, None)
+    assert verdict == "not yet"
+    assert words.endswith("plastic strain grows by 1.74e-05 in the last, 0.879 times as much as in the one before")

@@ -11,6 +11,7 @@ import signorini as sg
 from signorini.engine import first_yield, plastic_steps
 from signorini.engine.chord import Chord
 from signorini.gallery.cylinder import zhu_cylinder
+from signorini.gallery.press_fit import press_fit
 from signorini.outcome import Outcome
 
 LIMIT = 2.0 * np.log(2.0)  # of the pressure in a tube of twice the radius outside, over the shear strength
@@ -130,3 +131,20 @@ def test_no_limit_load_is_sought_while_pairs_are_left_out():
     with mock.patch.object(plastic_steps, "collapse", side_effect=plastic_steps.collapse) as sought:
         assert sg.solve(model).solved
     assert not sought.called
+
+
+@pytest.mark.parametrize("along", [(32, 24), (24, 32)])
+def test_a_hub_that_flows_as_a_whole_keeps_its_fit(along):
+    """Its tangent yields so far that a condensed compliance loses the digits of the fit; a stiffer one has them."""
+    hub = sg.Elastic(E=1000.0, nu=0.4999, plastic=sg.Plastic(3.0**0.5))
+    elastic = press_fit(n_radial=12, n_angular=along, kind="plane strain", interference=0.012)
+    model = replace(
+        elastic,
+        bodies=[sg.Body("shaft", sg.Elastic(E=2000.0, nu=0.4999), "mean dilatation"), sg.Body("hub", hub)],
+        steps=[sg.Step(increments=1)],
+    )
+    solution = sg.solve(model)
+    found = solution.steps[0].certificate
+    assert max(found.penetration, found.complementarity) < 1e-9
+    contact = solution.contact("fit")
+    assert contact.pressure @ contact.area / contact.area.sum() == pytest.approx(2.0 * np.log(1.5), rel=2e-3)

@@ -137,6 +137,13 @@ def _judge_flow(cycles: Sequence[Cycle]) -> tuple[str, str]:
     if last.plastic_drift <= STEADY_TOL * last.flow:
         words = f"plastic flow alternates: {last.flow:.3g} of equivalent strain a cycle, and ends where it began"
         return "steady", words
+    before = cycles[-2].plastic_drift
+    if abs(last.plastic_drift - before) > STEADY_TOL * before:
+        words = (
+            f"not steady after {len(cycles)} cycles: plastic strain grows by {last.plastic_drift:.3g} in the last, "
+            f"{last.plastic_drift / before:.3g} times as much as in the one before"
+        )
+        return "not yet", words
     return "ratchets", f"ratchets: plastic strain grows by {last.plastic_drift:.3g} a cycle, steadily"
 
 

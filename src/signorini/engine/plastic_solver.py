@@ -33,9 +33,11 @@ from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.outcome import Outcome
 from signorini.plasticity.bodies import PlasticResponse
 from signorini.plasticity.measure import plastic_work, stored_by_back_stresses
+from signorini.plasticity.state import PlasticState
 from signorini.solution.scale import Scale
 
 _BALANCED = 1e-9  # of the size of forces: a tenth of what the certificate allows
+_FITTING = 3e-9  # of the length of the data: by which pairs and bodies may part; beyond it the tangent is too soft
 _LACK_IN_ROUNDS = (
     1e-3  # of what the round before lacks: so much contact may lack in a round, the next one makes it anew
 )
@@ -250,30 +252,47 @@ class PlasticSolver:
                     lack = lack if step == 1.0 else self._lack(increment, answer, after)
                 before = state.displacement[system.constraints.leaders] if reached is None else reached[0].free
                 after = bodies.with_dual(after, old, model, linear)
+            kept = rounds.last
             rounds.add(lack, step, Mechanism(answer.free - before, answer.forces))
-            fine = _LACK_IN_ROUNDS * kept <= _BALANCED or answer.lost <= _BALANCED * self.scale.length
-            if step == 1.0 and lack <= _BALANCED and (fine or len(rounds.steps) == 1):
-                work = old.dissipation + plastic_work(
-                    bodies,
-                    (state.displacement, old),
-                    (T @ answer.free + increment.imposed, after.state),
-                    (bodies.swelling(state.point.factors), swelling),
-                )
-                run = MethodRun(method="plastic flow", iterations=len(rounds.steps), end="balanced")
-                new = replace(after.state, dissipation=work, stored=stored_by_back_stresses(bodies, after.state))
-                return replace(answer, plastic=new, trace=(*answer.trace, run))
+            asked = _LACK_IN_ROUNDS * kept <= _BALANCED or len(rounds.steps) == 1  # of contact for all its digits
+            parted = answer.lost > _FITTING * self.scale.length
+            softest = tangent.S is not None and not rounds.least
+            balanced = step == 1.0 and lack <= _BALANCED
+            if balanced and (not parted or (asked and not softest)):
+                return self._settled(increment, old, answer, after, rounds)
             far = not np.isfinite(lack) or np.abs(answer.free).max(initial=0.0) > _MAX_LENGTHS * self.scale.length
             if rounds.runs_away or far or len(rounds.steps) >= _MAX_ROUNDS:
                 words = f"plastic flow did not settle in {len(rounds.steps)} rounds ({lack:.1e} of the forces left)"
                 return replace(answer, outcome=Outcome.NOT_FOUND, message=words, mechanisms=rounds.mechanisms)
             reached = answer, after
-            if step < 1.0 or self._pays(tangent, rounds):
+            stiffer = balanced and asked
+            if stiffer:
+                rounds.least = _STIFFER_PARTS[0]
+            if stiffer or step < 1.0 or self._pays(tangent, rounds):
                 del tangent  # one factor less while the next is made
                 tangent, model = self._softened(after, increment, rounds), after
                 x = self._right(after, tangent, answer, T)
                 rounds.inputs, rounds.outputs = [], []
             else:
                 x = rounds.accelerated(x, self._right(after, tangent, answer, T), scale)
+
+    def _settled(
+        self,
+        increment: Increment,
+        old: PlasticState,
+        answer: IncrementAnswer,
+        after: PlasticResponse,
+        rounds: _Rounds,
+    ) -> IncrementAnswer:
+        """The last answer with what points of yielding bodies remember, and the work that they have taken."""
+        bodies, state = self.tangents.yielding, increment.state
+        u = increment.system.constraints.transform @ answer.free + increment.imposed
+        swelling = bodies.swelling(state.point.factors), bodies.swelling(increment.point.factors)
+        work = plastic_work(bodies, (state.displacement, old), (u, after.state), swelling)
+        run = MethodRun(method="plastic flow", iterations=len(rounds.steps), end="balanced")
+        stored = stored_by_back_stresses(bodies, after.state)
+        new = replace(after.state, dissipation=old.dissipation + work, stored=stored)
+        return replace(answer, plastic=new, trace=(*answer.trace, run))
 
     def _right(self, after: PlasticResponse, tangent: _Tangent, answer: IncrementAnswer, T: sp.csr_array) -> Array:
         """x = f_p - S u, (z,), at an answer."""
