@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A history that goes on from the end of another is the whole one, through a file too; what does not fit is refused."""
 
+import json
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass, replace
 from pathlib import Path
@@ -303,6 +304,28 @@ def test_the_command_line_goes_on(tmp_path: Path) -> None:
         pressures.append([float(row.split(",")[column]) for row in rows[1:]])
     np.testing.assert_allclose(*pressures, rtol=0, atol=1e-9)
     assert main([*run, str(tmp_path / "d"), str(tmp_path / "two.toml"), "--from", str(tmp_path / "one.toml")]) == 2
+
+
+def test_the_command_line_goes_on_with_bodies_that_have_yielded(tmp_path: Path) -> None:
+    """What is let go after a restart is what is let go in one run, to the last digit of every file."""
+    example = (Path(__file__).parents[2] / "examples" / "indentation.toml").read_text()
+    deck, *steps = example.replace("increments = 40", "increments = 6").replace("= 20\n", "= 3\n").split("[[step]]")
+    for name, parts in (("press", steps[:1]), ("leave", steps[1:]), ("whole", steps)):
+        (tmp_path / f"{name}.toml").write_text("[[step]]".join([deck, *parts]))
+    run = ["run", "--quiet", "-o"]
+    assert main([*run, str(tmp_path / "a"), str(tmp_path / "press.toml")]) == 0
+    assert main([*run, str(tmp_path / "b"), str(tmp_path / "leave.toml"), "--from", str(tmp_path / "a")]) == 0
+    assert main([*run, str(tmp_path / "c"), str(tmp_path / "whole.toml")]) == 0
+    later, whole = (json.loads((tmp_path / name / "summary.json").read_text())["steps"][-1] for name in "bc")
+    assert whole["plastic"]["max_equivalent_strain"] > 0.005
+    begins = [part["plastic"].pop("first_yield") for part in (later, whole)]  # counted from where each run begins
+    assert begins[1] - begins[0] == pytest.approx(1.0, abs=1e-12)
+    assert later["plastic"] == whole["plastic"]
+    after, both = ((tmp_path / name / "contact.csv").read_text().splitlines()[1:] for name in "bc")
+    assert [row.partition(",")[2] for row in after] == [row.partition(",")[2] for row in both if row[:2] == "2,"]
+    hard = deck.replace("yield_stress = 600", "yield_stress = 700")
+    (tmp_path / "hard.toml").write_text("[[step]]".join([hard, steps[1]]))
+    assert main([*run, str(tmp_path / "d"), str(tmp_path / "hard.toml"), "--from", str(tmp_path / "a")]) == 2
 
 
 STEEL = sg.Plastic([(0.0, 20.0), (0.01, 24.0)], hardening=10.0, backstresses=[(500.0, 20.0)])

@@ -2,6 +2,7 @@
 """Pictures of bodies in space: their skin, the view, what hides what, and the rendering by PyVista."""
 
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -189,6 +190,25 @@ def test_a_view(solution, tmp_path):
         middle = half[300:700, 300:700]
         assert (middle.min(axis=2) < 230).mean() > 0.3  # not just the background
         assert len(np.unique(middle.reshape(-1, 3) // 16, axis=0)) > 20  # a field
+
+
+def test_a_view_shows_where_bodies_have_yielded(solution, tmp_path):
+    """In a picture of its own between stress and contact, which stay as they are."""
+    pytest.importorskip("pyvista")
+    from PIL import Image
+
+    law = sg.Plastic(8.0, hardening=100.0)
+    bodies = [replace(body, material=replace(body.material, plastic=law)) for body in solution.model.bodies[1:]]
+    soft = replace(solution.model, bodies=[solution.model.bodies[0], *bodies])
+    sg.solve(soft).view(tmp_path / "view.png")
+    with Image.open(tmp_path / "view.png") as picture:
+        pixels = np.asarray(picture.convert("RGB")).astype(int)
+    assert pixels.shape == (1000, 3000, 3)
+    stress, strain, contact = (part[:900] for part in np.split(pixels, 3, axis=1))  # above the colour bars
+    dark = np.array([68, 1, 84])  # nothing, in viridis: in the elastic body, whose stress is something
+    assert (np.abs(strain - dark).max(axis=2) < 40).mean() > (np.abs(stress - dark).max(axis=2) < 40).mean() + 0.05
+    assert len(np.unique(strain[300:700, 300:700].reshape(-1, 3) // 16, axis=0)) > 20
+    assert (contact != strain).any()
 
 
 def test_a_view_says_what_it_needs(solution, tmp_path, monkeypatch):

@@ -14,7 +14,7 @@ from signorini.errors import InputError
 from signorini.output.atomic_write import atomic_write
 from signorini.plot.field import factor_words
 from signorini.plot.patch import Patch
-from signorini.plot.picture_data import PictureData
+from signorini.plot.picture_data import PictureData, Scalar
 from signorini.plot.shots import Shot, contact_shot, deformed, whole_shot
 from signorini.plot.style import INK
 
@@ -41,6 +41,8 @@ _BAR = {
 def write_view(data: PictureData, path: Path) -> None:
     """Write a picture: von Mises stress on the deformed bodies, pressure and friction of the contact beside.
 
+    Between them the equivalent plastic strain, where bodies have yielded.
+
     Raises
     ------
     InputError
@@ -60,16 +62,20 @@ def _rendered(data: PictureData) -> NDArray[np.uint8]:
     if not data.solid:
         raise InputError("shows models in space; expected 'stress' for one in the plane", where=("view",))
     pyvista = _pyvista()
-    shots = [shot for shot in (whole_shot(data), contact_shot(data)) if shot is not None]
-    size = (_PANEL_SIZE * len(shots), _PANEL_SIZE)
-    plotter = pyvista.Plotter(off_screen=True, shape=(1, len(shots)), window_size=size, border=False, lighting="none")
+    whole, contact = whole_shot(data), contact_shot(data)
+    scalars = [data.stress, *([data.peeq] if data.yielded.any() else [])]
+    panels = len(scalars) + (contact is not None)
+    size = (_PANEL_SIZE * panels, _PANEL_SIZE)
+    plotter = pyvista.Plotter(off_screen=True, shape=(1, panels), window_size=size, border=False, lighting="none")
     try:
         plotter.set_background("white")
         plotter.enable_anti_aliasing("ssaa")
-        _stress(plotter, pyvista, data, shots[0])
-        for shot in shots[1:]:
-            plotter.subplot(0, 1)
-            _contact(plotter, pyvista, data, shot)
+        for column, scalar in enumerate(scalars):
+            plotter.subplot(0, column)
+            _field(plotter, pyvista, data, whole, scalar)
+        if contact is not None:
+            plotter.subplot(0, panels - 1)
+            _contact(plotter, pyvista, data, contact)
         return np.asarray(plotter.screenshot(return_img=True), dtype=np.uint8)
     finally:
         plotter.close()
@@ -88,13 +94,13 @@ def _pyvista() -> Any:
     return pyvista
 
 
-def _stress(plotter: Any, pyvista: Any, data: PictureData, shot: Shot) -> None:
-    """The bodies, deformed."""
+def _field(plotter: Any, pyvista: Any, data: PictureData, shot: Shot, scalar: Scalar) -> None:
+    """The bodies, deformed, and a field on their skin."""
     skin = shot.skin
     factor, points = deformed(data, shot)
     surface = _surface(pyvista, skin.pieces, points)
-    surface["von Mises stress"] = stress = skin.values(data.bodies.von_mises)
-    limits = (0.0, float(stress.max()) or 1.0)
+    surface[scalar.words.format("").partition(",")[0]] = values = skin.values(scalar.values)
+    limits = (0.0, float(values.max()) or 1.0)
     plotter.add_mesh(surface, cmap="viridis", clim=limits, scalar_bar_args=_BAR, **_SURFACE)
     _edges(plotter, pyvista, shot, points, "white", 0.25)
     _look(plotter, pyvista, shot, points, ", ".join([*filter(None, [data.model.title]), factor_words(factor)]))
