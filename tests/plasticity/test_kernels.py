@@ -20,7 +20,7 @@ def flowing(bodies, seed=0):
 
 def once(bodies, u):
     """The state after one increment from rest."""
-    return bodies.respond(u, bodies.untouched(), np.zeros(len(bodies.body))).state
+    return bodies.respond(u, bodies.untouched(), bodies.cold()).state
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -28,7 +28,7 @@ def once(bodies, u):
 def test_the_consistent_tangent_is_the_derivative(kind, law):
     """From rest and from a state that has flowed: what yielding takes off beside central differences of the forces."""
     bodies = points_of(kind, LAWS[law])
-    u, still = flowing(bodies), np.zeros(len(bodies.body))
+    u, still = flowing(bodies), bodies.cold()
     for old in (bodies.untouched(), once(bodies, 0.2 * flowing(bodies, 1))):
         response = bodies.respond(u, old, still)
         assert response.points.yields.all()
@@ -44,7 +44,7 @@ def test_the_consistent_tangent_is_the_derivative(kind, law):
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_is_left_of_the_elastic_law_is_its_part_of_the_tangent(kind):
     bodies = points_of(kind, LAWS["linear"])
-    response = bodies.respond(flowing(bodies), bodies.untouched(), np.zeros(len(bodies.body)))
+    response = bodies.respond(flowing(bodies), bodies.untouched(), bodies.cold())
     np.testing.assert_allclose(
         bodies.softening(response, 0.25), 0.75 * bodies.softening(response), rtol=1e-12, atol=1e-12
     )
@@ -53,7 +53,7 @@ def test_what_is_left_of_the_elastic_law_is_its_part_of_the_tangent(kind):
 def test_recovery_from_rest_has_a_symmetric_tangent_too():
     """Armstrong and Frederick's law: only from a backstress that is there already the true tangent is not symmetric."""
     bodies = points_of("plane strain", Plastic(1.0, backstresses=[(50.0, 25.0)]))
-    u, old, still = flowing(bodies), bodies.untouched(), np.zeros(len(bodies.body))
+    u, old, still = flowing(bodies), bodies.untouched(), bodies.cold()
     matrix = bodies.rows()
     matrix.data = bodies.softening(bodies.respond(u, old, still))
     way, h = np.random.default_rng(2).normal(size=len(u)), 1e-6 * GAIN
@@ -66,7 +66,7 @@ def test_recovery_from_rest_has_a_symmetric_tangent_too():
 @pytest.mark.parametrize("kind", KINDS)
 def test_one_increment_obeys_the_flow_rule(kind, law):
     bodies = points_of(kind, LAWS[law])
-    old, u, still = once(bodies, 0.2 * flowing(bodies, 1)), flowing(bodies), np.zeros(len(bodies.body))
+    old, u, still = once(bodies, 0.2 * flowing(bodies, 1)), flowing(bodies), bodies.cold()
     found = violation(bodies, u, old, bodies.respond(u, old, still).state, still)
     assert max(found.excess, found.flow, found.consistency, found.dissipation) < 1e-12
 
@@ -85,7 +85,7 @@ def test_small_rotations_and_shifts_of_the_whole_body_change_nothing(kind):
 
 def test_heat_that_nothing_resists_makes_nothing_flow():
     bodies = points_of("space", LAWS["perfect"])
-    swollen = np.full(len(bodies.body), 0.3)
+    swollen = bodies.cold()._replace(swelling=np.full(len(bodies.body), 0.3))
     u = 0.1 * bodies.space.mesh.points.ravel()
     assert not bodies.respond(u, bodies.untouched(), swollen).flows
     rest = violation(bodies, u, bodies.untouched(), bodies.untouched(), swollen)
@@ -96,7 +96,7 @@ def wrong(kind="plane strain"):
     """Points, displacements that make all of them flow, and the states before and after."""
     bodies = points_of(kind, LAWS["prager"])
     u, old = flowing(bodies), bodies.untouched()
-    return bodies, u, old, once(bodies, u), np.zeros(len(bodies.body))
+    return bodies, u, old, once(bodies, u), bodies.cold()
 
 
 def test_violation_sees_too_much_stress():
@@ -139,9 +139,7 @@ def test_a_back_stress_of_next_to_no_size_changes_next_to_nothing(kind):
     old, other = alone.untouched(), both.untouched()
     for seed in range(3):  # strains grow over all rows of the table
         u = (seed + 0.1) * flowing(alone, seed)
-        old, other = (
-            bodies.respond(u, state, np.zeros(len(bodies.body))) for bodies, state in ((alone, old), (both, other))
-        )
+        old, other = (bodies.respond(u, state, bodies.cold()) for bodies, state in ((alone, old), (both, other)))
         for name in ("plastic", "equivalent", "direction", "slack", "yields"):
             one, two = getattr(old.points, name), getattr(other.points, name)
             np.testing.assert_allclose(one, two, rtol=1e-9, atol=1e-11, err_msg=name)

@@ -20,13 +20,13 @@ def cells(kind, law, **given):
     """The points of bent cells, displacements under which they yield, and no temperature."""
     bodies = points_of(kind, law, formulation="incompatible", bent=0.2, **given)
     u = GAIN * np.random.default_rng(0).normal(size=bodies.space.number_of_dofs)
-    return bodies, u, np.zeros(len(bodies.body))
+    return bodies, u, bodies.cold()
 
 
-def forces_on_modes(bodies, u, state, swelling):
+def forces_on_modes(bodies, u, state, heat):
     """``int G^T sigma`` of all cells, over its terms."""
-    stress = deviator(bodies, u, state.strain, swelling)
-    volume = full_strains(bodies, u, state.strain, swelling)[:, :3].sum(axis=1) - swelling
+    stress = deviator(bodies, u, state.strain, heat)
+    volume = full_strains(bodies, u, state.strain, heat)[:, :3].sum(axis=1) - heat.swelling
     stress[:, :3] += (bodies.laws.bulk[bodies.body] * volume)[:, None]
     (group,) = bodies.groups
     points = kinematics(bodies.space, bodies.model, group.group)
@@ -39,13 +39,13 @@ def forces_on_modes(bodies, u, state, swelling):
 @pytest.mark.parametrize("kind", KINDS)
 def test_modes_are_in_balance_and_the_flow_rule_holds_with_their_strains(kind, law):
     bodies, u, still = cells(kind, LAWS[law])
-    warm = still + 1e-3 * np.arange(len(still)) / len(still)
+    warm = still._replace(swelling=np.linspace(0.0, 1e-3, len(still.swelling)))
     old = bodies.untouched()
-    for way, swelling in ((0.3 * u, still), (u, warm), (-u, still)):
-        new = bodies.respond(way, old, swelling).state
+    for way, heat in ((0.3 * u, still), (u, warm), (-u, still)):
+        new = bodies.respond(way, old, heat).state
         assert (new.equivalent > 0.0).any()
-        assert forces_on_modes(bodies, way, new, swelling) < 1e-11
-        found = violation(bodies, way, old, new, swelling)
+        assert forces_on_modes(bodies, way, new, heat) < 1e-11
+        found = violation(bodies, way, old, new, heat)
         assert max(found.excess, found.flow, found.consistency, found.dissipation) < 1e-10
         old = new
 

@@ -93,8 +93,8 @@ def test_the_tangent_is_that_of_the_forces_and_nothing_presses_across(backstress
     bodies = prepare(model).yielding
     rng = np.random.default_rng(3)
     u = rng.normal(size=bodies.space.number_of_dofs) * 2e-2
-    old = bodies.respond(u, bodies.untouched(), np.zeros(len(bodies.body))).state
-    heat = np.full(len(bodies.body), 1e-3)
+    old = bodies.respond(u, bodies.untouched(), bodies.cold()).state
+    heat = bodies.cold()._replace(swelling=np.full(len(bodies.body), 1e-3))
     u = u + rng.normal(size=len(u)) * 2e-2
     response = bodies.respond(u, old, heat)
     assert response.points.yields.all()
@@ -106,7 +106,7 @@ def test_the_tangent_is_that_of_the_forces_and_nothing_presses_across(backstress
     np.testing.assert_allclose(strain[:, 2], response.points.strain[:, 2], rtol=1e-10, atol=1e-14)
     G, K = E / 2 / (1 + NU), E / 3 / (1 - 2 * NU)
     volume = strain[:, :3].sum(axis=1)
-    across = K * (volume - heat) + 2 * G * (strain[:, 2] - volume / 3 - response.state.strain[:, 2])
+    across = K * (volume - heat.swelling) + 2 * G * (strain[:, 2] - volume / 3 - response.state.strain[:, 2])
     assert np.abs(across).max() < 1e-10 * Y
 
 

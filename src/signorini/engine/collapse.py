@@ -21,6 +21,7 @@ from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
 from signorini.engine.solver import Mechanism
 from signorini.plasticity.bodies import YieldingBodies
+from signorini.plasticity.laws import Heat
 from signorini.plasticity.measure import size
 from signorini.solution.state import LoadPoint
 
@@ -73,14 +74,15 @@ def _bound(prepared: Prepared, start: LoadPoint, end: LoadPoint, mechanism: Mech
     if bodies is None or largest == 0.0:
         return None
     v = T @ (free / largest)
-    rate = bodies.flow_strains(v)
+    heat = bodies.heat(start.factors), bodies.heat(end.factors)
+    rate = bodies.flow_strains(v, heat[1])
     if bodies.laws.thin:  # the thickness gives way
         rate[:, 2] = -(rate[:, 0] + rate[:, 1])
     dilatation = bodies.weights @ np.abs(bodies.dilatation(rate))
     rate[:, :3] -= rate[:, :3].mean(axis=1)[:, None]
     rate[:, 3:] *= 0.5
     strain = size(rate)
-    limit = _final_yield_stress(bodies)[bodies.body]
+    limit = _final_yield_stress(bodies, *heat)
     flowing = strain > 0.0
     if not np.isfinite(limit[flowing]).all() or dilatation > _MAX_DILATATION * float(bodies.weights @ strain):
         return None
@@ -107,15 +109,26 @@ def _bound(prepared: Prepared, start: LoadPoint, end: LoadPoint, mechanism: Mech
     return Collapse(part=part, motion=frozen(motion / (np.abs(motion).max() or 1.0)), rubs=rubs)
 
 
-def _final_yield_stress(bodies: YieldingBodies) -> Array:
-    """(b,) Yield stress in tension once everything has hardened that can; infinite where hardening never ends."""
-    laws = bodies.laws
-    last = laws.stress[np.arange(len(laws.rows)), np.maximum(laws.rows - 1, 0)]
+def _final_yield_stress(bodies: YieldingBodies, cold: Heat, warm: Heat) -> Array:
+    """(p,) Yield stress in tension once everything has hardened that can; infinite where hardening never ends.
+
+    The largest at any temperature between two, on the way between which the load is that bodies flow at.
+    """
+    laws, own = bodies.laws, bodies.body
+    final, points, count = laws.stress[own, :, -1], np.arange(len(own)), laws.stress.shape[1]
+    low, high = np.minimum(cold.level, warm.level), np.maximum(cold.level, warm.level)
+    table = np.arange(count)
+    between = (table > low[:, None]) & (table < high[:, None])
+    last = np.where(between, final, 0.0).max(axis=1)
+    for level in (low, high):
+        below = level.astype(np.int64)
+        one, two = final[points, below], final[points, np.minimum(below + 1, count - 1)]
+        last = np.maximum(last, one + (level - below) * (two - one))
     grows = laws.beyond > 0.0
     grows |= ((laws.back > 0.0) & (laws.recovery == 0.0)).any(axis=1)
     saturated = np.divide(laws.back, laws.recovery, out=np.zeros_like(laws.back), where=laws.recovery > 0.0).sum(axis=1)
-    final: Array = np.where(grows, np.inf, last + saturated)
-    return final
+    limit: Array = np.where(grows[own], np.inf, last + saturated[own])
+    return limit
 
 
 def _elastic_share(prepared: Prepared, bodies: YieldingBodies, v: Array) -> float:

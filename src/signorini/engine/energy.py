@@ -58,7 +58,7 @@ def stored_energy(prepared: Prepared, state: State) -> float:
     beyond = 0.0
     if prepared.yielding is not None and state.plastic is not None:
         bodies = prepared.yielding
-        beyond = stored_by_plastic_strain(bodies, u, state.plastic, bodies.swelling(state.point.factors))
+        beyond = stored_by_plastic_strain(bodies, u, state.plastic, bodies.heat(state.point.factors))
     return 0.5 * strain + beyond + interface_energy(prepared, state)
 
 

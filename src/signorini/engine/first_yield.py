@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Where a straight part of a step first makes a point yield, followed up to there as elastic bodies are.
 
-On a straight piece of an elastic path stresses are linear and the yield function is convex, so that its ends tell
-whether anything yields on it, and the load of first yield is the root of a quadratic. Over several pieces they leave
-the straight way between the ends of all by no more than the energy allows that is stored off it: few events of a path
-need a look at the bodies.
+On a straight piece of an elastic path stresses are linear, and where a point yields on it is known (`crossing`). Over
+several pieces they leave the straight way between the ends of all by no more than the energy allows that is stored off
+it: few events of a path need a look at the bodies.
 """
 
 from __future__ import annotations
@@ -25,7 +24,8 @@ from signorini.engine.step_parts import FollowedPart, StepPart, joined, keep, re
 from signorini.errors import SolveFailed
 from signorini.outcome import Outcome
 from signorini.plasticity.bodies import YieldingBodies
-from signorini.plasticity.measure import FlowViolation, deviator, fullness, inner, size, violation, yield_stress
+from signorini.plasticity.crossing import crossing
+from signorini.plasticity.measure import FlowViolation, deviator, fullness, violation, yield_stress
 from signorini.plasticity.radial_return import ROOT32
 from signorini.plasticity.state import PlasticState
 from signorini.solution.state import State
@@ -55,7 +55,9 @@ def _frozen(part: StepPart) -> StepPart:
 
     awake = None if part.awake is None else elastic(part.awake)
     exact = part.prepared.interface.directions == 2 and part.prepared.solver.paths is not None
-    whole = part.whole or awake is not None or not exact  # else displacements at events are found as they are needed
+    varies = points_of(part.prepared, part.before)[0].laws.varies
+    # else displacements at events are found as they are needed
+    whole = part.whole or awake is not None or not exact or varies
     return replace(part, prepared=elastic(part.prepared), awake=awake, whole=whole)
 
 
@@ -174,7 +176,7 @@ def _below_yield(prepared: Prepared, followed: FollowedPart, note: str) -> Follo
 def _still(prepared: Prepared, state: State) -> FlowViolation:
     """What a state in which nothing flows lacks of the flow rule."""
     bodies, plastic = points_of(prepared, state)
-    return violation(bodies, state.displacement, plastic, plastic, bodies.swelling(state.point.factors))
+    return violation(bodies, state.displacement, plastic, plastic, bodies.heat(state.point.factors))
 
 
 def points_of(prepared: Prepared, state: State) -> tuple[YieldingBodies, PlasticState]:
@@ -187,7 +189,7 @@ def points_of(prepared: Prepared, state: State) -> tuple[YieldingBodies, Plastic
 def fullest(prepared: Prepared, state: State) -> float:
     """The largest relative stress of any point over its yield stress."""
     bodies, plastic = points_of(prepared, state)
-    return float(fullness(bodies, state.displacement, plastic, bodies.swelling(state.point.factors)).max())
+    return float(fullness(bodies, state.displacement, plastic, bodies.heat(state.point.factors)).max())
 
 
 class _Bracket(NamedTuple):
@@ -222,8 +224,8 @@ class _Look(NamedTuple):
     def at(prepared: Prepared, factor: float, state: State) -> _Look:
         """A whole state at a fraction of the part."""
         bodies, plastic = points_of(prepared, state)
-        swelling = bodies.swelling(state.point.factors)
-        return _Look(factor, state, fullness(bodies, state.displacement, plastic, swelling))
+        heat = bodies.heat(state.point.factors)
+        return _Look(factor, state, fullness(bodies, state.displacement, plastic, heat))
 
     @property
     def excess(self) -> float:
@@ -234,6 +236,7 @@ class _Look(NamedTuple):
 def _first_yield(part: StepPart, followed: FollowedPart) -> _Bracket | None:
     """Where the first point yields on an elastic path; None where none does."""
     prepared, between = part.prepared, list[tuple[float, State]]()
+    varies = points_of(prepared, followed.before)[0].laws.varies  # then all states are whole
     one = _Look.at(prepared, 0.0, followed.before)
     for shot in followed.snapshots:
         here = part.interval.within(shot.fraction), shot.state
@@ -241,11 +244,10 @@ def _first_yield(part: StepPart, followed: FollowedPart) -> _Bracket | None:
             between.append(here)
             continue
         two = _Look.at(prepared, *here)
-        found = _between(prepared, one, two, between)
+        ends = (one, two) if varies else _between(prepared, one, two, between)
+        found = None if ends is None else _crossed(prepared, *ends)
         if found is not None:
-            low, high = found
-            factor = low.factor + (high.factor - low.factor) * _root(prepared, low.state, high.state)
-            return _Bracket((low.factor, min(low.excess, 0.0)), (high.factor, high.excess), factor)
+            return found
         one, between = two, []
     return None
 
@@ -289,37 +291,37 @@ def _full_by_energy(prepared: Prepared, state: State) -> Array:
     """
     bodies, plastic = points_of(prepared, state)
     stress = np.sqrt(4.0 * bodies.laws.shear[bodies.body] / bodies.weights)
-    return np.asarray(ROOT32 * stress / yield_stress(bodies, plastic.equivalent))
+    return np.asarray(ROOT32 * stress / yield_stress(bodies, plastic.equivalent, bodies.heat(state.point.factors)))
 
 
-def _root(prepared: Prepared, one: State, two: State) -> float:
-    """How far from one state to another the first point yields, 0 .. 1."""
-    first, last = _relative(prepared, one), _relative(prepared, two)
-    bodies, plastic = points_of(prepared, one)
-    limit = np.sqrt(2.0 / 3.0) * yield_stress(bodies, plastic.equivalent)
-    step = last - first
-    a, c = size(step) ** 2, size(first) ** 2 - limit**2
-    b = inner(first, step)
-    yields = size(last) > limit * (1.0 + _YIELD_TOL)
-    a, b, c = a[yields], b[yields], np.minimum(c[yields], 0.0)
-    inside = np.sqrt(np.maximum(b * b - a * c, 0.0))
-    tiny = np.finfo(np.float64).tiny
-    # of the two forms of the positive root the one that adds numbers of one sign
-    root = np.where(b > 0.0, -c / np.maximum(b + inside, tiny), (inside - b) / np.maximum(a, tiny))
-    return float(np.clip(root.min(), 0.0, 1.0))
+def _crossed(prepared: Prepared, one: _Look, two: _Look) -> _Bracket | None:
+    """Where a point yields on the straight way from one state to another; None where none does."""
+    ends = one.state, two.state
+    bodies, plastic = points_of(prepared, one.state)
+    relative = _relative(prepared, ends[0]), _relative(prepared, ends[1])
+    heat = bodies.heat(ends[0].point.factors), bodies.heat(ends[1].point.factors)
+    found = crossing(bodies, relative, plastic.equivalent, heat)
+    if found is None:
+        return None
+    low, length = one.factor, two.factor - one.factor
+    return _Bracket(
+        low=(low, min(one.excess, 0.0)),
+        high=(low + found.beyond * length, max(found.excess, two.excess) if found.beyond == 1.0 else found.excess),
+        factor=low + found.part * length,
+    )
 
 
 def _relative(prepared: Prepared, state: State) -> Array:
     """(p, n) Deviators of the stresses less the back stresses."""
     bodies, plastic = points_of(prepared, state)
-    stress = deviator(bodies, state.displacement, plastic.strain, bodies.swelling(state.point.factors))
+    stress = deviator(bodies, state.displacement, plastic.strain, bodies.heat(state.point.factors))
     return stress - plastic.back.sum(axis=1)
 
 
 def _place(prepared: Prepared, state: State) -> str:
     """Where the fullest point is, in words."""
     bodies, plastic = points_of(prepared, state)
-    full = fullness(bodies, state.displacement, plastic, bodies.swelling(state.point.factors))
+    full = fullness(bodies, state.displacement, plastic, bodies.heat(state.point.factors))
     i = int(np.argmax(full))
     at = ", ".join(f"{x:.4g}" for x in bodies.places()[i])
     return f"in '{prepared.model.bodies[int(bodies.body[i])].name}' at ({at})"

@@ -10,6 +10,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.engine.solver import Increment, IncrementAnswer
 from signorini.plasticity.bodies import PlasticResponse, YieldingBodies
+from signorini.plasticity.laws import Heat
 from signorini.plasticity.state import PlasticState
 
 _UPHILL = 0.8  # of the slope at the beginning: a step that ends steeper is cut
@@ -30,14 +31,14 @@ class LineSearch:
     ----------
     bodies : the points that yield
     increment : what is asked
-    old, swelling : state that the points come from, and their volume strain of temperature
+    old, heat : state that the points come from, and what the temperature does to them
     one, two : the answers
     """
 
     bodies: YieldingBodies
     increment: Increment
     old: PlasticState
-    swelling: Array
+    heat: Heat
     one: IncrementAnswer
     two: IncrementAnswer
 
@@ -86,7 +87,7 @@ class LineSearch:
     def _response(self, s: float) -> PlasticResponse:
         """What points answer at a part of the way."""
         u = self.increment.system.constraints.transform @ between(self.one, self.two, s).free + self.increment.imposed
-        return self.bodies.respond(u, self.old, self.swelling)
+        return self.bodies.respond(u, self.old, self.heat)
 
     def _slope(self, s: float, step: Array, at: PlasticResponse) -> float:
         """Of the energy along the step, at a part of the way."""

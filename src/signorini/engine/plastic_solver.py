@@ -226,24 +226,22 @@ class PlasticSolver:
         rounds, system, bodies = _Rounds(), increment.system, self.tangents.yielding
         T, state = system.constraints.transform, increment.state
         old = bodies.untouched() if state.plastic is None else state.plastic
-        swelling = bodies.swelling(increment.point.factors)
+        heat = bodies.heat(increment.point.factors)
         scale = 1.0 / np.sqrt(np.maximum(self.tangents.diagonal, np.finfo(np.float64).tiny))
         tangent = _Tangent(solver=self.elastic, K=system.K)
-        model, x = bodies.at_rest(state.displacement, old, swelling), T.T @ old.forces
+        model, x = bodies.at_rest(state.displacement, old, heat), T.T @ old.forces
         reached: tuple[IncrementAnswer, PlasticResponse] | None = None
         while True:
             answer, tangent, x = self._contact(increment, tangent, x, rounds, model, reached)
             if not answer.solved:
                 return answer
             with increment.clock.phase("plasticity"):
-                after = bodies.respond(T @ answer.free + increment.imposed, old, swelling)
+                after = bodies.respond(T @ answer.free + increment.imposed, old, heat)
                 linear = after
                 lack = self._lack(increment, answer, after)
                 step = 1.0
                 if reached is not None:
-                    way = LineSearch(
-                        bodies=bodies, increment=increment, old=old, swelling=swelling, one=reached[0], two=answer
-                    )
+                    way = LineSearch(bodies=bodies, increment=increment, old=old, heat=heat, one=reached[0], two=answer)
                     most = _MAX_LEAP * max(rounds.lengths[0], float(np.abs(reached[0].free).max(initial=0.0)))
                     if way.length > most:
                         step, answer, after = way.cut(most / way.length)
@@ -251,7 +249,7 @@ class PlasticSolver:
                         step, answer, after = way.shortened(reached[1], after)
                     lack = lack if step == 1.0 else self._lack(increment, answer, after)
                 before = state.displacement[system.constraints.leaders] if reached is None else reached[0].free
-                after = bodies.with_dual(after, old, model, linear)
+                after = bodies.with_dual(after, old, heat, model=model, reached=linear)
             kept = rounds.last
             rounds.add(lack, step, Mechanism(answer.free - before, answer.forces))
             asked = _LACK_IN_ROUNDS * kept <= _BALANCED or len(rounds.steps) == 1  # of contact for all its digits
@@ -287,8 +285,8 @@ class PlasticSolver:
         """The last answer with what points of yielding bodies remember, and the work that they have taken."""
         bodies, state = self.tangents.yielding, increment.state
         u = increment.system.constraints.transform @ answer.free + increment.imposed
-        swelling = bodies.swelling(state.point.factors), bodies.swelling(increment.point.factors)
-        work = plastic_work(bodies, (state.displacement, old), (u, after.state), swelling)
+        heat = bodies.heat(state.point.factors), bodies.heat(increment.point.factors)
+        work = plastic_work(bodies, (state.displacement, old), (u, after.state), heat)
         run = MethodRun(method="plastic flow", iterations=len(rounds.steps), end="balanced")
         stored = stored_by_back_stresses(bodies, after.state)
         new = replace(after.state, dissipation=old.dissipation + work, stored=stored)

@@ -74,6 +74,8 @@ def _in_increments(part: StepPart, step: Step) -> FollowedPart:
         return _increments(part, max(1, ceil(step.increments * length - 1e-9)))
     tolerance = TOLERANCE if step.tolerance is None else step.tolerance
     number, coarse = 1, None
+    # increments may be so long that nothing yields any more at their end
+    varies = points_of(part.prepared, part.before)[0].laws.varies
     while True:
         try:
             fine = _increments(part, number)
@@ -85,7 +87,7 @@ def _in_increments(part: StepPart, step: Step) -> FollowedPart:
         if coarse is not None:
             change, words = _change(part.prepared, coarse, fine)
             note = f"{number} increments of plastic flow: half as many change {words}"
-            if change <= tolerance:
+            if change <= tolerance and (fine.after.plastic_work > part.before.plastic_work or not varies):
                 return replace(fine, notes=(*fine.notes, note))
             if 2 * number > _MAX_INCREMENTS:
                 return replace(fine, notes=(*fine.notes, f"{note}, more than {tolerance:g}"))

@@ -65,6 +65,11 @@ class Elastic:
         return self.expansion != 0.0
 
     @property
+    def feels_heat(self) -> bool:
+        """Whether temperature strains it or changes how it yields."""
+        return self.expands or (self.plastic is not None and self.plastic.varies_with_heat)
+
+    @property
     def yields(self) -> bool:
         """Whether it is plastic beyond some stress."""
         return self.plastic is not None
@@ -170,6 +175,11 @@ class Orthotropic:
     def expands(self) -> bool:
         """Whether temperature strains it."""
         return any((self.expansion1, self.expansion2, self.expansion3))
+
+    @property
+    def feels_heat(self) -> bool:
+        """Whether temperature strains it: it does not yield."""
+        return self.expands
 
     @property
     def yields(self) -> bool:

@@ -230,7 +230,7 @@ class Model(Short):
             raise InputError(
                 f"'{body.name}' has no density; expected one in its material", where=("load", i, load.kind)
             )
-        if load.kind == "temperature" and not body.material.expands:
+        if load.kind == "temperature" and not body.material.feels_heat:
             raise InputError(f"'{body.name}' has no thermal expansion; expected it in its material", where=("load", i))
         count = len(self.mesh.points)
         if isinstance(load.temperature, np.ndarray) and len(load.temperature) != count:

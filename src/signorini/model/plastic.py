@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -26,8 +25,9 @@ class Plastic:
     Parameters
     ----------
     yield_stress : Y in uniaxial tension, force per area, > 0: a number, or rows (p, Y), linear in between: the first p
-        is 0, p increases, Y does not decrease
-    hardening : slope of Y beyond the last row, force per area, >= 0
+        is 0, p increases, Y does not decrease. Rows (p, Y, T) depend on temperature, that of loads, above the one
+        without strain: such rows for every T, one T after the other, linear in between, constant below and above
+    hardening : slope of Y beyond the last row of any temperature, force per area, >= 0
     backstresses : rows (C, gamma): C force per area, > 0, and gamma >= 0 without unit
 
     Raises
@@ -41,11 +41,14 @@ class Plastic:
     >>> stress, slope = steel.at(np.array([0.01, 0.16, 0.5]))
     >>> stress.tolist(), [round(float(h)) for h in slope]
     ([235.0, 317.5, 400.0], [0, 589, 0])
+    >>> hot = Plastic([(0.0, 235.0, 20.0), (0.0, 180.0, 220.0), (0.1, 200.0, 220.0)])
+    >>> [round(float(hot.at(np.array(0.05), temperature)[0]), 6) for temperature in (20.0, 120.0, 500.0)]
+    [235.0, 212.5, 190.0]
     >>> Plastic(235.0).perfect, Plastic(235.0, backstresses=[(2e4, 100.0)]).perfect
     (True, False)
     """
 
-    yield_stress: float | tuple[tuple[float, float], ...]
+    yield_stress: float | tuple[tuple[float, ...], ...]
     hardening: float = 0.0
     backstresses: tuple[tuple[float, float], ...] = ()
 
@@ -61,17 +64,52 @@ class Plastic:
 
     @property
     def curve(self) -> Array:
-        """(n, 2) Rows of equivalent plastic strain and yield stress."""
-        return frozen(self.yield_stress)
+        """(n, 2) Rows of equivalent plastic strain and yield stress, at the lowest temperature."""
+        return self.curves[0]
+
+    @property
+    def curves(self) -> tuple[Array, ...]:
+        """(n, 2) Rows of equivalent plastic strain and yield stress at every temperature."""
+        rows = np.array(self.yield_stress)
+        if rows.shape[1] == 2:
+            return (frozen(rows),)
+        return tuple(frozen(rows[rows[:, 2] == temperature, :2]) for temperature in self.temperatures)
+
+    @property
+    def temperatures(self) -> Array:
+        """(t,) Of the curves, increasing; 0 alone where the yield stress does not depend on temperature."""
+        rows = np.array(self.yield_stress)
+        return np.zeros(1) if rows.shape[1] == 2 else np.unique(rows[:, 2])
+
+    @property
+    def varies_with_heat(self) -> bool:
+        """Whether the yield stress depends on temperature."""
+        return len(self.temperatures) > 1
 
     @property
     def perfect(self) -> bool:
         """Whether nothing hardens."""
-        return not (self.hardening or self.backstresses or np.ptp(self.curve[:, 1]))
+        return not (self.hardening or self.backstresses or any(np.ptp(curve[:, 1]) for curve in self.curves))
 
-    def at(self, p: Array) -> tuple[Array, Array]:
-        """Yield stress at equivalent plastic strains >= 0 of any shape, and its slope towards larger ones."""
-        strain, stress = self.curve.T
+    def at(self, p: Array, temperature: float = 0.0) -> tuple[Array, Array]:
+        """Yield stress at equivalent plastic strains >= 0 of any shape, and its slope towards larger ones.
+
+        Parameters
+        ----------
+        p : equivalent plastic strains
+        temperature : above that without strain
+        """
+        place = float(np.interp(temperature, self.temperatures, np.arange(len(self.temperatures))))
+        low, way = int(place), place % 1.0
+        stress, slope = self._on(self.curves[low], p)
+        if way:
+            beyond = self._on(self.curves[low + 1], p)
+            stress, slope = stress + way * (beyond[0] - stress), slope + way * (beyond[1] - slope)
+        return stress, slope
+
+    def _on(self, curve: Array, p: Array) -> tuple[Array, Array]:
+        """Yield stress and slope on the curve of one temperature."""
+        strain, stress = curve.T
         slopes = np.append(np.diff(stress) / np.diff(strain), self.hardening)
         row = np.searchsorted(strain, p, side="right") - 1
         return stress[row] + slopes[row] * (p - strain[row]), slopes[row]
@@ -79,7 +117,12 @@ class Plastic:
     def __str__(self) -> str:
         strain, stress = self.curve.T
         words = [f"yields at {stress[0]:g}"]
-        if len(stress) > 1:
+        if self.varies_with_heat:
+            words = [
+                f"yields at {', '.join(f'{curve[0, 1]:g}' for curve in self.curves)} at the temperatures "
+                f"{', '.join(f'{temperature:g}' for temperature in self.temperatures)}"
+            ]
+        elif len(stress) > 1:
             words.append(f"{stress[-1]:g} at {strain[-1]:g}")
         if self.hardening:
             words.append(f"hardening {self.hardening:g}")
@@ -89,17 +132,26 @@ class Plastic:
         return ", ".join(words)
 
 
-def _yield_stress(given: Any) -> tuple[tuple[float, float], ...]:
-    """Rows (p, Y) that do not soften."""
+def _yield_stress(given: Any) -> tuple[tuple[float, ...], ...]:
+    """Rows (p, Y) or (p, Y, T) that do not soften."""
     where: Where = ("yield_stress",)
     if not np.ndim(given):
         return ((0.0, number(given, where, above=0.0)),)
-    table = rows(given, where, size=2).tolist()
+    table = rows(given, where, size=3 if np.ndim(given) == 2 and np.shape(given)[1] == 3 else 2).tolist()
     if not table:
         raise InputError("is empty; expected a number, or rows of plastic strain and yield stress", where=where)
-    if table[0][0] != 0.0:
-        raise InputError(f"is {table[0][0]:g}; expected 0, the plastic strain at first yield", where=(*where, 0, 0))
-    for i, (before, row) in enumerate(pairwise(table), start=1):
+    for i, row in enumerate(table):
+        before = table[i - 1] if i else None
+        if before is not None and row[2:] < before[2:]:
+            raise InputError(
+                f"is {row[2]:g} after {before[2]:g}; expected increasing temperatures, the rows of each together",
+                where=(*where, i, 2),
+            )
+        if before is None or row[2:] > before[2:]:
+            if row[0] != 0.0:
+                raise InputError(f"is {row[0]:g}; expected 0, the plastic strain at first yield", where=(*where, i, 0))
+            number(row[1], (*where, i, 1), above=0.0)
+            continue
         if row[0] <= before[0]:
             raise InputError(
                 f"is {row[0]:g} after {before[0]:g}; expected increasing plastic strains", where=(*where, i, 0)
@@ -109,5 +161,4 @@ def _yield_stress(given: Any) -> tuple[tuple[float, float], ...]:
                 f"is {row[1]:g} after {before[1]:g}: the material softens; expected stresses that do not decrease",
                 where=(*where, i, 1),
             )
-    number(table[0][1], (*where, 0, 1), above=0.0)
-    return tuple((strain, stress) for strain, stress in table)
+    return tuple(tuple(row) for row in table)

@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 
 from signorini.arrays import Array, IntArray
 from signorini.fem import _kernels as assembly
-from signorini.fem.elasticity import elasticities
-from signorini.fem.kinematics import kinematics, mean_in_cells
+from signorini.fem.elasticity import elasticities, expansions
+from signorini.fem.kinematics import mean_in_cells
 from signorini.fem.space import Space
-from signorini.fem.thermal import temperatures, thermal_strain
+from signorini.fem.thermal import temperatures
 from signorini.model.model import Model
 from signorini.plasticity import kernels, linearised, radial_return, softening
 from signorini.plasticity.groups import PointGroup, point_groups
-from signorini.plasticity.laws import YieldLaws, yield_laws
+from signorini.plasticity.laws import Heat, YieldLaws, heat_of, yield_laws
 from signorini.plasticity.modes import settle
 from signorini.plasticity.radial_return import Points
 from signorini.plasticity.state import PlasticState, no_flow
@@ -90,15 +90,21 @@ class YieldingBodies:
         """Nothing has flowed yet."""
         return no_flow(len(self.body), self.components, self.laws.back.shape[1], self.space.number_of_dofs)
 
-    def swelling(self, factors: Mapping[str, float]) -> Array:
-        """(p,) Volume strain of the temperatures at load factors by name."""
-        found, heat = np.zeros(len(self.body)), temperatures(self.space, self.model, factors)
-        if heat is not None:
+    def heat(self, factors: Mapping[str, float]) -> Heat:
+        """What the temperatures at load factors by name do to the points."""
+        swelling, warm = np.zeros(len(self.body)), np.zeros(len(self.body))
+        found = temperatures(self.space, self.model, factors)
+        if found is not None:
             for group in self.groups:
-                points = kinematics(self.space, self.model, group.group)
-                strain = thermal_strain(self.model, group.group, points, heat)
-                found[group.own] = strain[..., :3].sum(axis=-1).ravel()
-        return found
+                own = group.own
+                here = found[group.group.body[:, None], group.group.cells] @ group.values.T
+                warm[own] = here.ravel()
+                swelling[own] = expansions(self.model)[self.body[own], :3].sum(axis=1) * warm[own]
+        return heat_of(self.laws, self.body, swelling, warm)
+
+    def cold(self) -> Heat:
+        """No temperature anywhere."""
+        return heat_of(self.laws, self.body, np.zeros(len(self.body)), np.zeros(len(self.body)))
 
     @property
     def internal(self) -> bool:
@@ -110,14 +116,14 @@ class YieldingBodies:
         """Whether temperature does work on plastic strain: its volume is kept, but not its area, nor that of modes."""
         return self.laws.thin or self.internal
 
-    def strains(self, u: Array, plastic: Array | None = None, swelling: Array | None = None) -> Array:
+    def strains(self, u: Array, plastic: Array | None = None, heat: Heat | None = None) -> Array:
         """(p, n) Strains of displacements; in plane stress without that across.
 
         Parameters
         ----------
         u : (dofs,) displacements
         plastic : (p, n) plastic strains that internal modes are in balance with; none where nothing has flowed
-        swelling : (p,) volume strains of the temperature that they are in balance with; none without temperatures
+        heat : whose strains they are in balance with; none without temperatures
         """
         found = np.zeros((len(self.body), self.components))
         for group in self.groups:
@@ -125,23 +131,29 @@ class YieldingBodies:
             kernels.add_strains(group.cells, group.gradients, u, self.space.dimension, found[own])
             if group.internal:
                 free = np.zeros_like(found[own]) if plastic is None else plastic[own].copy()
-                if swelling is not None:
-                    free[:, :3] += swelling[own, None] / 3.0
+                if heat is not None:
+                    free[:, :3] += heat.swelling[own, None] / 3.0
                 for _ in range(_MODE_ROUNDS):
                     group.add_mode_strains(
                         group.amplitudes(self._elastic_stress(self.body[own], free - found[own])), found[own]
                     )
         return found
 
-    def flow_strains(self, v: Array) -> Array:
-        """(p, n) Strains of a motion (dofs,) in which bodies flow; internal modes as flow takes least for them."""
+    def flow_strains(self, v: Array, heat: Heat) -> Array:
+        """(p, n) Strains of a motion (dofs,) in which bodies flow; internal modes as flow takes least for them.
+
+        Parameters
+        ----------
+        v : (dofs,) motion
+        heat : tells the yield stress
+        """
         rate = self.strains(v)
         if not self.internal:
             return rate
         laws, shear = self.laws, self.laws.shear[self.body]
-        largest = (laws.stress[:, -1][self.body] / (2.0 * shear)).max() / (np.abs(rate).max() or 1.0)
+        largest = (laws.stress.max(axis=(1, 2))[self.body] / (2.0 * shear)).max() / (np.abs(rate).max() or 1.0)
         far = _FLOWING * largest
-        return self.respond(far * v, self.untouched(), np.zeros(len(self.body))).points.strain / far
+        return self.respond(far * v, self.untouched(), heat).points.strain / far
 
     def dilatation(self, strain: Array) -> Array:
         """(p,) Volume strain of strains (p, n) as the stiffness sees it: projected in cells with a mean dilatation."""
@@ -152,16 +164,16 @@ class YieldingBodies:
                 volume[group.own] = mean_in_cells(group.weights, functions, here, functions).ravel()
         return volume
 
-    def respond(self, u: Array, old: PlasticState, swelling: Array) -> PlasticResponse:
+    def respond(self, u: Array, old: PlasticState, heat: Heat) -> PlasticResponse:
         """Backward Euler at every point.
 
         Parameters
         ----------
         u : (dofs,) displacements
         old : the state that the points come from
-        swelling : (p,) see `swelling`
+        heat : see `heat`
         """
-        before = self._points(old, self.strains(u, old.strain, swelling))
+        before = self._points(old, self.strains(u, old.strain, heat))
         shape = before.strain.shape
         after = Points(
             strain=before.strain,
@@ -172,18 +184,24 @@ class YieldingBodies:
             slack=np.empty((shape[0], 2)),
             yields=np.empty(shape[0], np.bool_),
         )
-        radial_return.respond(self.laws, self.body, swelling, before, after)
+        radial_return.respond(self.laws, self.body, heat, before, after)
         for group in self.groups:
             if group.internal:
                 own = group.own
                 here = before.part(own), after.part(own)
-                settle(self.laws, self.body[own], swelling[own], self.elasticity, group.weights, group.modes, *here)
+                settle(self.laws, self.body[own], heat.part(own), self.elasticity, group.weights, group.modes, *here)
         forces = self.forces(after.plastic)
         state = PlasticState(strain=after.plastic, equivalent=after.equivalent, back=after.back, forces=forces)
         return PlasticResponse(state=state, points=after, dual=after.direction)
 
     def with_dual(
-        self, response: PlasticResponse, old: PlasticState, model: PlasticResponse, reached: PlasticResponse
+        self,
+        response: PlasticResponse,
+        old: PlasticState,
+        heat: Heat,
+        *,
+        model: PlasticResponse,
+        reached: PlasticResponse,
     ) -> PlasticResponse:
         """A response with the relative stresses of the linear model that led to it.
 
@@ -191,25 +209,26 @@ class YieldingBodies:
         ----------
         response : where the history of the rounds goes on
         old : the state that the points come from
+        heat : at their end
         model : what the linear model was made at
         reached : at the displacements that the linear model reaches, which may be farther
         """
         dual = np.empty_like(response.dual)
         before = self._points(old, reached.points.strain)
         end = reached.points._replace(equivalent=response.points.equivalent)
-        linearised.dual_stress(self.laws, self.body, before, model.points, model.dual, end, dual)
+        linearised.dual_stress(self.laws, self.body, heat.level, before, model.points, model.dual, end, dual)
         return PlasticResponse(state=response.state, points=response.points, dual=dual)
 
-    def at_rest(self, u: Array, old: PlasticState, swelling: Array) -> PlasticResponse:
+    def at_rest(self, u: Array, old: PlasticState, heat: Heat) -> PlasticResponse:
         """A response in which no point yields: what elastic bodies are linearised about.
 
         Parameters
         ----------
         u : (dofs,) displacements
         old : the state of the points
-        swelling : (p,) see `swelling`
+        heat : see `heat`
         """
-        strain = self.strains(u, old.strain, swelling)
+        strain = self.strains(u, old.strain, heat)
         zero, none = np.zeros_like(strain), np.zeros(len(strain))
         points = Points(
             strain=strain,

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +21,9 @@ class YieldLaws(NamedTuple):
     Attributes
     ----------
     shear, bulk : (b,) moduli, force per area
-    strain, stress : (b, w) tables of the yield stress over the equivalent plastic strain, padded with the last row
+    strain : (b, w) equivalent plastic strains of the tables of the yield stress, padded with the last
+    stress : (b, t, w) yield stresses there at every temperature, padded with the last
+    temperature : (b, t) of the tables, padded with the last
     rows : (b,) rows of the tables; 0: the body never yields
     beyond : (b,) slope behind the last row, force per area
     back : (b, M) C of the back stresses, force per area; 0: none
@@ -32,43 +35,127 @@ class YieldLaws(NamedTuple):
     bulk: Array
     strain: Array
     stress: Array
+    temperature: Array
     rows: IntArray
     beyond: Array
     back: Array
     recovery: Array
     thin: bool
 
+    @property
+    def varies(self) -> bool:
+        """Whether some yield stress depends on temperature."""
+        return self.stress.shape[1] > 1
+
+
+class Heat(NamedTuple):
+    """What temperature does to points; a named tuple, because compiled loops read it.
+
+    Attributes
+    ----------
+    swelling : (p,) volume strain
+    temperature : (p,) above that without strain
+    level : (p,) place among the temperatures of the tables: number of the one below, and part of the way to the next
+    """
+
+    swelling: Array
+    temperature: Array
+    level: Array
+
+    def part(self, own: slice) -> Heat:
+        """Of some of the points."""
+        return Heat(swelling=self.swelling[own], temperature=self.temperature[own], level=self.level[own])
+
+
+def heat_of(laws: YieldLaws, body: IntArray, swelling: Array, temperature: Array) -> Heat:
+    """What temperature does to points.
+
+    Parameters
+    ----------
+    laws : of the bodies
+    body, swelling, temperature : (p,) of every point
+    """
+    level = np.zeros(len(body))
+    if laws.varies:
+        for b in np.unique(body):
+            own, table = body == b, np.unique(laws.temperature[b])
+            level[own] = np.interp(temperature[own], table, np.arange(len(table)))
+    return Heat(swelling=swelling, temperature=temperature, level=level)
+
 
 @njit(cache=True, inline="always", error_model="numpy")
-def yield_stress_at(laws: YieldLaws, body: int, p: float) -> tuple[float, float]:
-    """Yield stress of a body and its slope at an equivalent plastic strain p; ``laws`` are the material data."""
+def stress_in_row(laws: YieldLaws, body: int, i: int, level: float) -> float:
+    """Yield stress in a row of the tables, between two temperatures.
+
+    Parameters
+    ----------
+    laws, body : material data, and the body
+    i : row
+    level : place among the temperatures of the tables, see `Heat`
+    """
+    low = int(level)
+    stress: float = laws.stress[body, low, i]
+    if level > low:
+        stress += (level - low) * (laws.stress[body, low + 1, i] - stress)
+    return stress
+
+
+@njit(cache=True, inline="always", error_model="numpy")
+def yield_stress_at(laws: YieldLaws, body: int, p: float, level: float) -> tuple[float, float]:
+    """Yield stress of a body and its slope at an equivalent plastic strain.
+
+    Parameters
+    ----------
+    laws, body : material data, and the body
+    p : equivalent plastic strain
+    level : place among the temperatures of the tables, see `Heat`
+    """
     n = laws.rows[body]
     last = laws.strain[body, n - 1]
     if p >= last:
-        return laws.stress[body, n - 1] + laws.beyond[body] * (p - last), laws.beyond[body]
+        return stress_in_row(laws, body, n - 1, level) + laws.beyond[body] * (p - last), laws.beyond[body]
     i = 0
     while p >= laws.strain[body, i + 1]:
         i += 1
-    slope = (laws.stress[body, i + 1] - laws.stress[body, i]) / (laws.strain[body, i + 1] - laws.strain[body, i])
-    return laws.stress[body, i] + slope * (p - laws.strain[body, i]), slope
+    stress = stress_in_row(laws, body, i, level)
+    slope = (stress_in_row(laws, body, i + 1, level) - stress) / (laws.strain[body, i + 1] - laws.strain[body, i])
+    return stress + slope * (p - laws.strain[body, i]), slope
+
+
+@njit(cache=True, error_model="numpy")
+def yield_stresses(laws: YieldLaws, body: IntArray, p: Array, level: Array) -> Array:
+    """(p,) Yield stress at points.
+
+    Parameters
+    ----------
+    laws, body : material data, and the body of every point
+    p, level : (p,) equivalent plastic strains and places of the temperature, see `yield_stress_at`
+    """
+    found = np.empty(len(p))
+    for i in range(len(p)):
+        found[i], _ = yield_stress_at(laws, body[i], p[i], level[i])
+    return found
 
 
 def yield_laws(model: Model) -> YieldLaws:
-    """Material data of all bodies, with tables of one width."""
+    """Material data of all bodies, with tables of one width, those of a body at the same plastic strains."""
     plastics = [_plastic(body.material) for body in model.bodies]
-    tables = [np.zeros((1, 2)) if plastic is None else plastic.curve for plastic in plastics]
+    tables = [_tables(plastic) for plastic in plastics]
+    strain, stress, temperature = (_padded([table[k] for table in tables]) for k in range(3))
     backs = [() if plastic is None else plastic.backstresses for plastic in plastics]
-    width, most = max(len(table) for table in tables), max(len(back) for back in backs)
-    filled = np.array([[*table, *[table[-1]] * (width - len(table))] for table in tables])
+    most = max(len(back) for back in backs)
     back = np.zeros((len(backs), most, 2))
     for b, rows in enumerate(backs):
         back[b, : len(rows)] = np.reshape(rows, (-1, 2))
     return YieldLaws(
         shear=np.array([body.material.shear_modulus for body in model.bodies]),
         bulk=np.array([body.material.bulk_modulus for body in model.bodies]),
-        strain=np.ascontiguousarray(filled[:, :, 0]),
-        stress=np.ascontiguousarray(filled[:, :, 1]),
-        rows=np.array([0 if plastic is None else len(plastic.curve) for plastic in plastics]),
+        strain=strain,
+        stress=stress,
+        temperature=temperature,
+        rows=np.array(
+            [0 if plastic is None else len(table[0]) for plastic, table in zip(plastics, tables, strict=True)]
+        ),
         beyond=np.array([0.0 if plastic is None else plastic.hardening for plastic in plastics]),
         back=np.ascontiguousarray(back[..., 0]),
         recovery=np.ascontiguousarray(back[..., 1]),
@@ -78,3 +165,19 @@ def yield_laws(model: Model) -> YieldLaws:
 
 def _plastic(material: Material) -> Plastic | None:
     return material.plastic if isinstance(material, Elastic) else None
+
+
+def _tables(plastic: Plastic | None) -> tuple[Array, Array, Array]:
+    """(w,) Plastic strains at which the tables of any temperature bend, (t, w) stresses there, (t,) temperatures."""
+    if plastic is None:
+        return np.zeros(1), np.zeros((1, 1)), np.zeros(1)
+    strain = np.unique(np.concatenate([curve[:, 0] for curve in plastic.curves]))
+    stress = np.array([plastic.at(strain, temperature)[0] for temperature in plastic.temperatures])
+    return strain, stress, plastic.temperatures
+
+
+def _padded(tables: Sequence[Array]) -> Array:
+    """Tables of one shape: the last entry along every axis is repeated."""
+    shape = np.max([table.shape for table in tables], axis=0)
+    pads = [[(0, most - own) for own, most in zip(table.shape, shape, strict=True)] for table in tables]
+    return np.array([np.pad(table, pad, mode="edge") for table, pad in zip(tables, pads, strict=True)])

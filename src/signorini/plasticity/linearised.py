@@ -53,7 +53,7 @@ def taken(laws: YieldLaws, body: int, point: Points, i: int, dual: Array, left: 
 
 @njit(cache=True, error_model="numpy")
 def dual_stress(
-    laws: YieldLaws, body: IntArray, old: Points, model: Points, dual: Array, new: Points, out: Array
+    laws: YieldLaws, body: IntArray, level: Array, old: Points, model: Points, dual: Array, new: Points, out: Array
 ) -> None:
     """The relative stress of the last linear model at the new strains, over the radius, pulled back into the unit ball.
 
@@ -62,7 +62,7 @@ def dual_stress(
 
     Parameters
     ----------
-    laws, body : of the bodies, and of every point (p,)
+    laws, body, level : of the bodies; body of every point and place of its temperature, (p,)
     old : committed states
     model, dual : the states that the linear model was made at, and its relative stresses (p, n)
     new : the states at the strains that its solution reaches
@@ -94,7 +94,7 @@ def dual_stress(
         a, b = model.slack[i, 0], model.slack[i, 1]
         if not model.yields[i]:
             a, b = 0.0, 0.0
-        stress, _ = yield_stress_at(laws, j, new.equivalent[i])
+        stress, _ = yield_stress_at(laws, j, new.equivalent[i], level[i])
         norm = 0.0
         for c in range(n):
             back = 0.0

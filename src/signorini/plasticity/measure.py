@@ -12,6 +12,7 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.plasticity.bodies import YieldingBodies
+from signorini.plasticity.laws import Heat, yield_stresses
 from signorini.plasticity.radial_return import ROOT32
 from signorini.plasticity.state import PlasticState
 
@@ -37,7 +38,7 @@ class FlowViolation:
     dissipation: float
 
 
-def full_strains(bodies: YieldingBodies, u: Array, plastic: Array, swelling: Array) -> Array:
+def full_strains(bodies: YieldingBodies, u: Array, plastic: Array, heat: Heat) -> Array:
     """(p, n) Strains of displacements; in plane stress that across is the one that leaves no stress there.
 
     Parameters
@@ -45,25 +46,25 @@ def full_strains(bodies: YieldingBodies, u: Array, plastic: Array, swelling: Arr
     bodies : with their points
     u : (dofs,) displacements
     plastic : (p, n) plastic strains
-    swelling : (p,) volume strain of the temperature
+    heat : what the temperature does to the points
     """
-    strain = bodies.strains(u, plastic, swelling)
+    strain = bodies.strains(u, plastic, heat)
     if bodies.laws.thin:
         G, K = bodies.laws.shear[bodies.body], bodies.laws.bulk[bodies.body]
         lame = K - 2.0 / 3.0 * G
         inside = strain[:, 0] + strain[:, 1]
-        strain[:, 2] = (2.0 * G * plastic[:, 2] - lame * inside + K * swelling) / (lame + 2.0 * G)
+        strain[:, 2] = (2.0 * G * plastic[:, 2] - lame * inside + K * heat.swelling) / (lame + 2.0 * G)
     return strain
 
 
-def deviator(bodies: YieldingBodies, u: Array, plastic: Array, swelling: Array) -> Array:
+def deviator(bodies: YieldingBodies, u: Array, plastic: Array, heat: Heat) -> Array:
     """(p, n) Deviators of the stresses, tensors.
 
     Parameters
     ----------
-    bodies, u, plastic, swelling : as of `full_strains`
+    bodies, u, plastic, heat : as of `full_strains`
     """
-    stress = full_strains(bodies, u, plastic, swelling)
+    stress = full_strains(bodies, u, plastic, heat)
     stress -= plastic
     stress[:, :3] -= (stress @ _MEAN[: stress.shape[1]])[:, None]
     stress[:, 3:] *= 0.5
@@ -71,39 +72,41 @@ def deviator(bodies: YieldingBodies, u: Array, plastic: Array, swelling: Array) 
     return stress
 
 
-def yield_stress(bodies: YieldingBodies, equivalent: Array) -> Array:
-    """(p,) Yield stress at equivalent plastic strains."""
-    laws, found = bodies.laws, np.empty(len(equivalent))
-    for b in np.flatnonzero(bodies.laws.rows):
-        own, rows = bodies.body == b, int(laws.rows[b])
-        p, table = equivalent[own], (laws.strain[b, :rows], laws.stress[b, :rows])
-        found[own] = np.interp(p, *table) + laws.beyond[b] * np.maximum(p - table[0][-1], 0.0)
-    return found
+def yield_stress(bodies: YieldingBodies, equivalent: Array, heat: Heat) -> Array:
+    """(p,) Yield stress.
+
+    Parameters
+    ----------
+    bodies : with their points
+    equivalent : (p,) equivalent plastic strains
+    heat : what the temperature does to the points
+    """
+    return yield_stresses(bodies.laws, bodies.body, equivalent, heat.level)
 
 
-def fullness(bodies: YieldingBodies, u: Array, state: PlasticState, swelling: Array) -> Array:
+def fullness(bodies: YieldingBodies, u: Array, state: PlasticState, heat: Heat) -> Array:
     """(p,) Relative stress over the yield stress: 1 where a point is about to flow.
 
     Parameters
     ----------
-    bodies, u, swelling : as of `full_strains`
+    bodies, u, heat : as of `full_strains`
     state : of the points
     """
-    relative = deviator(bodies, u, state.strain, swelling) - state.back.sum(axis=1)
-    return ROOT32 * size(relative) / yield_stress(bodies, state.equivalent)
+    relative = deviator(bodies, u, state.strain, heat) - state.back.sum(axis=1)
+    return ROOT32 * size(relative) / yield_stress(bodies, state.equivalent, heat)
 
 
-def violation(bodies: YieldingBodies, u: Array, old: PlasticState, new: PlasticState, swelling: Array) -> FlowViolation:
+def violation(bodies: YieldingBodies, u: Array, old: PlasticState, new: PlasticState, heat: Heat) -> FlowViolation:
     """What a state lacks of backward Euler from another.
 
     Parameters
     ----------
-    bodies, u, swelling : as of `full_strains`, at the new state
+    bodies, u, heat : as of `full_strains`, at the new state
     old, new : states
     """
     laws, own = bodies.laws, bodies.body
-    relative = deviator(bodies, u, new.strain, swelling) - new.back.sum(axis=1)
-    length, limit = size(relative), yield_stress(bodies, new.equivalent)
+    relative = deviator(bodies, u, new.strain, heat) - new.back.sum(axis=1)
+    length, limit = size(relative), yield_stress(bodies, new.equivalent, heat)
     unit = relative / np.maximum(length, np.finfo(np.float64).tiny)[:, None]
     grown = new.equivalent - old.equivalent
     step = new.strain - old.strain
@@ -130,7 +133,7 @@ def plastic_work(
     bodies: YieldingBodies,
     before: tuple[Array, PlasticState],
     after: tuple[Array, PlasticState],
-    swelling: tuple[Array, Array],
+    heat: tuple[Heat, Heat],
 ) -> float:
     """Plastic work from one state to another, ``sum w (s_1 + s_2) : deps_p / 2``: with it energies balance exactly.
 
@@ -138,16 +141,16 @@ def plastic_work(
     ----------
     bodies : with their points
     before, after : displacements and states
-    swelling : (p,) volume strain of the temperature at both
+    heat : what the temperature does at both
     """
     (u, old), (v, new) = before, after
-    stress = deviator(bodies, u, old.strain, swelling[0]) + deviator(bodies, v, new.strain, swelling[1])
+    stress = deviator(bodies, u, old.strain, heat[0]) + deviator(bodies, v, new.strain, heat[1])
     step = new.strain - old.strain
     step[:, 3:] *= 0.5
     return float(0.5 * bodies.weights @ inner(stress, step))
 
 
-def stored_by_plastic_strain(bodies: YieldingBodies, u: Array, state: PlasticState, swelling: Array) -> float:
+def stored_by_plastic_strain(bodies: YieldingBodies, u: Array, state: PlasticState, heat: Heat) -> float:
     """What the elastic energy is beyond that of elastic bodies.
 
     ``- u f_p + sum w (eps_p : D : eps_p / 2 + eps_p : D : eps_T)``; the last is 0 but in plane stress.
@@ -157,14 +160,14 @@ def stored_by_plastic_strain(bodies: YieldingBodies, u: Array, state: PlasticSta
     bodies : with their points
     u : (dofs,) displacements
     state : of the points
-    swelling : (p,) volume strain of the temperature
+    heat : what the temperature does to the points
     """
     stress = bodies.eigenstress(state.strain)
-    held = 0.5 * (state.strain * stress).sum(axis=1) + stress[:, :3].sum(axis=1) * swelling / 3.0
+    held = 0.5 * (state.strain * stress).sum(axis=1) + stress[:, :3].sum(axis=1) * heat.swelling / 3.0
     return float(bodies.weights @ held - u @ state.forces)
 
 
-def heat_work(bodies: YieldingBodies, before: tuple[PlasticState, Array], after: tuple[PlasticState, Array]) -> float:
+def heat_work(bodies: YieldingBodies, before: tuple[PlasticState, Heat], after: tuple[PlasticState, Heat]) -> float:
     """What a change of temperature does on plastic strains, ``sum w (eps_p1 + eps_p2) : D : deps_T / 2``.
 
     It is 0 but in plane stress: plastic strain keeps the volume, and not the area.
@@ -172,11 +175,11 @@ def heat_work(bodies: YieldingBodies, before: tuple[PlasticState, Array], after:
     Parameters
     ----------
     bodies : with their points
-    before, after : states, and (p,) volume strains of the temperature
+    before, after : states, and what the temperature does to the points
     """
     (old, cold), (new, warm) = before, after
     stress = bodies.eigenstress(0.5 * (old.strain + new.strain))
-    return float(bodies.weights @ (stress[:, :3].sum(axis=1) * (warm - cold)) / 3.0)
+    return float(bodies.weights @ (stress[:, :3].sum(axis=1) * (warm.swelling - cold.swelling)) / 3.0)
 
 
 def stored_by_back_stresses(bodies: YieldingBodies, state: PlasticState) -> float:

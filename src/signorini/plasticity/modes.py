@@ -24,7 +24,7 @@ from numba import njit
 
 from signorini.arrays import Array, IntArray
 from signorini.plasticity.kernels import strain_rows
-from signorini.plasticity.laws import YieldLaws
+from signorini.plasticity.laws import Heat, YieldLaws
 from signorini.plasticity.linearised import taken
 from signorini.plasticity.radial_return import Points, respond_at
 
@@ -172,7 +172,7 @@ class _Cell(NamedTuple):
 
 
 @njit(cache=True, error_model="numpy")
-def _imbalance(laws: YieldLaws, swelling: Array, cell: _Cell, old: Points, new: Points, a: Array, h: Array) -> None:
+def _imbalance(laws: YieldLaws, heat: Heat, cell: _Cell, old: Points, new: Points, a: Array, h: Array) -> None:
     """Forces h on the modes at amplitudes a beyond the elastic ones, after the points have answered."""
     n, count = cell.base.shape[1], len(a)
     trial, turn = np.empty(n), np.empty(n)
@@ -184,9 +184,9 @@ def _imbalance(laws: YieldLaws, swelling: Array, cell: _Cell, old: Points, new: 
                 new.strain[i, r] = cell.base[q, r]
                 for x in range(count):
                     new.strain[i, r] += cell.G[q, r, x] * a[x]
-        respond_at(laws, cell.body, swelling[i], old, new, i, trial, turn)
+        respond_at(laws, cell.body, heat.swelling[i], heat.level[i], old, new, i, trial, turn)
         for t in range(n):
-            turn[t] = new.strain[i, t] - new.plastic[i, t] - (swelling[i] / 3.0 if t < 3 else 0.0)
+            turn[t] = new.strain[i, t] - new.plastic[i, t] - (heat.swelling[i] / 3.0 if t < 3 else 0.0)
         for r in range(n):
             stress = 0.0
             for t in range(n):
@@ -218,7 +218,7 @@ def _find_loss(laws: YieldLaws, cell: _Cell, new: Points, M: Array, loss: Array)
 def settle(
     laws: YieldLaws,
     body: IntArray,
-    swelling: Array,
+    heat: Heat,
     law: Array,
     weights: Array,
     modes: Modes,
@@ -230,7 +230,7 @@ def settle(
     Parameters
     ----------
     laws : material data
-    body, swelling : (m q,) body and volume strain of the temperature of every point
+    body, heat : (m q,) body of every point, and what temperature does to it
     law : (b, n, n) elastic law of every body
     weights : (m, q) volumes of the points
     modes : of the cells
@@ -254,7 +254,7 @@ def settle(
         size *= 2.0 * laws.shear[b]
         cell = _Cell(first, b, weights[c], law[b], G, base, modes.stiffness[c])
         at[:] = 0.0
-        _imbalance(laws, swelling, cell, old, new, at, h)
+        _imbalance(laws, heat, cell, old, new, at, h)
         last = np.inf
         for _ in range(_ROUNDS):
             worst = np.abs(h).max()
@@ -269,7 +269,7 @@ def settle(
             start = -below
             for cut in range(_CUTS):
                 end[:] = at + s * step
-                _imbalance(laws, swelling, cell, old, new, end, h)
+                _imbalance(laws, heat, cell, old, new, end, h)
                 slope = np.dot(h, step)
                 if (cut == 0 and slope <= _UPHILL * start) or abs(slope) <= _LEVEL * start:
                     break

@@ -17,7 +17,7 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.plasticity.laws import YieldLaws, yield_stress_at
+from signorini.plasticity.laws import Heat, YieldLaws, stress_in_row, yield_stress_at
 
 ROOT23, ROOT32 = np.sqrt(2.0 / 3.0), np.sqrt(1.5)
 
@@ -64,7 +64,7 @@ class Points(NamedTuple):
 
 @njit(cache=True, inline="always", error_model="numpy")
 def _growth(
-    laws: YieldLaws, body: int, old: Points, i: int, norm: float, trial: Array, turn: Array
+    laws: YieldLaws, body: int, level: float, old: Points, i: int, norm: float, trial: Array, turn: Array
 ) -> tuple[float, float, float]:
     """Growth dp of the equivalent plastic strain, size of the relative stress before it (``turn``), slope of F.
 
@@ -93,7 +93,7 @@ def _growth(
             for c in range(n):
                 weight = 1.0 if c < 3 else 2.0
                 lean += weight * turn[c] / norm * laws.recovery[body, k] * theta * theta * old.back[i, k, c]
-        stress, hardening = yield_stress_at(laws, body, p0 + dp)
+        stress, hardening = yield_stress_at(laws, body, p0 + dp, level)
         missing = norm - ROOT23 * stress - ROOT32 * stiff * dp
         slope = ROOT23 * hardening + ROOT32 * stiff - ROOT32 * taken * dp - lean
         if abs(missing) <= 4.0 * _RETURN_TOL * (norm + stress):
@@ -108,7 +108,9 @@ def _growth(
 
 
 @njit(cache=True, inline="always", error_model="numpy")
-def _return(laws: YieldLaws, body: int, old: Points, i: int, new: Points, trial: Array, turn: Array) -> None:
+def _return(
+    laws: YieldLaws, body: int, level: float, old: Points, i: int, new: Points, trial: Array, turn: Array
+) -> None:
     """Backward Euler at point i from the old state to the strain of the new one; ``trial``, ``turn``: room."""
     n, M, G2 = new.strain.shape[1], new.back.shape[1], 2.0 * laws.shear[body]
     e = new.strain[i]
@@ -128,10 +130,10 @@ def _return(laws: YieldLaws, body: int, old: Points, i: int, new: Points, trial:
             x -= old.back[i, k, c]
         norm += x * x * (1.0 if c < 3 else 2.0)
     norm = np.sqrt(norm)
-    stress, _ = yield_stress_at(laws, body, p0)
+    stress, _ = yield_stress_at(laws, body, p0, level)
     if norm <= ROOT23 * stress * (1.0 + _RETURN_TOL):
         return
-    dp, norm, slope = _growth(laws, body, old, i, norm, trial, turn)
+    dp, norm, slope = _growth(laws, body, level, old, i, norm, trial, turn)
     new.equivalent[i], new.yields[i] = p0 + dp, True
     new.slack[i, 0] = G2 * ROOT32 * dp / norm
     new.slack[i, 1] = G2 * ROOT32 / slope - new.slack[i, 0]
@@ -146,7 +148,7 @@ def _return(laws: YieldLaws, body: int, old: Points, i: int, new: Points, trial:
 
 
 @njit(cache=True, error_model="numpy")
-def _stay(laws: YieldLaws, body: IntArray, old: Points, new: Points, stays: BoolArray) -> None:
+def _stay(laws: YieldLaws, body: IntArray, level: Array, old: Points, new: Points, stays: BoolArray) -> None:
     """Which points stay elastic, and their states: most of them, so without a call for each."""
     strain, plastic, back = new.strain, old.plastic, old.back
     n, M = strain.shape[1], back.shape[1]
@@ -161,16 +163,16 @@ def _stay(laws: YieldLaws, body: IntArray, old: Points, new: Points, stays: Bool
             norm += x * x * (1.0 if c < 3 else 2.0)
             new.plastic[i, c], new.direction[i, c] = plastic[i, c], 0.0
         p = old.equivalent[i]
-        stress, _ = yield_stress_at(laws, j, p)
+        stress, _ = yield_stress_at(laws, j, p, level[i])
         new.equivalent[i], new.slack[i, 0], new.slack[i, 1], new.yields[i] = p, 0.0, 0.0, False
         stays[i] = np.sqrt(norm) <= ROOT23 * stress * (1.0 + _RETURN_TOL)
 
 
 @njit(cache=True, error_model="numpy")
-def _without_back_stresses(laws: YieldLaws, body: IntArray, old: Points, new: Points) -> None:
+def _without_back_stresses(laws: YieldLaws, body: IntArray, level: Array, old: Points, new: Points) -> None:
     """The states of all points where yield stresses alone harden: exact row by row, without a call for each point."""
     strain, plastic, direction, slack = new.strain, new.plastic, new.direction, new.slack
-    rows, begin, stress, beyond, before = laws.rows, laws.strain, laws.stress, laws.beyond, old.plastic
+    rows, begin, beyond, before = laws.rows, laws.strain, laws.beyond, old.plastic
     n = strain.shape[1]
     for i in range(len(body)):
         j, p0 = body[i], old.equivalent[i]
@@ -185,10 +187,10 @@ def _without_back_stresses(laws: YieldLaws, body: IntArray, old: Points, new: Po
             row += 1
         dp, slope = 0.0, 1.0
         while True:
-            hardening = beyond[j]
+            hardening, stress = beyond[j], stress_in_row(laws, j, row, level[i])
             if row < last:
-                hardening = (stress[j, row + 1] - stress[j, row]) / (begin[j, row + 1] - begin[j, row])
-            radius = ROOT23 * (stress[j, row] + hardening * (p0 - begin[j, row]))
+                hardening = (stress_in_row(laws, j, row + 1, level[i]) - stress) / (begin[j, row + 1] - begin[j, row])
+            radius = ROOT23 * (stress + hardening * (p0 - begin[j, row]))
             slope = ROOT23 * hardening + ROOT32 * G2
             dp = (norm - radius) / slope
             if row == last or p0 + dp < begin[j, row + 1]:
@@ -213,25 +215,33 @@ def _without_back_stresses(laws: YieldLaws, body: IntArray, old: Points, new: Po
 
 @njit(cache=True, inline="always", error_model="numpy")
 def respond_at(
-    laws: YieldLaws, body: int, swelling: float, old: Points, new: Points, i: int, trial: Array, turn: Array
+    laws: YieldLaws,
+    body: int,
+    swelling: float,
+    level: float,
+    old: Points,
+    new: Points,
+    i: int,
+    trial: Array,
+    turn: Array,
 ) -> None:
     """The state of point i, see `respond`.
 
     Parameters
     ----------
-    laws, body, swelling : material data; body and volume strain of the temperature of the point
+    laws, body, swelling, level : material data; body, volume strain and place of the temperature of the point
     old, new : states of all points
     i : the point
     trial, turn : (n,) room
     """
     if not laws.thin:
-        _return(laws, body, old, i, new, trial, turn)
+        _return(laws, body, level, old, i, new, trial, turn)
         return
     G2, K, e = 2.0 * laws.shear[body], laws.bulk[body], new.strain[i]
     size = abs(e[0]) + abs(e[1]) + abs(e[3]) + abs(swelling) + abs(old.plastic[i, 2])
     low, high = -np.inf, np.inf
     for _ in range(_ACROSS_ROUNDS):
-        _return(laws, body, old, i, new, trial, turn)
+        _return(laws, body, level, old, i, new, trial, turn)
         volume = e[0] + e[1] + e[2]
         across = K * (volume - swelling) + G2 * (e[2] - volume / 3.0 - new.plastic[i, 2])
         if abs(across) <= _ACROSS_TOL * (K + G2) * size:
@@ -249,24 +259,24 @@ def respond_at(
 
 
 @njit(cache=True, error_model="numpy")
-def respond(laws: YieldLaws, body: IntArray, swelling: Array, old: Points, new: Points) -> None:
+def respond(laws: YieldLaws, body: IntArray, heat: Heat, old: Points, new: Points) -> None:
     """The state of every point at the strains of the new one, from the old state; plane stress finds the strain across.
 
     Parameters
     ----------
     laws : of the bodies
     body : (p,) of every point
-    swelling : (p,) volume strain of the temperature, which no stress resists
+    heat : what temperature does: strain that no stress resists, and the yield stress
     old, new : states; the strains of the new one are given
     """
     n = new.strain.shape[1]
     trial, turn = np.empty(n), np.empty(n)
     stays = np.zeros(len(body), np.bool_)
     if not laws.thin and old.back.shape[1] == 0:
-        _without_back_stresses(laws, body, old, new)
+        _without_back_stresses(laws, body, heat.level, old, new)
         return
     if not laws.thin:
-        _stay(laws, body, old, new, stays)
+        _stay(laws, body, heat.level, old, new, stays)
     for i in range(len(body)):
         if not stays[i]:
-            respond_at(laws, body[i], swelling[i], old, new, i, trial, turn)
+            respond_at(laws, body[i], heat.swelling[i], heat.level[i], old, new, i, trial, turn)

@@ -163,7 +163,7 @@ def _flow(system: DiscreteModel, state: State, origin: PlasticState | None) -> F
     bodies = system.yielding
     if bodies is None or origin is None or state.plastic is None:
         return None
-    return violation(bodies, state.displacement, origin, state.plastic, bodies.swelling(state.point.factors))
+    return violation(bodies, state.displacement, origin, state.plastic, bodies.heat(state.point.factors))
 
 
 def _rounding(K: sp.csr_array, u: Array, motions: sp.csr_array, force: float) -> float:

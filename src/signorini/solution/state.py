@@ -161,8 +161,8 @@ def next_state(
     work -= 0.5 * (state.forces + forces)[:n] @ (point.gap - state.point.gap)
     bodies = system.yielding
     if bodies is not None and bodies.heat_works and state.plastic is not None and plastic is not None:
-        swelling = bodies.swelling(state.point.factors), bodies.swelling(point.factors)
-        work += heat_work(bodies, (state.plastic, swelling[0]), (plastic, swelling[1]))
+        heat = bodies.heat(state.point.factors), bodies.heat(point.factors)
+        work += heat_work(bodies, (state.plastic, heat[0]), (plastic, heat[1]))
     spent = (forces[n:] * increment).reshape(-1, n).sum(axis=0) if n else np.zeros(0)
     taken = 0.5 * (state.point.given + point.given) @ (interface.B @ (displacement - state.displacement))
     return State(

@@ -64,8 +64,8 @@ def yielding_points(history: History, step: int = -1) -> YieldingPoints:
     if end is None or end.plastic is None:
         raise ValueError("no step was finished, or no body yields")
     bodies = yielding_bodies(make_space(model.mesh, axisymmetric=model.kind == "axisymmetric"), model)
-    u, plastic, still = end.displacement.ravel(), end.plastic.state, np.zeros(len(bodies.body))
-    stress = deviator(bodies, u, plastic.strain, still)
-    volume = bodies.dilatation(full_strains(bodies, u, plastic.strain, still))
+    u, plastic, cold = end.displacement.ravel(), end.plastic.state, bodies.cold()
+    stress = deviator(bodies, u, plastic.strain, cold)
+    volume = bodies.dilatation(full_strains(bodies, u, plastic.strain, cold))
     stress[:, :3] += (bodies.laws.bulk[bodies.body] * volume)[:, None]
     return YieldingPoints(places=bodies.places(), weights=bodies.weights, stress=stress, equivalent=plastic.equivalent)

@@ -51,6 +51,10 @@ MEANINGS = {
         "*PLASTIC,HARDENING=ISOTROPIC\n.02,0.,20.\n.04,.006,20.\n",
         sg.Plastic([(0, 0.02), (0.006, 0.04)]),
     ),
+    "at two temperatures": (
+        "*PLASTIC\n.02,0.,20.\n.04,.006,20.\n.01,,120.\n",
+        sg.Plastic([(0, 0.02, 20), (0.006, 0.04, 20), (0, 0.01, 120)]),
+    ),
     "a kinematic line": (
         "*PLASTIC,HARDENING=KINEMATIC\n.02,0.\n.04,.01\n",
         sg.Plastic(0.02, backstresses=[(2.0, 0.0)]),
@@ -108,7 +112,22 @@ WRONG = {  # the law, how the line that is named begins, what is said
     "begins late": ("*PLASTIC\n.02,.1\n", ".02", "the plastic strain is 0.1; expected 0, the plastic strain at first"),
     "nothing": ("*PLASTIC\n0.,0.\n", "0.,", "the yield stress is 0.0; expected a number > 0"),
     "no data": ("*PLASTIC\n", "*PLASTIC", "has no data line; expected yield stress and plastic strain"),
-    "warm": ("*PLASTIC\n.02,0.,20.\n.01,0.,100.\n", ".01", "the yield stress depends on temperature"),
+    "colder": (
+        "*PLASTIC\n.02,0.,20.\n.01,0.,10.\n",
+        ".01",
+        "the temperature is 10 after 20; expected increasing temperatures, the rows of each together",
+    ),
+    "warm from a strain on": ("*PLASTIC\n.02,0.,20.\n.01,0.1,30.\n", ".01", "the plastic strain is 0.1; expected 0"),
+    "warm and kinematic": (
+        "*PLASTIC,HARDENING=KINEMATIC\n.02,0.,20.\n.01,0.,100.\n",
+        "*PLASTIC",
+        "HARDENING=KINEMATIC depends on temperature, which is not supported",
+    ),
+    "warm and cyclic": (
+        "*PLASTIC,HARDENING=COMBINED\n.02,0.\n*CYCLIC HARDENING\n.02,0.,20.\n.02,0.,30.\n.03,1.,30.\n",
+        "*CYCLIC HARDENING",
+        "depends on temperature, which is not supported; expected one",
+    ),
     "kinematic": (
         "*PLASTIC,HARDENING=KINEMATIC\n.02,0.\n.03,.1\n.04,.3\n",
         ".04",
@@ -266,3 +285,36 @@ def test_backstresses_of_a_deck_follow_their_closed_form(tmp_path: Path) -> None
         errors.append(np.abs(np.subtract(found, exact)).max())
     assert errors[0] < 0.06
     assert errors[1] == pytest.approx(0.5 * errors[0], rel=0.1)
+
+
+HOT = "*PLASTIC\n.02,0.,20.\n.01,0.,220.\n"
+
+
+def warm(folder: Path, initial: str) -> Path:
+    """One brick that is pulled to 0.8 of the yield stress, then held and heated to 170."""
+    path = deck(folder, HOT, (0.00008, 0.00008))
+    text = path.read_text().replace("*STEP", f"*INITIAL CONDITIONS,TYPE=TEMPERATURE\n{initial}*STEP", 1)
+    before, last = text.rsplit("*EL PRINT", 1)
+    path.write_text(f"{before}*TEMPERATURE\nALL,170.\n*EL PRINT{last}")
+    return path
+
+
+def test_temperatures_of_a_table_are_those_of_the_deck(tmp_path: Path) -> None:
+    """From 20 to 170 the yield stress falls from 0.02 to 0.0125; it is the stress of 0.016 at 100."""
+    model = sg.read(warm(tmp_path, "ALL,20.\n"))
+    assert model.bodies[0].material.plastic.temperatures.tolist() == [0.0, 200.0]
+    solution = sg.solve(model)
+    assert solution.last.yielding.first == pytest.approx(1.0 + 80.0 / 150.0, rel=1e-9)
+    assert solution.stress("E").stress[:, 0] == pytest.approx(0.0125, rel=1e-8)
+
+
+@needs_ccx
+def test_calculix_takes_a_table_of_temperatures_alike(tmp_path: Path) -> None:
+    found = ccx_stresses(warm(tmp_path, "ALL,20.\n"))
+    assert found[-1, :, 0] == pytest.approx(0.0125, rel=1e-4)
+
+
+def test_a_body_whose_temperatures_differ_at_the_beginning_has_no_one_law(tmp_path: Path) -> None:
+    with pytest.raises(DeckError, match="the body begins at temperatures from 0 to 20; expected one in") as caught:
+        load_deck(warm(tmp_path, "PULL,20.\n"))
+    assert caught.value.line == warm(tmp_path, "PULL,20.\n").read_text().splitlines().index("*PLASTIC") + 1

@@ -11,6 +11,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from signorini.arrays import Array
 from signorini.deck.deck import Deck
 from signorini.deck.error import DeckError
 from signorini.deck.inp.card import Card
@@ -19,9 +20,10 @@ from signorini.deck.inp.grid import DeckGrid, make_grid
 from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS, of_keyword, refuse_unsupported
 from signorini.deck.inp.known import Known, make_known
 from signorini.deck.inp.links import make_deck_links
-from signorini.deck.inp.loading import follow_steps
+from signorini.deck.inp.loading import follow_steps, initial_temperatures
 from signorini.deck.inp.materials import Section
 from signorini.deck.inp.pairs import Pair, make_changes, make_contacts
+from signorini.deck.inp.plasticity import above_initial
 from signorini.deck.inp.prints import make_prints
 from signorini.deck.inp.steps import DeckStep, split_steps
 from signorini.deck.inp.syntax import flatten, read_cards
@@ -84,9 +86,10 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
     rigid, equations = make_deck_links(outside, known)
     conditions = make_conditions(follow_steps(outside, steps, known, rigid), known)
     changes = [make_changes(step.cards, known, contacts) for step in steps]
+    initial = initial_temperatures(outside, known)
     kind, thickness = known.grid.kind, _thickness(known.sections[0], known.grid.kind)
     made: dict[str, list[tuple[Any, Card]]] = {
-        "body": [(_body(section, known.grid, thickness), section.card) for section in known.sections],
+        "body": [(_body(section, known.grid, thickness, initial), section.card) for section in known.sections],
         "support": [(support, conditions.cards[support.label]) for support in conditions.supports],
         "load": [(load, conditions.cards[load.label]) for load in conditions.loads],
         "contact": [(pair.contact, pair.card) for pair in contacts],
@@ -184,7 +187,7 @@ def _thickness(section: Section, kind: Kind) -> float:
     return 1.0 if kind in ("axisymmetric", "3d") else section.thickness  # CalculiX: the angle that it cuts out
 
 
-def _body(section: Section, grid: DeckGrid, usual: float) -> Body:
+def _body(section: Section, grid: DeckGrid, usual: float, initial: Array) -> Body:
     """The body of a section, with a thickness of its own where that is not the usual one."""
     substance, thickness = section.substance, _thickness(section, grid.kind)
     elastic, alpha = substance.elastic, substance.expansion or 0.0
@@ -193,7 +196,10 @@ def _body(section: Section, grid: DeckGrid, usual: float) -> Body:
     if isinstance(elastic, Orthotropic):
         given |= {"angle": section.angle, "expansion1": alpha, "expansion2": alpha, "expansion3": alpha}
     else:
-        given |= {"expansion": alpha, "plastic": substance.flow.law if substance.flow else None}
+        given |= {"expansion": alpha}
+        if substance.flow is not None:
+            law = above_initial(substance.flow.law, substance.flow.card, initial[section.nodes])
+            given |= {"plastic": law}
     try:
         return Body(
             section.name,

@@ -121,8 +121,8 @@ def make_conditions(courses: Courses, known: Known) -> Conditions:
     for pattern in courses.temperature.patterns():
         field = np.zeros(len(courses.initial))
         field[pattern.slots] = pattern.values
-        for section in sections:  # temperatures act on every body that expands
-            if section.substance.expansion and field[section.nodes].any():
+        for section in sections:  # temperatures act on every body that feels them
+            if section.substance.feels_heat and field[section.nodes].any():
                 conditions.add_load(pattern, on=section.name, temperature=field, name=f"temperature {section.name}")
     return conditions
 

@@ -166,7 +166,7 @@ def follow_steps(
     known : nodes, elements, sections, surfaces, amplitudes
     rigid : what has reference nodes
     """
-    courses = Courses(rigid=rigid, initial=_initial_temperatures(outside, known))
+    courses = Courses(rigid=rigid, initial=initial_temperatures(outside, known))
     for card in outside:
         if card.keyword == "BOUNDARY":
             _boundary(card, known, courses)
@@ -290,8 +290,14 @@ def _cload(card: Card, known: Known, courses: Courses) -> None:
         courses.force.put(slots, value, label, card.at(row), amplitude, adds=True)
 
 
-def _initial_temperatures(outside: Sequence[Card], known: Known) -> Array:
-    """Temperature of every node at the beginning, (n,), from ``*INITIAL CONDITIONS``; 0 where none is given."""
+def initial_temperatures(outside: Sequence[Card], known: Known) -> Array:
+    """Temperature of every node at the beginning, (n,), from ``*INITIAL CONDITIONS``; 0 where none is given.
+
+    Parameters
+    ----------
+    outside : cards outside the steps
+    known : what has a number or a name
+    """
     temperatures = np.zeros(len(known.nodes.numbering.labels))
     for card in of_keyword(outside, "INITIAL CONDITIONS"):
         card.refuse_unknown(("TYPE",))

@@ -45,6 +45,11 @@ class Substance:
         """Name as the deck spells it."""
         return self.card.value("NAME")
 
+    @property
+    def feels_heat(self) -> bool:
+        """Whether temperature strains it or changes how it yields."""
+        return bool(self.expansion) or (self.flow is not None and self.flow.law.varies_with_heat)
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Section:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from signorini.arrays import Array
 from signorini.deck.inp.card import Card, Row
 from signorini.errors import InputError
 from signorini.model.plastic import Plastic
@@ -42,7 +43,7 @@ def make_flow(card: Card) -> Flow:
     Raises
     ------
     DeckError
-        For curves that soften, jump or depend on temperature, and for kinematic curves that are no line.
+        For curves that soften or jump, and for kinematic curves that are no line or depend on temperature.
     """
     card.refuse_unknown(("HARDENING", "DATA TYPE", "NUMBER BACKSTRESSES"))
     hardening = card.choice("HARDENING", ("ISOTROPIC", "KINEMATIC", "COMBINED"), "ISOTROPIC")
@@ -55,6 +56,8 @@ def make_flow(card: Card) -> Flow:
     law, rows = _tabular(card)
     if hardening == "ISOTROPIC" or len(rows) == 1:
         return Flow(card=card, law=law)
+    if law.varies_with_heat:
+        raise card.error(f"HARDENING={hardening} depends on temperature, which is not supported; expected one")
     if len(rows) > 2:
         raise card.at(rows[2]).error(
             f"HARDENING={hardening} has {len(rows)} rows, and no backstress follows such a curve exactly; expected "
@@ -91,6 +94,8 @@ def with_cyclic_hardening(flow: Flow, card: Card) -> Flow:
         notes = (_VOCE_NOTE.format(len(law.curve), _VOCE_ERROR),) if len(law.curve) > 1 else ()
     else:
         law, _ = _tabular(card)
+    if law.varies_with_heat:
+        raise card.error("depends on temperature, which is not supported; expected one")
     if law.curve[0, 1] != first:
         raise card.at(card.row("a yield stress")).error(
             f"begins at the yield stress {law.curve[0, 1]:g}, *PLASTIC at {first:g}; expected the same"
@@ -100,21 +105,43 @@ def with_cyclic_hardening(flow: Flow, card: Card) -> Flow:
 
 
 def _tabular(card: Card) -> tuple[Plastic, Sequence[Row]]:
-    """The law of rows of stress and plastic strain, at one temperature."""
+    """The law of rows of stress, plastic strain and temperature."""
     rows = list(card.rows())
     if not rows:
         raise card.error("has no data line; expected yield stress and plastic strain")
-    curve = [(row.number(1, "the plastic strain", 0.0), row.number(0, "the yield stress")) for row in rows]
-    temperatures = [row.number(2, "the temperature", 0.0) for row in rows]
-    for row, temperature in zip(rows, temperatures, strict=True):
-        if temperature != temperatures[0]:
-            raise card.at(row).error("the yield stress depends on temperature, which is not supported; expected one")
+    words = ((1, "the plastic strain", 0.0), (0, "the yield stress", None), (2, "the temperature", 0.0))
+    curve = [tuple(row.number(*word) for word in words) for row in rows]
+    varies = len({row[2] for row in curve}) > 1
     try:
-        return Plastic(tuple(curve)), rows
+        return Plastic(tuple(row if varies else row[:2] for row in curve)), rows
     except InputError as error:
         _, i, column = error.where
-        what = ("plastic strain", "yield stress")[int(column)]
+        what = ("plastic strain", "yield stress", "temperature")[int(column)]
         raise card.at(rows[int(i)]).error(f"the {what} {error.message}") from error
+
+
+def above_initial(law: Plastic, card: Card, initial: Array) -> Plastic:
+    """The law in temperatures above the initial one, as loads have them.
+
+    Parameters
+    ----------
+    law : in temperatures of the deck
+    card : ``*PLASTIC``, for errors
+    initial : (n,) temperatures of the nodes of the body at the beginning
+
+    Raises
+    ------
+    DeckError
+        Where they differ: the law would be another one at every node.
+    """
+    if not law.varies_with_heat or not initial.any():
+        return law
+    if np.ptp(initial):
+        raise card.error(
+            f"the yield stress depends on temperature, and the body begins at temperatures from {initial.min():g} to "
+            f"{initial.max():g}; expected one in *INITIAL CONDITIONS"
+        )
+    return replace(law, yield_stress=np.array(law.yield_stress) - [0.0, 0.0, initial[0]])
 
 
 def _with_backstresses(card: Card) -> Plastic:
