@@ -32,7 +32,7 @@ from typing import Any
 import numpy as np
 
 import signorini as sg
-from benchmarks import independent_plastic as own
+from benchmarks.independent_history import Follower
 from benchmarks.moved_models import in_other_units, turned
 from benchmarks.plastic_models import KINDS, Case, make
 from benchmarks.random_search import Verdict, parser, search
@@ -53,7 +53,7 @@ def judge(case: Case, *, solve: bool = False) -> Verdict:
         history = sg.solve(case.model, raise_on_failure=False)
     except Exception as error:  # whatever a solver may do is told, not raised
         return Verdict(outcome="ERROR", words=f"{type(error).__name__}: {str(error)[:300]}")
-    follower = own.Follower.of(case.structure)
+    follower = Follower.of(case.structure)
     worst = 0.0
     for k, step in enumerate(history.steps):
         for instant in step.instants:
@@ -85,7 +85,7 @@ def judge(case: Case, *, solve: bool = False) -> Verdict:
     return _without_answer(case, history, follower)
 
 
-def _flowed_alike(case: Case, history: Any, follower: own.Follower, worst: float) -> Verdict:
+def _flowed_alike(case: Case, history: Any, follower: Follower, worst: float) -> Verdict:
     """Plastic strains at the end, point by point."""
     bodies, plastic = prepare(case.model).yielding, history.end.state.plastic
     places = bodies.places()
@@ -103,7 +103,7 @@ def _flowed_alike(case: Case, history: Any, follower: own.Follower, worst: float
     return Verdict(outcome="right", words=words, worst=max(worst, off / largest))
 
 
-def _without_answer(case: Case, history: Any, follower: own.Follower) -> Verdict:
+def _without_answer(case: Case, history: Any, follower: Follower) -> Verdict:
     """Where the package found no equilibrium: is it named, and is there none?"""
     done = sum(step.finished for step in history.steps)
     words, s = f"step {done + 1}: {history.message[:400]}", case.structure
@@ -177,7 +177,7 @@ def refined(case: Case) -> Verdict:
     """Press, and drag, in tiny increments of the slow solver: what few of the package must tend to at first order."""
     steps, factors = case.model.steps[:2], [dict.fromkeys(case.unit, 0.0)]
     factors += [dict(step.scale or {}) for step in steps]
-    follower = own.Follower.of(case.structure)
+    follower = Follower.of(case.structure)
     try:
         for k in range(len(steps)):
             for part in np.arange(1, TINY + 1) / TINY:

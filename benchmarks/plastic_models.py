@@ -11,6 +11,7 @@ import numpy as np
 
 import signorini as sg
 from benchmarks import independent_plastic as own
+from benchmarks.independent_history import Acts
 from signorini.engine.prepare import prepare
 
 GEOMETRIES = ("plane strain", "plane stress", "axisymmetric", "space")
@@ -41,12 +42,12 @@ class Case:
     kinds: frozenset[str]
     model: sg.Model
     structure: own.Structure
-    unit: dict[str, own.Acts]
+    unit: dict[str, Acts]
     overlaps: Sequence[float]
 
-    def acts(self, factors: Mapping[str, float], time: float) -> own.Acts:
+    def acts(self, factors: Mapping[str, float], time: float) -> Acts:
         """What acts at factors by name, and after so many steps."""
-        found = own.Acts.none(self.structure)
+        found = Acts.none(self.structure)
         for name, unit in self.unit.items():
             found = found.plus(unit, factors[name])
         found.apart[0, ~self.structure.tied] -= np.interp(time, np.arange(len(self.overlaps)), self.overlaps)
@@ -271,16 +272,16 @@ def make(seed: int, wanted: frozenset[str] = frozenset(), *, exactly: bool = Fal
         kinds=kinds,
         model=model,
         structure=structure,
-        unit={name: replace(own.Acts.none(structure), **dict([act])) for name, act in made.acting.items()},
+        unit={name: replace(Acts.none(structure), **dict([act])) for name, act in made.acting.items()},
         overlaps=[0.0, *(step.interference.get("c", 0.0) for step in steps)],
     )
     if "heated" in kinds:
         places, ours = structure.points.places, structure.points.body == 0
         heat = np.where(ours, EXPANSION * hot * (1.0 + places @ tilt / 4.0), 0.0)
-        case.unit["heat"] = replace(own.Acts.none(structure), heat=heat)
+        case.unit["heat"] = replace(Acts.none(structure), heat=heat)
     if "moving" in kinds:
         apart = _interface_motions(model)[:, :, mesh.points.size :][:, :, :d] @ floor
-        case.unit["floor"] = replace(own.Acts.none(structure), apart=apart)
+        case.unit["floor"] = replace(Acts.none(structure), apart=apart)
     return case
 
 

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from benchmarks import independent_plastic as own
 from benchmarks import plastic_histories as histories
+from benchmarks.independent_history import Acts, Follower
 from benchmarks.plastic_models import in_words, make
 
 
@@ -80,10 +80,10 @@ def test_a_plate_with_a_hole_in_plane_stress(backstresses):
     held = {*(2 * mesh.nodes_of("bottom") + 1).tolist(), *(2 * mesh.nodes_of("top")).tolist()}
     held |= set((2 * pulled + 1).tolist())
     structure = in_words(model, held)
-    reference, whole = own.Follower.of(structure), replace(own.Acts.none(structure), held=moved)
+    reference, whole = Follower.of(structure), replace(Acts.none(structure), held=moved)
     solution = sg.solve(model)
     for instant in solution.steps[0].instants:
-        reference.follow(own.Acts.none(structure).plus(whole, instant.load_factor))
+        reference.follow(Acts.none(structure).plus(whole, instant.load_factor))
         np.testing.assert_allclose(instant.displacement.ravel(), reference.u, atol=1e-8 * stretch)
     plastic = solution.end.state.plastic
     assert plastic.equivalent.max() > 5e-3
