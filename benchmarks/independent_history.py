@@ -91,16 +91,42 @@ class Follower:
         """(d, n) Of the pairs."""
         return self.structure.pairs @ u + acts.apart
 
+    def settled(self, u: Array, acts: Acts) -> Array:
+        """Displacements (dofs,) of those of the nodes: modes of cells are in balance."""
+        s, own = self.structure, self.structure.inner
+        if own.start == own.stop:
+            return u
+        full = np.concatenate([u, self.u[own]])
+        for _ in range(_NEWTON_ROUNDS):
+            left = s.forces(s.respond(full, acts.heat, self.state)[0])
+            if np.abs(left[own]).max() <= _BALANCED * np.abs(left).max():
+                break
+            step, part = (
+                np.linalg.lstsq(s.tangent(full, acts.heat, self.state)[own, own], left[own], rcond=1e-13)[0],
+                1.0,
+            )
+            while part > _LEAST_PART:
+                tried = full.copy()
+                tried[own] -= part * step
+                if np.linalg.norm(s.forces(s.respond(tried, acts.heat, self.state)[0])[own]) < np.linalg.norm(
+                    left[own]
+                ):
+                    break
+                part /= 2
+            full = tried
+        return full
+
     def violations(self, u: Array, acts: Acts, *, incremental: bool = True) -> dict[str, float]:
         """How far the next instant is from equilibrium and from the laws; then it is the instant before.
 
         Parameters
         ----------
-        u : (dofs,) displacements
+        u : displacements of the nodes, or of these and of modes
         acts : what acts
         incremental : whether the law of slip is asked for
         """
         s, load, held = self.structure, acts.force, acts.held
+        u = self.settled(u, acts) if len(u) < len(s.T) else u
         stress, state = s.respond(u, acts.heat, self.state)
         inner = s.forces(stress)
         left = s.T.T @ (inner - load)

@@ -45,6 +45,7 @@ FAMILIES = {
 
 EYE = np.eye(3)
 ROOT32 = 1.5**0.5
+_REWEIGHTED = 60  # rounds of least squares for the least sum of sizes
 _ROUNDING = 2e-15  # of the largest value of a function
 
 
@@ -91,7 +92,7 @@ class Points:
 
     Attributes
     ----------
-    B : (p, 3, 3, dofs)
+    B : (p, 3, 3, dofs) displacements of the nodes, then amplitudes of the modes that cells have of their own
     weights : (p,) volumes
     places : (p, d)
     body : (p,)
@@ -104,12 +105,12 @@ class Points:
 
 
 def points(
-    nodes: Array, family: str, cells: Index, body: Index, *, kind: str, thickness: float, projected: bool
+    nodes: Array, family: str, cells: Index, body: Index, *, kind: str, thickness: float, formulation: str
 ) -> Points:
     """The points of cells of one family.
 
-    ``projected``: the volume strain is that of the mean over the cell, in quad8 and hexahedron20 of the nearest
-    linear function.
+    With a mean dilatation the volume strain is that of the mean over the cell, in quad8 and hexahedron20 of the nearest
+    linear function. Incompatible modes are those of Taylor, Beresford and Wilson (1976) less their mean strain.
     """
     d, (corners, exponents) = nodes.shape[1], FAMILIES[family]
     ring = kind == "axisymmetric"
@@ -118,21 +119,30 @@ def points(
     values = powers(at, exponents) @ inverse
     gradients = np.einsum("qmd,mk->qkd", slopes(at, exponents), inverse)
     few = np.column_stack([np.ones(len(at)), at]) if family in ("quad8", "hexahedron20") else np.ones((len(at), 1))
-    B = np.zeros((len(cells), len(at), 3, 3, nodes.size))
+    own = d * d if formulation == "incompatible" else 0
+    B = np.zeros((len(cells), len(at), 3, 3, nodes.size + own * len(cells)))
     weights, places = np.zeros((len(cells), len(at))), np.zeros((len(cells), len(at), d))
     for c, cell in enumerate(cells):
         J = np.einsum("ki,qkj->qij", nodes[cell], gradients)
         g = np.einsum("qkj,qji->qki", gradients, np.linalg.inv(J))
         places[c] = values @ nodes[cell]
         weights[c] = shares * np.abs(np.linalg.det(J)) * (2 * np.pi * places[c][:, 0] if ring else thickness)
-        for k, node in enumerate(cell):
+        first = d * cell
+        if own:
+            centre = J.mean(axis=0)
+            bent = np.einsum("qk,kj->qkj", -4.0 * (2.0 * at - 1.0), np.linalg.inv(centre))
+            bent *= (np.linalg.det(centre) / np.linalg.det(J))[:, None, None]
+            g = np.concatenate([g, bent - np.average(bent, axis=0, weights=weights[c])], axis=1)
+            first = np.concatenate([first, nodes.size + own * c + d * np.arange(d)])
+        for k, row in enumerate(first):
             for i in range(d):
                 for j in range(d):
-                    B[c, :, i, j, d * node + i] += g[:, k, j] / 2
-                    B[c, :, j, i, d * node + i] += g[:, k, j] / 2
-            if ring:
+                    B[c, :, i, j, row + i] += g[:, k, j] / 2
+                    B[c, :, j, i, row + i] += g[:, k, j] / 2
+        if ring:
+            for k, node in enumerate(cell):
                 B[c, :, 2, 2, d * node] += values[:, k] / places[c][:, 0]
-        if projected:
+        if formulation == "mean dilatation":
             volume = np.einsum("qiid->qd", B[c])
             mass = few.T @ (weights[c][:, None] * few)
             mean = few @ np.linalg.solve(mass, few.T @ (weights[c][:, None] * volume))
@@ -257,6 +267,7 @@ class Structure:
     points, laws : one law a body
     thin : plane stress
     T : (dofs, z) displacements by free unknowns
+    inner : dofs that are amplitudes of modes
     pairs : (d, n, dofs) motions of the pairs, normal first
     gap, friction : (n,)
     tied : (n,) pairs that neither open nor slip
@@ -266,6 +277,7 @@ class Structure:
     laws: list[Law]
     thin: bool
     T: Array
+    inner: slice
     pairs: Array
     gap: Array
     friction: Array
@@ -315,9 +327,28 @@ class Structure:
                 K += left.T @ self.points.B[:, i, j]
         return K
 
+    def yielding(self, v: Array) -> Array:
+        """A motion whose modes follow: the strain rate is the least, in the mean, with hardly a volume rate."""
+        v, G = v.copy(), self.points.B[..., self.inner]
+        if not G.shape[-1]:
+            return v
+        volume = np.trace(G, axis1=1, axis2=2)
+        rows = np.concatenate(
+            [G - EYE[:, :, None] / 3 * volume[:, None, None], EYE[:, :, None] * volume[:, None, None]]
+        )
+        for _ in range(_REWEIGHTED):
+            rate = self.points.B @ v
+            dev, mean = deviator(rate), rate - deviator(rate)
+            soft = np.maximum(size(dev), 1e-9 * size(dev).max())
+            weight = np.sqrt(np.concatenate([self.points.weights / soft, self.points.weights * 1e6 / soft.max()]))
+            lead = np.concatenate([dev, 3 * mean])
+            A, b = (weight[:, None, None, None] * rows).reshape(-1, G.shape[-1]), (weight[:, None, None] * lead).ravel()
+            v[self.inner] -= np.linalg.lstsq(A, b, rcond=None)[0]
+        return v
+
     def dissipation(self, v: Array) -> float:
         """The most that plastic flow can take on a motion (dofs,), infinite where it hardens without end."""
-        rate = size(deviator(self.points.B @ v))
+        rate = size(deviator(self.points.B @ self.yielding(v)))
         limit = np.empty(len(rate))
         for b, law in enumerate(self.laws):
             endless = law.beyond > 0 or (law.backs[:, 1] == 0).any()

@@ -61,13 +61,13 @@ def judge(case: Case, *, solve: bool = False) -> Verdict:
                 break  # the bodies were not looked at
             u, acts = instant.displacement.ravel(), case.acts(instant.factors, instant.load_factor)
             if instant.what == "approach":
-                follower.u, follower.acts = u, acts
+                follower.u, follower.acts = follower.settled(u, acts), acts
                 continue
             gradual = instant.what != "landing"
             where = f"step {k + 1} at {instant.load_factor - k:.4%}, {instant.what}"
             if solve and gradual:
                 other, part = follower.reached(acts)
-                off = np.abs(other - u).max() / max(np.abs(u).max(), follower.length, 1e-300)
+                off = np.abs(other[: u.size] - u).max() / max(np.abs(u).max(), follower.length, 1e-300)
                 if part == 1.0 and off > AGREED:
                     return Verdict(outcome="ANOTHER", words=f"{where}: displacements differ by {off:.1e}")
                 if part < 1.0:
@@ -111,7 +111,8 @@ def _without_answer(case: Case, history: Any, follower: Follower) -> Verdict:
     if history.status == "jump":
         return Verdict(outcome="jump", words=words)
     if "flow plastically" in history.message and history.escape is not None:
-        v = history.escape.ravel()
+        v = np.zeros(len(s.T))
+        v[: history.escape.size] = history.escape.ravel()
         taken, given = s.dissipation(v), float(acts.force @ v)
         rates = (s.pairs @ v)[:, ~s.tied]
         opens, slides = rates[0], np.linalg.norm(rates[1:], axis=0)
@@ -185,13 +186,14 @@ def refined(case: Case) -> Verdict:
                 follower.follow(case.acts(mixed, k + part))
     except ArithmeticError:
         return Verdict(outcome="beyond", words="the slow solver does not come to the end")
-    largest, off = np.abs(follower.u).max(), []
+    u = follower.u[: case.model.mesh.points.size]
+    largest, off = np.abs(u).max(), []
     for count in COARSE:
         some = [replace(step, increments=count) for step in steps]
         history = sg.solve(replace(case.model, steps=some), raise_on_failure=False)
         if history.status != "solved":
             return Verdict(outcome="beyond", words=history.message[:200])
-        off.append(float(np.abs(history.last.displacement.ravel() - follower.u).max() / largest))
+        off.append(float(np.abs(history.last.displacement.ravel() - u).max() / largest))
     words = "differences " + ", ".join(f"{one:.1e}" for one in off)
     tends = off[2] <= ALIKE or off[2] <= HALVED**2 * off[0]
     return Verdict(outcome="of first order" if tends else "APART", words=words, worst=off[2])

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
+from scipy.linalg import block_diag
 
 import signorini as sg
 from benchmarks import independent_plastic as own
@@ -17,11 +18,11 @@ from signorini.engine.prepare import prepare
 GEOMETRIES = ("plane strain", "plane stress", "axisymmetric", "space")
 LAWS = ("perfect", "table", "prager", "frederick")
 FLAT, SOLID = ("quad", "quad8", "triangle6"), ("hexahedron", "hexahedron20", "tetra10")
-BODIES = ("two", "mortar", "curved", "elastic", "rigid", "tied")
+BODIES = ("incompatible", "two", "mortar", "curved", "elastic", "rigid", "tied")
 ACTIONS = ("driven", "moving", "heated", "overlap")
 STEPS = ("auto", "restart", "units", "turned")
 KINDS = (*GEOMETRIES, *FLAT, *SOLID, *LAWS, *BODIES, *ACTIONS, *STEPS)
-_MORE = ("elastic", "rigid", "tied", "moving", "heated", "overlap", *STEPS)
+_MORE = ("incompatible", "elastic", "rigid", "tied", "moving", "heated", "overlap", *STEPS)
 _SHARE = 0.15  # of models that have one of them
 E, NU, EXPANSION = 200.0, 0.3, 1e-3
 
@@ -67,6 +68,7 @@ def chosen(rng: np.random.Generator, wanted: frozenset[str]) -> frozenset[str]:
     law = one_of(LAWS, (0.3, 0.3, 0.2, 0.2))
     families = SOLID if geometry == "space" else FLAT
     family = str(rng.choice(families, p=(0.5, 0.25, 0.25)))
+    family = families[0] if "incompatible" in wanted else family
     family = next((asked for asked in families if asked in wanted), family)
     found = {kind for kind in ("two", "mortar", "curved", "driven") if rng.random() < 0.5}
     found |= {kind for kind in _MORE if rng.random() < _SHARE} | wanted
@@ -87,6 +89,8 @@ def consistent(kinds: set[str]) -> frozenset[str]:
         found -= {"curved"}
     if "tied" in found:
         found -= {"overlap"}
+    if not found & {"quad", "hexahedron"}:
+        found -= {"incompatible"}
     return frozenset(found)
 
 
@@ -147,7 +151,7 @@ class _Maker:
         """
         rows = self.rows(self.mesh.nodes_of(self.top), direction)
         given: list[float | None] = [None] * self.d
-        unit = np.zeros(self.mesh.points.size)
+        unit = np.zeros(self.mesh.points.size)  # of nodes alone: modes are not acted on
         if "driven" in self.kinds:
             given[direction] = motion
             self.supports.append(sg.Support(self.top, u=tuple(given), name=name))
@@ -251,7 +255,10 @@ def make(seed: int, wanted: frozenset[str] = frozenset(), *, exactly: bool = Fal
         mesh,
         kind="3d" if d == 3 else geometry,
         thickness=thickness,
-        bodies=[sg.Body(name, material) for name, material in zip(made.names, (upper, lower), strict=False)],
+        bodies=[
+            sg.Body(name, material, "incompatible" if "incompatible" in kinds else None)
+            for name, material in zip(made.names, (upper, lower), strict=False)
+        ],
         supports=made.supports,
         loads=made.loads,
         contacts=[
@@ -272,7 +279,10 @@ def make(seed: int, wanted: frozenset[str] = frozenset(), *, exactly: bool = Fal
         kinds=kinds,
         model=model,
         structure=structure,
-        unit={name: replace(Acts.none(structure), **dict([act])) for name, act in made.acting.items()},
+        unit={
+            name: replace(Acts.none(structure), **{what: np.pad(unit, (0, len(structure.T) - unit.size))})
+            for name, (what, unit) in made.acting.items()
+        },
         overlaps=[0.0, *(step.interference.get("c", 0.0) for step in steps)],
     )
     if "heated" in kinds:
@@ -333,6 +343,14 @@ def _interface_motions(model: sg.Model) -> np.ndarray:
     return B.reshape(interface.directions, len(interface), B.shape[1])
 
 
+def _formulation(model: sg.Model, b: int) -> str:
+    """What a body says, or in the words of the package's defaults."""
+    body = model.bodies[b]
+    if body.formulation is not None:
+        return str(body.formulation)
+    return "mean dilatation" if body.material.yields and model.kind != "plane stress" else "standard"
+
+
 def in_words(
     model: sg.Model,
     held: set[int],
@@ -371,11 +389,14 @@ def in_words(
             owner[owner == b],
             kind=model.kind,
             thickness=model.thickness,
-            projected=model.bodies[b].material.yields and not thin,
+            formulation=str(_formulation(model, b)),
         )
         for b in range(len(model.bodies))
     ]
-    joined = {part: np.concatenate([getattr(one, part) for one in both]) for part in ("B", "weights", "places", "body")}
+    joined = {part: np.concatenate([getattr(one, part) for one in both]) for part in ("weights", "places", "body")}
+    own_columns = [one.B[..., dofs:].reshape(9 * len(one.B), one.B.shape[-1] - dofs) for one in both]
+    B = np.concatenate([one.B[..., :dofs] for one in both])
+    modes = block_diag(*own_columns).reshape(*B.shape[:3], sum(one.shape[1] for one in own_columns))
     columns = [np.eye(dofs)[:, [k]] for k in range(dofs) if k not in held and not any(k in g for g in groups)]
     for group in groups:
         column = np.zeros((dofs, 1))
@@ -383,11 +404,12 @@ def in_words(
         columns.append(column)
     columns += [motion[:, None] for motion in motions]
     return own.Structure(
-        points=own.Points(**joined),
+        points=own.Points(B=np.concatenate([B, modes], axis=-1), **joined),
         laws=laws,
         thin=thin,
-        T=np.hstack(columns),
-        pairs=_interface_motions(model)[:, :, :dofs],
+        T=block_diag(np.hstack(columns), np.eye(modes.shape[-1])),
+        inner=slice(dofs, dofs + modes.shape[-1]),
+        pairs=np.pad(_interface_motions(model)[:, :, :dofs], ((0, 0), (0, 0), (0, modes.shape[-1]))),
         gap=np.array(interface.gap),
         friction=np.full(len(interface), friction),
         tied=np.array(interface.tied),
