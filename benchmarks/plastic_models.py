@@ -304,9 +304,10 @@ def _foot(made: _Maker) -> list[np.ndarray]:
     (cells,) = made.mesh.cells.values()
     nodes = np.unique(cells[made.mesh.bodies["lower"]])
     made.held |= {int(d * node + k) for node in nodes for k in range(d)}
-    turns: list[float | None] = [None if d == 2 and not ring else 0.0] * (1 if d == 2 else 3)
+    rocks = d == 2 and not ring and "driven" not in made.kinds  # where sides part nothing would hold it
+    turns: list[float | None] = [None if rocks else 0.0] * (1 if d == 2 else 3)
     made.supports.append(sg.Support("rock", u=(*(0.0,) * d, *turns)))
-    if d == 3 or ring:
+    if not rocks:
         return []
     turn = np.zeros(made.mesh.points.size)
     turn[d * nodes], turn[d * nodes + 1] = -made.mesh.points[nodes, 1], made.mesh.points[nodes, 0]
