@@ -212,9 +212,8 @@ def make(seed: int, wanted: frozenset[str] = frozenset(), *, exactly: bool = Fal
     wanted : kinds that it has at least
     exactly : whether it has no others
     """
-    rng = np.random.default_rng(seed)
-    kinds = chosen(rng, wanted)
-    kinds = consistent(set(wanted)) if exactly else kinds
+    rng = np.random.default_rng((seed, 1))
+    kinds = consistent(set(wanted)) if exactly else chosen(np.random.default_rng(seed), wanted)
     mesh = _mesh(rng, kinds)
     made = _Maker(rng=rng, kinds=kinds, d=mesh.points.shape[1], mesh=mesh, names=list(mesh.bodies))
     d, two, ring = made.d, "two" in kinds, "axisymmetric" in kinds

