@@ -108,6 +108,12 @@ class Condensed:
         free = self.root * (self.response.moved(load) + offset) - self._leaning @ resultant
         return self.image.load(free, resultant)
 
+    def of_gaps(self, gap: Array) -> Array:
+        """What gaps (a,), length, of the active pairs add to b: nothing of the bodies is asked."""
+        moved = np.zeros_like(self.root)
+        moved[: len(gap)] = self.root[: len(gap)] * gap
+        return self.image.load(moved, np.zeros(self.image.R.shape[1]))
+
     def displacement(self, reduced: Reduced, h: Array, r: Array, offset: Array) -> Array:
         """Free displacements (z,) under a load and the solution h, r (d a,), in the units of the problem.
 

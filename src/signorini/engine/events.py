@@ -27,6 +27,7 @@ from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, joined
 from signorini.errors import SolveFailed, told
 from signorini.friction.history import Landing, PathSettings, PathState, Segment
 from signorini.outcome import Outcome
+from signorini.settings import SolverSettings
 from signorini.solution.results import PairEvent
 from signorini.solution.state import State
 
@@ -96,9 +97,13 @@ def follow_to_events(part: StepPart, number: int, *, jumps: bool = False, behind
     SolveFailed
         As `follow_exactly` does.
     """
-    solver = part.prepared.settings
-    stops = PathSettings(shortest=1.0 / number, turn=_TURN / number**0.5, solver=solver, behind=behind)
+    stops = replace(stops_at(number, part.prepared.settings), behind=behind)
     return _beyond_jumps(part, "increments to events", jumps=jumps, stops=stops)
+
+
+def stops_at(number: int, settings: SolverSettings) -> PathSettings:
+    """How increments in space are chosen that need not be shorter than 1 / number of a part; limits of the methods."""
+    return PathSettings(shortest=1.0 / number, turn=_TURN / number**0.5, solver=settings)
 
 
 def _beyond_jumps(part: StepPart, how: str, *, jumps: bool, stops: PathSettings | None = None) -> FollowedPart:

@@ -31,18 +31,20 @@ class Rubbing:
     ----------
     distance : (n,) slid where they were closed, either way, length
     wearing : (n,) ``int p |ds|``, force per length; of pairs that wear by energy the work of friction per area
+    travel : (n,) how far both sides have moved along each other, open or closed, length
     """
 
     distance: Array
     wearing: Array
-
-    def times(self, count: int) -> Rubbing:
-        """As often as that."""
-        return Rubbing(distance=count * self.distance, wearing=count * self.wearing)
+    travel: Array
 
     def and_then(self, other: Rubbing) -> Rubbing:
         """Both ways, one after the other."""
-        return Rubbing(distance=self.distance + other.distance, wearing=self.wearing + other.wearing)
+        return Rubbing(
+            distance=self.distance + other.distance,
+            wearing=self.wearing + other.wearing,
+            travel=self.travel + other.travel,
+        )
 
 
 def rubbing_of_states(sides: WornSides, interface: Interface, states: Sequence[State]) -> Rubbing:
@@ -60,7 +62,7 @@ def rubbing_of_states(sides: WornSides, interface: Interface, states: Sequence[S
         pressed = 0.5 * (one.forces + two.forces)[:n] * slid
         distance += slid
         wearing += np.where(sides.by_energy, two.dissipation - one.dissipation, pressed) / interface.area
-    return Rubbing(distance=distance, wearing=wearing)
+    return Rubbing(distance=distance, wearing=wearing, travel=distance)
 
 
 def rubbing_of_segment(sides: WornSides, interface: Interface, paths: CondensedSolver, segment: Segment) -> Rubbing:
@@ -72,18 +74,17 @@ def rubbing_of_segment(sides: WornSides, interface: Interface, paths: CondensedS
     paths : in whose scaled units the segment is
     segment : as it was followed
     """
-    n, active = len(interface), paths.active
-    a, root = paths.law.pairs, paths.condensed.root
+    n, active, root = len(interface), paths.active, paths.law.by_pair(paths.condensed.root)
     h, r = (np.array([getattr(piece, name) for piece in segment.pieces]) for name in ("h", "r"))
-    normal = 0.5 * (r[1:] + r[:-1])[:, :a] * root[:a]
-    slips = (np.diff(h, axis=0)[:, a:] / root[a:]).reshape(len(normal), -1, a)
-    friction = (0.5 * (r[1:] + r[:-1])[:, a:] * root[a:]).reshape(slips.shape)
+    forces, slips = 0.5 * (r[1:] + r[:-1]) * root, (np.diff(h, axis=0) / root)[:, 1:]
+    normal, friction = forces[:, 0], forces[:, 1:]
     slid = np.abs(slips[:, 0]) if slips.shape[1] == 1 else np.linalg.norm(slips, axis=1)
-    distance, wearing = np.zeros(n), np.zeros(n)
+    distance, wearing, travel = np.zeros(n), np.zeros(n), np.zeros(n)
+    travel[active] = slid.sum(axis=0)
     distance[active] = np.where(normal > 0.0, slid, 0.0).sum(axis=0)
     pressed, work = (normal * slid).sum(axis=0), -(friction * slips).sum(axis=(0, 1))
     wearing[active] = np.where(sides.by_energy[active], work, pressed) / interface.area[active]
-    return Rubbing(distance=distance, wearing=wearing)
+    return Rubbing(distance=distance, wearing=wearing, travel=travel)
 
 
 def rubbed(wear: WearState, rubbing: Rubbing) -> WearState:

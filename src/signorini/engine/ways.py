@@ -28,7 +28,8 @@ TOLERANCE_OF_FORCES = 1e-3
 """Of ``increments = "auto"``, where the step gives none and nothing yields."""
 
 _BEHIND_A_JUMP = 10  # increments
-_SPACE_INCREMENTS = 16  # in space, where no number is asked for: none need be shorter than 1/16 of a straight part
+SPACE_INCREMENTS = 16
+"""In space, where no number is asked for: none need be shorter than 1/16 of a straight part."""
 
 
 def follow_part(stage: Stage, part: StepPart) -> FollowedPart:
@@ -115,7 +116,7 @@ def _as_asked(stage: Stage, part: StepPart) -> FollowedPart:
         number = _increments(step, part.interval, stage)
         return follow_watchfully(part, number, stops=step.jump == "stop")
     if step.path is None and (interface.directions == 3 or not interface.friction.straight):
-        return follow_automatically(part, step.tolerance or TOLERANCE_OF_FORCES, enough=_SPACE_INCREMENTS, jump=jump)
+        return follow_automatically(part, step.tolerance or TOLERANCE_OF_FORCES, enough=SPACE_INCREMENTS, jump=jump)
     try:
         return follow_exactly(part, jumps=step.follows_jumps)
     except SolveFailed as failure:

@@ -10,10 +10,15 @@ and 2, 5, 10, 20, 50, ...
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
+from functools import cached_property
 
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.attempt import MethodRun
 from signorini.engine.cycles import cycle_between
+from signorini.engine.events import stops_at
 from signorini.engine.prepare import Prepared
 from signorini.engine.rubbing import rubbed, rubbing_of_states, worn
 from signorini.engine.step_parts import (
@@ -26,14 +31,22 @@ from signorini.engine.step_parts import (
     lightened,
     straight_parts,
 )
-from signorini.engine.ways import follow_part
-from signorini.errors import SolveFailed
+from signorini.engine.ways import SPACE_INCREMENTS, follow_part
+from signorini.engine.wear_blocks import Block, implicit_block
+from signorini.engine.wear_paths import PathCycle, WornPaths
+from signorini.errors import SolveFailed, told
 from signorini.interface.worn_sides import WornSides
 from signorini.model.stage import Stage
+from signorini.outcome import Outcome
 from signorini.solution.certificate import worst_of
-from signorini.solution.results import Cycle
-from signorini.solution.state import LoadPoint, State
-from signorini.solution.wear_state import WearState
+from signorini.solution.state import LoadPoint, State, wear_of
+
+TOLERANCE_OF_DEPTH = 1e-2
+"""Of ``block = "auto"``, where the step gives none: of the largest depth that a block wears."""
+
+_MOST_GROWTH = 3.0  # times as many cycles as the block before
+_SAFETY = 0.8  # of the number of cycles whose error would be the tolerance
+_SAME_TIME = 1e-9  # of a step: times asked for that are closer to the end of a cycle are there
 
 
 def follow_wearing(
@@ -56,8 +69,11 @@ def follow_wearing(
     """
     walk = _Walk(prepared, stage, state, end, heated)
     try:
-        for number in range(1, stage.step.repeat + 1):
-            walk.cycle(number)
+        if stage.step.block is None:
+            for number in range(1, stage.step.repeat + 1):
+                walk.cycle(number)
+        else:
+            walk.blocks()
     except (SolveFailed, KeyboardInterrupt) as stop:
         raise keep(stop, walk.behind) from None
     return walk.behind, walk.ends
@@ -68,7 +84,8 @@ class _Walk:
 
     Attributes
     ----------
-    state : reached
+    state : the last whole one
+    at : where the step stands on the condensed interface, ahead of that; None where it does not
     behind : parts that are kept
     ends : load factors at the ends of cycles kept
     """
@@ -78,44 +95,198 @@ class _Walk:
         self.prepared, self.stage, self.start, self.end, self.heated = prepared, stage, state, end, heated
         self.sides: WornSides = prepared.wearing
         self.state = state
+        self.at: PathCycle | None = None
         self.behind: list[FollowedPart] = []
         self.ends: list[float] = []
+        self._since = 0
+        self._tries = 0
+
+    @cached_property
+    def paths(self) -> WornPaths | None:
+        """Cycles on the condensed interface; None where increments or bodies at every event are asked for."""
+        step, point = self.stage.step, self.start.point
+        if step.increments is not None or step.path == "increments" or step.at == "events" or self.heated:
+            return None
+        if point.given.any() or self.prepared.solver.paths is None:
+            return None
+        stops = None
+        if self.prepared.interface.directions == 3 and step.path != "exact":
+            stops = stops_at(SPACE_INCREMENTS, self.prepared.settings)
+        return WornPaths(self.prepared, self.stage, self.start, self.end, stops)
 
     def cycle(self, number: int) -> None:
-        """Follow a cycle with all that is known of bodies and pairs, and wear the sides."""
-        step, begin = self.stage.step, self.state
-        parts: list[FollowedPart] = []
-        for interval, point in straight_parts(self.stage, self.start.point, self.end, number):
-            followed = self._part(interval, self._between_worn(point))
-            parts.append(lightened(followed, every=step.at == "events", end=interval.asked, heated=self.heated))
-        parts.append(self._worn(interval, cycles=1))
-        whole = joined(parts)
-        sliding = _wear(self.state).distance - _wear(begin).distance
-        cycle = replace(
-            cycle_between(begin, self.state, sliding),
-            number=number,
-            load_factor=interval.factor(1.0),
-            worn=float((_wear(self.state).volume - _wear(begin).volume).sum()),
-        )
-        self._keep(whole, cycle, kept=self._asks(number, parts))
+        """A cycle, and its wear at its end."""
+        paths = self.paths
+        if paths is not None and not self._kept(number):
+            found = paths.cycle(self._on_path(number - 1), number)
+            moved = None if found is None else paths.worn(found[0], worn(self.sides, found[0].wear, cycles=1))
+            if moved is not None:
+                self.at = moved
+                return
+        self._whole(number - 1)
+        begin, (parts, interval) = self.state, self._cycle_parts(number)
+        parts.append(self._worn(interval))
+        self._keep(joined(parts), begin, number)
 
-    def _asks(self, number: int, parts: Sequence[FollowedPart]) -> bool:
+    def blocks(self) -> None:
+        """The step in implicit blocks: the first cycle is one, others end at the latest where a cycle is kept."""
+        step = self.stage.step
+        if self.paths is None:
+            words = "blocks of cycles need exact paths; expected no 'increments', and no results at events"
+            raise SolveFailed(f"{self.stage.name}: {words}", status=Outcome.NOT_FOUND)
+        behind, count = 0, 1
+        rubs = np.zeros(len(self.prepared.interface))
+        while behind < step.repeat:
+            room = next(number for number in range(behind + 1, step.repeat + 1) if self._kept(number)) - behind
+            found, again = self._block(self.paths, behind, min(count, room), rubs)
+            rubs = found.rubs
+            behind += found.count
+            self._take(found, behind)
+            count = step.block if isinstance(step.block, int) else again
+
+    def _block(self, paths: WornPaths, behind: int, count: int, rubs: Array) -> tuple[Block, int]:
+        """The next block, of at most so many cycles, and how many the one behind it may have."""
+        at = self._on_path(behind)
+        while True:
+            found = implicit_block(paths, at, behind + count, count, rubs)
+            if found is None and count == 1:
+                raise SolveFailed(
+                    told(
+                        f"{self.stage.name} at cycle {behind + 1}: no block of one cycle was found",
+                        remedy="leave 'block' out, so that every cycle wears explicitly, or less wear",
+                    ),
+                    status=Outcome.NOT_FOUND,
+                )
+            self._tries += 0 if found is None else found.tries
+            if found is not None and not isinstance(self.stage.step.block, str):
+                return found, count
+            if found is not None and count == 1:
+                return found, 2
+            halves = None if found is None else self._halves(paths, behind, count, found.rubs)
+            if found is None or halves is None:
+                count //= 2
+                continue
+            one, other = found.done.wear.depth, halves.done.wear.depth
+            error = np.abs(one - other).max() / np.abs(other - at.wear.depth).max()
+            wanted = self.stage.step.tolerance or TOLERANCE_OF_DEPTH
+            again = max(1, int(count * min(_MOST_GROWTH, _SAFETY * wanted / max(error, 1e-12))))
+            if error <= wanted:
+                return halves, again
+            count = max(1, min(again, count // 2))
+
+    def _halves(self, paths: WornPaths, behind: int, count: int, rubs: Array) -> Block | None:
+        """The same cycles as two blocks, the second of which is given with the number of both."""
+        first = count // 2
+        one = implicit_block(paths, self._on_path(behind), behind + first, first, rubs)
+        if one is None:
+            return None
+        two = implicit_block(paths, one.done, behind + count, count - first, one.rubs)
+        if two is None:
+            return None
+        self._tries += one.tries + two.tries
+        return replace(two, count=count, last=count - first)
+
+    def _take(self, block: Block, behind: int) -> None:
+        """Go to the end of a block; where its last cycle is kept, with all that is known of bodies and pairs."""
+        self.at = block.done
+        if not self._kept(behind):
+            return
+        self.at = block.moved
+        self._whole(behind - 1)
+        begin, (parts, _) = self.state, self._cycle_parts(behind)
+        once, others = self.state, block.last - 1
+        wear, before = wear_of(once), wear_of(begin)
+        taken = once.dissipation - begin.dissipation
+        self.state = replace(
+            once,
+            dissipation=once.dissipation + others * taken,
+            work=once.work + others * float(taken.sum()),
+            wear=replace(
+                wear,
+                distance=wear.distance + others * (wear.distance - before.distance),
+                rubbed=block.done.wear.rubbed,
+            ),
+        )
+        whole = joined(parts)
+        self._keep(_ending(whole, self.state), begin, behind, cycle_end=once)
+
+    def _on_path(self, behind: int) -> PathCycle:
+        """Where the step stands on the condensed interface, so many cycles behind."""
+        assert self.paths is not None
+        if self.at is None:
+            self.at, self._since = self.paths.begin(self.state), behind
+        return self.at
+
+    def _whole(self, behind: int) -> None:
+        """Recover the bodies, so many cycles behind, where the step is ahead of them."""
+        if self.at is None:
+            return
+        assert self.paths is not None
+        at, last = self.at, self.state
+        interval, point = list(straight_parts(self.stage, self.start.point, self.end, max(behind, 1)))[-1]
+        if behind == 0:
+            point, fraction = self.start.point, 0.0
+        else:
+            fraction = interval.high
+        depth = at.wear.depth - wear_of(self.start).depth
+        point = replace(point, gap=point.gap + self.sides.gap @ depth)
+        self.state = self.paths.state(last, at, point)
+        words = f"{behind - self._since} cycles on the condensed interface, certified to {at.residual:.1e}"
+        shot = Snapshot(number=self.stage.number, fraction=fraction, what="segment", state=self.state)
+        stretch = FollowedPart(
+            path="exact" if self.paths.stops is None else "increments",
+            before=last,
+            after=self.state,
+            certificates=(),
+            trace=((MethodRun(method="exact path", iterations=at.pivots, end=words),),),
+            snapshots=(shot,),
+        )
+        self.behind.append(lightened(stretch, every=False, end=False, heated=self.heated))
+        self.ends.append(shot.load_factor)
+        self.at = None
+
+    def _kept(self, number: int) -> bool:
         """Whether the snapshots of a cycle are results."""
         step = self.stage.step
-        asked = any(shot.kept for part in parts for shot in part.snapshots)
+        low, high = (number - 1) / step.repeat, number / step.repeat
+        asked = isinstance(step.at, tuple) and any(low + _SAME_TIME < at <= high + _SAME_TIME for at in step.at)
         return asked or number in (1, step.repeat) or step.at == "events" or is_round(number)
 
-    def _keep(self, whole: FollowedPart, cycle: Cycle, *, kept: bool) -> None:
-        """Take a cycle to what is behind; of one that is not kept its numbers and its certificate."""
-        cycles = (cycle,) if self.stage.step.repeat > 1 else ()
-        if kept:
-            self.behind.append(replace(whole, cycles=cycles))
-            self.ends.append(cycle.load_factor)
-            return
-        worst = () if not whole.certificates else (worst_of(whole.certificates),)
-        self.behind.append(
-            replace(whole, cycles=cycles, certificates=worst, trace=whole.trace[:1], snapshots=(), events=())
+    def _keep(self, whole: FollowedPart, begin: State, number: int, *, cycle_end: State | None = None) -> None:
+        """Take a cycle to what is behind; of one that nobody asked for its numbers and its certificate.
+
+        Parameters
+        ----------
+        whole : all of it
+        begin : where it began
+        number : of the cycle
+        cycle_end : where it ended before it stood for others too
+        """
+        end, step = self.state if cycle_end is None else cycle_end, self.stage.step
+        one, two = wear_of(begin), wear_of(end)
+        lost = two.volume - one.volume if cycle_end is None else self.sides.volume @ (two.rubbed - one.rubbed)
+        cycle = replace(
+            cycle_between(begin, end, two.distance - one.distance),
+            number=number,
+            load_factor=self.stage.number - 1 + number / step.repeat,
+            worn=float(lost.sum()),
         )
+        whole = replace(whole, cycles=(cycle,) if step.repeat > 1 else ())
+        if self._kept(number):
+            self.ends.append(cycle.load_factor)
+        else:
+            worst = () if not whole.certificates else (worst_of(whole.certificates),)
+            whole = replace(whole, certificates=worst, trace=whole.trace[:1], snapshots=(), events=())
+        self.behind.append(whole)
+
+    def _cycle_parts(self, number: int) -> tuple[list[FollowedPart], Interval]:
+        """Follow a cycle with all that is known of bodies and pairs; its parts, and the last interval."""
+        parts: list[FollowedPart] = []
+        every = self.stage.step.at == "events"
+        for interval, point in straight_parts(self.stage, self.start.point, self.end, number):
+            followed = self._part(interval, self._between_worn(point))
+            parts.append(lightened(followed, every=every, end=interval.asked, heated=self.heated))
+        return parts, interval
 
     def _part(self, interval: Interval, point: LoadPoint) -> FollowedPart:
         """Follow a straight part from the present state on, and note what it has rubbed."""
@@ -130,16 +301,16 @@ class _Walk:
         followed = follow_part(self.stage, part)
         states = [self.state, *(shot.state for shot in followed.snapshots)]
         rubbing = rubbing_of_states(self.sides, self.prepared.interface, states)
-        followed = _ending(followed, replace(followed.after, wear=rubbed(_wear(self.state), rubbing)))
+        followed = _ending(followed, replace(followed.after, wear=rubbed(wear_of(self.state), rubbing)))
         self.state = followed.after
         return followed
 
-    def _worn(self, interval: Interval, *, cycles: int) -> FollowedPart:
+    def _worn(self, interval: Interval) -> FollowedPart:
         """The sides lose what has rubbed, at the loads of the end of an interval."""
         old = self.state
-        wear = worn(self.sides, _wear(old), cycles=cycles)
+        wear = worn(self.sides, wear_of(old), cycles=1)
         self.state = replace(old, wear=wear)
-        gap = old.point.gap + self.sides.gap @ (wear.depth - _wear(old).depth)
+        gap = old.point.gap + self.sides.gap @ (wear.depth - wear_of(old).depth)
         still = replace(interval, low=interval.high, ends="wear", cycle=0, asked=False)
         before = self.state
         followed = self._part(still, replace(old.point, gap=gap))
@@ -152,7 +323,7 @@ class _Walk:
 
     def _between_worn(self, point: LoadPoint) -> LoadPoint:
         """The point of the loads between sides that are worn as they are now."""
-        depth = _wear(self.state).depth - _wear(self.start).depth
+        depth = wear_of(self.state).depth - wear_of(self.start).depth
         return replace(point, gap=point.gap + self.sides.gap @ depth)
 
 
@@ -186,7 +357,7 @@ def set_loose(before: State, followed: FollowedPart) -> FollowedPart:
 
 
 def _freed(state: State, energy: float) -> State:
-    wear = _wear(state)
+    wear = wear_of(state)
     return replace(
         state,
         work=state.work + energy,
@@ -199,8 +370,3 @@ def _ending(followed: FollowedPart, after: State) -> FollowedPart:
     """A part whose last state knows more than it was followed with."""
     *shots, last = followed.snapshots
     return replace(followed, after=after, snapshots=(*shots, replace(last, state=after)))
-
-
-def _wear(state: State) -> WearState:
-    assert state.wear is not None
-    return state.wear

@@ -181,3 +181,9 @@ def next_state(
         plastic=plastic,
         wear=state.wear,
     )
+
+
+def wear_of(state: State) -> WearState:
+    """What the sides have lost in a state of a model that wears."""
+    assert state.wear is not None
+    return state.wear
