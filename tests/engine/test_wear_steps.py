@@ -92,3 +92,67 @@ def test_certificate_is_that_of_the_worn_gap():
     assert worn_volume(solution) > 0.0
     fresh = sg.solve(rubbed_cylinder(to_and_fro(2), wear=WEAR, spacing=COARSE))
     assert fresh.last.contacts[0].pressure.max() > 1.05 * solution.last.contacts[0].pressure.max()
+
+
+def times_as_fast(factor):
+    return sg.Wear(1.9e-8 * factor, mortar=2.9e-8 * factor)
+
+
+def test_cycles_that_nobody_looks_at_are_those_that_somebody_does():
+    seen, unseen = (sg.solve(rubbed_cylinder(to_and_fro(8, at=at), wear=FAST, spacing=COARSE)) for at in ("events", ()))
+    assert [cycle.number for cycle in unseen.last.cycles] == [1, 2, 5, 8]
+    assert len(seen.last.cycles) == 8
+    one, two = seen.end.state, unseen.end.state
+    assert np.abs(one.wear.depth - two.wear.depth).max() < 1e-12 * one.wear.depth.max()
+    assert two.work == pytest.approx(one.work, rel=1e-12)
+    assert two.wear.energy == pytest.approx(one.wear.energy, rel=1e-12)
+    assert abs(unseen.last.energy_defect) < 1e-12 * unseen.last.work
+
+
+@pytest.mark.slow
+def test_implicit_blocks_are_of_first_order():
+    """Blocks of a cycle, of ten and of a hundred: with the numbers of cycles their errors grow alike."""
+    model = {
+        block: sg.solve(
+            rubbed_cylinder(to_and_fro(201, block=block), wear=times_as_fast(4), spacing=0.025)
+        ).end.state.wear
+        for block in (1, 10, 20, 100)
+    }
+    exact = model[1].depth
+    errors = {block: np.abs(wear.depth - exact).max() / exact.max() for block, wear in model.items()}
+    assert all(wear.cycles == 202 for wear in model.values())  # the press is one
+    assert errors[20] / errors[10] == pytest.approx(2.0 + 1.0 / 9.0, rel=0.1)  # less than that of a cycle: 19 / 9
+    assert errors[100] / errors[10] == pytest.approx(11.0, rel=0.3)
+    assert errors[100] < 0.02
+
+
+def test_implicit_blocks_are_stable_where_explicit_ones_oscillate():
+    """As much wear in a cycle as in a thousand: explicit, pressures jump from node to node and do not flatten."""
+
+    def roughness(**block):
+        contact = sg.solve(
+            rubbed_cylinder(to_and_fro(6, **block), wear=times_as_fast(3000), spacing=COARSE)
+        ).last.contacts[0]
+        p = contact.pressure[np.argsort(contact.points[:, 0])]
+        return np.abs(np.diff(p, 2)).sum() / p.max(), p.max()
+
+    (explicit, most), (implicit, least) = roughness(), roughness(block=1)
+    assert explicit > 4.0 * implicit
+    assert most > 2.0 * least
+
+
+def test_a_block_keeps_the_books_of_all_its_cycles():
+    solution = sg.solve(rubbed_cylinder(to_and_fro(30, block=10), wear=FAST, spacing=COARSE))
+    step, rubbed = solution.last, sum(step.dissipation for step in solution.steps) / FRICTION
+    assert abs(step.energy_defect) < 1e-12 * step.work
+    assert worn_volume(solution) + 4.8e-6 * pending(solution) == pytest.approx(4.8e-6 * rubbed, rel=1e-12)
+    assert solution.end.state.wear.distance.max() == pytest.approx(30 * step.cycles[-1].sliding, rel=0.05)
+    assert [cycle.number for cycle in step.cycles] == [1, 2, 5, 10, 20, 30]
+
+
+def test_automatic_blocks_keep_to_their_tolerance():
+    every, automatic = (
+        sg.solve(rubbed_cylinder(to_and_fro(60, **way), wear=times_as_fast(20), spacing=COARSE)).end.state.wear
+        for way in ({"block": 1}, {"block": "auto", "tolerance": 0.02})
+    )
+    assert np.abs(every.depth - automatic.depth).max() < 0.02 * every.depth.max()
