@@ -175,7 +175,7 @@ class _Walk:
             count = max(1, min(again, count // 2))
 
     def _halves(self, paths: WornPaths, behind: int, count: int, rubs: Array) -> Block | None:
-        """The same cycles as two blocks, the second of which is given with the number of both."""
+        """Two blocks in place of one, the second of which is given with the number of both."""
         first = count // 2
         one = implicit_block(paths, self._on_path(behind), behind + first, first, rubs)
         if one is None:
