@@ -29,7 +29,7 @@ _GIVES = 1e-12  # of the compliance: what keeps rigid motions that no normal for
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Block:
+class CycleBlock:
     """A block of cycles that was solved.
 
     Attributes
@@ -50,7 +50,7 @@ class Block:
     tries: int
 
 
-def implicit_block(paths: WornPaths, at: PathCycle, last: int, count: int, guess: Array) -> Block | None:
+def implicit_block(paths: WornPaths, at: PathCycle, last: int, count: int, guess: Array) -> CycleBlock | None:
     """A block of cycles that ends with a cycle; None where it is not found.
 
     Parameters
@@ -71,7 +71,7 @@ def implicit_block(paths: WornPaths, at: PathCycle, last: int, count: int, guess
         grown = sides.rate * rubbing.wearing
         if np.abs(grown - sides.rate * rubs).max() <= _SETTLED * grown.max():
             done = _repeated(moved, done, rubbing, rubs, count)
-            return Block(count=count, last=count, moved=moved, done=done, rubs=rubbing.wearing, tries=tries)
+            return CycleBlock(count=count, last=count, moved=moved, done=done, rubs=rubbing.wearing, tries=tries)
         rubs = _corrected(paths, done, rubbing, rubs, count)
     return None
 

@@ -32,7 +32,7 @@ from signorini.engine.step_parts import (
     straight_parts,
 )
 from signorini.engine.ways import SPACE_INCREMENTS, follow_part
-from signorini.engine.wear_blocks import Block, implicit_block
+from signorini.engine.wear_blocks import CycleBlock, implicit_block
 from signorini.engine.wear_paths import PathCycle, WornPaths
 from signorini.errors import SolveFailed, told
 from signorini.interface.worn_sides import WornSides
@@ -144,7 +144,7 @@ class _Walk:
             self._take(found, behind)
             count = step.block if isinstance(step.block, int) else again
 
-    def _block(self, paths: WornPaths, behind: int, count: int, rubs: Array) -> tuple[Block, int]:
+    def _block(self, paths: WornPaths, behind: int, count: int, rubs: Array) -> tuple[CycleBlock, int]:
         """The next block, of at most so many cycles, and how many the one behind it may have."""
         at = self._on_path(behind)
         while True:
@@ -174,7 +174,7 @@ class _Walk:
                 return halves, again
             count = max(1, min(again, count // 2))
 
-    def _halves(self, paths: WornPaths, behind: int, count: int, rubs: Array) -> Block | None:
+    def _halves(self, paths: WornPaths, behind: int, count: int, rubs: Array) -> CycleBlock | None:
         """Two blocks in place of one, the second of which is given with the number of both."""
         first = count // 2
         one = implicit_block(paths, self._on_path(behind), behind + first, first, rubs)
@@ -186,7 +186,7 @@ class _Walk:
         self._tries += one.tries + two.tries
         return replace(two, count=count, last=count - first)
 
-    def _take(self, block: Block, behind: int) -> None:
+    def _take(self, block: CycleBlock, behind: int) -> None:
         """Go to the end of a block; where its last cycle is kept, with all that is known of bodies and pairs."""
         self.at = block.done
         if not self._kept(behind):
