@@ -123,7 +123,7 @@ def test_implicit_blocks_are_of_first_order():
     assert all(wear.cycles == 202 for wear in model.values())  # the press is one
     assert errors[20] / errors[10] == pytest.approx(2.0 + 1.0 / 9.0, rel=0.1)  # less than that of a cycle: 19 / 9
     assert errors[100] / errors[10] == pytest.approx(11.0, rel=0.3)
-    assert errors[100] < 0.02
+    assert errors[100] < 0.03
 
 
 def test_implicit_blocks_are_stable_where_explicit_ones_oscillate():
