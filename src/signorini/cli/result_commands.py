@@ -20,6 +20,7 @@ from signorini.plot.picture_data import PictureData
 from signorini.plot.solid import draw_solid_mesh, draw_solid_peeq, draw_solid_stress
 from signorini.plot.style import literal
 from signorini.plot.view import write_view
+from signorini.plot.wear import draw_wear
 from signorini.solution.history import History
 
 if TYPE_CHECKING:
@@ -62,6 +63,8 @@ def _draw(history: History, what: str) -> Figure:
         return draw_solid_peeq(data) if data.solid else draw_peeq(data)
     if what == "mesh":
         return draw_solid_mesh(data) if data.solid else draw_mesh(data)
+    if what == "wear":
+        return draw_wear(data)
     return draw_history(data) if what == "history" else draw_contacts(data)
 
 

@@ -116,7 +116,7 @@ def judge(cycles: Sequence[Cycle], scale: Scale) -> tuple[str, str]:
             "ratchets",
             f"ratchets from cycle {drifts} on: forces repeat, the contact moves on by {last.drift:.6g} a cycle",
         )
-    words = f"not steady after {len(cycles)} cycles: the last changes forces by {last.change:.2g} of the largest"
+    words = f"not steady after {last.number} cycles: the last changes forces by {last.change:.2g} of the largest"
     return "not yet", words
 
 
@@ -126,7 +126,7 @@ def _judge_flow(cycles: Sequence[Cycle]) -> tuple[str, str]:
     ratio = last.flow / cycles[-2].flow if len(cycles) > 1 and cycles[-2].flow > 0.0 else np.inf
     if abs(ratio - 1.0) > STEADY_TOL:
         words = (
-            f"not steady after {len(cycles)} cycles: the equivalent plastic strain grows by {last.flow:.3g} in the last"
+            f"not steady after {last.number} cycles: the equivalent plastic strain grows by {last.flow:.3g} in the last"
         )
         if np.isfinite(ratio):
             words += f", {ratio:.3g} times as much as in the one before"

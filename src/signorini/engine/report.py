@@ -25,6 +25,7 @@ from signorini.solution import results
 from signorini.solution.certificate import worst_of
 from signorini.solution.results import (
     ContactResult,
+    ContactWear,
     Instant,
     ObstacleResult,
     PlasticResult,
@@ -204,11 +205,14 @@ def _instants(
     """The contacts at every snapshot, with what they slid since the beginning of the step and of the cycle."""
     surfaces = [_surface(prepared, i) for i in range(len(prepared.model.contacts))]
     last, sliding = followed.before.slip, np.zeros(len(prepared.interface))
-    low, high, cycle = last, last, 0
+    low, high, cycle, wear = last, last, 0, followed.before.wear
     begun, end = heat(followed.before), followed.snapshots[-1]
     for snapshot in followed.snapshots:
         slip, across = snapshot.state.slip, prepared.interface.across
         sliding = sliding + across(slip - last)
+        if wear is not snapshot.state.wear and snapshot.state.wear is not None and followed.before.wear is not None:
+            wear = snapshot.state.wear  # of cycles that nobody has looked at too
+            sliding = wear.distance - followed.before.wear.distance
         low, high, last = np.minimum(low, slip), np.maximum(high, slip), slip
         contacts = tuple(
             _contact_result(prepared, surface, followed.before, snapshot.state, sliding, across(high - low))
@@ -235,10 +239,12 @@ def _instants(
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Surface:
-    """What does not change of a contact: its name, its pairs and where they are."""
+    """What does not change of a contact: its name and number, its pairs, corners that wear, and where they are."""
 
     name: str
+    index: int
     own: IntArray
+    corners: IntArray
     fixed: Mapping[str, Any]
 
 
@@ -256,7 +262,9 @@ def _surface(prepared: Prepared, i: int) -> _Surface:
         "levers": frozen(interface.moments.reshape(interface.directions, len(interface), -1)[:, own].swapaxes(0, 1)),
         "area": frozen(interface.area[own]),
     }
-    return _Surface(name=prepared.model.contacts[i].label, own=own, fixed=fixed)
+    sides = prepared.wearing
+    corners = np.zeros(0, np.int64) if sides is None else np.flatnonzero(sides.contact == i)
+    return _Surface(name=prepared.model.contacts[i].label, index=i, own=own, corners=corners, fixed=fixed)
 
 
 def _contact_result(
@@ -282,7 +290,28 @@ def _contact_result(
         status=status,
         worn=frozen(dissipation / area),
         dissipation=float(dissipation.sum()),
+        wear=_contact_wear(prepared, surface, state),
         **surface.fixed,
+    )
+
+
+def _contact_wear(prepared: Prepared, surface: _Surface, state: State) -> ContactWear | None:
+    """What the sides of a contact have lost."""
+    sides, wear, corners, index = prepared.wearing, state.wear, surface.corners, surface.index
+    if sides is None or wear is None or prepared.model.contacts[index].wear is None:
+        return None
+    mortar = sides.mortar[corners]
+    seen = [sides.gap[surface.own] @ np.where(sides.mortar == side, wear.depth, 0.0) for side in (False, True)]
+    return ContactWear(
+        depth=frozen(seen[0]),
+        mortar_depth=frozen(seen[1]),
+        node=frozen(sides.node[corners], np.int64),
+        points=frozen(prepared.model.mesh.points[sides.node[corners]]),
+        depths=frozen(wear.depth[corners]),
+        on_mortar=mortar,
+        volume=(float(wear.volume[corners][~mortar].sum()), float(wear.volume[corners][mortar].sum())),
+        distance=frozen(wear.distance[surface.own]),
+        cycles=wear.cycles,
     )
 
 

@@ -32,6 +32,7 @@ _PAIRS_ACROSS = 4  # closed pairs: with fewer the pressure is a matter of the me
 _OVERLAP_TOL = 1e-9  # of the size of the model: less is no overlap
 _STRAINED = 0.25  # of the size of a body
 _SLID = 0.1  # of the size of what touches
+_DEEP = 0.1  # of the facets beside a node: beyond it the bodies are not those that were meshed
 _FLOWED = 0.05  # equivalent plastic strain: beyond it small strains and those of true-stress tables differ visibly
 
 
@@ -48,6 +49,7 @@ def step_notes(prepared: Prepared, followed: FollowedPart) -> Iterator[str]:
     yield from patch_notes(prepared, state)
     yield from large_notes(prepared, state)
     yield from flow_notes(prepared, state)
+    yield from wear_notes(prepared, state)
 
 
 def _friction_notes(prepared: Prepared, followed: FollowedPart) -> Iterator[str]:
@@ -207,3 +209,23 @@ def flow_notes(prepared: Prepared, state: State) -> Iterator[str]:
                 f"'{prepared.model.bodies[i].name}' has equivalent plastic strains of up to {largest:.0%}: its law is "
                 "one of small strains, which holds to about 5%"
             )
+
+
+def wear_notes(prepared: Prepared, state: State) -> Iterator[str]:
+    """Contacts whose sides are worn: what becomes of it, and whether that is much beside the facets there."""
+    sides, wear = prepared.wearing, state.wear
+    if sides is None or wear is None:
+        return
+    for i in np.unique(sides.contact):
+        own = sides.contact == i
+        deepest = float(wear.depth[own].max(initial=0.0))
+        if deepest == 0.0:
+            continue
+        words = "debris neither carries nor rubs, what is worn is gone"
+        width = float(np.median(sides.area[own & (sides.area > 0.0)])) / prepared.model.thickness
+        if prepared.space.dimension == 2 and not prepared.model.axisymmetric and deepest > _DEEP * width:
+            words += (
+                f"; it is up to {deepest:.4g} deep, {deepest / width:.0%} of the facets there: gaps know it, bodies "
+                "keep the shape and the stiffness of their meshes"
+            )
+        yield f"contact '{prepared.model.contacts[i].label}' wears: {words}"

@@ -33,6 +33,7 @@ class BodyFields:
     body : of every block (m,), which body its cells belong to
     plastic : at the points; None where no body yields
     in_cells : of every block, the means over its cells; empty where no body yields
+    depth : (n,) worn, at the corners of sides that wear, otherwise 0; None where none does
     """
 
     points: Array
@@ -44,6 +45,7 @@ class BodyFields:
     body: tuple[IntArray, ...]
     plastic: PlasticFields | None = None
     in_cells: tuple[PlasticFields, ...] = ()
+    depth: Array | None = None
 
     @cached_property
     def von_mises(self) -> Array:
@@ -134,4 +136,16 @@ class Fields:
             body=tuple(body),
             plastic=joined(plastic) if plastic else None,
             in_cells=tuple(in_cells),
+            depth=_worn_depth(state, nodes, len(mesh.points)),
         )
+
+
+def _worn_depth(state: State, nodes: IntArray, count: int) -> Array | None:
+    """Worn depth at some of the nodes of a mesh, where contacts that share one the larger; None where none wears."""
+    worn = [contact.wear for contact in state.contacts if contact.wear is not None]
+    if not worn:
+        return None
+    depth = np.zeros(count)
+    for wear in worn:
+        np.maximum.at(depth, wear.node, wear.depths)
+    return depth[nodes]

@@ -59,6 +59,13 @@ Plastic dissipation counts from there too, back stresses and hardening included;
 body yields.
 """
 
+_WEAR_COLUMNS: Mapping[str, Callable[[_Row], str | int | float]] = {
+    "worn_volume": lambda row: "" if row.contact.wear is None else sum(row.contact.wear.volume),
+    "max_depth": lambda row: "" if row.contact.wear is None else max(row.contact.wear.deepest),
+    "cycles": lambda row: "" if row.contact.wear is None else row.contact.wear.cycles,
+}
+"""Behind the others where any contact wears: of both sides since the beginning; empty for contacts that do not."""
+
 
 def write_history(history: History, path: Path) -> None:
     """Write every contact at every instant, an event, an increment, a kink of the loads, a time asked for or an end."""
@@ -68,4 +75,5 @@ def write_history(history: History, path: Path) -> None:
         for instant in step.instants
         for contact in instant.contacts
     )
-    write_csv(_COLUMNS, ({name: value(row) for name, value in _COLUMNS.items()} for row in rows), path)
+    columns = {**_COLUMNS, **(_WEAR_COLUMNS if history.model.wears else {})}
+    write_csv(columns, ({name: value(row) for name, value in columns.items()} for row in rows), path)

@@ -156,6 +156,22 @@ def _contact(contact: Contact, result: ContactResult) -> dict[str, Any]:
         "max_sliding": float(result.sliding.max()),
         "max_slip_amplitude": float(0.5 * result.slip_range.max()),
         "dissipation": result.dissipation,
+        "wear": _wear(result),
+    }
+
+
+def _wear(result: ContactResult) -> dict[str, Any] | None:
+    """What both sides have lost; None where they do not wear."""
+    wear = result.wear
+    if wear is None:
+        return None
+    return {
+        "cycles": wear.cycles,
+        "max_depth": wear.deepest[0],
+        "max_depth_mortar": wear.deepest[1],
+        "volume": wear.volume[0],
+        "volume_mortar": wear.volume[1],
+        "max_distance": float(wear.distance.max(initial=0.0)),
     }
 
 

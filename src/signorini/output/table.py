@@ -94,6 +94,7 @@ def _step_lines(step: StepResult, number: int) -> list[str]:
             for name, found in every.items()
         ),
         *_flow_lines(step),
+        *_wear_lines(step),
         f"certificate {verdict}: worst of five {certificate.worst:.1e}, allowed {TOLERANCE:.0e}",
     ]
 
@@ -112,6 +113,18 @@ def _flow_lines(step: StepResult) -> Iterator[str]:
         f"{yielding.share:.1%} of the volume; work {found.dissipation:.5g}, {found.stored:.5g} in back stresses, "
         f"energy defect {step.energy_defect:.1e}"
     )
+
+
+def _wear_lines(step: StepResult) -> Iterator[str]:
+    """How deep the sides of every contact are worn."""
+    for contact in step.contacts:
+        if contact.wear is None:
+            continue
+        (depth, mortar_depth), (volume, mortar_volume) = contact.wear.deepest, contact.wear.volume
+        yield (
+            f"worn: {contact.name}: {contact.nonmortar} by up to {depth:.5g}, volume {volume:.5g}; {contact.mortar} by "
+            f"up to {mortar_depth:.5g}, volume {mortar_volume:.5g}"
+        )
 
 
 def _turn(value: float | Array) -> str:

@@ -27,7 +27,7 @@ def write_bodies(fields: BodyFields, path: Path) -> None:
     positive; axisymmetric: x is the radius, y the axis, zz the hoop stress), ``von_mises`` and ``node`` (number in the
     mesh or deck). Cell array: ``body`` (0, 1, ... in the order of the model). Where bodies yield, points and cells
     (their means) have ``peeq``, the equivalent plastic strain, ``plastic_strain`` (the tensor, components as those of
-    the stress) and ``back_stress`` (the sum of all).
+    the stress) and ``back_stress`` (the sum of all). Where sides wear, points have ``worn_depth`` (length).
     """
     import meshio
 
@@ -41,6 +41,7 @@ def write_bodies(fields: BodyFields, path: Path) -> None:
             "von_mises": fields.von_mises,
             "node": fields.node,
             **({} if fields.plastic is None else _plastic(fields.plastic)),
+            **({} if fields.depth is None else {"worn_depth": fields.depth}),
         },
         cell_data={"body": list(fields.body), **_by_name(fields.in_cells)},
     )
@@ -66,7 +67,8 @@ def write_surfaces(model: Model, contacts: Sequence[ContactResult], path: Path) 
     """Write the nonmortar sides of all contacts of a model in space in one state.
 
     Point arrays: ``pressure``, ``traction`` (friction on the nonmortar body, a vector), ``slip`` (accumulated, a
-    vector), ``gap``, ``area``, ``normal``, ``status`` (0 open, 1 stick, 2 slip) and ``node``. Cell array: ``contact``
+    vector), ``gap``, ``area``, ``normal``, ``status`` (0 open, 1 stick, 2 slip), ``node``, ``worn_depth`` (where any
+    side wears). Cell array: ``contact``
     (0, 1, ... in the order of the model). Faces are those whose corners all carry pairs.
 
     Parameters
@@ -98,6 +100,9 @@ def write_surfaces(model: Model, contacts: Sequence[ContactResult], path: Path) 
         }
         for contact in contacts
     ]
+    for each, contact in zip(arrays, contacts, strict=True):
+        if any(other.wear is not None for other in contacts):
+            each["worn_depth"] = np.zeros(len(contact.node)) if contact.wear is None else contact.wear.depth
     data = {name: np.concatenate([each[name] for each in arrays]) for name in arrays[0]}
     grid = meshio.Mesh(data.pop("points"), blocks, point_data=data, cell_data={"contact": owner})
     with atomic_write(path) as aside:

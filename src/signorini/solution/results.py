@@ -21,6 +21,41 @@ Part = Literal["all", "pressure", "friction"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class ContactWear(Short):
+    """What the sides of one contact have lost by wear since the beginning.
+
+    Attributes
+    ----------
+    depth : (n,) of the nonmortar side at the nodes of the pairs, length
+    mortar_depth : (n,) of the mortar side as the pairs see it, length
+    node : (m,) nodes at the corners of both sides, the nonmortar one first
+    points : (m, d) undeformed coordinates
+    depths : (m,) there, length
+    on_mortar : (m,) which of them are on the mortar side
+    volume : worn, of the nonmortar and the mortar side; in the plane of the thickness
+    distance : (n,) slid where pairs are closed, either way, length
+    cycles : steps that wear, and cycles of those that repeat
+    """
+
+    depth: Array
+    mortar_depth: Array
+    node: IntArray
+    points: Array
+    depths: Array
+    on_mortar: BoolArray
+    volume: tuple[float, float]
+    distance: Array
+    cycles: int
+
+    @property
+    def deepest(self) -> tuple[float, float]:
+        """The largest depth of the nonmortar and the mortar side."""
+        sides = (self.depths[self.on_mortar == mortar] for mortar in (False, True))
+        one, other = (float(side.max(initial=0.0)) for side in sides)
+        return one, other
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class ContactResult(Short):
     """One contact at the end of a step, on its nonmortar nodes.
 
@@ -45,6 +80,7 @@ class ContactResult(Short):
     status : (n,) "open", "stick" or "slip"
     worn : (n,) dissipation of this step at each node, work per area
     dissipation : of this step, work
+    wear : what the sides have lost since the beginning; None where none wears
     """
 
     name: str
@@ -66,6 +102,7 @@ class ContactResult(Short):
     status: NDArray[np.str_]
     worn: Array
     dissipation: float
+    wear: ContactWear | None = None
 
     @property
     def closed(self) -> BoolArray:

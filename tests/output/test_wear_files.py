@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is worn, in every file of a run, in the table and as a picture."""
+
+import csv
+import json
+
+import meshio
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.cli.main import main
+from signorini.gallery.wearing import rubbed_cylinder, to_and_fro
+from signorini.output.table import history_table
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("worn")
+    from signorini.deck.write import write_deck
+
+    model = rubbed_cylinder(to_and_fro(6, block=2), wear=sg.Wear(1.9e-6, mortar=2.9e-6), spacing=0.025, ratio=0.8)
+    path, _ = write_deck(model, folder / "deck.toml")
+    assert main(["run", str(path), "-o", str(folder / "out")]) == 0
+    return sg.read(path), sg.load(folder / "out" / "solution.h5"), folder / "out"
+
+
+def test_every_file_says_what_is_worn(run):
+    _, solution, out = run
+    wear = solution.last.contacts[0].wear
+    summary = json.loads((out / "summary.json").read_text())["steps"][-1]
+    assert summary["contacts"][0]["wear"]["volume_mortar"] == wear.volume[1] > 0.0
+    assert summary["contacts"][0]["wear"]["max_depth"] == wear.deepest[0] > 0.0
+    assert [cycle["number"] for cycle in summary["cycles"]] == [1, 2, 5, 6]
+    rows = [row for row in csv.DictReader((out / "contact.csv").open()) if row["step"] == "2"]
+    assert [float(row["depth"]) for row in rows] == wear.depth.tolist()
+    assert [float(row["mortar_depth"]) for row in rows] == wear.mortar_depth.tolist()
+    last = list(csv.DictReader((out / "history.csv").open()))[-1]
+    assert float(last["worn_volume"]) == sum(wear.volume)
+    assert (float(last["max_depth"]), int(last["cycles"])) == (max(wear.deepest), 7)
+    bodies = meshio.read(sorted(out.glob("*.vtu"))[-1])
+    assert bodies.point_data["worn_depth"].max() == max(wear.deepest)
+    assert "worn: contact: " in history_table(solution)
+    assert any("debris neither carries nor rubs" in note for note in solution.last.notes)
+
+
+def test_an_archive_holds_what_is_worn(run):
+    model, read, _ = run
+    solved = sg.solve(model)
+    assert np.array_equal(read.end.state.wear.depth, solved.end.state.wear.depth)
+    assert np.array_equal(read.last.contacts[0].wear.depths, solved.last.contacts[0].wear.depths)
+
+
+def test_wear_is_drawn(run, capsys):
+    _, _, out = run
+    assert main(["plot", str(out), "--what", "wear", "-o", str(out / "wear.svg")]) == 0
+    words = (out / "wear.svg").read_text()
+    assert len(words) > 10_000
+    capsys.readouterr()
