@@ -41,6 +41,7 @@ def test_rows_of_the_contract() -> None:
         assert row["assembly_seconds"] > 0
 
 
+@pytest.mark.slow
 def test_cubes_in_space() -> None:
     rows = list(benchmark_rows(["cubes"], 1500))
     assert [row["name"] for row in rows] == 2 * ["cubes"] + 2 * ["cubes, not matching"]

@@ -2,6 +2,7 @@
 """The rivals of the hard set solve what they are known to solve."""
 
 import numpy as np
+import pytest
 
 from signorini.bench.hard import RIVALS, hard, lemke_alone
 from signorini.friction.problem import ContactProblem
@@ -21,6 +22,7 @@ def test_lemke_solves_one_pair_in_every_state() -> None:
         assert lemke_alone(slides(mu), None)
 
 
+@pytest.mark.slow
 def test_lemke_solves_every_held_step_and_newton_does_not() -> None:
     report = hard(range(39))
     assert set(RIVALS) == {"Newton alone", "Lemke alone"}

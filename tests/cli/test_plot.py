@@ -53,7 +53,13 @@ def test_vector_formats_and_names(folder: Path, tmp_path: Path, capsys: pytest.C
     assert main(["plot", str(folder), "-o", str(tmp_path / "none" / "a.png")]) == 2
 
 
-@pytest.mark.parametrize("deck", ["block_drag", "hertz_two_bodies", "ball_on_block", "indentation"])
+@pytest.mark.parametrize(
+    "deck",
+    [
+        "block_drag",
+        *(pytest.param(deck, marks=pytest.mark.slow) for deck in ("hertz_two_bodies", "ball_on_block", "indentation")),
+    ],
+)
 def test_pictures_show_the_same_from_memory_and_from_a_folder(deck: str, tmp_path: Path) -> None:
     solution = sg.solve(sg.read(EXAMPLES / f"{deck}.toml"))
     Publisher(folder=tmp_path, clock=Clock(), started=0.0, deck="").publish(solution)

@@ -205,6 +205,7 @@ def in_a_corner(friction, **parts):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("friction", [0.25, 0.8])
 def test_two_contacts_share_a_node_on_an_exact_path(friction):
     """Forces in the corner are not unique; the path is followed all the same, and increments come to the same end."""

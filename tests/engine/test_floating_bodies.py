@@ -131,7 +131,7 @@ def test_a_load_that_turns_carries_a_block_from_wall_to_wall():
     np.testing.assert_allclose([step.released, step.energy_defect], 0.0, atol=1e-8 * step.cycles[0].dissipation)
 
 
-@pytest.mark.parametrize("kind", ["plane strain", "space"])
+@pytest.mark.parametrize("kind", ["plane strain", pytest.param("space", marks=pytest.mark.slow)])
 def test_a_body_that_nothing_touches_or_loads_rests_until_a_step_loads_it(kind):
     """It is not there as far as the others feel; an unloaded contact is open, has not slipped and did not grow."""
     apart, touching = stack(0.125, kind), stack(0.0, kind)

@@ -196,6 +196,7 @@ def test_what_floats_keeps_its_energy_balance_through_cycles():
     assert balance(sg.solve(replace(held, steps=steps))) < 1e-10
 
 
+@pytest.mark.slow
 def test_increments_until_the_answer_stays():
     exact = sg.solve(zhu_cylinder(refine=2, steps=[sg.Step()])).contact("foundation")
     numbers, errors = [], []
@@ -214,6 +215,7 @@ def test_increments_until_the_answer_stays():
         sg.solve(zhu_cylinder(refine=1, steps=steps), settings=sg.SolverSettings(automatic_increments=8))
 
 
+@pytest.mark.slow
 def test_increments_that_do_not_settle_are_given_up(monkeypatch):
     monkeypatch.setattr("signorini.engine.automatic._CERTAIN", 1)
     monkeypatch.setattr("signorini.engine.automatic._change", lambda _coarse, _fine: (0.5, "the answer by a half"))

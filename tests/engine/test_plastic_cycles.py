@@ -40,6 +40,7 @@ def test_a_stretched_bar_flows_to_and_fro():
     assert result.cycles[-1].plastic_drift < 1e-9
 
 
+@pytest.mark.slow
 def test_a_bar_of_armstrong_and_frederick_ratchets():
     C, gamma, low, high = 50.0, 25.0, -1.6, 2.2
     # Lemaitre, Chaboche (1990), Mechanics of Solid Materials, 5.4.4: what each cycle adds under stresses low .. high

@@ -244,6 +244,7 @@ def histories(seed, pairs, law):
     return body, forces
 
 
+@pytest.mark.slow
 @for_all(examples=20, seed=SEEDS, pairs=st.sampled_from([1, 3, 6, 15]), law=st.sampled_from(["limit", "adhesion"]))
 def test_paths_obey_law_and_energy_and_increments_at_their_events_are_the_same(seed, pairs, law):
     body, forces = histories(seed, pairs, law)

@@ -108,6 +108,7 @@ def test_an_answer_of_one_is_an_answer_of_the_other(seed, pairs, law, second, mo
         assert certify(problem, deep.y[:2]) < ROUNDING
 
 
+@pytest.mark.slow
 @for_all(examples=60, seed=SEEDS, law=st.sampled_from(["coulomb", "dragged"]), second=SECOND)
 def test_loads_pull_away_the_same_bodies_along_the_same_motion(seed, law, second):
     """What of the load friction cannot take is one projection."""

@@ -41,6 +41,7 @@ def spread(problem, b):
     return np.abs(forces - forces[:, :1]).max()
 
 
+@pytest.mark.slow
 def test_forces_of_bodies_that_contact_holds_are_unique_below_the_bound():
     above = 0.0
     for seed in range(6):

@@ -77,6 +77,7 @@ def test_a_model_survives_its_deck(name: str, tmp_path: Path) -> None:
 NAMES = st.text(st.characters(codec="utf-8", exclude_categories=["Cs", "Cc", "Cf", "Zl", "Zp"]), min_size=1, max_size=6)
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(title=NAMES, force=st.floats(-1e100, 1e100), name=NAMES, tilt=st.floats(-1, 1))
 def test_any_words_and_numbers_survive(

@@ -84,7 +84,13 @@ class Results:
         self.fields = meshio.read(folder / "solution.vtu")
 
 
-@pytest.fixture(scope="module", params=EXAMPLES, ids=lambda path: path.stem)
+def example(path: Path) -> Any:
+    """A deck as a parameter; those that take a second are slow."""
+    takes_long = path.stem in ("indentation", "bolted_bracket", "fretting", "ball_on_block")
+    return pytest.param(path, id=path.stem, marks=[pytest.mark.slow] if takes_long else [])
+
+
+@pytest.fixture(scope="module", params=map(example, EXAMPLES))
 def results(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[Results, dict[str, Any]]:
     """Every example of the repository, run, and its deck as plain data."""
     folder = tmp_path_factory.mktemp(request.param.stem)

@@ -29,6 +29,7 @@ def pressed(beyond, *, n=2, friction=0.3, hardening=0.0, block=None, cells="quad
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "given",
     [

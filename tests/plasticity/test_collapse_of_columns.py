@@ -18,7 +18,7 @@ def overloaded(kind, factor):
     return column(kind, upper=PERFECT, lower=PERFECT, loads=loads)
 
 
-@pytest.mark.parametrize("backend", ["auto", "iterative"])
+@pytest.mark.parametrize("backend", ["auto", pytest.param("iterative", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("kind", ["axisymmetric", "3d"])
 @pytest.mark.parametrize("factor", [1.02, 2.0])
 def test_the_limit_load_is_found_in_a_dozen_tangents(kind, backend, factor, monkeypatch):

@@ -71,6 +71,7 @@ def cycle(law, number, kind="axisymmetric"):
     return np.array([float(step.reactions["pull"][-1]) for step in solution.steps]) / np.pi
 
 
+@pytest.mark.slow
 def test_armstrong_fredericks_bar_under_cycles_with_an_error_of_first_order():
     bar = CyclicBar(E=E, yield_stress=1.0, hardening=50.0, recall=25.0)
     exact = np.array([stress for stress, _ in bar.follow([0.05, -0.05, 0.025])])

@@ -42,6 +42,7 @@ def floating(rng, pairs, friction):
     )
 
 
+@pytest.mark.slow
 @settings(max_examples=30, deadline=None)
 @given(st.integers(0, 10_000), st.integers(3, 12), st.sampled_from([0.1, 0.4, 1.0]))
 @example(1782, 3, 0.1)  # a motion 15 times the load: what resists it by 1e-9 of its size is too much for a proof
