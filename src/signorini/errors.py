@@ -69,6 +69,7 @@ class SolveFailed(SignoriniError):
     motion : array (nodes, d) of displacements along which bodies run away, or None
     reached : the part of the step that was followed before, or None
     hopeless : whether it is proved that no way of stepping leads to the end of the step
+    unsettled : whether every increment was certified, and only more and more of them lead to different answers
     mechanisms : in which plastic flow runs away, see :class:`signorini.engine.solver.Mechanism`
     """
 
@@ -80,6 +81,7 @@ class SolveFailed(SignoriniError):
         self.solution = solution
         self.reached: object | None = None
         self.hopeless = self.status == Outcome.NO_EQUILIBRIUM
+        self.unsettled = False
         self.mechanisms: tuple[Any, ...] = ()
         super().__init__(message)
 
@@ -97,7 +99,7 @@ class SolveFailed(SignoriniError):
         """This failure with words more at the end of its sentence."""
         said = SolveFailed(f"{self.sentence}; {words}{self.details}", status=self.status, motion=self.motion)
         said.solution, said.reached = self.solution, self.reached
-        said.hopeless, said.mechanisms = self.hopeless, self.mechanisms
+        said.hopeless, said.unsettled, said.mechanisms = self.hopeless, self.unsettled, self.mechanisms
         return said
 
 

@@ -125,9 +125,9 @@ def test_that_the_load_which_contact_holds_is_not_known_is_told(monkeypatch):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("increments", [4, 10])
+@pytest.mark.parametrize("increments", [None, 4, 10])
 def test_a_joint_that_slides_until_its_bend_bears_is_told_once_from_wherever_increments_begin(increments):
-    """One increment after the other it slides between 75.006 and 75.009 % of the pull, by 0.2 mm."""
+    """By 0.2 mm; the load is one number, whichever pairs are near where the look begins."""
     model = deck.read(EXAMPLES / "bolted_bracket.toml")
     loads = tuple(replace(load, force=(1600.0, 0.0, 0.0)) if load.name == "cable" else load for load in model.loads)
     contacts = tuple(replace(contact, friction=0.12) for contact in model.contacts)
@@ -135,4 +135,4 @@ def test_a_joint_that_slides_until_its_bend_bears_is_told_once_from_wherever_inc
     solution = sg.solve(replace(model, loads=loads, contacts=contacts, steps=steps))
     notes = [note for note in solution.steps[-1].notes if "gross sliding: body 'bracket' can move along x" in note]
     assert len(notes) == 1
-    assert notes[0].startswith("step 'pull' at 75.0")
+    assert notes[0].startswith("step 'pull' at 75.005319%: ")

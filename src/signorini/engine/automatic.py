@@ -94,7 +94,7 @@ def follow_automatically(
         words = f"followed in {_counted(len(fine.trace))} to what is a candidate"
         note = f"{sudden.sentence}; {words}: {fewer} change {changes}"
         return replace(fine, path="increments", notes=(*fine.notes, note))
-    raise SolveFailed(
+    unsettled = SolveFailed(
         told(
             f"{part.where}: {min(number, limit)} increments still change {changes}",
             remedy='a larger tolerance, or path = "exact" where sections are polygons or the model is plane',
@@ -104,6 +104,8 @@ def follow_automatically(
         ),
         status=Outcome.NOT_FOUND,
     )
+    unsettled.unsettled = True
+    raise unsettled
 
 
 def _change(coarse: FollowedPart, fine: FollowedPart) -> tuple[float, str]:

@@ -26,6 +26,7 @@ from signorini.engine.path_states import (
 from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, joined, keep
 from signorini.errors import SolveFailed, told
 from signorini.friction.history import Landing, PathSettings, PathState, Segment
+from signorini.friction.overload import Overload
 from signorini.outcome import Outcome
 from signorini.settings import SolverSettings
 from signorini.solution.results import PairEvent
@@ -83,21 +84,23 @@ def follow_exactly(part: StepPart, *, jumps: bool = False) -> FollowedPart:
     return _beyond_jumps(part, "event by event", jumps=jumps)
 
 
-def follow_to_events(part: StepPart, number: int, *, jumps: bool = False, behind: float = 0.0) -> FollowedPart:
+def follow_to_events(
+    part: StepPart, number: int, *, jumps: bool = False, behind: float = 0.0, known: Overload | None = None
+) -> FollowedPart:
     """Follow a straight part of a step in space in increments that end at events.
 
     Parameters
     ----------
     number : an increment need not be shorter than 1 / number of the part, whatever happens in it
     jumps : see `follow_exactly`
-    behind : of a longer straight way that the part ends, in lengths of the part, see `Bearing`
+    behind, known : of a longer straight way that the part ends, see `PathSettings`
 
     Raises
     ------
     SolveFailed
         As `follow_exactly` does.
     """
-    stops = replace(stops_at(number, part.prepared.settings), behind=behind)
+    stops = replace(stops_at(number, part.prepared.settings), behind=behind, known=known)
     return _beyond_jumps(part, "increments to events", jumps=jumps, stops=stops)
 
 

@@ -16,12 +16,13 @@ import numpy as np
 from signorini.engine.events import follow_to_events
 from signorini.engine.increments import follow_increments
 from signorini.engine.limit_load import LimitLoad, known, limit_load, slide
-from signorini.engine.path_states import path_state, right_hand_side
+from signorini.engine.path_states import path_state, recovered, right_hand_side
 from signorini.engine.prepare import Prepared
 from signorini.engine.solver import compression
 from signorini.engine.step_parts import FollowedPart, StepPart, keep, reached
 from signorini.errors import SolveFailed, told
-from signorini.friction.history.space.bearing import bears
+from signorini.friction.history.space.bearing import Bearing, bears
+from signorini.friction.overload import Overload
 from signorini.outcome import Outcome
 from signorini.solution.state import State
 
@@ -135,7 +136,8 @@ def unwatched(part: StepPart, followed: FollowedPart) -> FollowedPart:
 def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
     """The largest change of contact forces from one state of a part to the next as a jump; None where it is gradual.
 
-    Strong evidence, no proof: it stays as large in one of 16 increments, in one of 16 of that, and so on, four times.
+    Where finer increments end elsewhere, the history has parted there. Otherwise strong evidence, no proof: it stays
+    as large in one of 16 increments, in one of 16 of that, and so on, four times.
 
     Parameters
     ----------
@@ -144,8 +146,8 @@ def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
     if not part.prepared.watched:
         return None
     within = part.interval.within
-    states = [followed.before, *(shot.state for shot in followed.snapshots)]
-    ends = [0.0, *(within(shot.fraction) for shot in followed.snapshots)]
+    states, shots = [followed.before, *(shot.state for shot in followed.snapshots)], followed.snapshots
+    ends = [0.0, *(within(shot.fraction) for shot in shots)]
     size, first = max(float(np.abs(state.forces).max(initial=0.0)) for state in states), 0.0
     for _ in range(ZOOMS):
         changes = [float(np.abs(two.forces - one.forces).max(initial=0.0)) for one, two in pairwise(states)]
@@ -153,13 +155,17 @@ def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
         first = first or changes[k]
         if changes[k] < _SUDDEN * first or changes[k] == 0.0:
             return None
-        low, high, before = ends[k], ends[k + 1], states[k]
+        low, high = ends[k], ends[k + 1]
+        before = _whole(part, states[k]) if k and not shots[k - 1].whole else states[k]
         try:
             finer = follow_to_events(_between(part, before, low, high), WATCH_INCREMENTS)
         except SolveFailed as failure:
             return failure if failure.status == Outcome.JUMP else None
-        states = [before, *(shot.state for shot in finer.snapshots)]
-        ends = [low, *(within(shot.fraction) for shot in finer.snapshots)]
+        apart = float(np.abs(finer.after.forces - states[k + 1].forces).max(initial=0.0))
+        if apart >= _SUDDEN * first:
+            return _parted(part, low, high, apart / size)
+        states, shots = [before, *(shot.state for shot in finer.snapshots)], finer.snapshots
+        ends = [low, *(within(shot.fraction) for shot in shots)]
     here, length = part.interval.fraction(low), part.interval.fraction(high) - part.interval.fraction(low)
     return SolveFailed(
         told(
@@ -171,6 +177,25 @@ def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
         ),
         status=Outcome.JUMP,
     )
+
+
+def _parted(part: StepPart, low: float, high: float, share: float) -> SolveFailed:
+    """Two ways between the same loads, fractions low and high of a part, whose forces differ by a share, as a jump."""
+    here, there = part.interval.fraction(low), part.interval.fraction(high)
+    return SolveFailed(
+        told(
+            f"{part.where} between {here:.6%} and {there:.6%}: the history parts: from one equilibrium two ways "
+            f"lead to others whose contact forces differ by {share:.2g} of the largest",
+            remedy="less friction, or a tangential compliance where forces are shared in many ways",
+            evidence=f"both are certified at the same load, one in a single increment, one in up to {WATCH_INCREMENTS}",
+        ),
+        status=Outcome.JUMP,
+    )
+
+
+def _whole(part: StepPart, state: State) -> State:
+    """A state on the way with all that it takes to go on from it: bodies, and pairs that the law is not asked of."""
+    return recovered(part.prepared, part.before, state.point, path_state(part.prepared, state))
 
 
 def _far(part: StepPart, before: State, after: State) -> bool:
@@ -209,10 +234,22 @@ def _jump(part: StepPart, state: State, low: float, high: float) -> SolveFailed 
     if not part.prepared.watched:
         return slide(part, state, low, high) if _looked_at(part.prepared) else None
     try:
-        follow_to_events(_between(part, state, low, high), 1, behind=low / (high - low))
+        behind, known = low / (high - low), _known(part)
+        ahead = (
+            None if known is None or known.factor <= low else replace(known, factor=(known.factor - low) / (high - low))
+        )
+        follow_to_events(_between(part, state, low, high), 1, behind=behind, known=ahead)
     except SolveFailed as failure:
         return failure if failure.status == Outcome.JUMP else None
     return None
+
+
+def _known(part: StepPart) -> Overload | None:
+    """Where the pairs that are near at the beginning of a part hold bodies no more, part of it; None where they do."""
+    paths, start = part.prepared.paths, path_state(part.prepared, part.before)
+    bearing = Bearing(paths.law, right_hand_side(part.prepared, part.end))
+    bearing.reach(start, 0.0)
+    return bearing.least
 
 
 def _between(part: StepPart, state: State, low: float, high: float) -> StepPart:

@@ -60,7 +60,9 @@ def _on_interface_or_bodies(stage: Stage, part: StepPart) -> FollowedPart:
         return _with_bodies_at_rest(stage, part)
     except SolveFailed as failure:
         lost = known(failure, part)
-        if lost.status != Outcome.NOT_FOUND or lost.hopeless or not _gives_way(part.prepared, stage.step):
+        if lost.status != Outcome.NOT_FOUND or lost.hopeless or lost.unsettled:
+            raise lost from None
+        if not _gives_way(part.prepared, stage.step):
             raise lost from None
     clock = part.prepared.clock
     try:

@@ -14,6 +14,7 @@ from signorini.errors import InputError
 from signorini.friction.history.rates import NoRates
 from signorini.friction.history.segment import Breakpoint, Event, Jump, Segment, What
 from signorini.friction.history.state import PathState
+from signorini.friction.overload import Overload
 from signorini.friction.problem import ContactProblem
 from signorini.law.bound import plain
 from signorini.law.states import OPEN, STICK
@@ -37,12 +38,14 @@ class PathSettings:
     turn : in space, largest angle by which friction on a smooth section turns in an increment longer than that
     solver : limits of the methods: the tolerance of certificates, and the number of increments, in the plane of events
     behind : in space, of a longer straight way that the segment ends, in lengths of the segment, see `Bearing`
+    known : in space, where contact loses its hold as the beginning of that way knows it, part of the segment
     """
 
     shortest: float = 0.0
     turn: float = 0.05
     solver: SolverSettings = field(default_factory=SolverSettings)
     behind: float = 0.0
+    known: Overload | None = None
 
 
 class PathFollower(ABC):

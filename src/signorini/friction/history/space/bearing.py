@@ -42,17 +42,21 @@ class Bearing:
     b_end : (3 n,) load at the end of the way
     behind : of a longer straight way that this one ends, in lengths of this one: what is near a limit, is near it alike
         wherever on that way the look begins
+    known : where pairs that were near at the beginning of that way hold no more, part of this one; so the load named is
+        one number, wherever the look begins
 
     Attributes
     ----------
     spent : searches that ended at their budgets, of which nothing is known
     """
 
-    def __init__(self, problem: ContactProblem, b_end: Array, behind: float = 0.0) -> None:
+    def __init__(
+        self, problem: ContactProblem, b_end: Array, behind: float = 0.0, known: Overload | None = None
+    ) -> None:
         self.problem, self.b_end, self.behind = problem, b_end, behind
         self._near: BoolArray = np.zeros(0, dtype=np.bool_)
         self._found: Overload | None = None  # with the pairs that are near
-        self._least: Overload | None = None  # with those of any state since equilibrium was seen to go on beyond one
+        self._least = known  # with those of any state since equilibrium was seen to go on beyond one
         self._crossed = 0.0
         self.spent: list[Spent] = []
 
@@ -85,6 +89,11 @@ class Bearing:
             return False
         holds = self._found is None and bool((near >= self._near).all())
         return holds or bool((near == self._near).all())
+
+    @property
+    def least(self) -> Overload | None:
+        """Where bodies lose their hold, as far as it is known; None where they do not."""
+        return self._least
 
     @property
     def limit(self) -> float:

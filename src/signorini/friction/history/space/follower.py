@@ -85,7 +85,7 @@ class SpaceFollower(PathFollower):
         self._searched = False  # long, once in vain: shorter increments are near where they begin, or there are none
         self._rate: Array | None = None  # (3, n) of r - h in the last increment that was found, per part of the segment
         self._overloaded = False  # whether the pairs that are near hold the bodies no more
-        self.bearing = Bearing(problem, self.b_end, settings.behind)
+        self.bearing = Bearing(problem, self.b_end, settings.behind, settings.known)
         self.spent = self.bearing.spent
         # the load as rates see it; what smooth sections know of an event is less sharp
         self.rate_problem = replace(problem, b=frozen(self.b_end - start.b))
