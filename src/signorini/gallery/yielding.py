@@ -11,7 +11,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.gallery.large_bodies import bend, graded_lines, with_seat
 from signorini.meshing.plane import Cells, annulus, rectangle
-from signorini.model.body import Body
+from signorini.model.body import Body, Formulation
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
 from signorini.model.material import Elastic
@@ -71,7 +71,15 @@ def tube(
     )
 
 
-def footing(pressure: float = 0.0, *, n: int, cells: Cells = "quad", depth: float = 0.0, rough: bool = False) -> Model:
+def footing(
+    pressure: float = 0.0,
+    *,
+    n: int,
+    cells: Cells = "quad",
+    formulation: Formulation | None = None,
+    depth: float = 0.0,
+    rough: bool = False,
+) -> Model:
     """Half of a block 12 x 5 with a flat punch of half-width 1 on it, pressed by a mean pressure or driven.
 
     Parameters
@@ -79,6 +87,7 @@ def footing(pressure: float = 0.0, *, n: int, cells: Cells = "quad", depth: floa
     pressure : mean, force per area; at factor 1 of "punch"
     n : cells along half the punch
     cells : "quad", "quad8", "triangle6", ...
+    formulation : of the cells
     depth : to which the punch is driven instead, length
     rough : whether it holds the surface sideways
     """
@@ -97,7 +106,7 @@ def footing(pressure: float = 0.0, *, n: int, cells: Cells = "quad", depth: floa
     return Model(
         mesh,
         title="Flat punch on a body that yields",
-        bodies=[Body(name, Elastic(E=1000.0 * SHEAR_STRENGTH, nu=0.3, plastic=PERFECT))],
+        bodies=[Body(name, Elastic(E=1000.0 * SHEAR_STRENGTH, nu=0.3, plastic=PERFECT), formulation)],
         supports=supports,
         loads=loads,
         steps=[Step(name="press", increments=1)],
@@ -189,7 +198,7 @@ def indented_block(
     )
 
 
-def bent_beam(*, curvature: float, n: int, cells: Cells = "quad8") -> Model:
+def bent_beam(*, curvature: float, n: int, cells: Cells = "quad8", formulation: Formulation | None = None) -> Model:
     """A slice of a beam of height 2 and length 1 whose end sections turn but stay plane, E 1000 k, nearly nu 0.5.
 
     Parameters
@@ -197,6 +206,7 @@ def bent_beam(*, curvature: float, n: int, cells: Cells = "quad8") -> Model:
     curvature : per length; at factor 1 of the supports "turn.0", "turn.1", ... of the nodes of the right end
     n : cells through the height
     cells : "quad", "quad8", ...
+    formulation : of the cells
     """
     mesh = rectangle(x=np.linspace(0.0, 1.0, n // 4 + 1), y=np.linspace(-1.0, 1.0, n + 1), cells=cells)
     ends = mesh.points[np.unique(mesh.facets("right")[0])]
@@ -205,7 +215,7 @@ def bent_beam(*, curvature: float, n: int, cells: Cells = "quad8") -> Model:
     return Model(
         mesh,
         title="Beam bent beyond yield",
-        bodies=[Body(name, Elastic(E=1000.0 * SHEAR_STRENGTH, nu=0.4999, plastic=PERFECT))],
+        bodies=[Body(name, Elastic(E=1000.0 * SHEAR_STRENGTH, nu=0.4999, plastic=PERFECT), formulation)],
         supports=[Support("left", u=(0.0, None)), Support((0.0, -1.0), u=(None, 0.0), name="height"), *turned],
         steps=[Step(name="bend", increments=1)],
     )

@@ -5,11 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Set
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, get_args
 
 from signorini.checks import choice, number, text
 from signorini.errors import InputError, Where
 from signorini.model.material import Elastic, Material, Orthotropic
+
+Formulation = Literal["standard", "incompatible", "mean dilatation"]
+"""Of cells."""
 
 _LINEAR = {"triangle", "quad", "tetra", "hexahedron", "wedge"}
 _WITHOUT_MEAN = {"triangle", "tetra", "wedge"}
@@ -41,7 +44,7 @@ class Body:
 
     name: str
     material: Material
-    formulation: Literal["standard", "incompatible", "mean dilatation"] | None = None
+    formulation: Formulation | None = None
     thickness: float | None = None
 
     def __post_init__(self) -> None:
@@ -51,7 +54,7 @@ class Body:
         if self.formulation is None and not self.material.yields:
             object.__setattr__(self, "formulation", "standard")
         if self.formulation is not None:
-            choice(self.formulation, ("standard", "incompatible", "mean dilatation"), ("formulation",), "formulation")
+            choice(self.formulation, get_args(Formulation), ("formulation",), "formulation")
         if self.thickness is not None:
             object.__setattr__(self, "thickness", number(self.thickness, ("thickness",), above=0.0))
 

@@ -12,7 +12,7 @@ import signorini as sg
 from signorini.cli import main
 from signorini.deck import DeckError, load_deck
 from signorini.reference.plasticity import CyclicBar
-from tests.helpers.calculix import ccx_stresses, needs_ccx
+from tests.helpers.calculix import ccx_displacements, ccx_stresses, needs_ccx
 
 E, NU = 200.0, 0.3
 BRICK = (
@@ -318,3 +318,27 @@ def test_a_body_whose_temperatures_differ_at_the_beginning_has_no_one_law(tmp_pa
     with pytest.raises(DeckError, match="the body begins at temperatures from 0 to 20; expected one in") as caught:
         load_deck(warm(tmp_path, "PULL,20.\n"))
     assert caught.value.line == warm(tmp_path, "PULL,20.\n").read_text().splitlines().index("*PLASTIC") + 1
+
+
+@needs_ccx
+def test_bricks_with_incompatible_modes_yield_as_those_of_calculix(tmp_path: Path) -> None:
+    """A cantilever of C3D8I, bent far beyond first yield in 20 increments: displacements to 1e-5 of the largest."""
+    mesh = sg.box(x=np.linspace(0.0, 6.0, 7), y=np.linspace(0.0, 1.0, 3), z=[0.0, 1.0])
+    nodes = "".join(f"{i},{x},{y},{z}\n" for i, (x, y, z) in enumerate(mesh.points, start=1))
+    bricks = "".join(
+        f"{i},{','.join(str(node + 1) for node in cell)}\n" for i, cell in enumerate(mesh.cells["hexahedron"], start=1)
+    )
+    left, right = ("".join(f"{node + 1}\n" for node in np.flatnonzero(mesh.points[:, 0] == at)) for at in (0.0, 6.0))
+    path = tmp_path / "deck.inp"
+    path.write_text(
+        f"*NODE,NSET=ALL\n{nodes}*ELEMENT,TYPE=C3D8I,ELSET=E\n{bricks}*NSET,NSET=LEFT\n{left}*NSET,NSET=RIGHT\n{right}"
+        f"*MATERIAL,NAME=M\n*ELASTIC\n{E},{NU}\n*PLASTIC\n.2,0.\n.3,.1\n*SOLID SECTION,ELSET=E,MATERIAL=M\n"
+        "*BOUNDARY\nLEFT,1,3\n*STEP,INC=1000\n*STATIC,DIRECT\n.05,1.\n*BOUNDARY\nRIGHT,2,2,-.2\n"
+        "*NODE PRINT,NSET=ALL,FREQUENCY=20\nU\n*END STEP\n"
+    )
+    model = sg.read(path)
+    assert model.bodies[0].formulation == "incompatible"
+    (step,) = model.steps
+    solution = sg.solve(replace(model, steps=[replace(step, increments=20)]))
+    assert solution.last.yielding.largest > 0.005
+    np.testing.assert_allclose(solution.last.displacement, ccx_displacements(path)[-1], rtol=0, atol=1e-5 * 0.2)
