@@ -9,7 +9,7 @@ yields to those is right but for a rigid motion, which is for the contact to fin
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.linalg
@@ -31,10 +31,12 @@ class BodyBlock:
     ----------
     dofs : (p,) its contact dofs, ascending
     cholesky : (p, p) of its stiffness with the springs, lower; above the diagonal anything
+    inverse : (p, p) of that stiffness, where it is wanted again and again; None: made when it is
     """
 
     dofs: IntArray
     cholesky: Array
+    inverse: Array | None = None
 
     def solve(self, load: Array) -> Array:
         """Displacements (p, ...) under a load (p, ...)."""
@@ -66,6 +68,10 @@ class BodyBlocks:
             moved -= self.across @ scipy.linalg.cho_solve((self.gram, True), self.across.T @ load, check_finite=False)
         return moved
 
+    def inverted(self) -> BodyBlocks:
+        """The same with the inverse of every block, for pairs that change."""
+        return replace(self, blocks=tuple(replace(own, inverse=inverse_of(own.cholesky)) for own in self.blocks))
+
     def compliance(self, B: sp.csr_array) -> Array:
         """``B M^-1 B^T`` of the stiffness M with its ties, (k, k), symmetric to the last digit; B (k, m)."""
         result = np.zeros((B.shape[0],) * 2)
@@ -73,7 +79,8 @@ class BodyBlocks:
             own = sp.csr_array(B[:, part.dofs])
             seen = np.flatnonzero(np.diff(own.indptr))
             own = own[seen]
-            moved = own @ np.ascontiguousarray((own @ inverse_of(part.cholesky).T).T)
+            inverse = inverse_of(part.cholesky) if part.inverse is None else part.inverse
+            moved = own @ np.ascontiguousarray((own @ inverse.T).T)
             if len(seen) == len(result):
                 result += moved
             else:

@@ -56,6 +56,7 @@ class Condensed:
     compliance : (d a,) of the interface, C, length per force
     ties : tied pairs, which are no unknowns of the law: all displacements here leave them at rest
     B : (d a, m) relative displacements of the active pairs in terms of them, B_c
+    K : (m, m) stiffness between the contact dofs where all others are held
     """
 
     response: Response
@@ -67,6 +68,7 @@ class Condensed:
     B: sp.csr_array
     compliance: Array
     ties: Ties
+    K: sp.csr_array
     _basis: Basis
     _leaning: Array
 
@@ -167,6 +169,32 @@ class Condensed:
             **_image(response, root, compliance),
         )
 
+    def paired(self, B: sp.csr_array, interface: Interface, stiffness: float) -> Condensed:
+        """Bodies whose pairs are others; nothing is factorised again.
+
+        Parameters
+        ----------
+        B : (d n, z) relative displacements of the pairs in terms of the free displacements, all of them kept ones
+        interface : the pairs, as many as before; those that were tied are as they were
+        stiffness : as of `condense`
+        """
+        assert isinstance(self.response, ByNodes)
+        seen, _, held, active = active_pairs(B, interface, np.ones(len(interface), np.bool_))
+        B_c = sp.csr_array(seen[np.nonzero(interface.rows(active))[0]][:, self.dofs])
+        root = np.sqrt(_interface_stiffness(self.K, B_c, interface, np.flatnonzero(active), stiffness))
+        compliance = (interface.compliance / interface.areas)[interface.rows(active)]
+        response = replace(self.response, B=B_c)
+        return replace(
+            self,
+            response=response,
+            active=active,
+            held=held,
+            root=root,
+            B=B_c,
+            compliance=compliance,
+            **_image(response, root, compliance),
+        )
+
     def moving(self, ways: Array) -> Condensed:
         """Bodies of whose k rigid motions only some combinations (k, m) occur: springs hold the others."""
         response = self.response.moving(ways)
@@ -208,10 +236,11 @@ def condense(
     seen, moves, held, active = active_pairs(bodies.B, interface, candidates)
     ties = make_ties(seen, np.nonzero(interface.rows(interface.tied) & moves)[0])
     B = sp.csr_array(seen[np.nonzero(interface.rows(active))[0]])
-    dofs = np.unique(np.concatenate([B.indices, ties.B.indices]))
+    dofs = np.unique(np.concatenate([B.indices, ties.B.indices, bodies.kept]))
     response: Response | None = None
     with clock.phase("factorisation"):
-        if interface.directions == 3 and B.shape[0] and not len(ties.rows) and takes_borders(backend):
+        by_nodes = interface.directions == 2 or len(ties.rows) or len(bodies.kept)
+        if not by_nodes and B.shape[0] and takes_borders(backend):
             at = points[interface.node[active]]
             with suppress(NotPositiveDefinite):  # the contact may still hold what moves
                 kept = bodies._replace(B=B)
@@ -225,6 +254,7 @@ def condense(
         if response is None:
             size = float(K_c.diagonal().mean()) if K_c.nnz else stiffness
             parts = make_body_blocks(factorisation.schur(), ties.B[:, dofs].toarray(), rigid[dofs], size=size)
+            parts = parts.inverted() if len(bodies.kept) else parts
             response = ByNodes(factorisation=factorisation, parts=parts, B=B_c, rigid=rigid[dofs])
         return Condensed(
             response=response,
@@ -235,6 +265,7 @@ def condense(
             B=B_c,
             compliance=compliance,
             ties=ties,
+            K=K_c,
             **_image(response, root, compliance),
         )
 

@@ -196,7 +196,7 @@ def keep_pairs(
     >>> kept.compliance().tolist(), kept.moved(kept.reduce(np.array([1.0, 0.0])).load).tolist()
     ([[0.3125]], [0.25])
     """
-    K, B, nodes, points = bodies
+    K, B, nodes, points = bodies[:4]
     m, n = B.shape
     pair = len(points) + np.tile(np.arange(len(at)), m // max(1, len(at)))
     factorisation = factorise(

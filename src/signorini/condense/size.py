@@ -26,9 +26,9 @@ def condensing_bytes(bodies: FreeBodies, interface: Interface, *, candidates: Bo
     candidates : (n,) pairs that may touch
     plenty : bytes; where a generous bound stays below, it is returned and the pattern of K is not analysed
     """
-    K, B, nodes, points = bodies
+    K, B, nodes, points = bodies[:4]
     chosen = interface.rows(candidates | interface.tied)
-    dofs = np.unique(B[np.flatnonzero(chosen)].indices)
+    dofs = np.unique(np.concatenate([B[np.flatnonzero(chosen)].indices, bodies.kept]))
     dense = _SQUARE[1] * int(np.count_nonzero(chosen)) ** 2
     if interface.directions == 2 or interface.tied.any() or not takes_borders("auto"):
         dense += _SQUARE[0] * len(dofs) ** 2  # where contact nodes are kept; else nothing is dense but pairs

@@ -27,7 +27,8 @@ def candidate_pairs(examined: Examined, loading: Loading, before: BoolArray | No
     loading : the most that was imposed up to the end of the step
     before : (n,) those of the steps before it, which stay and are given back where they are enough
     """
-    if examined.model.yields and examined.space.dimension == 2:  # flow moves bodies farther than loads compress them
+    # flow moves bodies farther than loads compress them, and far sliding what is opposite what
+    if (examined.model.yields and examined.space.dimension == 2) or examined.model.slides:
         return np.ones(len(examined.interface), np.bool_)
     if examined.model.wears and examined.space.dimension == 2:  # what is worn lets others touch
         return np.ones(len(examined.interface), np.bool_)

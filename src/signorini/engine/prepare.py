@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, fields, replace
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed
 from signorini.condense.ties import Ties
@@ -354,7 +354,8 @@ def _made(
     if condensed is None:
         with clock.phase("assembly"):
             reduced, relative = reduced_stiffness(K, T), sp.csr_array(interface.B @ T)
-            bodies = FreeBodies(reduced, relative, examined.constraints.nodes, examined.space.places)
+            kept = _of_sliding_sides(examined)
+            bodies = FreeBodies(reduced, relative, examined.constraints.nodes, examined.space.places, kept)
             yields = examined.model.yields
             whole = iterates(bodies, interface, candidates=candidates, backend=backend, yields=yields)
             if whole:
@@ -379,6 +380,18 @@ def _made(
         softness=softness,
         plans=plans,
     )
+
+
+def _of_sliding_sides(examined: Examined) -> IntArray:
+    """Free displacements of the nodes, and obstacles, of both sides of contacts that slide far."""
+    model, space = examined.model, examined.space
+    dofs: list[IntArray] = [np.empty(0, np.int64)]
+    for contact in (contact for contact in model.contacts if contact.slides):
+        for side in (contact.nonmortar, contact.mortar):
+            if side in model.mesh.boundaries:
+                dofs.append(space.dofs(model.mesh.nodes_of(str(side))).ravel())
+        dofs += [space.obstacle_dofs(j) for j, rigid in enumerate(model.obstacles) if rigid.name == contact.mortar]
+    return np.unique(examined.constraints.transform[np.concatenate(dofs)].indices)
 
 
 def _softness(examined: Examined, condensed: Condensed) -> float:

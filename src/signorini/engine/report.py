@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -209,14 +209,18 @@ def _instants(
     begun, end = heat(followed.before), followed.snapshots[-1]
     for snapshot in followed.snapshots:
         slip, across = snapshot.state.slip, prepared.interface.across
+        now, shown = prepared, surfaces
+        if snapshot.interface is not None:
+            now = replace(prepared, interface=snapshot.interface)
+            shown = [_surface(now, i) for i in range(len(prepared.model.contacts))]
         sliding = sliding + across(slip - last)
         if wear is not snapshot.state.wear and snapshot.state.wear is not None and followed.before.wear is not None:
             wear = snapshot.state.wear  # of cycles that nobody has looked at too
             sliding = wear.distance - followed.before.wear.distance
         low, high, last = np.minimum(low, slip), np.maximum(high, slip), slip
         contacts = tuple(
-            _contact_result(prepared, surface, followed.before, snapshot.state, sliding, across(high - low))
-            for surface in surfaces
+            _contact_result(now, surface, followed.before, snapshot.state, sliding, across(high - low))
+            for surface in shown
         )
         yield Instant(
             load_factor=snapshot.load_factor,

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from signorini.engine.increments import measured
 from signorini.engine.memory_check import refuse_fields
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
+from signorini.engine.sliding import follow_sliding
 from signorini.engine.step_parts import (
     FollowedPart,
     Snapshot,
@@ -244,7 +246,8 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[FollowedPart,
     at_events = stage.step.at == "events"
     # the work of temperatures needs the displacements, see signorini.engine.energy
     heated = any(load.temperature is not None for load in prepared.model.loads)
-    change = relaxed(prepared, state, stage.name)
+    # sides that slide far hand over first, and then what friction no longer holds slips too
+    change = None if prepared.model.slides else relaxed(prepared, state, stage.name)
     if change is not None:
         after, certificate, trace = change
         slipped = FollowedPart(
@@ -277,7 +280,8 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[FollowedPart,
             prepared=prepared, where=stage.name, interval=interval, before=state, end=point, whole=at_events
         )
         try:
-            followed = follow_part(stage, part)
+            way = partial(follow_part, stage)
+            followed = follow_sliding(part, way) if prepared.model.slides else way(part)
         except (SolveFailed, KeyboardInterrupt) as stop:
             raise keep(stop, behind) from None
         followed = lightened(followed, every=at_events, end=interval.asked, heated=heated)

@@ -14,6 +14,7 @@ from signorini.arrays import BoolArray
 from signorini.attempt import MethodRun
 from signorini.engine.prepare import Prepared
 from signorini.errors import Interrupted, SolveFailed
+from signorini.interface.interface import Interface
 from signorini.model.stage import Stage
 from signorini.solution.certificate import Certificate
 from signorini.solution.results import Cycle, PairEvent
@@ -30,8 +31,8 @@ class Interval:
     ----------
     number : of the step, from 1
     low, high : parts of the step, 0 .. 1
-    ends : what is at its end: "segment" of the loads, a time "asked" for, an "event" or a "jump"; or "wear" of sides,
-        at one load
+    ends : what is at its end: "segment" of the loads, a time "asked" for, an "event" or a "jump"; "wear" of sides, at one
+        load; or a "handover" to other pairs
     cycle : number of the cycle that ends here, 0 where none does
     asked : whether its end, not that of the step, was asked for
     """
@@ -39,7 +40,7 @@ class Interval:
     number: int
     low: float
     high: float
-    ends: Literal["segment", "asked", "event", "jump", "wear"]
+    ends: Literal["segment", "asked", "event", "jump", "wear", "handover"]
     cycle: int = 0
     asked: bool = False
 
@@ -121,8 +122,8 @@ class StepPart:
     awake: Prepared | None = None
     waiting: BoolArray = field(default_factory=lambda: np.zeros(0, np.bool_))
 
-    def cut(self, factor: float, ends: Literal["event", "jump"]) -> StepPart:
-        """Up to an event or a jump at a part of it, 0 .. 1, from where on it is followed anew."""
+    def cut(self, factor: float, ends: Literal["event", "jump", "handover"]) -> StepPart:
+        """Up to an event, a jump or a handover at a part of it, 0 .. 1, from where on it is followed anew."""
         end = self.before.point.towards(self.end, factor)
         return replace(self, end=end, interval=replace(self.interval, high=self.interval.fraction(factor), ends=ends))
 
@@ -138,7 +139,9 @@ class StepPart:
         return replace(self, before=state, interval=replace(self.interval, low=cut.interval.high))
 
 
-What = Literal["start", "event", "increment", "asked", "segment", "jump", "landing", "change", "approach", "wear"]
+What = Literal[
+    "start", "event", "increment", "asked", "segment", "jump", "landing", "change", "approach", "wear", "handover"
+]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -154,6 +157,7 @@ class Snapshot:
     whole : whether the displacement of the bodies is there
     kept : whether it is one of the results
     worked : whether it was recovered
+    interface : the pairs, where they are not those of the model
     """
 
     number: int
@@ -163,6 +167,7 @@ class Snapshot:
     whole: bool = True
     kept: bool = False
     worked: bool = True
+    interface: Interface | None = None
 
     @property
     def load_factor(self) -> float:

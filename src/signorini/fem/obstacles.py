@@ -3,11 +3,15 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from signorini.arrays import Array, BoolArray, extent
 from signorini.fem.space import Space
 from signorini.model.model import Model
+from signorini.model.obstacle import Obstacle
 
 
 def arm(model: Model) -> float:
@@ -35,6 +39,42 @@ def carried(model: Model, points: Array, about: Array) -> Array:
     else:
         result[:, :, 3:] = np.cross(np.eye(3), lever[:, None]).swapaxes(1, 2)
     return result
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """A rigid obstacle where its unknowns have taken it: turned about its point by its finite angle, then moved.
+
+    Attributes
+    ----------
+    shape : as it was given
+    about : (d,) the point about which it turns, as it was given
+    shift : (d,) its displacement, length
+    turn : (d, d) its rotation
+    """
+
+    shape: Obstacle
+    about: Array
+    shift: Array
+    turn: Array
+
+    def __str__(self) -> str:
+        return str(self.shape)
+
+    def nearest(self, points: Array) -> tuple[Array, Array]:
+        """Signed distance of points (n, d), positive outside the obstacle, and its outward normals there (n, d)."""
+        distance, normals = self.shape.nearest((points - self.about - self.shift) @ self.turn + self.about)
+        return distance, normals @ self.turn.T
+
+
+def placed(space: Space, model: Model, j: int) -> Placed:
+    """Obstacle j where the displacement of a space has taken it."""
+    obstacle, d = model.obstacles[j], model.dimension
+    motion = space.displacement[space.obstacle_dofs(j)] if len(space.displacement) else np.zeros(2 * d)
+    turned = motion[d:] / arm(model)
+    angles = np.array([0.0, 0.0, turned[0]]) if d == 2 else turned
+    turn = Rotation.from_rotvec(angles).as_matrix()[:d, :d]
+    return Placed(obstacle.shape, np.array(obstacle.about), motion[:d], turn)
 
 
 def driven(model: Model, j: int) -> tuple[BoolArray, Array]:

@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from copy import copy
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 import skfem
 
-from signorini.arrays import Array, BoolArray, IntArray, among, extent
+from signorini.arrays import Array, BoolArray, IntArray, among, extent, frozen
 from signorini.errors import InputError, spell_point
 from signorini.fem.jacobian import determinants, jacobians
 from signorini.fem.wedge import QuadraticWedge
@@ -111,12 +112,22 @@ class Space:
     mesh, blocks : nodes and cells
     obstacles : how many rigid obstacles and rigid bodies have unknowns of their own, behind those of the nodes
     linked : (k,) nodes that equations name, which may belong to no cell
+    displacement : (dofs,) by which the nodes of the mesh, and obstacles, have moved; empty where they have not
     """
 
     mesh: Mesh
     blocks: tuple[Block, ...]
     obstacles: int = 0
     linked: IntArray = field(default_factory=lambda: np.empty(0, np.int64))
+    displacement: Array = field(default_factory=lambda: np.zeros(0))
+
+    def moved(self, displacement: Array) -> Space:
+        """The same cells with their nodes where a displacement (dofs,) takes them; facets are not looked for again."""
+        mesh = copy(self.mesh)  # nothing but the places is another, and nothing is to be checked again
+        object.__setattr__(mesh, "points", frozen(self.mesh.points + self.at_nodes(displacement)))
+        moved = replace(self, mesh=mesh, displacement=displacement)
+        moved.__dict__["facets"] = self.facets
+        return moved
 
     @property
     def dimension(self) -> int:

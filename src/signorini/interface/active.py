@@ -23,12 +23,14 @@ class FreeBodies(NamedTuple):
     B : (d n, z) relative displacements of the pairs
     nodes : (z,) node of each free displacement
     points : (nodes, d) where the nodes are, length
+    kept : free displacements that any pairs may see, now or later: of sides that slide far; empty where none does
     """
 
     K: sp.csr_array
     B: sp.csr_array
     nodes: IntArray
     points: Array
+    kept: IntArray = np.empty(0, np.int64)
 
 
 class ActivePairs(NamedTuple):

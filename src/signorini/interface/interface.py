@@ -12,7 +12,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray, extent
 from signorini.errors import InputError
-from signorini.fem.obstacles import carried
+from signorini.fem.obstacles import carried, placed
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.coupling import along
@@ -127,21 +127,25 @@ class Interface:
         return length
 
 
-def make_interface(space: Space, model: Model, constraints: Constraints) -> Interface:
+def make_interface(
+    space: Space, model: Model, constraints: Constraints, contacts: Sequence[int] | None = None
+) -> Interface:
     """Pair the surfaces of all contacts.
 
     Parameters
     ----------
     space, model : of the bodies and their contacts
     constraints : what supports hold: planes of symmetry
+    contacts : numbers of those to pair, ascending; None: all
 
     Raises
     ------
     InputError
         If surfaces do not face each other or their obstacle, or cannot be paired as asked, with the contact's index.
     """
-    parts = [make_pairs(space, model, constraints, i) for i in range(len(model.contacts))]
-    index = np.repeat(np.arange(len(parts)), [len(part.gap) for part in parts]).astype(int)
+    chosen = range(len(model.contacts)) if contacts is None else contacts
+    parts = [make_pairs(space, model, constraints, i) for i in chosen]
+    index = np.repeat(np.array(chosen, int), [len(part.gap) for part in parts]).astype(int)
     normals = _joined([part.coupling.normals for part in parts], (0, space.dimension))
     area = _joined([part.coupling.area for part in parts], (0,))
     node: IntArray = np.concatenate([np.empty(0, int), *(part.coupling.nodes for part in parts)])
@@ -154,7 +158,7 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
     axes, still = tangents(normals, mirrored, fibres)
     _refuse_no_fibre(space, model, node, index, normals, mirrored)
     friction = PairFriction.of(
-        [contact.law for contact in model.contacts], [space.mesh.points[part.coupling.nodes] for part in parts]
+        [model.contacts[i].law for i in chosen], [space.mesh.points[part.coupling.nodes] for part in parts]
     )
     facets = np.array([contact.facets for contact in model.contacts], np.int64)[index]
     B = _relative_rows(space, model, parts, normals, axes, still)
@@ -166,7 +170,7 @@ def make_interface(space: Space, model: Model, constraints: Constraints) -> Inte
         normals=normals,
         tangents=axes,
         node=node,
-        moments=moments_of_rows(B, space.mesh.points, own, np.tile(index, space.dimension)),
+        moments=moments_of_rows(B, space.mesh.points, own, np.tile(np.searchsorted(chosen, index), space.dimension)),
         contact=index,
         friction=friction,
         anisotropy=_anisotropy(model, [contact.law for contact in model.contacts], axes, index),
@@ -199,6 +203,12 @@ def _relative_rows(
     B = sp.csr_array(sp.vstack(rows))
     B.sum_duplicates()  # entries in order from the start: sums do not depend on who has looked at them before
     return B
+
+
+def _about(space: Space, model: Model, j: int) -> Array:
+    """(d,) Where the point is about which obstacle j turns."""
+    where = placed(space, model, j)
+    return where.about + where.shift
 
 
 def _joined(parts: Sequence[Array], none: tuple[int, ...]) -> Array:
@@ -316,7 +326,7 @@ def _with_obstacles(space: Space, model: Model, carrier: IntArray, weights: tupl
     for j in range(len(model.obstacles)):
         own = np.flatnonzero(carrier == j)
         seen = np.unique(np.concatenate([part[own].indices for part in weights]))
-        motions = carried(model, space.mesh.points[seen], np.array(model.obstacles[j].about))
+        motions = carried(model, space.mesh.points[seen], _about(space, model, j))
         of_pairs = sum(part[own][:, seen] @ motions[:, i] for i, part in enumerate(weights))
         moved[own, width * j : width * (j + 1)] = -of_pairs
     return sp.csr_array(sp.hstack([bodies, sp.csr_array(moved)]))

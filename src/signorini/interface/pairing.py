@@ -14,10 +14,12 @@ from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary, boundary
 from signorini.fem.facet_block import FacetBlock
 from signorini.fem.measure import contact_measure, facet_areas
+from signorini.fem.obstacles import Placed, placed
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.corners import corner_coupling
 from signorini.interface.coupling import Coupling, FacetGaps, geometric_gap, joined_gaps, point_coupling
+from signorini.interface.facing import search_distance
 from signorini.interface.frames import in_symmetry_planes, symmetric_partners
 from signorini.interface.gaps import initial_gaps, normal_gap, refuse_deep_overlap, resolved
 from signorini.interface.matching import facing_cells, match_nodes
@@ -94,7 +96,8 @@ def make_pairs(space: Space, model: Model, constraints: Constraints, i: int) -> 
         pairs = _on_obstacle(space, model, side, contact, contact.mortar, (*where, key))
     elif contact.mortar in moving:
         j = moving[contact.mortar]
-        pairs = _on_obstacle(space, model, side, contact, model.obstacles[j].shape, (*where, "mortar"))
+        shape = placed(space, model, j) if contact.slides else model.obstacles[j].shape
+        pairs = _on_obstacle(space, model, side, contact, shape, (*where, "mortar"))
         pairs = replace(pairs, obstacle=j, sides=replace(pairs.sides, mortar=contact.mortar))
     else:
         mortar = boundary(space, contact.mortar, (*where, "mortar"))
@@ -107,7 +110,7 @@ def make_pairs(space: Space, model: Model, constraints: Constraints, i: int) -> 
 
 
 def _on_obstacle(
-    space: Space, model: Model, side: Boundary, contact: Contact, obstacle: Obstacle, where: Where
+    space: Space, model: Model, side: Boundary, contact: Contact, obstacle: Obstacle | Placed, where: Where
 ) -> Pairs:
     """Nodes against a rigid obstacle, along its own normals; of quadratic facets weighted means at their corners."""
     points = space.mesh.points
@@ -149,7 +152,7 @@ def _nodal_gaps(block: FacetBlock, distance: Array) -> FacetGaps:
     )
 
 
-def _faced_away(obstacle: Obstacle) -> str:
+def _faced_away(obstacle: Obstacle | Placed) -> str:
     """What a side faces away from, and what is expected."""
     if isinstance(obstacle, Plane):
         return f"the plane; its normal {obstacle.normal} must point from the obstacle towards the body"
@@ -182,10 +185,12 @@ def _on_side(
     seen, coupling = coupling, replace(coupling, normal_areas=in_symmetry_planes(space, constraints, coupling))
     plane = side.dimension == 2
     one = normal_gap(coupling, side.nodes, -side.nodal_normals, np.ones(len(side.nodes)))
-    gap = resolved(geometric_gap(coupling, points), seen, one)
+    gap = geometric_gap(coupling, points)
+    if not contact.slides:  # where the nearest points are changes as the sides slide
+        gap = resolved(gap, seen, one)
     partner = symmetric_partners(space, constraints, coupling.nodes, coupling.normals, mortar.nodes)
     coupling = replace(coupling, forces=_without_removed(seen, coupling.normal_areas, partner))
-    return Pairs(
+    pairs = Pairs(
         own=side.nodes,
         coupling=coupling,
         gap=initial_gaps(gap, contact, one, farthest=float(np.abs(points).max())),
@@ -198,6 +203,32 @@ def _on_side(
             finer=how == "mortar" and float(side.lengths.mean()) < _FINER_RATIO * float(mortar.lengths.mean()),
         ),
     )
+    if not contact.slides:
+        return pairs
+    return _of_all_nodes(pairs, side, search_distance(side, mortar, contact.search))
+
+
+def _of_all_nodes(pairs: Pairs, side: Boundary, reach: float) -> Pairs:
+    """Pairs of all nodes that ever carry one, so that their number stays as sides slide.
+
+    What has nothing opposite has a pair that sees nothing, as far apart as sides may be opposite each other.
+
+    Parameters
+    ----------
+    pairs : of the nodes that something is opposite
+    side : the nonmortar side
+    reach : how far apart sides may be and still be opposite each other, length
+    """
+    nodes = side.corner_nodes
+    there = np.searchsorted(nodes, pairs.coupling.nodes)
+    areas = -side.nodal((block.outward for block in side.blocks), corners=True)[np.searchsorted(side.nodes, nodes)]
+    areas[there] = pairs.coupling.normal_areas
+    gap, mirrored = np.full(len(nodes), reach), np.zeros(areas.shape, bool)
+    gap[there], mirrored[there] = pairs.gap, pairs.mirrored
+    rows = selection(there, len(nodes)).T
+    forces, sliding = (tuple(sp.csr_array(rows @ part) for part in of) for of in (pairs.coupling.forces, pairs.sliding))
+    coupling = Coupling(nodes=nodes, normal_areas=areas, forces=forces)
+    return replace(pairs, coupling=coupling, gap=gap, sliding=sliding, mirrored=mirrored)
 
 
 def _couple(
@@ -206,7 +237,8 @@ def _couple(
     """The coupling of two meshed sides, and its name."""
     _refuse_no_area(space, side, mortar, where)
     share = _share(model, side, mortar)
-    if contact.coupling == "nodes" or (contact.coupling == "auto" and not (side.quadratic or mortar.quadratic)):
+    linear = contact.coupling == "auto" and not (side.quadratic or mortar.quadratic or contact.slides)
+    if contact.coupling == "nodes" or linear:
         faces = contact.coupling == "auto" and side.dimension == 3
         partner, reason = match_nodes(side, mortar, space.mesh.labels, faces=faces)
         if not reason:

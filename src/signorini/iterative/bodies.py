@@ -122,7 +122,7 @@ def make_bodies(
     candidates : (n,) pairs that may touch
     """
     n, d = len(interface), interface.directions
-    K, B, nodes, points = free
+    K, B, nodes, points = free[:4]
     seen, moves, held, active = active_pairs(B, interface, candidates)
     pairs = np.flatnonzero(active | (interface.tied & moves.reshape(d, n).any(axis=0)))
     rows = np.concatenate([pairs + k * n for k in range(d)])

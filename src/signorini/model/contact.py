@@ -57,6 +57,8 @@ class Contact:
         smaller side
     adjust : initial gaps up to this length are closed, and overlaps removed; None leaves them
     wear : how sliding wears the sides; None (default): not at all
+    sliding : how far the sides slide over each other: "small", a fraction of a facet, so that what is opposite a node
+        stays there, or "finite", any distance: pairs follow the bodies
 
     Examples
     --------
@@ -82,6 +84,7 @@ class Contact:
     friction_axis: tuple[float, float, float] | None = None
     facets: int = 0
     wear: Wear | None = None
+    sliding: Literal["small", "finite"] = "small"
 
     def __post_init__(self) -> None:
         text(self.nonmortar, ("nonmortar",))
@@ -98,6 +101,7 @@ class Contact:
         object.__setattr__(self, "interference", number(self.interference, ("interference",)))
         choice(self.coupling, COUPLINGS, ("coupling",), "coupling")
         choice(self.side, ("named", "coarser"), ("side",), "side")
+        choice(self.sliding, ("small", "finite"), ("sliding",), "sliding")
         if self.search is not None:
             object.__setattr__(self, "search", number(self.search, ("search",), above=0.0))
         if self.adjust is not None:
@@ -112,6 +116,8 @@ class Contact:
             raise InputError("goes with gap = 'geometry' only", where=("adjust",))
         if self.wear is not None:
             self._check_wear(self.wear)
+        if self.sliding == "finite":
+            self._check_sliding()
 
     def _check_wear(self, wear: Wear) -> None:
         """What wears slides, by friction that does work where the law is one of energy."""
@@ -125,6 +131,21 @@ class Contact:
                 "goes by the work of friction, and the contact has none; expected a coefficient",
                 where=("wear", "energy"),
             )
+
+    def _check_sliding(self) -> None:
+        """What goes with sides that slide far: gaps are those of the sides where they are."""
+        finite = 'is "finite", but'
+        if self.tied:
+            raise InputError(f"{finite} a tied contact does not slide", where=("sliding",))
+        if self.gap != "geometry" or self.adjust is not None:
+            raise InputError(f"{finite} gaps are not those of the geometry", where=("sliding",))
+        if self.coupling in ("nodes", "node-to-segment"):
+            words = f"{finite} coupling is '{self.coupling}'; expected 'mortar', or 'auto', which is mortar here"
+            raise InputError(words, where=("sliding",))
+        if self.wear is not None:
+            raise InputError(f"{finite} its sides wear; expected small slips, or no wear", where=("sliding",))
+        if self.friction_axis is not None:
+            raise InputError(f"{finite} friction has an axis, which would have to follow the sides", where=("sliding",))
 
     def _check_law(self) -> None:
         """What a law of friction says of itself, and what goes with it."""
@@ -270,6 +291,11 @@ class Contact:
     def label(self) -> str:
         """The name in results."""
         return self.name or self.nonmortar
+
+    @property
+    def slides(self) -> bool:
+        """Whether its pairs follow the bodies."""
+        return self.sliding == "finite"
 
     @property
     def tied(self) -> bool:
