@@ -64,6 +64,7 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         same sides, or a body can move freely: it is named, with its motion.
     """
     refuse_locking(model)
+    _refuse_sliding(model)
     factors = {} if start is None else start.state.point.factors
     before = Standing() if start is None else start.standing
     refuse_idle(model, factors)
@@ -95,6 +96,20 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
     )
     _refuse_unheld(examined, schedule)
     return examined
+
+
+def _refuse_sliding(model: Model) -> None:
+    """Contacts that slide far are between bodies whose compliance stays.
+
+    Raises
+    ------
+    InputError
+        The first of them beside bodies that yield.
+    """
+    for i, contact in enumerate(model.contacts):
+        if contact.slides and model.yields:
+            words = 'is "finite", but a body yields, and its compliance would change; expected elastic bodies'
+            raise InputError(words, where=("contact", i, "sliding"))
 
 
 def _refuse_unheld(examined: Examined, schedule: Sequence[Stage]) -> None:

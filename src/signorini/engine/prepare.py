@@ -358,6 +358,10 @@ def _made(
             bodies = FreeBodies(reduced, relative, examined.constraints.nodes, examined.space.places, kept)
             yields = examined.model.yields
             whole = iterates(bodies, interface, candidates=candidates, backend=backend, yields=yields)
+            if whole and len(kept):
+                raise InputError(
+                    "a contact slides far, and the model is solved by iteration, where pairs stay as they are"
+                )
             if whole:
                 solver = make_multipliers(examined, reduced, relative, candidates, settings)
         if not whole:

@@ -35,6 +35,7 @@ from signorini.solution.state import State
 _STRIDE = 0.25  # of the shortest facet: how far sides slide before pairs are made anew
 _AHEAD = 0.1  # of a stride: more than what handing over moves
 _BENT = 2e-3  # of forces over the stiffness of the bodies: what gaps may differ in the middle of a stride
+_LEAST = 0.125  # of a stride: bodies that move less are where they were, whatever gaps do
 _OVER = 1.5  # strides: one that turns out longer is gone again
 _GROWTH = 2.0  # of a stride over the one before it, in load
 _SHORTER = 8.0  # times: a stride that is lost is tried again
@@ -52,12 +53,10 @@ class _Pairing:
     ----------
     interface : gaps are those of the bodies where they are
     displacement : (dofs,) length
-    seen : (d n,) what the pairs see of it, length
     """
 
     interface: Interface
     displacement: Array
-    seen: Array
 
     @staticmethod
     def at(part: StepPart, displacement: Array) -> _Pairing:
@@ -69,11 +68,12 @@ class _Pairing:
         except InputError as error:
             words = f"{part.where} at {part.interval.low:.6%}: {error}"
             raise SolveFailed(words, status=Outcome.NOT_FOUND) from error
-        return _Pairing(interface=interface, displacement=displacement, seen=interface.B @ displacement)
+        return _Pairing(interface=interface, displacement=displacement)
 
-    def gap_before(self) -> Array:
-        """(n,) Gaps before anything moved, as this pairing sees them."""
-        return np.asarray(self.interface.gap - self.seen[: len(self.interface)])
+    def gap_before(self, seen: Interface | None = None) -> Array:
+        """(n,) Gaps before anything moved, as these pairs, or others, see the motion since then."""
+        B = (seen or self.interface).B[: len(self.interface)]
+        return np.asarray(self.interface.gap - B @ self.displacement)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -84,6 +84,7 @@ class _Stride:
     ----------
     followed : from the handing over to the end
     interface : its pairs
+    end : pairs at its end, or where that was expected
     moved : (dofs,) displacement in it
     slid : the longest way of a pair that touches, in strides
     changed : by how much handing over changed the forces, of the largest
@@ -91,6 +92,7 @@ class _Stride:
 
     followed: FollowedPart
     interface: Interface
+    end: _Pairing
     moved: Array
     slid: float
     changed: float
@@ -117,57 +119,66 @@ class _Walk:
         nominal = (1.0 - t) * part.before.point.gap + t * part.end.gap
         return np.asarray(nominal - part.prepared.interface.gap)
 
-    def stride(self, now: StepPart, last: Interface, expected: Array) -> _Stride:
+    def stride(self, now: StepPart, last: _Stride | None, expected: Array) -> _Stride:
         """One stride, with the pairs of its middle as it is expected.
 
         Parameters
         ----------
         now : from where the last one ended
-        last : its pairs
+        last : that one; None at the beginning of the part
         expected : (dofs,) displacement in it
         """
         u, interval = now.before.displacement, now.interval
         middle = _Pairing.at(now, u + 0.5 * expected)
-        end = middle if not expected.any() else _Pairing.at(now, u + expected)
+        end = _Pairing.at(now, u + expected) if expected.any() else middle
         prepared = paired(now.prepared, middle.interface)
-        own = sliding_pairs(prepared.model, prepared.interface)
-        behind, changed = [], 0.0
-        before = posed(prepared, now.before, last, middle.gap_before() + self.beyond(interval.low))
+        frames = self.part.prepared.interface if last is None else last.interface
+        behind, changed = list[FollowedPart](), 0.0
+        before = posed(prepared, now.before, frames, middle.gap_before() + self.beyond(interval.low))
         if before.forces.any():
             handed = hand_over(prepared, before, now, _AHEAD * self.limit)
             changed = float(np.abs(handed.after.forces - before.forces).max() / np.abs(before.forces).max())
             behind.append(handed)
             before = handed.after
-        there = end.interface.gap - middle.interface.B[: len(own)] @ end.displacement
         faces = facing(middle.interface) & facing(end.interface)
-        gap = np.where(faces, there, middle.gap_before()) + self.beyond(interval.high)
+        gap = np.where(faces, end.gap_before(middle.interface), middle.gap_before()) + self.beyond(interval.high)
+        own = sliding_pairs(prepared.model, prepared.interface)
         point = replace(now.end, gap=np.where(own, gap, now.end.gap))
-        stride = replace(now, prepared=prepared, before=before, end=point)
         try:
-            followed = _on(self.follow(stride), prepared)
+            followed = _on(self.follow(replace(now, prepared=prepared, before=before, end=point)), prepared)
         except (SolveFailed, KeyboardInterrupt) as stop:
             raise keep(stop, behind) from None
         after = followed.after
-        slid = _slid(prepared, before, after, own) / self.limit
-        if expected.any():
-            off = middle.gap_before() + 0.5 * (self.beyond(interval.low) + self.beyond(interval.high))
-            off -= 0.5 * (before.point.gap + gap)
-        else:
-            now_at = _Pairing.at(now, after.displacement)
-            off = 0.25 * (
-                now_at.gap_before() + now_at.seen[: len(own)] + self.beyond(interval.high) - _law_gap(prepared, after)
-            )
-        touch = own & facing(prepared.interface) & ((before.status != OPEN) | (after.status != OPEN))
+        if not expected.any():
+            end = _Pairing.at(now, after.displacement)
+        touch = facing(end.interface) & own & ((before.status != OPEN) | (after.status != OPEN))
+        begin = middle if last is None or not expected.any() else last.end
         pressed = max(float(state.forces[: len(own)].sum()) for state in (before, after)) / prepared.scale.stiffness
-        if touch.any() and pressed > 0.0:
-            slid = max(slid, (float(np.abs(off[touch]).max()) / (_BENT * pressed)) ** 0.5)
+        bent = np.abs(_bent(begin, middle, end)[touch]).max(initial=0.0) / (_BENT * pressed) if pressed > 0.0 else 0.0
+        moved = after.displacement - u
+        # gaps of sides with corners jump, and no stride is short enough for that
+        shortened = min(float(bent) ** 0.5, float(np.abs(moved).max()) / (_LEAST * self.limit))
         return _Stride(
             followed=joined([*behind, followed]),
             interface=prepared.interface,
-            moved=after.displacement - u,
-            slid=slid,
+            end=end,
+            moved=moved,
+            slid=max(_slid(prepared, before, after, own) / self.limit, shortened),
             changed=changed,
         )
+
+
+def _bent(begin: _Pairing, middle: _Pairing, end: _Pairing) -> Array:
+    """(n,) What gaps in the middle of a stride are beside the mean of those at its ends, length; 0 where not all face.
+
+    Where pairs of the beginning were taken, as ``middle`` too, it is a quarter of what gaps at the end are beside them.
+    """
+    seen, known = middle.interface, facing(begin.interface) & facing(middle.interface) & facing(end.interface)
+    if begin is middle:
+        bent = 0.25 * (end.gap_before(seen) - middle.gap_before())
+    else:
+        bent = middle.gap_before() - 0.5 * (begin.gap_before(seen) + end.gap_before(seen))
+    return np.where(known, bent, 0.0)
 
 
 def follow_sliding(part: StepPart, follow: Follow) -> FollowedPart:
@@ -185,13 +196,13 @@ def follow_sliding(part: StepPart, follow: Follow) -> FollowedPart:
     """
     walk = _Walk(part=part, follow=follow, limit=_STRIDE * shortest_facet(part.prepared))
     behind: list[_Stride] = []
-    rest, share, rate = part, 1.0, np.zeros(len(part.before.displacement))
+    rest, share = part, 1.0
+    rate = np.zeros(len(part.before.displacement))
     while True:
         now = rest if share >= 1.0 else rest.cut(share, "handover")
         length = now.interval.high - now.interval.low
         try:
-            last = behind[-1].interface if behind else part.prepared.interface
-            stride = walk.stride(now, last, length * rate)
+            stride = walk.stride(now, behind[-1] if behind else None, length * rate)
         except (SolveFailed, KeyboardInterrupt) as stop:
             lost = isinstance(stop, SolveFailed) and stop.status in (Outcome.NOT_FOUND, Outcome.JUMP)
             if not lost or share < _SHORTEST:
@@ -199,14 +210,14 @@ def follow_sliding(part: StepPart, follow: Follow) -> FollowedPart:
             share /= _SHORTER
             continue
         rate = stride.moved / length
-        if stride.slid > _OVER and share >= _SHORTEST:
+        if stride.slid > _OVER:
             share /= ceil(stride.slid)
             continue
         behind.append(stride)
         if now is rest:
             return _finished(part, behind)
         rest = rest.rest(now, stride.followed.after)
-        wanted = length * (min(_GROWTH, 1.0 / stride.slid) if stride.slid > 0.0 else _GROWTH)
+        wanted = length * min(_GROWTH, 1.0 / max(stride.slid, 1.0 / _GROWTH))
         share = 1.0 / max(1, ceil((rest.interval.high - rest.interval.low) / wanted - 1e-9))
 
 
@@ -280,7 +291,7 @@ def posed(prepared: Prepared, state: State, last: Interface, gap: Array) -> Stat
 
 
 def hand_over(prepared: Prepared, state: State, part: StepPart, ahead: float) -> FollowedPart:
-    """Equilibrium of a state with the pairs that it has now, at the same loads; what friction does not take is set free.
+    """Equilibrium of a state with the pairs that it has now, at the same loads; friction takes its part of the energy.
 
     Pairs that slip go on slipping, as if they had slipped a little on from where they are, for otherwise all of them
     would stick for a moment, and slip again one after the other.
@@ -318,12 +329,6 @@ def _on(followed: FollowedPart, prepared: Prepared) -> FollowedPart:
     """What was followed, with the pairs that it was followed with."""
     shots = tuple(replace(shot, interface=prepared.interface) for shot in followed.snapshots)
     return replace(followed, snapshots=shots)
-
-
-def _law_gap(prepared: Prepared, state: State) -> Array:
-    """(n,) Gaps of a state between the sides, without what a compliant interface yields, length."""
-    interface, n = prepared.interface, len(state.gap)
-    return np.asarray(state.gap - interface.normal_compliance / interface.area * state.forces[:n])
 
 
 def _slid(prepared: Prepared, begin: State, end: State, own: BoolArray) -> float:

@@ -31,8 +31,8 @@ class Interval:
     ----------
     number : of the step, from 1
     low, high : parts of the step, 0 .. 1
-    ends : what is at its end: "segment" of the loads, a time "asked" for, an "event" or a "jump"; "wear" of sides, at one
-        load; or a "handover" to other pairs
+    ends : what is at its end: "segment" of the loads, a time "asked" for, an "event" or a "jump"; "wear" of sides,
+        at one load; or a "handover" to other pairs
     cycle : number of the cycle that ends here, 0 where none does
     asked : whether its end, not that of the step, was asked for
     """

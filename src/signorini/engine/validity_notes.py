@@ -190,7 +190,7 @@ def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
         if not own.any():
             continue
         across = float(np.linalg.norm(extent(prepared.space.mesh.points[interface.node[own]])))
-        if slip[own].max() > _SLID * across > 0.0:
+        if slip[own].max() > _SLID * across > 0.0 and not contact.slides:
             yield (
                 f"contact '{contact.label}' slips by up to {slip[own].max():.4g}, and what touches is {across:.4g} "
                 "across: its sides are opposite each other as they were to begin with, which holds for small slips"

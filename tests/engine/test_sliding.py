@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contacts that slide far: pairs follow the bodies from stride to stride on one factorisation."""
+
+from __future__ import annotations
+
+from math import pi, sqrt
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.linalg import registry
+
+STEEL = sg.Elastic(E=200.0, nu=0.3)
+
+
+def block_on_bed(
+    stroke: float,
+    *,
+    sliding: str = "finite",
+    friction: float = 0.3,
+    nonmortar: str = "top.bottom",
+    back: bool = False,
+) -> sg.Model:
+    """A block of 2 x 1 that is pressed on a bed from -1 to 3 and dragged along it."""
+    top = sg.rectangle(x=np.linspace(0.0, 2.0, 9), y=np.linspace(0.0, 1.0, 4))
+    bed = sg.rectangle(x=np.linspace(-1.0, 3.0, 14), y=np.linspace(-1.0, 0.0, 4))
+    mortar = "bed.top" if nonmortar == "top.bottom" else "top.bottom"
+    ways: dict[str, float | list[float]] = {"press": 1.0, "drag": [1.0, 0.0] if back else 1.0}
+    return sg.Model(
+        mesh=sg.join({"top": top, "bed": bed}),
+        kind="plane strain",
+        bodies=[sg.Body("top", STEEL), sg.Body("bed", STEEL)],
+        supports=[sg.Support("bed.bottom", u=(0.0, 0.0)), sg.Support("top.top", u=(stroke, "free"), name="drag")],
+        loads=[sg.Load(on="top.top", force=("free", -1.0), spread="displacement", name="press")],
+        contacts=[sg.Contact(nonmortar, mortar, friction=friction, sliding=sliding, coupling="mortar", name="c")],
+        steps=[sg.Step(name="press", scale={"press": 1.0, "drag": 0.0}), sg.Step(name="drag", scale=ways)],
+    )
+
+
+def cylinder_on_flat(stroke: float, spacing: float, *, friction: float = 0.3) -> sg.Model:
+    """A half cylinder of radius 50 under 634 N/mm on a flat; half-width 1, peak pressure 404."""
+    fine = np.arange(-1.6, stroke + 1.6 + spacing / 2.0, spacing)
+    far = np.array([0.3, 0.8, 1.6, 3.0, 5.5, 9.0, 14.0])
+    x = np.concatenate([fine[0] - far[::-1], fine, fine[-1] + far])
+    y = np.concatenate([-0.8 - far[::-1], np.linspace(-0.8, 0.0, round(0.8 / spacing) + 1)])
+    pad = sg.half_disk(radius=50.0, contact_length=1.6, contact_spacing=spacing)
+    aluminium = sg.Elastic(E=72.0e3, nu=0.33)
+    return sg.Model(
+        mesh=sg.join({"pad": pad, "flat": sg.rectangle(x=x, y=y)}),
+        kind="plane strain",
+        bodies=[sg.Body("pad", aluminium), sg.Body("flat", aluminium)],
+        supports=[sg.Support("flat.bottom", u=(0.0, 0.0)), sg.Support("pad.cut", u=(stroke, "free"), name="drag")],
+        loads=[sg.Load(on="pad.cut", force=("free", -634.0), spread="displacement", name="press")],
+        contacts=[sg.Contact("pad.arc", "flat.top", friction=friction, sliding="finite", name="c")],
+        steps=[
+            sg.Step(name="press", scale={"press": 1.0, "drag": 0.0}),
+            sg.Step(name="drag", scale={"press": 1.0, "drag": 1.0}, at=[0.5]),
+        ],
+    )
+
+
+def wheel_on_bed(stroke: float, *, rolls: bool) -> sg.Model:
+    """A rigid wheel of radius 10 under a force of 10, on a bed that moves away under it."""
+    fine = np.arange(-1.6, stroke + 1.6, 0.1)
+    far = np.array([0.4, 1.0, 2.0, 3.5, 6.0])
+    x = np.concatenate([fine[0] - far[::-1], fine, fine[-1] + far])
+    bed = sg.rectangle(x=x, y=np.concatenate([-0.8 - far[::-1], np.linspace(-0.8, 0.0, 9)]))
+    wheel = sg.Rigid(
+        "wheel", sg.Circle((0.0, 10.0), 10.0), u=(0.0, None), force=(None, -10.0), rotation=None if rolls else 0.0
+    )
+    return sg.Model(
+        mesh=bed,
+        kind="plane strain",
+        bodies=[sg.Body(next(iter(bed.bodies)), STEEL)],
+        supports=[sg.Support("bottom", u=(-stroke, 0.0), name="drag")],
+        obstacles=[wheel],
+        contacts=[sg.Contact("top", "wheel", friction=0.3, sliding="finite", name="c")],
+        steps=[sg.Step(scale={"wheel": 1.0, "drag": 0.0}), sg.Step(scale={"wheel": 1.0, "drag": 1.0})],
+    )
+
+
+def of_contact(instant: sg.Instant) -> tuple[float, float]:
+    """Normal and tangential force of the contact of a model in the plane."""
+    contact = instant.contacts[0]
+    return float(contact.pressure @ contact.area), float(contact.traction @ contact.area)
+
+
+def test_a_dragged_cylinder_keeps_hertz_pressure_and_coulombs_force(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Half a half-width and more of sliding: pressure 1 % of Hertz's, Q = mu P to rounding, energy to rounding."""
+    counted = []
+    solve = registry.factorise
+    monkeypatch.setattr("signorini.condense.condensed.factorise", lambda *a, **k: counted.append(1) or solve(*a, **k))
+    solution = sg.solve(cylinder_on_flat(1.0, 0.2))
+    assert len(counted) == 1
+    stiffness = 72.0e3 / (2.0 * (1.0 - 0.33**2))
+    half_width = sqrt(4.0 * 634.0 * 50.0 / (pi * stiffness))
+    peak = 2.0 * 634.0 / (pi * half_width)
+    drag = solution.steps[-1]
+    handed = [instant for instant in drag.instants if instant.what == "handover"]
+    assert len(handed) > 15
+    for instant in handed[4:]:
+        normal, tangential = of_contact(instant)
+        assert abs(instant.contacts[0].pressure.max() / peak - 1.0) < 0.01
+        assert abs(tangential) == pytest.approx(0.3 * normal, rel=1e-12)
+    spent = drag.contacts[0].dissipation
+    assert abs(drag.energy_defect) < 1e-12 * drag.work
+    assert abs(drag.released) < 1e-3 * spent
+    # as long a way under as large a force; it begins to slip only when the bodies have given way
+    assert spent == pytest.approx(0.3 * 634.0 * 1.0, rel=0.08)
+
+
+@pytest.mark.parametrize("nonmortar", ["top.bottom", "bed.top"])
+def test_short_slips_are_those_of_pairs_that_stay(nonmortar: str) -> None:
+    """Below a tenth of a facet both say the same, to what bodies strain."""
+    small, finite = (
+        sg.solve(block_on_bed(0.02, sliding=sliding, nonmortar=nonmortar)) for sliding in ("small", "finite")
+    )
+    one, two = (of_contact(of.steps[-1].instants[-1]) for of in (small, finite))
+    assert two == pytest.approx(one, rel=2e-3)
+    spent = [of.steps[-1].contacts[0].dissipation for of in (small, finite)]
+    assert spent[1] == pytest.approx(spent[0], rel=5e-3)
+
+
+@pytest.mark.parametrize("nonmortar", ["top.bottom", "bed.top"])
+def test_a_block_is_pushed_over_the_edge_of_its_bed(nonmortar: str) -> None:
+    """Nine tenths of its length beyond the edge all is borne by what is left, and the force of friction stays."""
+    solution = sg.solve(block_on_bed(1.8, nonmortar=nonmortar))
+    last = solution.steps[-1].instants[-1]
+    normal, tangential = of_contact(last)
+    assert normal == pytest.approx(1.0, rel=2e-3)
+    assert abs(tangential) == pytest.approx(0.3 * normal, rel=1e-12)
+    contact, moved = last.contacts[0], solution.steps[-1].displacement
+    where = contact.points[:, 0] + moved[np.asarray(contact.node), 0]
+    pressed = contact.pressure > 0.0
+    assert where[pressed].min() > 1.7
+    assert where[pressed].max() < 3.3
+    assert solution.steps[-1].certificate.passed
+
+
+def test_there_and_back_again_leaves_the_block_where_it_was() -> None:
+    """Friction turns round; what is stored and set free in the end is small beside what friction took."""
+    solution = sg.solve(block_on_bed(0.7, back=True))
+    drag = solution.steps[-1]
+    normal, tangential = of_contact(drag.instants[-1])
+    assert tangential == pytest.approx(0.3 * normal, rel=1e-12)
+    assert abs(drag.released) < 1e-3 * drag.contacts[0].dissipation
+    assert drag.contacts[0].dissipation == pytest.approx(0.3 * 1.4, rel=0.02)
+
+
+def test_a_wheel_that_is_dragged_over_a_flat_bed_sets_nothing_free() -> None:
+    """A rigid wheel has no facets to hand over: energies close without any error of the mesh."""
+    drag = sg.solve(wheel_on_bed(0.6, rolls=False)).steps[-1]
+    normal, tangential = of_contact(drag.instants[-1])
+    assert abs(tangential) == pytest.approx(0.3 * normal, rel=1e-12)
+    assert abs(drag.released) < 1e-9 * drag.work
+    assert abs(drag.energy_defect) < 1e-12 * drag.work
+
+
+def test_a_wheel_that_is_free_to_turn_rolls() -> None:
+    """Hardly any force; it turns as far as the bed goes, but for the strain of its surface; pressure goes along."""
+    solution = sg.solve(wheel_on_bed(0.6, rolls=True))
+    drag = solution.steps[-1]
+    normal, tangential = of_contact(drag.instants[-1])
+    assert abs(tangential) < 1e-3 * 0.3 * normal
+    assert drag.obstacles["wheel"].rotation * 10.0 / -0.6 == pytest.approx(0.992, abs=0.002)
+    contact = drag.instants[-1].contacts[0]
+    assert float(contact.points[:, 0] @ (contact.pressure * contact.area)) / normal == pytest.approx(0.6, abs=0.01)
+
+
+def test_a_history_that_is_cut_goes_on_to_the_last_bit(tmp_path: Path) -> None:
+    """From an archive, too."""
+    model = block_on_bed(0.9)
+    whole = sg.solve(model)
+    first = sg.solve(sg.replace(model, steps=model.steps[:1]))
+    first.write(tmp_path / "run")
+    for start in (first, sg.read(tmp_path / "run")):
+        second = sg.solve(sg.replace(model, steps=model.steps[1:]), start=start)
+        for one, two in zip(whole.steps[-1].instants, second.steps[-1].instants, strict=True):
+            assert np.array_equal(one.contacts[0].pressure, two.contacts[0].pressure)
+            assert np.array_equal(one.contacts[0].slip, two.contacts[0].slip)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"friction": "tied"}, "a tied contact does not slide"),
+        ({"gap": "zero"}, "gaps are not those of the geometry"),
+        ({"coupling": "nodes"}, "coupling is 'nodes'"),
+        ({"sliding": "far"}, "expected"),
+    ],
+)
+def test_what_does_not_go_with_it_is_refused(given: dict[str, object], words: str) -> None:
+    """By the key of the contact."""
+    with pytest.raises(sg.InputError, match=words):
+        sg.Contact("a", "b", **{"sliding": "finite", **given})
