@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi, sqrt
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import pytest
 
 import signorini as sg
 from signorini.linalg import registry
+from signorini.output.archive import read_archive
 
 STEEL = sg.Elastic(E=200.0, nu=0.3)
 
@@ -173,13 +175,52 @@ def test_a_history_that_is_cut_goes_on_to_the_last_bit(tmp_path: Path) -> None:
     """From an archive, too."""
     model = block_on_bed(0.9)
     whole = sg.solve(model)
-    first = sg.solve(sg.replace(model, steps=model.steps[:1]))
-    first.write(tmp_path / "run")
-    for start in (first, sg.read(tmp_path / "run")):
-        second = sg.solve(sg.replace(model, steps=model.steps[1:]), start=start)
+    first = sg.solve(replace(model, steps=model.steps[:1]))
+    first.save_state(tmp_path / "first.npz")
+    for start in (first, tmp_path / "first.npz"):
+        second = sg.solve(replace(model, steps=model.steps[1:]), start=start)
         for one, two in zip(whole.steps[-1].instants, second.steps[-1].instants, strict=True):
             assert np.array_equal(one.contacts[0].pressure, two.contacts[0].pressure)
             assert np.array_equal(one.contacts[0].slip, two.contacts[0].slip)
+    whole.write(tmp_path / "whole.h5")
+    read = read_archive(tmp_path / "whole.h5")
+    assert read.model.contacts[0].sliding == "finite"
+    for one, two in zip(whole.steps[-1].instants, read.steps[-1].instants, strict=True):
+        assert one.what == two.what
+        assert np.array_equal(one.contacts[0].pressure, two.contacts[0].pressure)
+        assert np.array_equal(one.contacts[0].normals, two.contacts[0].normals)
+
+
+def test_a_block_in_space_slides_askew_and_keeps_its_axes() -> None:
+    """Friction is against the way, whatever pairs are made anew; tangents do not turn with them."""
+    top = sg.box(x=np.linspace(0.0, 1.0, 4), y=np.linspace(0.0, 1.0, 4), z=np.linspace(0.0, 0.6, 3))
+    bed = sg.box(x=np.linspace(-0.5, 2.0, 7), y=np.linspace(-0.5, 1.5, 6), z=np.linspace(-0.6, 0.0, 3))
+    model = sg.Model(
+        mesh=sg.join({"top": top, "bed": bed}),
+        kind="3d",
+        bodies=[sg.Body("top", STEEL), sg.Body("bed", STEEL)],
+        supports=[
+            sg.Support("bed.bottom", u=(0.0, 0.0, 0.0)),
+            sg.Support("top.top", u=(0.4, 0.12, "free"), name="drag"),
+        ],
+        loads=[sg.Load(on="top.top", force=("free", "free", -1.0), spread="displacement", name="press")],
+        contacts=[sg.Contact("top.bottom", "bed.top", friction=0.3, sliding="finite", name="c")],
+        steps=[
+            sg.Step(scale={"press": 1.0, "drag": 0.0}),
+            sg.Step(scale={"press": 1.0, "drag": 1.0}, increments=4),
+        ],
+    )
+    drag = sg.solve(model).steps[-1]
+    instants = [instant.contacts[0] for instant in drag.instants if instant.what == "handover"][2:]
+    assert len(instants) > 4
+    for contact in instants:
+        tractions = np.einsum("ks,ksi->ki", contact.traction, contact.tangents) * contact.area[:, None]
+        total, normal = tractions.sum(axis=0), contact.pressure @ contact.area
+        assert np.linalg.norm(total) == pytest.approx(0.3 * normal, rel=2e-3)
+        assert total[1] / total[0] == pytest.approx(0.3, rel=0.01)
+        assert np.abs(contact.tangents - instants[0].tangents).max() < 0.02
+    slip = np.einsum("ks,ksi->ki", instants[-1].slip, instants[-1].tangents)
+    assert np.abs(slip[:, :2].mean(axis=0) / slip[:, 0].mean() - [1.0, 0.3]).max() < 0.02
 
 
 @pytest.mark.parametrize(
@@ -188,7 +229,7 @@ def test_a_history_that_is_cut_goes_on_to_the_last_bit(tmp_path: Path) -> None:
         ({"friction": "tied"}, "a tied contact does not slide"),
         ({"gap": "zero"}, "gaps are not those of the geometry"),
         ({"coupling": "nodes"}, "coupling is 'nodes'"),
-        ({"sliding": "far"}, "expected"),
+        ({"sliding": "far"}, "unknown sliding 'far'"),
     ],
 )
 def test_what_does_not_go_with_it_is_refused(given: dict[str, object], words: str) -> None:

@@ -46,8 +46,10 @@ def paired_at(
         If sides have nothing opposite each other any more, with the contact's index.
     """
     contacts = [i for i, contact in enumerate(model.contacts) if contact.slides]
-    found = make_interface(space.moved(displacement), model, constraints, contacts)
     own = sliding_pairs(model, interface)
+    found = make_interface(space.moved(displacement), model, constraints, contacts)
+    if found.directions == 3:
+        found = _along(found, interface.tangents[own, 0])
     arrays = {}
     for name in ("gap", "area", "normals", "tangents"):
         arrays[name] = getattr(interface, name).copy()
@@ -58,3 +60,21 @@ def paired_at(
     order = np.argsort(np.concatenate([np.flatnonzero(~rows), np.flatnonzero(rows)]))
     B = found.B if own.all() else sp.csr_array(sp.vstack([interface.B[~rows], found.B])[order])
     return replace(interface, B=B, moments=moments, **arrays)
+
+
+def _along(interface: Interface, first: Array) -> Interface:
+    """The interface with its first tangents along given directions (n, 3), which a choice by axes would let jump."""
+    normals, old, n = interface.normals, interface.tangents, len(interface)
+    one = first - np.einsum("ki,ki->k", first, normals)[:, None] * normals
+    one /= np.linalg.norm(one, axis=1, keepdims=True)
+    axes = np.stack([one, np.cross(normals, one)], axis=1)
+    share = np.einsum("kai,kbi->abk", axes, old)
+    turn = sp.block_array(
+        [
+            [sp.eye_array(n), None, None],
+            [None, sp.diags_array(share[0, 0]), sp.diags_array(share[0, 1])],
+            [None, sp.diags_array(share[1, 0]), sp.diags_array(share[1, 1])],
+        ],
+        format="csr",
+    )
+    return replace(interface, B=sp.csr_array(turn @ interface.B), moments=turn @ interface.moments, tangents=axes)
