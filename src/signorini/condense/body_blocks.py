@@ -69,7 +69,7 @@ class BodyBlocks:
         return moved
 
     def inverted(self) -> BodyBlocks:
-        """The same with the inverse of every block, for pairs that change."""
+        """Blocks with their inverses, for pairs that change."""
         return replace(self, blocks=tuple(replace(own, inverse=inverse_of(own.cholesky)) for own in self.blocks))
 
     def compliance(self, B: sp.csr_array) -> Array:

@@ -66,6 +66,8 @@ def iterates(bodies: FreeBodies, interface: Interface, *, candidates: BoolArray,
         return False
     times, more = (_KEPT_TWICE, _TANGENTS * K.nnz) if yields else (1.0, 0.0)
     room, iterated = available_memory(), times * _ITERATION * K.nnz + more
+    if backend == ITERATIVE and len(bodies.kept):
+        raise InputError("back end 'iterative' does not know contacts that slide far; expected another, or small slips")
     if backend == ITERATIVE:
         if iterated <= room:
             return True
@@ -75,7 +77,7 @@ def iterates(bodies: FreeBodies, interface: Interface, *, candidates: BoolArray,
         condensed = times * condensing_bytes(bodies, interface, candidates=candidates, plenty=plenty) + more
         if condensed <= room:
             return False
-        if backend == "auto" and iterated <= room:
+        if backend == "auto" and iterated <= room and not len(bodies.kept):
             return True
         needs = f"{_size(condensed)} to factorise and condense, {_size(iterated)} to iterate on"
         ways = f"back end '{ITERATIVE}', " if iterated <= room else ""

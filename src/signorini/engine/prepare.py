@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, fields, replace
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed
 from signorini.condense.ties import Ties
@@ -28,6 +28,7 @@ from signorini.fem.stiffness import reduced_stiffness, stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface, under_laws
+from signorini.interface.sliding import sliding_unknowns
 from signorini.interface.worn_sides import WornSides, worn_sides
 from signorini.linalg.plan import Plans
 from signorini.linalg.threads import one_thread
@@ -354,14 +355,10 @@ def _made(
     if condensed is None:
         with clock.phase("assembly"):
             reduced, relative = reduced_stiffness(K, T), sp.csr_array(interface.B @ T)
-            kept = _of_sliding_sides(examined)
+            kept = sliding_unknowns(examined.space, examined.model, T)
             bodies = FreeBodies(reduced, relative, examined.constraints.nodes, examined.space.places, kept)
             yields = examined.model.yields
             whole = iterates(bodies, interface, candidates=candidates, backend=backend, yields=yields)
-            if whole and len(kept):
-                raise InputError(
-                    "a contact slides far, and the model is solved by iteration, where pairs stay as they are"
-                )
             if whole:
                 solver = make_multipliers(examined, reduced, relative, candidates, settings)
         if not whole:
@@ -384,18 +381,6 @@ def _made(
         softness=softness,
         plans=plans,
     )
-
-
-def _of_sliding_sides(examined: Examined) -> IntArray:
-    """Free displacements of the nodes, and obstacles, of both sides of contacts that slide far."""
-    model, space = examined.model, examined.space
-    dofs: list[IntArray] = [np.empty(0, np.int64)]
-    for contact in (contact for contact in model.contacts if contact.slides):
-        for side in (contact.nonmortar, contact.mortar):
-            if side in model.mesh.boundaries:
-                dofs.append(space.dofs(model.mesh.nodes_of(str(side))).ravel())
-        dofs += [space.obstacle_dofs(j) for j, rigid in enumerate(model.obstacles) if rigid.name == contact.mortar]
-    return np.unique(examined.constraints.transform[np.concatenate(dofs)].indices)
 
 
 def _softness(examined: Examined, condensed: Condensed) -> float:

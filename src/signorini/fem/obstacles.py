@@ -68,7 +68,13 @@ class Placed:
 
 
 def placed(space: Space, model: Model, j: int) -> Placed:
-    """Obstacle j where the displacement of a space has taken it."""
+    """Obstacle j where the displacement of a space has taken it.
+
+    Parameters
+    ----------
+    space, model : where the obstacles are, and which
+    j : number of the obstacle
+    """
     obstacle, d = model.obstacles[j], model.dimension
     motion = space.displacement[space.obstacle_dofs(j)] if len(space.displacement) else np.zeros(2 * d)
     turned = motion[d:] / arm(model)

@@ -122,7 +122,7 @@ class Space:
     displacement: Array = field(default_factory=lambda: np.zeros(0))
 
     def moved(self, displacement: Array) -> Space:
-        """The same cells with their nodes where a displacement (dofs,) takes them; facets are not looked for again."""
+        """Cells whose nodes are where a displacement (dofs,) takes them; facets are not looked for again."""
         mesh = copy(self.mesh)  # nothing but the places is another, and nothing is to be checked again
         object.__setattr__(mesh, "points", frozen(self.mesh.points + self.at_nodes(displacement)))
         moved = replace(self, mesh=mesh, displacement=displacement)

@@ -8,11 +8,33 @@ from dataclasses import replace
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface, make_interface
 from signorini.model.model import Model
+
+
+def slides(model: Model) -> bool:
+    """Whether the sides of some contact slide far."""
+    return any(contact.slides for contact in model.contacts)
+
+
+def sliding_unknowns(space: Space, model: Model, transform: sp.csr_array) -> IntArray:
+    """Free displacements of the nodes, and obstacles, of both sides of contacts that slide far, ascending.
+
+    Parameters
+    ----------
+    space, model : of the bodies and their contacts
+    transform : (dofs, z) what dofs are in terms of free displacements
+    """
+    dofs: list[IntArray] = [np.empty(0, np.int64)]
+    for contact in (contact for contact in model.contacts if contact.slides):
+        for side in (contact.nonmortar, contact.mortar):
+            if side in model.mesh.boundaries:
+                dofs.append(space.dofs(model.mesh.nodes_of(str(side))).ravel())
+        dofs += [space.obstacle_dofs(j) for j, rigid in enumerate(model.obstacles) if rigid.name == contact.mortar]
+    return np.unique(transform[np.concatenate(dofs)].indices)
 
 
 def sliding_pairs(model: Model, interface: Interface) -> BoolArray:

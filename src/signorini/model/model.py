@@ -141,11 +141,6 @@ class Model(Short):
         return owner
 
     @property
-    def slides(self) -> bool:
-        """Whether the sides of some contact slide far."""
-        return any(contact.slides for contact in self.contacts)
-
-    @property
     def yields(self) -> bool:
         """Whether any body is plastic beyond some stress."""
         return any(body.material.yields for body in self.bodies)
