@@ -35,11 +35,11 @@ from signorini.solution.state import State
 _STRIDE = 0.25  # of the shortest facet: how far sides slide before pairs are made anew
 _AHEAD = 0.1  # of a stride: more than what handing over moves
 _BENT = 2e-3  # of forces over the stiffness of the bodies: what gaps may differ in the middle of a stride
-_HARDLY = 0.125  # of a stride: what bodies move at least, however gaps bend
+_SHORTEST_MOVE = 0.125  # of a stride: what bodies move at least, however gaps bend
 _OVER = 1.5  # strides: one that turns out longer is gone again
 _GROWTH = 2.0  # of a stride over the one before it, in load
 _SHORTER = 8.0  # times: a stride that is lost is tried again
-_SHORTEST = 1e-6  # of the rest of a part: below it no stride that is lost is tried again
+_SHORTEST_SHARE = 1e-6  # of the rest of a part: below it no stride that is lost is tried again
 _SAID_FROM = 1e-12  # of the largest force: what handing over may change and no one need know
 
 Follow = Callable[[StepPart], FollowedPart]
@@ -157,7 +157,7 @@ class _Walk:
         bent = np.abs(_bent(begin, middle, end)[touch]).max(initial=0.0) / (_BENT * pressed) if pressed > 0.0 else 0.0
         moved = after.displacement - u
         # gaps of sides with corners jump, and no stride is short enough for that
-        shortened = min(float(bent) ** 0.5, float(np.abs(moved).max()) / (_HARDLY * self.limit))
+        shortened = min(float(bent) ** 0.5, float(np.abs(moved).max()) / (_SHORTEST_MOVE * self.limit))
         return _Stride(
             followed=joined([*behind, followed]),
             interface=prepared.interface,
@@ -205,7 +205,7 @@ def follow_sliding(part: StepPart, follow: Follow) -> FollowedPart:
             stride = walk.stride(now, behind[-1] if behind else None, length * rate)
         except (SolveFailed, KeyboardInterrupt) as stop:
             lost = isinstance(stop, SolveFailed) and stop.status in (Outcome.NOT_FOUND, Outcome.JUMP)
-            if not lost or share < _SHORTEST:
+            if not lost or share < _SHORTEST_SHARE:
                 raise keep(stop, [done.followed for done in behind]) from None
             share /= _SHORTER
             continue
