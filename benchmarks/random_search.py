@@ -78,7 +78,7 @@ class Tally:
 
 
 def search(options: argparse.Namespace, kinds: Sequence[str], judge: Judge, name: str) -> None:
-    """Judge the models that the options ask for; print failures, and the table, which goes where they say.
+    """Judge the models that the options ask for, or until Ctrl-C; print failures, and the table, which goes where they say.
 
     Parameters
     ----------
@@ -88,13 +88,18 @@ def search(options: argparse.Namespace, kinds: Sequence[str], judge: Judge, name
     name : of the place in a document for the table
     """
     seeds = [options.only] if options.only is not None else range(options.seed, options.seed + options.models)
-    tally = Tally(kinds)
-    for seed in seeds:
-        found, verdict = judge(seed, frozenset(options.kinds))
-        tally.count(found, verdict)
-        if verdict.failed or options.only is not None:
-            print(f"{seed} ({' '.join(sorted(found))}): {verdict.outcome}: {verdict.words}", flush=True)
-    words = f"{len(seeds)} models, seeds {seeds[0]} to {seeds[-1]}."
-    print(f"\n{tally.table()}\n\n{words}")
+    tally, done = Tally(kinds), 0
+    try:
+        for seed in seeds:
+            found, verdict = judge(seed, frozenset(options.kinds))
+            tally.count(found, verdict)
+            done += 1
+            if verdict.failed or options.only is not None:
+                print(f"{seed} ({' '.join(sorted(found))}): {verdict.outcome}: {verdict.words}", flush=True)
+    except KeyboardInterrupt:  # what is done counts
+        if not done:
+            raise
+    text = f"{tally.table()}\n\n{done} models, seeds {seeds[0]} to {seeds[done - 1]}."
+    print(f"\n{text}")
     if options.write:
-        page.write(name, f"{tally.table()}\n\n{words}", options.write)
+        page.write(name, text, options.write)
