@@ -78,7 +78,7 @@ class Tally:
 
 
 def search(options: argparse.Namespace, kinds: Sequence[str], judge: Judge, name: str) -> None:
-    """Judge the models that the options ask for, or until Ctrl-C; print failures, and the table, which goes where they say.
+    """Judge the models that the options ask for, or until Ctrl-C; print failures and the table.
 
     Parameters
     ----------
