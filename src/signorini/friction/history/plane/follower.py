@@ -79,7 +79,7 @@ class PlaneFollower(PathFollower):
                 "that one increment at the same load has brought into the law",
                 where=("start",),
             )
-        return replace(start, state=state, r=np.stack([start.r[0], friction]))
+        return replace(start, state=state, r=np.array([start.r[0], friction]))
 
     def _on_branch(self, state: IntArray, p: Array) -> IntArray:
         """The states with the branch that each pair slips on; at a kink the one given stays."""
@@ -198,6 +198,8 @@ class PlaneFollower(PathFollower):
         """Acting pairs of infinite friction that lose their pressure while they hold back a tangential force."""
         k = self.acting
         holds = self.unbounded[k] & (after.state[k] == STICK)
+        if not holds.any():
+            return k[holds]
         p, friction = after.r[:, k]
         return k[holds & (p <= self.width[k]) & (np.abs(friction) > self.width[k])]
 
@@ -238,8 +240,8 @@ class PlaneFollower(PathFollower):
     def _afresh(self, b: Array) -> tuple[Array, Array]:
         """(2, n) Motions and forces under a load in the present states, whatever has led there."""
         now, state, none = self.now, self.now.state, np.zeros(self.problem.pairs)
-        held = np.stack([none, np.where(state == STICK, now.anchor[0], now.h[1])])
-        given = np.stack([none, self.bound.start(state)])
+        held = np.array([none, np.where(state == STICK, now.anchor[0], now.h[1])])
+        given = np.array([none, self.bound.start(state)])
         free = self.responses.free(b) + self.responses.imposed(held, given)
         h, r = self.responses.respond(state, free)
         return self.responses.balanced(state, b, h + held, r + given)
@@ -256,8 +258,8 @@ class PlaneFollower(PathFollower):
         moved = np.where(slips, tangential - now.h[1], 0.0)
         return PathState(
             b=b,
-            h=np.stack([gap, tangential]),
-            r=np.stack([p, friction]),
+            h=np.array([gap, tangential]),
+            r=np.array([p, friction]),
             state=state,
             anchor=now.anchor,
             slip=now.slip + moved,
