@@ -199,6 +199,33 @@ def test_an_unloaded_body_is_pushed_along_without_force(kind, how):
         assert [step.path for step in solution.steps] == ["exact", "exact"]
 
 
+@pytest.mark.parametrize("gap", [0.0, 0.05])
+@pytest.mark.parametrize("how", [{"path": "exact"}, {"increments": 3}, {}])
+def test_a_neighbour_whose_mesh_does_not_match_pushes_a_loose_block_along_in_space(gap, how):
+    """A tool that is moved by 0.3 against a block on a floor; no weight presses it, so nothing rubs, on facets too."""
+    side, wide = np.linspace(0.0, 1.0, 3), np.linspace(-0.1, 1.1, 4)
+    facets = {"friction": 0.2, "facets": 8}
+    model = sg.Model(
+        sg.join(
+            {
+                "tool": sg.box(x=side, y=side, z=side),
+                "block": sg.box(x=side + 1.0 + gap, y=wide, z=np.linspace(0.0, 1.0, 4)),
+            }
+        ),
+        bodies=[sg.Body(name, SOFT) for name in ("tool", "block")],
+        supports=[sg.Support("tool.left", u=(0.3, 0.0, 0.0), name="drive")],
+        contacts=[
+            sg.Contact("tool.right", "block.left", friction_axis=(0, 1, 0), name="push", **facets),
+            sg.Contact("block.bottom", sg.Plane((0, 0, 0), (0, 0, 1)), friction_axis=(1, 0, 0), name="floor", **facets),
+        ],
+        steps=[sg.Step(name="drive", **how)],
+    )
+    step = sg.solve(model).last
+    ways = np.repeat([0.3, 0.3 - gap], [27, 3 * 4 * 4])
+    np.testing.assert_allclose(step.displacement, np.outer(ways, [1.0, 0.0, 0.0]), atol=1e-9)
+    assert not any(contact.pressure.any() for contact in step.contacts)
+
+
 def test_an_approach_that_spends_its_budget_is_told(monkeypatch):
     monkeypatch.setattr("signorini.friction.approach.MAX_PIECES", 1)
     solution = sg.solve(stack(0.125, "axisymmetric"), raise_on_failure=False)
