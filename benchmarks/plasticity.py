@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The price of bodies that yield in contact, and CalculiX beside them; writes two tables of docs/plasticity.md.
 
-    python -m benchmarks.plasticity price [--refine 2 4 8 16] [--page]
+    python -m benchmarks.plasticity price [--refine 2 10 20] [--repeats 3] [--page]
     python -m benchmarks.plasticity calculix [--refine 2 4] [--page]
 
 A quarter of a cylinder is pressed on a rigid plane, until p_0 of the elastic contact would be 2, 3, 5 and 8 times the
@@ -28,9 +28,10 @@ from benchmarks.peers.case import faces, node_set
 from benchmarks.peers.run_calculix import missing
 from signorini.api import solve
 from signorini.arrays import Array
-from signorini.bench.price import price, warm_up
+from signorini.bench import price as contact_price
 from signorini.clock import Clock
-from signorini.engine.prepare import prepare
+from signorini.engine.prepare import Prepared, prepare
+from signorini.engine.solve import solve_prepared
 from signorini.engine.tangent_bodies import TangentBodies
 from signorini.gallery.cylinder import NU, RADIUS, E, zhu_cylinder
 from signorini.model.body import Body
@@ -39,6 +40,7 @@ from signorini.model.model import Model
 from signorini.model.plastic import Plastic
 from signorini.model.step import Step
 from signorini.reference.hertz import contact_modulus
+from signorini.solution.history import History
 from signorini.verify.yielding_points import yielding_points
 
 DOCUMENT = Path(__file__).parent.parent / "docs" / "plasticity.md"
@@ -85,26 +87,31 @@ def pressed(refine: int, *, friction: float, ratio: float, hardening: float = 0.
     )
 
 
-def prices(refine: int) -> list[dict[str, Any]]:
-    """One increment from nothing: rows of the contract with rounds and factorisations of tangents."""
+def prices(refine: int, repeats: int) -> list[dict[str, Any]]:
+    """One increment from nothing: rows of the contract with rounds and new factors, medians of repeats."""
     rows = []
     once = (Step(name="press", increments=1),)
-    warm_up(pressed(1, friction=0.3, ratio=5.0, steps=once), time.process_time)
+    contact_price.warm_up(pressed(1, friction=0.3, ratio=5.0, steps=once), time.process_time)
     for friction in FRICTION:
         for ratio in RATIOS:
             model = pressed(refine, friction=friction, ratio=ratio, steps=once)
-            with mock.patch.object(
-                TangentBodies, "solver", autospec=True, side_effect=TangentBodies.solver
-            ) as factorised:
-                history = solve(model)
-            runs = [run for increment in history.last.trace for run in increment if run.method == "plastic flow"]
+            rounds: list[int] = []
+
+            def solved(prepared: Prepared, rounds: list[int] = rounds) -> History:
+                history = solve_prepared(prepared)
+                runs = [run for increment in history.last.trace for run in increment if run.method == "plastic flow"]
+                rounds.append(sum(run.iterations for run in runs))
+                return history
+
+            made = mock.patch.object(TangentBodies, "solver", autospec=True, side_effect=TangentBodies.solver)
+            with made as factorised, mock.patch.object(contact_price, "solve_prepared", solved):
+                found = contact_price.price("cylinder that yields", model, time.process_time, repeats=repeats)
             clock = Clock(timer=time.process_time)
             prepare(model, clock=clock)
-            found = price("cylinder that yields", model, time.process_time)
             seconds = found["contact_seconds"] + found["assembly_seconds"] - clock.seconds["assembly"]
             rows.append(
                 {"unknowns": found["dofs"], "friction": friction, "p_0 / Y": ratio}
-                | {"rounds": sum(run.iterations for run in runs), "tangents": factorised.call_count}
+                | {"rounds": rounds[-1], "tangents": factorised.call_count // len(rounds)}
                 | {"seconds": seconds, "linear": found["linear_seconds"]}
             )
     return rows
@@ -284,17 +291,18 @@ def main() -> None:
     parser = command.parser(__doc__)
     parser.add_argument("what", choices=("price", "calculix"))
     parser.add_argument("--refine", type=int, nargs="+", default=[2, 4])
+    parser.add_argument("--repeats", type=int, default=contact_price.REPEATS, help="of every price")
     parser.add_argument("--page", action="store_true", help=f"write the table into {DOCUMENT.name}")
     parser.add_argument("--one", action="store_true", help="measure prices in this process")
     options = parser.parse_args()
     if options.one:
-        print(json.dumps(prices(options.refine[0])))
+        print(json.dumps(prices(options.refine[0], options.repeats)))
         return
     if options.what == "price":
         found = [
             row
             for refine in options.refine
-            for row in page.measured("benchmarks.plasticity", "price", "--refine", refine)
+            for row in page.measured("benchmarks.plasticity", "price", "--refine", refine, "--repeats", options.repeats)
         ]
         text = price_table(found)
     else:

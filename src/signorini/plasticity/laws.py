@@ -84,20 +84,20 @@ def heat_of(laws: YieldLaws, body: IntArray, swelling: Array, temperature: Array
 
 
 @njit(cache=True, inline="always", error_model="numpy")
-def stress_in_row(laws: YieldLaws, body: int, i: int, level: float) -> float:
+def stress_in_row(stress: Array, body: int, i: int, level: float) -> float:
     """Yield stress in a row of the tables, between two temperatures.
 
     Parameters
     ----------
-    laws, body : material data, and the body
+    stress, body : of `YieldLaws`, which would be counted at every call, and the body
     i : row
     level : place among the temperatures of the tables, see `Heat`
     """
     low = int(level)
-    stress: float = laws.stress[body, low, i]
+    found: float = stress[body, low, i]
     if level > low:
-        stress += (level - low) * (laws.stress[body, low + 1, i] - stress)
-    return stress
+        found += (level - low) * (stress[body, low + 1, i] - found)
+    return found
 
 
 @njit(cache=True, inline="always", error_model="numpy")
@@ -110,16 +110,29 @@ def yield_stress_at(laws: YieldLaws, body: int, p: float, level: float) -> tuple
     p : equivalent plastic strain
     level : place among the temperatures of the tables, see `Heat`
     """
-    n = laws.rows[body]
-    last = laws.strain[body, n - 1]
+    return stress_in_tables(laws.rows[body], laws.strain, laws.stress, laws.beyond[body], body, p, level)
+
+
+@njit(cache=True, inline="always", error_model="numpy")
+def stress_in_tables(
+    rows: int, strain: Array, stress: Array, beyond: float, body: int, p: float, level: float
+) -> tuple[float, float]:
+    """Yield stress and its slope, see `yield_stress_at`.
+
+    Parameters
+    ----------
+    rows, strain, stress, beyond : of `YieldLaws`, rows and slope those of the body
+    body, p, level : as there
+    """
+    last = strain[body, rows - 1]
     if p >= last:
-        return stress_in_row(laws, body, n - 1, level) + laws.beyond[body] * (p - last), laws.beyond[body]
+        return stress_in_row(stress, body, rows - 1, level) + beyond * (p - last), beyond
     i = 0
-    while p >= laws.strain[body, i + 1]:
+    while p >= strain[body, i + 1]:
         i += 1
-    stress = stress_in_row(laws, body, i, level)
-    slope = (stress_in_row(laws, body, i + 1, level) - stress) / (laws.strain[body, i + 1] - laws.strain[body, i])
-    return stress + slope * (p - laws.strain[body, i]), slope
+    low = stress_in_row(stress, body, i, level)
+    slope = (stress_in_row(stress, body, i + 1, level) - low) / (strain[body, i + 1] - strain[body, i])
+    return low + slope * (p - strain[body, i]), slope
 
 
 @njit(cache=True, error_model="numpy")
@@ -131,9 +144,10 @@ def yield_stresses(laws: YieldLaws, body: IntArray, p: Array, level: Array) -> A
     laws, body : material data, and the body of every point
     p, level : (p,) equivalent plastic strains and places of the temperature, see `yield_stress_at`
     """
-    found = np.empty(len(p))
+    found, rows, strain, stress, beyond = np.empty(len(p)), laws.rows, laws.strain, laws.stress, laws.beyond
     for i in range(len(p)):
-        found[i], _ = yield_stress_at(laws, body[i], p[i], level[i])
+        j = body[i]
+        found[i], _ = stress_in_tables(rows[j], strain, stress, beyond[j], j, p[i], level[i])
     return found
 
 

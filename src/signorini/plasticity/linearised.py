@@ -7,7 +7,7 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import Array, IntArray
-from signorini.plasticity.laws import YieldLaws, yield_stress_at
+from signorini.plasticity.laws import YieldLaws, stress_in_tables
 from signorini.plasticity.radial_return import ROOT23, Points
 
 
@@ -75,6 +75,7 @@ def dual_stress(
     """
     n, M = out.shape[1], new.back.shape[1]
     start, step = np.empty(n), np.empty(n)
+    rows, strain, table, beyond = laws.rows, laws.strain, laws.stress, laws.beyond
     for i in range(len(body)):
         j = body[i]
         G2 = 2.0 * laws.shear[j]
@@ -94,7 +95,7 @@ def dual_stress(
         a, b = model.slack[i, 0], model.slack[i, 1]
         if not model.yields[i]:
             a, b = 0.0, 0.0
-        stress, _ = yield_stress_at(laws, j, new.equivalent[i], level[i])
+        stress, _ = stress_in_tables(rows[j], strain, table, beyond[j], j, new.equivalent[i], level[i])
         norm = 0.0
         for c in range(n):
             back = 0.0

@@ -172,7 +172,7 @@ def _stay(laws: YieldLaws, body: IntArray, level: Array, old: Points, new: Point
 def _without_back_stresses(laws: YieldLaws, body: IntArray, level: Array, old: Points, new: Points) -> None:
     """The states of all points where yield stresses alone harden: exact row by row, without a call for each point."""
     strain, plastic, direction, slack = new.strain, new.plastic, new.direction, new.slack
-    rows, begin, beyond, before = laws.rows, laws.strain, laws.beyond, old.plastic
+    rows, begin, table, beyond, before = laws.rows, laws.strain, laws.stress, laws.beyond, old.plastic
     n = strain.shape[1]
     for i in range(len(body)):
         j, p0 = body[i], old.equivalent[i]
@@ -187,9 +187,9 @@ def _without_back_stresses(laws: YieldLaws, body: IntArray, level: Array, old: P
             row += 1
         dp, slope = 0.0, 1.0
         while True:
-            hardening, stress = beyond[j], stress_in_row(laws, j, row, level[i])
+            hardening, stress = beyond[j], stress_in_row(table, j, row, level[i])
             if row < last:
-                hardening = (stress_in_row(laws, j, row + 1, level[i]) - stress) / (begin[j, row + 1] - begin[j, row])
+                hardening = (stress_in_row(table, j, row + 1, level[i]) - stress) / (begin[j, row + 1] - begin[j, row])
             radius = ROOT23 * (stress + hardening * (p0 - begin[j, row]))
             slope = ROOT23 * hardening + ROOT32 * G2
             dp = (norm - radius) / slope
