@@ -30,6 +30,7 @@ def cycled(law, kind="plane strain", *, thermal=False, cells="quad8", **parts):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["plane strain", "axisymmetric", "plane stress"])
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 def test_energies_of_a_body_balance(law, kind):

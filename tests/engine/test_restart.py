@@ -201,6 +201,7 @@ def assert_cut(kind, steps, cut) -> bool:
     return bool(whole.end.near.sum() > first.end.near.sum())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", REACHING)
 def test_loads_that_reach_farther_change_no_bit_of_the_steps_before(kind) -> None:
     """Pairs are chosen by what was imposed so far, whatever follows: of one body, of tied ones, in space, iterated."""

@@ -94,6 +94,7 @@ def assert_interesting(history):
     assert {"stick", "slip"} <= seen
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("compliance", [0.0, 0.001])
 @few
 @given(length=powers, displacement=powers, modulus=powers)
@@ -153,6 +154,7 @@ def on_a_plane():
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", [driven_blocks, on_a_plane, blocks_that_do_not_match])
 @few
 @given(angle=st.floats(-np.pi, np.pi), shift=st.tuples(st.floats(-5, 5), st.floats(-5, 5)))
@@ -186,6 +188,7 @@ def test_mirror(make):
         assert other.status.tolist() == contact.status.tolist()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cells", ["quad", "triangle"])
 @pytest.mark.parametrize("make", [driven_blocks, blocks_that_do_not_match])
 @few
