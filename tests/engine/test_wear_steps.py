@@ -156,3 +156,23 @@ def test_automatic_blocks_keep_to_their_tolerance():
         for way in ({"block": 1}, {"block": "auto", "tolerance": 0.02})
     )
     assert np.abs(every.depth - automatic.depth).max() < 0.02 * every.depth.max()
+
+
+@pytest.mark.slow
+def test_a_block_in_space_wears_as_the_force_times_the_way():
+    """Increments that end at events: dissipation is that of forces at their ends, what is worn that of their means."""
+    mesh = sg.box(x=np.linspace(0.0, 1.0, 4), y=np.linspace(0.0, 1.0, 4), z=np.linspace(0.0, 0.5, 3))
+    floor = sg.Plane((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    solution = sg.solve(
+        sg.Model(
+            mesh,
+            bodies=[sg.Body("block", sg.Elastic(200e3, 0.3))],
+            supports=[sg.Support("top", u=(0.01, 0.0, None), name="drive")],
+            loads=[sg.Load("top", force=(None, None, -100.0), spread="displacement", name="press")],
+            contacts=[sg.Contact("bottom", floor, friction=0.3, wear=sg.Wear(1e-6))],
+            steps=to_and_fro(3),
+        )
+    )
+    rubbed = sum(step.dissipation for step in solution.steps) / 0.3
+    assert worn_volume(solution) + 1e-6 * pending(solution) == pytest.approx(1e-6 * rubbed, rel=1e-5)
+    assert worn_volume(solution) == pytest.approx(3 * 1e-6 * 100.0 * 0.04, rel=0.05)

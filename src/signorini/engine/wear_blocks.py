@@ -22,8 +22,9 @@ from signorini.arrays import Array
 from signorini.engine.rubbing import Rubbing, worn
 from signorini.engine.wear_paths import PathCycle, WornPaths
 
-_SETTLED = 1e-6  # of what the most worn pair loses in a block: how well the equation of a block is solved
+_SETTLED = 1e-5  # of what the most worn pair loses in a block: how well the equation of a block is solved
 _CYCLES = 40  # tried for one block: three to six are usual
+_LEAST_SHARE = 0.1  # of a correction: halved where the last one has brought nothing
 _SET_CHANGES = 100  # of the pairs that press, in one correction
 _GIVES = 1e-12  # of the compliance: what keeps rigid motions that no normal force feels out of the equations
 
@@ -60,7 +61,7 @@ def implicit_block(paths: WornPaths, at: PathCycle, last: int, count: int, guess
     count : of cycles
     guess : (n,) what a cycle rubs
     """
-    sides, rubs = paths.sides, guess
+    sides, rubs, error, share = paths.sides, guess, np.inf, 1.0
     for tries in range(1, _CYCLES + 1):
         wear = worn(sides, replace(at.wear, rubbed=at.wear.rubbed + count * rubs), cycles=count)
         moved = paths.worn(at, wear)
@@ -69,10 +70,12 @@ def implicit_block(paths: WornPaths, at: PathCycle, last: int, count: int, guess
             return None
         done, rubbing = found
         grown = sides.rate * rubbing.wearing
-        if np.abs(grown - sides.rate * rubs).max() <= _SETTLED * grown.max():
+        last_error, error = error, float(np.abs(grown - sides.rate * rubs).max())
+        if error <= _SETTLED * grown.max():
             done = _repeated(moved, done, rubbing, rubs, count)
             return CycleBlock(count=count, last=count, moved=moved, done=done, rubs=rubbing.wearing, tries=tries)
-        rubs = _corrected(paths, done, rubbing, rubs, count)
+        share = 0.5 * share if error > last_error and share > _LEAST_SHARE else share
+        rubs = rubs + share * (_corrected(paths, done, rubbing, rubs, count) - rubs)
     return None
 
 

@@ -22,6 +22,7 @@ from signorini.verify import (
     scalar,
     solids,
     space,
+    wear,
 )
 from signorini.verify.check import Check
 
@@ -76,6 +77,8 @@ QUICK: tuple[Case, ...] = (
     plasticity.bending,
     plasticity.stretched_square,
     indentation.first_yield,
+    wear.worn_volumes,
+    wear.worn_annulus,
 )
 SLOW: tuple[Case, ...] = (
     cylinder.small_load,
@@ -94,6 +97,7 @@ SLOW: tuple[Case, ...] = (
     indentation.ball_in_a_block,
     indentation.cone_in_a_block,
     indentation.rolling,
+    wear.worn_cylinder,
 )
 
 

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contacts that wear: worn volumes, a cylinder that is rubbed flat, the limit of partial slip."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from signorini.engine.solve import solve
+from signorini.gallery.half_planes import EQUAL, HALF_WIDTH, equal_half_planes
+from signorini.gallery.half_planes import FRICTION as EQUAL_FRICTION
+from signorini.gallery.wearing import FRICTION, RADIUS, rubbed_cylinder, to_and_fro
+from signorini.model.step import Step
+from signorini.model.wear import Wear
+from signorini.verify.check import Check, checks_of
+
+_COEFFICIENT = 4.8e-6  # 1/MPa, of both sides together: a hundred times that of steel in fretting
+
+
+def worn_volumes() -> Iterator[Check]:
+    """A cylinder rubbed on a flat, nodes opposite nodes and not: 5 cycles, each side its own coefficient."""
+    archard = Wear(0.4 * _COEFFICIENT, mortar=0.6 * _COEFFICIENT)
+    for ratio in (1.0, 0.75):
+        history = solve(rubbed_cylinder(to_and_fro(5), wear=archard, spacing=0.02, ratio=ratio))
+        contact, state = history.steps[-1].contacts[0], history.end.state if history.end else None
+        assert contact.wear is not None
+        assert state is not None
+        assert state.wear is not None
+        rubbed = sum(step.dissipation for step in history.steps) / FRICTION  # all that slides is at mu p
+        pending = float(state.wear.rubbed @ contact.area)  # by the last change of pressures
+        one, other = contact.wear.volume
+        step = history.steps[-1]
+        yield from checks_of(
+            f"worn volume, {'matching' if ratio == 1.0 else 'other'} meshes",
+            ("worn volume / k int p ds", (one + other) / (_COEFFICIENT * (rubbed - pending)), 1.0, 1e-12),
+            ("mortar / nonmortar side", other / one, 1.5, 1e-12),
+            ("energy defect / work", step.energy_defect / step.work, 0.0, 1e-12, "first law"),
+            source="Archard (1953)",
+        )
+    alpha = _COEFFICIENT / FRICTION
+    by_energy = Wear(energy=0.4 * alpha, mortar=0.6 * alpha)
+    ends = [solve(rubbed_cylinder(to_and_fro(3), wear=wear, spacing=0.02)).end for wear in (archard, by_energy)]
+    depth, same = (end.state.wear.depth for end in ends if end is not None and end.state.wear is not None)
+    yield from checks_of(
+        "wear by energy, mu constant",
+        ("depths: largest difference / deepest", np.abs(depth - same).max() / depth.max(), 0.0, 1e-12),
+        source="alpha = k / mu",
+    )
+
+
+def worn_cylinder() -> Iterator[Check]:
+    """A cylinder that is rubbed flat: 100 cycles that wear as 4000, one by one, nodes at 0.02."""
+    wear = Wear(40.0 * 4e-8)
+    contact = solve(rubbed_cylinder(to_and_fro(100), wear=wear, spacing=0.02, stroke=0.025)).steps[-1].contacts[0]
+    assert contact.wear is not None
+    half = float((1.5 * RADIUS * sum(contact.wear.volume)) ** (1.0 / 3.0))
+    yield from checks_of(
+        "cylinder rubbed flat",
+        ("half-width, to a node distance", 0.5 * contact.closed_area, half, 0.02 / half, "worn area 2 a^3 / 3 R"),
+        ("deepest", contact.wear.deepest[0], half**2 / (2.0 * RADIUS), 0.03, "a^2 / 2 R"),
+        source="rigid cylinder",
+    )
+
+
+def worn_annulus() -> Iterator[Check]:
+    """Two equal cylinders in partial slip, 0.7 mu P to and fro, worn until the annulus of slip carries nothing."""
+    share = 0.7
+    steps = [
+        Step(name="press", scale={"press": 1.0}),
+        Step(name="pull", scale={"pull": share}),
+        Step(name="cycles", scale={"pull": [-share, share]}, repeat=200),
+    ]
+    model = equal_half_planes(steps)
+    contact = replace(model.contacts[0], wear=Wear(5.0, mortar=5.0))
+    found = solve(replace(model, contacts=[contact])).steps[-1].contacts[0]
+    assert found.wear is not None
+    force, held = EQUAL.normal.force, EQUAL.stick_half_width(share * EQUAL_FRICTION * EQUAL.normal.force)
+    x, spacing = np.abs(found.points[:, 0]), 0.05 * HALF_WIDTH
+    stuck = found.status == "stick"
+    edge = x[stuck].max() + 0.5 * spacing  # half-way to the first node that carries nothing
+    full = force * (edge / HALF_WIDTH) ** 2  # what presses a parabola on so far, the rest as a flat punch
+    middle = float(found.pressure[x.argmin()])
+    yield from checks_of(
+        "partial slip, worn to its limit",
+        ("force in the zone of stick / P", (found.pressure * found.area)[stuck].sum() / force, 1.0, 1e-5),
+        ("depth there / deepest", found.wear.depth[stuck].max() / max(found.wear.deepest), 0.0, 1e-12),
+        ("c/a, to one and a half node distances", edge / HALF_WIDTH, held / HALF_WIDTH, 1.5 * spacing / held),
+        ("pressure in the middle", middle, (force + full) / (np.pi * edge), 0.03),
+        source="Ciavarella, Hills (1999)",
+    )
