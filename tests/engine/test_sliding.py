@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import pi, sqrt
+from math import pi
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import signorini as sg
+from signorini.gallery.sliding import PRESSING, dragged_cylinder
 from signorini.linalg import registry
 from signorini.output.archive import read_archive
 
@@ -38,28 +39,6 @@ def block_on_bed(
         loads=[sg.Load(on="top.top", force=("free", -1.0), spread="displacement", name="press")],
         contacts=[sg.Contact(nonmortar, mortar, friction=friction, sliding=sliding, coupling="mortar", name="c")],
         steps=[sg.Step(name="press", scale={"press": 1.0, "drag": 0.0}), sg.Step(name="drag", scale=ways)],
-    )
-
-
-def cylinder_on_flat(stroke: float, spacing: float, *, friction: float = 0.3) -> sg.Model:
-    """A half cylinder of radius 50 under 634 N/mm on a flat; half-width 1, peak pressure 404."""
-    fine = np.arange(-1.6, stroke + 1.6 + spacing / 2.0, spacing)
-    far = np.array([0.3, 0.8, 1.6, 3.0, 5.5, 9.0, 14.0])
-    x = np.concatenate([fine[0] - far[::-1], fine, fine[-1] + far])
-    y = np.concatenate([-0.8 - far[::-1], np.linspace(-0.8, 0.0, round(0.8 / spacing) + 1)])
-    pad = sg.half_disk(radius=50.0, contact_length=1.6, contact_spacing=spacing)
-    aluminium = sg.Elastic(E=72.0e3, nu=0.33)
-    return sg.Model(
-        mesh=sg.join({"pad": pad, "flat": sg.rectangle(x=x, y=y)}),
-        kind="plane strain",
-        bodies=[sg.Body("pad", aluminium), sg.Body("flat", aluminium)],
-        supports=[sg.Support("flat.bottom", u=(0.0, 0.0)), sg.Support("pad.cut", u=(stroke, "free"), name="drag")],
-        loads=[sg.Load(on="pad.cut", force=("free", -634.0), spread="displacement", name="press")],
-        contacts=[sg.Contact("pad.arc", "flat.top", friction=friction, sliding="finite", name="c")],
-        steps=[
-            sg.Step(name="press", scale={"press": 1.0, "drag": 0.0}),
-            sg.Step(name="drag", scale={"press": 1.0, "drag": 1.0}, at=[0.5]),
-        ],
     )
 
 
@@ -94,11 +73,9 @@ def test_a_dragged_cylinder_keeps_hertz_pressure_and_coulombs_force(monkeypatch:
     counted = []
     solve = registry.factorise
     monkeypatch.setattr("signorini.condense.condensed.factorise", lambda *a, **k: counted.append(1) or solve(*a, **k))
-    solution = sg.solve(cylinder_on_flat(1.0, 0.2))
+    solution = sg.solve(dragged_cylinder(stroke=1.0, spacing=0.2))
     assert len(counted) == 1
-    stiffness = 72.0e3 / (2.0 * (1.0 - 0.33**2))
-    half_width = sqrt(4.0 * 634.0 * 50.0 / (pi * stiffness))
-    peak = 2.0 * 634.0 / (pi * half_width)
+    peak = 2.0 * PRESSING / pi
     drag = solution.steps[-1]
     handed = [instant for instant in drag.instants if instant.what == "handover"]
     assert len(handed) > 15
@@ -110,7 +87,7 @@ def test_a_dragged_cylinder_keeps_hertz_pressure_and_coulombs_force(monkeypatch:
     assert abs(drag.energy_defect) < 1e-12 * drag.work
     assert abs(drag.released) < 1e-3 * spent
     # as long a way under as large a force; it begins to slip only when the bodies have given way
-    assert spent == pytest.approx(0.3 * 634.0 * 1.0, rel=0.08)
+    assert spent == pytest.approx(0.3 * PRESSING * 1.0, rel=0.08)
 
 
 @pytest.mark.parametrize("nonmortar", ["top.bottom", "bed.top"])

@@ -20,6 +20,7 @@ from signorini.verify import (
     rates,
     rings,
     scalar,
+    sliding,
     solids,
     space,
     wear,
@@ -79,6 +80,8 @@ QUICK: tuple[Case, ...] = (
     indentation.first_yield,
     wear.worn_volumes,
     wear.worn_annulus,
+    sliding.sliding_cylinder,
+    sliding.rolling_wheel,
 )
 SLOW: tuple[Case, ...] = (
     cylinder.small_load,

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""B15: contacts that slide and roll over many elements."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from signorini.api import solve
+from signorini.gallery.sliding import HALF_WIDTH, PRESSING, dragged_cylinder, driven_wheel, half_width
+from signorini.solution import results
+from signorini.verify.check import Check, checks_of
+
+_FRICTION = 0.3
+_RATIO = 0.64  # of the tangential force over that of sliding: Carter's case of which CONTACT's guide tells the numbers
+
+
+def sliding_cylinder() -> Iterator[Check]:
+    """A cylinder dragged over a flat by its half-width: Hertz's pressure goes along, and friction is Coulomb's."""
+    model = dragged_cylinder(stroke=HALF_WIDTH, spacing=0.2, friction=_FRICTION)
+    drag = solve(model).steps[-1]
+    contact, peak = drag.contacts[0], 2.0 * PRESSING / (math.pi * HALF_WIDTH)
+    normal, tangential = contact.pressure @ contact.area, contact.traction @ contact.area
+    yield from checks_of(
+        "B15 cylinder dragged over a flat",
+        ("largest pressure", contact.pressure.max(), peak, 1e-2, "Hertz (1882)"),
+        ("friction over mu times normal force", abs(tangential) / (_FRICTION * normal), 1.0, 1e-12, "Coulomb's law"),
+        ("energy that is not accounted for, of the work", drag.energy_defect / drag.work, 0.0, 1e-12, "balance"),
+        ("energy set free by handing over, of the work", drag.released / drag.work, 0.0, 1e-3, "none"),
+        source="Johnson (1985), section 4.2",
+    )
+
+
+def rolling_wheel() -> Iterator[Check]:
+    """Carter's problem as a transient: where a driven wheel sticks, and how fast it creeps."""
+    ways, width = (4.0, 4.0), half_width(10.0, 100.0, 200.0 / (1.0 - 0.499**2))
+    turned = {}
+    for ratio in (_RATIO, -_RATIO):
+        *_, roll, on = solve(driven_wheel(ratio=ratio, ways=ways, across=8, friction=_FRICTION)).steps
+        begin, end = (np.asarray(step.obstacles["wheel"].rotation, np.float64) for step in (roll, on))
+        turned[ratio] = 100.0 * float(end - begin)
+        contact = on.contacts[0]
+    # surfaces that stretch under pressure turn the wheel by a little too, one way as the other
+    creepage = abs(turned[_RATIO] - turned[-_RATIO]) / (2.0 * ways[1] * width)
+    sticks = (contact.status == results.STICK).sum() / (contact.status != results.OPEN).sum()
+    yield from checks_of(
+        "B15 driven wheel, F / (mu P) = 0.64",
+        ("part of the contact that sticks", sticks, math.sqrt(1.0 - _RATIO), 0.05),
+        ("creepage", creepage, _FRICTION * width / 100.0 * (1.0 - math.sqrt(1.0 - _RATIO)), 0.08),
+        source="Carter (1926); Johnson (1985), section 8.3",
+    )
