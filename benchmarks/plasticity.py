@@ -3,6 +3,7 @@
 
     python -m benchmarks.plasticity price [--refine 2 10 20] [--repeats 3] [--page]
     python -m benchmarks.plasticity calculix [--refine 2 4] [--page]
+    python -m benchmarks.plasticity calculix --case 0.3 5 0.01 --increments 40 40
 
 A quarter of a cylinder is pressed on a rigid plane, until p_0 of the elastic contact would be 2, 3, 5 and 8 times the
 yield stress: in one increment beside one plain linear solve, or in ten and let go again in ten beside CalculiX.
@@ -16,6 +17,7 @@ import resource
 import subprocess
 import tempfile
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -154,9 +156,9 @@ class Answer:
     seconds: float
 
 
-def ours(refine: int, friction: float, ratio: float, hardening: float) -> Answer:
+def ours(refine: int, friction: float, ratio: float, hardening: float, increments: int = INCREMENTS) -> Answer:
     """Both steps; the first one again, for its end."""
-    press, release = Step(name="press", increments=INCREMENTS), Step(scale={"cut": LEFT}, increments=INCREMENTS)
+    press, release = Step(name="press", increments=increments), Step(scale={"cut": LEFT}, increments=increments)
     given = {"friction": friction, "ratio": ratio, "hardening": hardening}
     seconds, history = command.cpu(solve, pressed(refine, **given, steps=(press, release)))
     ends = [solve(pressed(refine, **given, steps=(press,))), history]
@@ -176,12 +178,12 @@ def ours(refine: int, friction: float, ratio: float, hardening: float) -> Answer
     )
 
 
-def theirs(refine: int, friction: float, ratio: float, hardening: float) -> Answer | None:
+def theirs(refine: int, friction: float, ratio: float, hardening: float, increments: int = INCREMENTS) -> Answer | None:
     """CalculiX on the same mesh, on a stiff penalty; None where it finds no solution."""
     model = pressed(refine, friction=friction, ratio=ratio, hardening=hardening, steps=(Step(),))
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        (folder / "pressed.inp").write_text(deck(model, friction))
+        (folder / "pressed.inp").write_text(deck(model, friction, increments))
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         done = subprocess.run(
             ["ccx", "pressed"],
@@ -204,7 +206,7 @@ def theirs(refine: int, friction: float, ratio: float, hardening: float) -> Answ
         )
 
 
-def deck(model: Model, friction: float) -> str:
+def deck(model: Model, friction: float, increments: int) -> str:
     """Surface to surface contact on one fixed element below y = 0."""
     mesh, law = model.mesh, model.bodies[0].material.plastic  # type: ignore[union-attr]
     assert law is not None
@@ -234,8 +236,8 @@ def deck(model: Model, friction: float) -> str:
     ]
     for part in (1.0, LEFT):
         sides = "\n".join(f"{cell},P{side},{-traction * part:.15g}" for cell, side in faces(cells, cut))
-        blocks += [f"*STEP,INC=1000\n*STATIC,DIRECT\n{1.0 / INCREMENTS},1.", f"*DLOAD\n{sides}"]
-        blocks += [f"*EL PRINT,ELSET=DISK,FREQUENCY={INCREMENTS}\nS,PEEQ\n*END STEP"]
+        blocks += [f"*STEP,INC=1000\n*STATIC,DIRECT\n{1.0 / increments},1.", f"*DLOAD\n{sides}"]
+        blocks += [f"*EL PRINT,ELSET=DISK,FREQUENCY={increments}\nS,PEEQ\n*END STEP"]
     return "\n".join(blocks) + "\n"
 
 
@@ -256,13 +258,13 @@ def _printed(file: Path, words: str, cells: int) -> list[Array]:
     return [np.array(table)[:, 2:].reshape(cells, -1, len(table[0]) - 2).mean(axis=1) for table in found]
 
 
-def beside(refine: int) -> list[list[object]]:
-    """Rows of the table beside CalculiX."""
+def beside(refine: int, cases: Sequence[Sequence[float]], increments: tuple[int, int]) -> list[list[object]]:
+    """Rows of the table beside CalculiX, in so many increments of either code."""
     rows: list[list[object]] = []
     ours(1, *CASES[-1])  # loads what is compiled
-    for friction, ratio, hardening in CASES:
+    for friction, ratio, hardening in cases:
         case = refine, friction, ratio, hardening
-        mine, other = ours(*case), theirs(*case)
+        mine, other = ours(*case, increments[0]), theirs(*case, increments[1])
         model = pressed(refine, friction=friction, ratio=ratio, steps=(Step(),))
         Y = HALF_WIDTH * contact_modulus((E, NU)) / (2.0 * RADIUS) / ratio
         head: list[object] = [2 * len(model.mesh.points), friction, f"{ratio:g}", f"{hardening:g}"]
@@ -279,11 +281,13 @@ def beside(refine: int) -> list[list[object]]:
     return rows
 
 
-def beside_table(rows: list[list[object]]) -> str:
+def beside_table(rows: list[list[object]], increments: tuple[int, int]) -> str:
     """Of the document."""
     head = ("unknowns", "mu", "p_0 / Y", "H / E", "rounds", "CPU s", "ccx: iterations", "CPU s", "times")
     head += ("stress, rms / Y: loaded, let go", "largest PEEQ: ours, theirs")
-    text = f"{page.table(head, rows)}\n\n{INCREMENTS} + {INCREMENTS} increments, means of cells, one thread, "
+    of_each, (mine, other) = f"{increments[0]} + {increments[0]}", increments
+    words = of_each if mine == other else f"{of_each}, in CalculiX {other} + {other},"
+    text = f"{page.table(head, rows)}\n\n{words} increments, means of cells, one thread, "
     return f"{text}{page.machine()}; CPU seconds of ccx as a whole, input and output too."
 
 
@@ -294,6 +298,8 @@ def main() -> None:
     parser.add_argument("--repeats", type=int, default=contact_price.REPEATS, help="of every price")
     parser.add_argument("--page", action="store_true", help=f"write the table into {DOCUMENT.name}")
     parser.add_argument("--one", action="store_true", help="measure prices in this process")
+    parser.add_argument("--case", type=float, nargs=3, metavar=("MU", "RATIO", "HARDENING"))
+    parser.add_argument("--increments", type=int, nargs=2, metavar=("OURS", "THEIRS"), default=[INCREMENTS, INCREMENTS])
     options = parser.parse_args()
     if options.one:
         print(json.dumps(prices(options.refine[0], options.repeats)))
@@ -309,7 +315,9 @@ def main() -> None:
         reason = missing()
         if reason is not None:
             raise SystemExit(reason)
-        text = beside_table([row for refine in options.refine for row in beside(refine)])
+        cases, (mine, other) = [options.case] if options.case else CASES, options.increments
+        rows = [row for refine in options.refine for row in beside(refine, cases, (mine, other))]
+        text = beside_table(rows, (mine, other))
     options.dry = not options.page
     command.publish(options, f"plasticity {options.what}", text, DOCUMENT)
 

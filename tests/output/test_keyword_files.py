@@ -199,3 +199,45 @@ def test_a_node_of_rotation_shows_rotation_and_moment(tmp_path: Path) -> None:
     assert forces[99][:2] == pytest.approx(body.force, abs=1e-6)
     total = rows_after(text, "total force")[0]
     assert total == pytest.approx([0.0, 0.0, 0.0], abs=1e-5)  # a moment is no part of it
+
+
+@pytest.mark.parametrize("kind", ["C3D8", "C3D8I", "CPS4", "CPE4", "CAX4"])
+def test_strains_are_elastic_thermal_and_plastic_ones_together(tmp_path: Path, kind: str) -> None:
+    """Of cells that heat stretches evenly beyond yield: what nodes say, and what no stress resists."""
+    solid = kind.startswith("C3D")
+    corners = [(1, 0), (2, 0), (2, 1), (1, 1)]
+    points = [(x, y, z) for z in ((0, 1) if solid else (0,)) for x, y in corners]
+    nodes = "".join(f"{i},{x},{y},{z}\n" for i, (x, y, z) in enumerate(points, start=1))
+    plane = "BOT,2,2\n" if kind == "CAX4" else "LEFT,1,1\nBOT,2,2\n"
+    law = "" if kind == "C3D8I" else "*PLASTIC\n1.,0.\n2.,.1\n"
+    (tmp_path / "deck.inp").write_text(
+        f"*NODE\n{nodes}*ELEMENT,TYPE={kind},ELSET=E\n1,{','.join(map(str, range(1, len(points) + 1)))}\n"
+        f"*NSET,NSET=LEFT\n1,4{',5,8' if solid else ''}\n*NSET,NSET=BOT\n1,2{',5,6' if solid else ''}\n"
+        f"*NSET,NSET=TOP\n3,4{',7,8' if solid else ''}\n*NSET,NSET=BACK\n1,2,3,4\n*NSET,NSET=ALL\nLEFT,BOT,TOP\n"
+        f"*MATERIAL,NAME=M\n*ELASTIC\n100.,.3\n*EXPANSION\n1.E-3\n{law}*SOLID SECTION,ELSET=E,MATERIAL=M\n"
+        f"*BOUNDARY\n{plane}{'BACK,3,3' if solid else ''}\n*STEP\n*STATIC\n*TEMPERATURE\nALL,2.\n"
+        "*BOUNDARY\nTOP,2,2,.03\n*EL PRINT,ELSET=E\nE,S\n*END STEP\n".replace("\n\n", "\n")
+    )
+    found = load_deck(tmp_path / "deck.inp")
+    history = sg.solve(found.model)
+    write_dat(history, Fields(found.model), found.prints, tmp_path / "x.dat")
+    strains, stresses = (tmp_path / "x.dat").read_text().split(" stresses (elem")
+    assert " strains (elem, integ.pnt.,exx,eyy,ezz,exy,exz,eyz) for set E and time" in strains
+    rows = [
+        np.array([line.split()[2:] for line in text.splitlines() if line[:10].strip() == "1"], float)
+        for text in (strains, stresses)
+    ]
+    E, S = rows
+    u = history.last.displacement
+    stretch = (u[2] - u[3])[0]
+    np.testing.assert_allclose(E[:, 1], 0.03, rtol=1e-6)
+    np.testing.assert_allclose(E[:, 3:], 0.0, atol=1e-9)
+    if kind != "CAX4":
+        np.testing.assert_allclose(E[:, 0], stretch, rtol=1e-6)
+    if solid:
+        np.testing.assert_allclose(E[:, 2], (u[4] - u[0])[2], rtol=1e-6)
+    elif kind == "CPE4":
+        np.testing.assert_allclose(E[:, 2], 0.0, atol=1e-9)
+    elif kind == "CPS4":  # flow keeps the volume, heat and pressure change it
+        pressure = -S[:, :3].sum(axis=1) / 3.0
+        np.testing.assert_allclose(E[:, :3].sum(axis=1), 3.0 * 2e-3 - pressure * 3.0 * 0.4 / 100.0, rtol=1e-5)

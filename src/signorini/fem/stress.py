@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.fem.elasticity import elasticities
+from signorini.fem.elasticity import elasticities, elasticity
 from signorini.fem.kinematics import Group, Kinematics, groups, kinematics, mean_in_cells
 from signorini.fem.space import Space
 from signorini.fem.thermal import temperatures, thermal_strain
@@ -124,6 +124,39 @@ def point_stresses(
         stress = np.zeros((*found.shape[:2], 6))
         stress[..., : found.shape[2]] = found
         yield group.numbers, stress
+
+
+def point_strains(
+    space: Space,
+    model: Model,
+    displacement: Array,
+    factors: Mapping[str, float] | None = None,
+    plastic: Mapping[str, Array] | None = None,
+) -> Iterator[tuple[IntArray, Array]]:
+    """Strains at the points of `point_stresses`: elastic, thermal and plastic ones together, as tensors.
+
+    Parameters
+    ----------
+    space, model : of the bodies
+    displacement, factors, plastic : as :func:`body_stresses`
+
+    Notes
+    -----
+    They belong to the stresses: with the mean dilatation or the internal modes of the cells, and in plane stress with
+    the strain across.
+    """
+    temperature, kind = temperatures(space, model, factors or {}), "3d" if model.dimension == 3 else "plane strain"
+    C = np.linalg.inv(np.array([elasticity(body.material, kind) for body in model.bodies]))
+    for group in groups(space, model):
+        stress = _cell_stresses(space, model, group, displacement, temperature, plastic or {})
+        found = np.einsum("mcd,mqd->mqc", C[group.body], stress)
+        if temperature is not None:
+            found += thermal_strain(model, group, kinematics(space, model, group, best=True), temperature)
+        flowed = at_best_points(group, plastic or {})
+        strain = np.zeros((*found.shape[:2], 6))
+        strain[..., : found.shape[2]] = found if flowed is None else found + flowed
+        strain[..., 3:] *= 0.5
+        yield group.numbers, strain
 
 
 def at_best_points(group: Group, values: Mapping[str, Array]) -> Array | None:

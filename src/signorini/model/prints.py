@@ -20,8 +20,8 @@ class Table:
     of : what has the values
     place : name of the set; of contact forces the two surfaces
     members : indices of nodes, cells or contacts
-    quantities : as decks spell them, in capitals: "U", "RF"; "S", "PEEQ", "PE"; "CDIS", "CSTR", "CELS", "CF", "CFN",
-        "CFS"
+    quantities : as decks spell them, in capitals: "U", "RF"; "S", "E", "PEEQ", "PE"; "CDIS", "CSTR", "CELS", "CF",
+        "CFN", "CFS"
     totals : "no", "yes": the sum too, "only"
     rotations : nodes that stand for the rotation of a rigid body, with its name
     axes : of nodes: index of a member to the unit vectors (d, d) that its components are along, where not x, y, z

@@ -21,10 +21,11 @@ from signorini.solution.results import ContactResult, ObstacleResult, Part, Step
 _TENSOR_ORDER = [0, 1, 2, 3, 5, 4]  # xx, yy, zz, xy, xz, yz of xx, yy, zz, xy, yz, xz
 _CELL_HEADS = {
     "S": "stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz) ",
+    "E": "strains (elem, integ.pnt.,exx,eyy,ezz,exy,exz,eyz) ",
     "PEEQ": "equivalent plastic strain (elem, integ.pnt.,pe)",
     "PE": "plastic strains (elem, integ.pnt.,pexx,peyy,pezz,pexy,pexz,peyz) ",
 }
-"""As CalculiX prints them, which leaves no blank behind the second; the third is not one of its own."""
+"""As CalculiX prints them, which leaves no blank behind the third; the fourth is not one of its own."""
 _FORCES = {"CF": "surface force", "CFN": "normal surface force", "CFS": "shear surface force"}
 
 
@@ -108,6 +109,8 @@ def _in_cells(fields: Fields, step: StepResult, quantity: str) -> Sequence[tuple
     """Values (m, p, k) at the points of cells (m,), group by group; None of plastic strains where no body yields."""
     if quantity == "S":
         return [(cells, stress[..., _TENSOR_ORDER]) for cells, stress in fields.cell_stresses(step)]
+    if quantity == "E":
+        return [(cells, strain[..., _TENSOR_ORDER]) for cells, strain in fields.cell_strains(step)]
     found = []
     for cells, plastic in fields.cell_plastic(step):
         values = plastic.equivalent[:, None] if quantity == "PEEQ" else plastic.strain[:, _TENSOR_ORDER]

@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.fem.space import Space, make_space
-from signorini.fem.stress import BodyStress, body_stresses, point_stresses, von_mises
+from signorini.fem.stress import BodyStress, body_stresses, point_strains, point_stresses, von_mises
 from signorini.model.model import Model
 from signorini.plasticity.fields import PlasticFields, by_family, joined, mean_fields, nodal_fields, point_fields
 from signorini.solution.results import Instant, StepResult
@@ -90,6 +90,11 @@ class Fields:
             found = point_stresses(self.space, self.model, step.displacement, step.factors, plastic)
             self._points = step, list(found)
         return self._points[1]
+
+    def cell_strains(self, step: StepResult) -> Iterator[tuple[IntArray, Array]]:
+        """Strains in the cells, see :func:`signorini.fem.stress.point_strains`."""
+        plastic = self.plastic_strains(step)
+        yield from point_strains(self.space, self.model, step.displacement, step.factors, plastic)
 
     def cell_plastic(self, step: StepResult) -> Iterator[tuple[IntArray, PlasticFields]]:
         """Plastic fields in the cells, see :func:`signorini.plasticity.fields.point_fields`; none where none yields."""

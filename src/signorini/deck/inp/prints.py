@@ -24,7 +24,11 @@ _TABLES_OF: dict[str, Literal["nodes", "cells", "contacts"]] = {
     "EL PRINT": "cells",
     "CONTACT PRINT": "contacts",
 }
-_KNOWN = {"nodes": ("U", "RF"), "cells": ("S", "PEEQ", "PE"), "contacts": ("CDIS", "CSTR", "CELS", "CF", "CFN", "CFS")}
+_KNOWN = {
+    "nodes": ("U", "RF"),
+    "cells": ("S", "E", "PEEQ", "PE"),
+    "contacts": ("CDIS", "CSTR", "CELS", "CF", "CFN", "CFS"),
+}
 _FORCES = ("CF", "CFN", "CFS")
 _CALCULIX_WORDS = {"CDISP": "CDIS", "CSTRESS": "CSTR"}
 
@@ -32,7 +36,7 @@ _CALCULIX_WORDS = {"CDISP": "CDIS", "CSTRESS": "CSTR"}
 def make_prints(
     steps: Sequence[DeckStep], known: Known, contacts: Sequence[Pair], rigid: Sequence[DeckRigid], mesh: Mesh
 ) -> Prints:
-    """``*NODE PRINT`` (U, RF), ``*EL PRINT`` (S, PEEQ, PE) and ``*CONTACT PRINT`` (CDIS, CSTR, CELS, CF, CFN, CFS).
+    """``*NODE PRINT`` (U, RF), ``*EL PRINT`` (S, E, PEEQ, PE) and ``*CONTACT PRINT`` (CDIS, CSTR, CELS, CF, CFN, CFS).
 
     In the order in which CalculiX prints them: as asked for, forces of contacts last. Other quantities are left out.
 
