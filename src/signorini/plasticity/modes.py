@@ -28,8 +28,8 @@ from signorini.plasticity.laws import Heat, YieldLaws
 from signorini.plasticity.linearised import taken
 from signorini.plasticity.radial_return import Points, respond_at
 
-_BALANCE_TOL = 1e-15  # of the trial stresses that forces on modes are summed from: zero
-_NOISE = 1e-10  # of the same: below it forces that no longer fall are what rounding leaves
+_BALANCE_TOL = 1e-13  # of the yield stress: forces on modes of stresses below that are zero
+_NOISE = 1e-10  # of the trial stresses: below it forces that no longer fall are what rounding leaves
 _ROUNDS = 60  # of Newton's method in a cell; 3 to 6 are the rule
 _CUTS = 12  # of a step in a cell by regula falsi
 _UPHILL = 0.8  # of the slope at the beginning of a step: one that ends steeper is cut
@@ -172,10 +172,12 @@ class _Cell(NamedTuple):
 
 
 @njit(cache=True, error_model="numpy")
-def _imbalance(laws: YieldLaws, heat: Heat, cell: _Cell, old: Points, new: Points, a: Array, h: Array) -> None:
-    """Forces h on the modes at amplitudes a beyond the elastic ones, after the points have answered."""
+def _imbalance(
+    laws: YieldLaws, heat: Heat, cell: _Cell, old: Points, new: Points, a: Array, h: Array, room: Array
+) -> None:
+    """Forces h on the modes at amplitudes a beyond the elastic ones, after the points have answered; (2, n) room."""
     n, count = cell.base.shape[1], len(a)
-    trial, turn = np.empty(n), np.empty(n)
+    trial, turn = room[0], room[1]
     h[:] = 0.0
     for q in range(len(cell.weights)):
         i = cell.first + q
@@ -240,25 +242,26 @@ def settle(
     n, count = new.strain.shape[1], modes.stiffness.shape[1]
     d, ring = (2 if n == 4 else 3), modes.gradients.shape[3] == 3 and n == 4
     G, base, M = np.empty((points, n, count)), np.empty((points, n)), np.empty((n, n))
-    loss, L = np.empty((count, count)), np.empty((count, count))
+    loss, L, room = np.empty((count, count)), np.empty((count, count)), np.empty((2, n))
     at, end, h, step = np.empty(count), np.empty(count), np.empty(count), np.empty(count)
     for c in range(m):
         first = c * points
         if not new.yields[first : first + points].any():
             continue
-        size, b = 0.0, body[first]
+        size, unit, b = 0.0, 0.0, body[first]
         for q in range(points):
             strain_rows(modes.gradients[c, q], d, ring, G[q])
             base[q] = new.strain[first + q]
-            size += weights[c, q] * np.abs(G[q]).max() * np.abs(base[q]).max()
-        size *= 2.0 * laws.shear[b]
+            force = weights[c, q] * np.abs(G[q]).max()
+            unit += force * laws.stress[b, 0, 0]
+            size += force * np.abs(base[q]).max() * 2.0 * laws.shear[b]
         cell = _Cell(first, b, weights[c], law[b], G, base, modes.stiffness[c])
         at[:] = 0.0
-        _imbalance(laws, heat, cell, old, new, at, h)
+        _imbalance(laws, heat, cell, old, new, at, h, room)
         last = np.inf
         for _ in range(_ROUNDS):
             worst = np.abs(h).max()
-            if worst <= _BALANCE_TOL * size or (worst <= _NOISE * size and worst > 0.5 * last):
+            if worst <= _BALANCE_TOL * unit or (worst <= _NOISE * size and worst > 0.5 * last):
                 break
             last = worst
             _find_loss(laws, cell, new, M, loss)
@@ -269,7 +272,7 @@ def settle(
             start = -below
             for cut in range(_CUTS):
                 end[:] = at + s * step
-                _imbalance(laws, heat, cell, old, new, end, h)
+                _imbalance(laws, heat, cell, old, new, end, h, room)
                 slope = np.dot(h, step)
                 if (cut == 0 and slope <= _UPHILL * start) or abs(slope) <= _LEVEL * start:
                     break
