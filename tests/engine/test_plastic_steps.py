@@ -12,6 +12,7 @@ from signorini.engine import first_yield, plastic_steps
 from signorini.engine.chord import Chord
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit
+from signorini.gallery.yielding import footing
 from signorini.outcome import Outcome
 
 LIMIT = 2.0 * np.log(2.0)  # of the pressure in a tube of twice the radius outside, over the shear strength
@@ -148,3 +149,12 @@ def test_a_hub_that_flows_as_a_whole_keeps_its_fit(along):
     assert max(found.penetration, found.complementarity) < 1e-9
     contact = solution.contact("fit")
     assert contact.pressure @ contact.area / contact.area.sum() == pytest.approx(2.0 * np.log(1.5), rel=2e-3)
+
+
+def test_the_bound_named_does_not_depend_on_how_far_beyond_the_load_is():
+    bounds = []
+    for pressure in (6.0, 20.0):
+        with pytest.raises(sg.SolveFailed, match=r"flow plastically at [\d.]+% of the step at most") as found:
+            sg.solve(footing(pressure, n=8))
+        bounds.append(pressure * float(str(found.value).split("plastically at ")[1].split("%")[0]) / 100.0)
+    assert bounds[0] == pytest.approx(bounds[1], rel=1e-3)

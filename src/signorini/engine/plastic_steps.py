@@ -16,7 +16,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.engine.collapse import Collapse, collapse
 from signorini.engine.first_yield import AT_ONCE, elastic_part, flows_at_once, points_of
-from signorini.engine.increments import follow_increments
+from signorini.engine.increments import advance, follow_increments
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, StepPart, joined, keep, reached
 from signorini.errors import SolveFailed, told
@@ -27,6 +27,8 @@ TOLERANCE = 1e-2
 """Of ``increments = "auto"`` where bodies yield, if the step gives none: backward Euler is of first order."""
 
 _INCREMENTS_BELOW = 8  # of what is followed below collapse: the load named is a bound, they may end before it
+_TIGHTER_BOUNDS = 3  # of a limit load, each from the load that the one before names
+_BOUND_TOL = 1e-3  # of a limit load: bounds that move by less are not sought again
 _BELOW_COLLAPSE = 0.98  # of the load at which bodies flow: up to there they are followed
 _LITTLE_WORK = 1e-6  # of the plastic work so far: where a part takes less, its share decides nothing
 _MAX_INCREMENTS = 256  # of a straight part: more of them are not tried by themselves
@@ -116,7 +118,33 @@ def _increments(part: StepPart, number: int) -> FollowedPart:
         found = collapse(part.prepared, start, end, failure.mechanisms)
         if found is None:
             raise
-        raise _collapsed(part, found, (done + found.part) / number, number) from failure
+        raise _collapsed(part, *_tightened(part, found, (done + found.part) / number), number) from failure
+
+
+def _tightened(part: StepPart, found: Collapse, fraction: float) -> tuple[Collapse, float]:
+    """A mechanism and the fraction of a part that it bounds, from loads no farther beyond the limit than the bound.
+
+    Far beyond it bodies flow in a motion that costs up to some hundredths more than the cheapest.
+
+    Parameters
+    ----------
+    part : with that limit
+    found, fraction : the first mechanism and its bound
+    """
+    for _ in range(_TIGHTER_BOUNDS):
+        try:
+            advance(part.prepared, part.before, part.before.point.towards(part.end, fraction), part.where)
+        except SolveFailed as failure:
+            again = collapse(part.prepared, part.before.point, part.end, failure.mechanisms)
+        else:
+            break
+        if again is None or again.part >= fraction:
+            break
+        moved = fraction - again.part
+        found, fraction = again, again.part
+        if moved < _BOUND_TOL * fraction:
+            break
+    return found, fraction
 
 
 def _collapsed(part: StepPart, found: Collapse, fraction: float, number: int) -> SolveFailed:
