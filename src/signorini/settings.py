@@ -10,7 +10,8 @@ from typing import Any
 from signorini.checks import number, whole
 from signorini.errors import InputError
 
-_MAX_TOLERANCE = 1e-8  # of the data: what certificates allow, beyond which no answer would pass
+MAX_TOLERANCE = 1e-8
+"""Of the data: what certificates allow, beyond which no answer would pass."""
 
 _COUNTS = {
     "newton_steps": 1,
@@ -73,8 +74,8 @@ class SolverSettings:
 
     def __post_init__(self) -> None:
         tolerance = number(self.tolerance, ("tolerance",), above=0.0)
-        if tolerance > _MAX_TOLERANCE:
-            raise InputError(f"is {tolerance:g}; expected at most {_MAX_TOLERANCE:g}", where=("tolerance",))
+        if tolerance > MAX_TOLERANCE:
+            raise InputError(f"is {tolerance:g}; expected at most {MAX_TOLERANCE:g}", where=("tolerance",))
         checked: dict[str, Any] = {"tolerance": tolerance}
         checked |= {name: whole(getattr(self, name), (name,), least=least) for name, least in _COUNTS.items()}
         pivots = _listed(self.pivots_per_pair, "pivots_per_pair")

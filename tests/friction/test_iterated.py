@@ -86,3 +86,11 @@ def test_newton_by_states_ends_where_it_does_with_factorisations(load, pairs, mo
         assert (found.index, found.residual <= 1e-10) == (expected.index, True)
         np.testing.assert_array_equal(found.state, expected.state)
         np.testing.assert_allclose(found.y, expected.y, rtol=0, atol=1e-10 * np.abs(expected.y).max())
+
+
+def test_an_answer_that_others_follow_has_the_digits_asked_for(monkeypatch):
+    problem = PROBLEMS["punch"]
+    monkeypatch.setattr("signorini.friction.newton.ITERATED_UNKNOWNS", 1)
+    exact, rough = solve_contact(problem), solve_contact(problem, allowed=1e-4)
+    assert rough.trace[0].iterations < exact.trace[0].iterations
+    assert exact.residual < 1e-10 < rough.residual <= 1e-4

@@ -32,6 +32,7 @@ from signorini.solution.state import LoadPoint, State
 
 _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
 _REFINEMENTS = 2
+_ENOUGH = 1e-3  # of the sizes of a law: what answers that others follow may lack at most
 _LENGTH_PER_GAP = 1e-4  # of the largest gap or displacement: times the law's tolerance, 1e-10, a few roundings of it
 
 
@@ -254,11 +255,12 @@ class CondensedSolver:
         residual, misfit, b, lost = f, offset[rows], np.zeros(len(rows)), 0.0
         guided = np.concatenate([np.zeros(law.pairs, dtype=np.bool_), law.locked.ravel()])
         start = self._start(increment)
+        allowed = self._allowed(increment.allowed_lack, scale)
         for step in range(_REFINEMENTS + 1):
             with increment.clock.phase("complementarity"):
                 reduced = condensed.reduce(residual)
                 b = b + condensed.right_hand_side(reduced.load, misfit)
-                result = solve_contact(replace(law, b=b), start, settings=self.settings)
+                result = solve_contact(replace(law, b=b), start, settings=self.settings, allowed=allowed)
             if not result.solved:
                 break
             with increment.clock.phase("recovery"):
@@ -290,6 +292,14 @@ class CondensedSolver:
             lost=lost,
             escape=None if result.escape is None or not law.floating else self.floating(result.escape),
         )
+
+    def _allowed(self, lack: float, scale: Scale) -> float:
+        """Residual of the law where forces and motions of the pairs lack a part of the sizes of the data."""
+        if not lack or not self.law.scale or not self.law.pairs:
+            return 0.0
+        root = self.condensed.root
+        size = min(scale.force / float(root.max(initial=0.0)), scale.length * float(root.min(initial=np.inf)))
+        return min(lack * size / self.law.scale, _ENOUGH)
 
     def floating(self, escape: Array) -> Array:
         """(k,) The combination of floating motions that a motion of the pairs (d a,) is."""

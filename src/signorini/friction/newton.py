@@ -27,6 +27,7 @@ from signorini.friction.problem import ContactProblem
 from signorini.law.bound import plain
 from signorini.law.pair import Tangent
 from signorini.law.states import OPEN, STICK, UNDECIDED
+from signorini.settings import MAX_TOLERANCE
 
 MEMORY = 5
 """Last violations of which a step must undercut the largest."""
@@ -239,12 +240,12 @@ def searched(
         following = problem.law.tangent(r - h)
         changes.append(int(np.count_nonzero((following.closed != law.closed) | (following.left != law.left))))
         law = following
-        done = converged  # the step after the first certified one squares its error
+        done = converged or tolerance > MAX_TOLERANCE  # the step after the first certified one squares its error
         lacking = _lacking(equilibrium, r, h, violation)
         if lacking < best[0]:
             best = lacking, r, a, r - h
         converged = converged or lacking <= tolerance
-        if done or lacking <= RESIDUAL_ROUNDING:
+        if (done and converged) or lacking <= RESIDUAL_ROUNDING:
             break
     if converged:
         end = "certified" if equilibrium.as_posed else "converged"

@@ -46,7 +46,11 @@ _RUNAWAY_GROWTH = 10.0  # of motions between two stiffnesses of springs, a thous
 
 
 def solve_contact(
-    problem: ContactProblem, start: ArrayLike | None = None, *, settings: SolverSettings | None = None
+    problem: ContactProblem,
+    start: ArrayLike | None = None,
+    *,
+    settings: SolverSettings | None = None,
+    allowed: float = 0.0,
 ) -> ContactAnswer:
     """Solve ``G h - W r = b`` in a law of friction: a certified solution, a proof that there is none, or an escape.
 
@@ -56,6 +60,7 @@ def solve_contact(
     start : (d, n) ``y`` of the previous solution, in the plane also its states (n,); None to start with every pair
         sticking
     settings : how long each method may try
+    allowed : residual of `certify` that will do for an answer that others follow; no less than the tolerance is asked
 
     Raises
     ------
@@ -80,13 +85,14 @@ def solve_contact(
     settings, first = settings or _DEFAULTS, _checked(problem, start)
     if problem.pairs == 0:
         return nothing_to_solve(problem)
-    tried: list[Candidate] = []
+    tolerance, tried = max(settings.tolerance, allowed), list[Candidate]()
     for method in METHODS:
         if method.piecewise_linear not in (None, problem.piecewise_linear):
             continue
-        for found in method.run(Task(problem=problem, start=first, settings=settings, tried=tried)):
+        task = Task(problem=problem, start=first, settings=settings, tolerance=tolerance, tried=tried)
+        for found in method.run(task):
             tried.append(found)
-            if found.residual <= settings.tolerance:
+            if found.residual <= tolerance:
                 return solved(problem, tried)
             if found.proof is not None:
                 return impossible(problem, tried)
@@ -116,17 +122,19 @@ class Task:
     ----------
     problem, settings : as of `solve_contact`
     start : (n,) states in the plane, otherwise (d, n) y, of the previous solution
+    tolerance : of `certify`
     tried : what methods before it found
     """
 
     problem: ContactProblem
     start: Array | IntArray | None
     settings: SolverSettings
+    tolerance: float
     tried: Sequence[Candidate]
 
     def polish(self, state: IntArray, *, near: Array | None = None) -> Candidate:
         """A candidate made exact by Newton's method, from its states, (n,), or a y, (2, n)."""
-        steps, tolerance = self.settings.newton_steps, self.settings.tolerance
+        steps, tolerance = self.settings.newton_steps, self.tolerance
         return by_states(self.problem, state, near=near, limit=steps, tolerance=tolerance)
 
 
@@ -135,9 +143,9 @@ def _newton(task: Task) -> Iterator[Candidate]:
     problem, settings = task.problem, task.settings
     if problem.piecewise_linear:
         for state in (None,) if task.start is None else (np.asarray(task.start, dtype=np.int64), None):
-            yield by_states(problem, state, limit=settings.newton_steps, tolerance=settings.tolerance)
+            yield by_states(problem, state, limit=settings.newton_steps, tolerance=task.tolerance)
         return
-    form, steps, tolerance = Equilibrium(problem=problem), settings.searched_steps, settings.tolerance
+    form, steps, tolerance = Equilibrium(problem=problem), settings.searched_steps, task.tolerance
     if task.start is not None:
         y = np.asarray(task.start, dtype=np.float64)
         h, r = problem.law.split(y)
@@ -233,7 +241,7 @@ def _tree(task: Task) -> Iterator[Candidate]:
 def _rounds(task: Task) -> Iterator[Candidate]:
     """Sweeps and proximal Newton, then that alone."""
     problem, settings = task.problem, task.settings
-    steps, tolerance = settings.searched_steps, settings.tolerance
+    steps, tolerance = settings.searched_steps, task.tolerance
     if problem.directions == 3 and problem.straight:
         rounds = settings.swept_rounds
         yield from proximal_rounds(problem, rounds=rounds, steps=steps, tolerance=tolerance, sweeps=_SWEEPS)
