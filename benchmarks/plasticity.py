@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The price of bodies that yield in contact, and CalculiX beside them; writes two tables of docs/plasticity.md.
+"""The price of bodies that yield in contact, and CalculiX beside them; writes three tables of docs/plasticity.md.
 
     python -m benchmarks.plasticity price [--refine 2 10 20] [--repeats 3] [--page]
+    python -m benchmarks.plasticity space [--cells 14] [--page]
     python -m benchmarks.plasticity calculix [--refine 2 4] [--page]
     python -m benchmarks.plasticity calculix --case 0.3 5 0.01 --increments 40 40
 
 A quarter of a cylinder is pressed on a rigid plane, until p_0 of the elastic contact would be 2, 3, 5 and 8 times the
 yield stress: in one increment beside one plain linear solve, or in ten and let go again in ten beside CalculiX.
+In space a quarter of a ball is, in one increment until p_0 would be 4 times the yield stress.
 """
 
 from __future__ import annotations
@@ -18,7 +20,7 @@ import subprocess
 import tempfile
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -36,6 +38,7 @@ from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.solve import solve_prepared
 from signorini.engine.tangent_bodies import TangentBodies
 from signorini.gallery.cylinder import NU, RADIUS, E, zhu_cylinder
+from signorini.gallery.half_spaces import SOFT, ball, hertz
 from signorini.model.body import Body
 from signorini.model.material import Elastic
 from signorini.model.model import Model
@@ -43,6 +46,7 @@ from signorini.model.plastic import Plastic
 from signorini.model.step import Step
 from signorini.reference.hertz import contact_modulus
 from signorini.solution.history import History
+from signorini.solution.results import StepResult
 from signorini.verify.yielding_points import yielding_points
 
 DOCUMENT = Path(__file__).parent.parent / "docs" / "plasticity.md"
@@ -50,6 +54,8 @@ HALF_WIDTH = 0.5
 """Of the elastic contact."""
 RATIOS = (2.0, 3.0, 5.0, 8.0)
 """p_0 of the elastic contact over the yield stress: first yield is at 1.79, flow without end beyond some 9."""
+BALL_RATIO = 4.0
+"""The same of the ball, whose first yield is at 1.61."""
 FRICTION = (0.0, 0.3)
 INCREMENTS = 10
 """Of either step beside CalculiX."""
@@ -117,6 +123,73 @@ def prices(refine: int, repeats: int) -> list[dict[str, Any]]:
                 | {"seconds": seconds, "linear": found["linear_seconds"]}
             )
     return rows
+
+
+def balls(n: int) -> list[dict[str, Any]]:
+    """A ball in one increment from nothing, beside the same one that does not yield: rows as of `prices`.
+
+    Parameters
+    ----------
+    n : cells along half the side of the core of the ball, see `gallery.half_spaces.ball`
+    """
+    contact_price.warm_up(pressed_ball(2, friction=0.3), time.process_time)
+    rows = []
+    for friction in FRICTION:
+        model = pressed_ball(n, friction=friction)
+        (body,) = model.bodies
+        elastic = Body(body.name, replace(body.material, plastic=None), formulation="mean dilatation")
+        found = contact_price.price("elastic ball", replace(model, bodies=[elastic]), time.process_time, repeats=1)
+        began, clock = time.process_time(), Clock(timer=time.process_time)
+        prepared = prepare(model, clock=clock)
+        assembly = clock.seconds["assembly"]
+        with mock.patch.object(TangentBodies, "solver", autospec=True, side_effect=TangentBodies.solver) as factorised:
+            history = solve_prepared(prepared)
+        seconds = time.process_time() - began - assembly
+        rows.append(
+            {"unknowns": found["dofs"], "pairs": found["contact_pairs"], "friction": friction}
+            | {"rounds": plastic_rounds(history.last), "tangents": factorised.call_count, "seconds": seconds}
+            | {"elastic": found["contact_seconds"], "linear": found["linear_seconds"]}
+            | {"memory": page.peak_memory()}
+        )
+        del prepared, history
+    return rows
+
+
+def pressed_ball(n: int, *, friction: float) -> Model:
+    """A quarter of a ball on a rigid plane, see `balls`."""
+    elastic = ball(n=n)
+    law = Plastic(hertz(1).peak_pressure / BALL_RATIO)
+    return replace(
+        elastic,
+        bodies=[Body(body.name, replace(SOFT, plastic=law)) for body in elastic.bodies],
+        contacts=[replace(contact, friction=friction) for contact in elastic.contacts],
+        steps=[Step(name="press", increments=1)],
+    )
+
+
+def plastic_rounds(step: StepResult) -> int:
+    """Of all increments of a step."""
+    return sum(run.iterations for runs in step.trace for run in runs if run.method == "plastic flow")
+
+
+def ball_table(rows: list[dict[str, Any]]) -> str:
+    """Of the document."""
+    head = ("unknowns", "pairs", "mu", "rounds", "new factors", "CPU s", "elastic s", "linear solve s")
+    head += ("price", "elastic price", "memory GB")
+    lines = [
+        [row["unknowns"], row["pairs"], row["friction"], row["rounds"], row["tangents"]]
+        + [page.seconds(row[name]) for name in ("seconds", "elastic", "linear")]
+        + [f"{row[name] / row['linear']:.1f}" for name in ("seconds", "elastic")]
+        + [page.gigabytes(row["memory"])]
+        for row in rows
+    ]
+    text = (
+        f"{page.table(head, lines)}\n\nCPU seconds of all after the elastic assembly, of the same ball that does not "
+    )
+    text += (
+        "yield, and of one plain linear solve of the same matrix with the contact nodes fixed; prices over that one; "
+    )
+    return f"{text}one thread, {page.machine()}."
 
 
 def price_table(rows: list[dict[str, Any]]) -> str:
@@ -293,16 +366,20 @@ def beside_table(rows: list[list[object]], increments: tuple[int, int]) -> str:
 
 def main() -> None:
     parser = command.parser(__doc__)
-    parser.add_argument("what", choices=("price", "calculix"))
+    parser.add_argument("what", choices=("price", "space", "calculix"))
     parser.add_argument("--refine", type=int, nargs="+", default=[2, 4])
     parser.add_argument("--repeats", type=int, default=contact_price.REPEATS, help="of every price")
+    parser.add_argument("--cells", type=int, nargs="+", default=[14], help="of the ball in space")
     parser.add_argument("--page", action="store_true", help=f"write the table into {DOCUMENT.name}")
     parser.add_argument("--one", action="store_true", help="measure prices in this process")
     parser.add_argument("--case", type=float, nargs=3, metavar=("MU", "RATIO", "HARDENING"))
     parser.add_argument("--increments", type=int, nargs=2, metavar=("OURS", "THEIRS"), default=[INCREMENTS, INCREMENTS])
     options = parser.parse_args()
     if options.one:
-        print(json.dumps(prices(options.refine[0], options.repeats)))
+        if options.what == "space":
+            print(json.dumps(balls(options.cells[0])))
+        else:
+            print(json.dumps(prices(options.refine[0], options.repeats)))
         return
     if options.what == "price":
         found = [
@@ -311,6 +388,9 @@ def main() -> None:
             for row in page.measured("benchmarks.plasticity", "price", "--refine", refine, "--repeats", options.repeats)
         ]
         text = price_table(found)
+    elif options.what == "space":
+        measured = (page.measured("benchmarks.plasticity", "space", "--cells", n) for n in options.cells)
+        text = ball_table([row for rows in measured for row in rows])
     else:
         reason = missing()
         if reason is not None:
