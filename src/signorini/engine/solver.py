@@ -32,7 +32,7 @@ from signorini.solution.state import LoadPoint, State
 
 _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
 _REFINEMENTS = 2
-_ENOUGH = 1e-3  # of the sizes of a law: what answers that others follow may lack at most
+_MOST_ALLOWED = 1e-3  # of the data of the law: what answers that others follow may lack at most
 _LENGTH_PER_GAP = 1e-4  # of the largest gap or displacement: times the law's tolerance, 1e-10, a few roundings of it
 
 
@@ -299,7 +299,7 @@ class CondensedSolver:
             return 0.0
         root = self.condensed.root
         size = min(scale.force / float(root.max(initial=0.0)), scale.length * float(root.min(initial=np.inf)))
-        return min(lack * size / self.law.scale, _ENOUGH)
+        return min(lack * size / self.law.scale, _MOST_ALLOWED)
 
     def floating(self, escape: Array) -> Array:
         """(k,) The combination of floating motions that a motion of the pairs (d a,) is."""
