@@ -47,10 +47,24 @@ HALVED = 0.75  # of the difference: what is left with twice the increments, 0.47
 ALIKE = 1e-4  # of the largest displacement: differences below are of increments that all but agree
 
 
+def solved(model: sg.Model, **given: Any) -> Any:
+    """As far as there is an answer.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        Where it comes while the package solves, which ends that in good order.
+    """
+    history = sg.solve(model, raise_on_failure=False, **given)
+    if history.status == "interrupted":
+        raise KeyboardInterrupt
+    return history
+
+
 def judge(case: Case, *, solve: bool = False) -> Verdict:
     """Solve, and look at every instant; ``solve``: beside the slow solver too."""
     try:
-        history = sg.solve(case.model, raise_on_failure=False)
+        history = solved(case.model)
     except Exception as error:  # whatever a solver may do is told, not raised
         return Verdict(outcome="ERROR", words=f"{type(error).__name__}: {str(error)[:300]}")
     follower = Follower.of(case.structure)
@@ -136,7 +150,7 @@ def _solved_again(case: Case, history: Any) -> Verdict | None:
         if kind not in case.kinds:
             continue
         model, back = moved(case.model)
-        other = sg.solve(model, raise_on_failure=False)
+        other = solved(model)
         if other.status != history.status or len(other.steps) != len(history.steps):
             words = f"{other.status}, as it was {history.status}: {other.message[:200]}"
             return Verdict(outcome=kind.upper(), words=words)
@@ -161,7 +175,7 @@ def _cut(case: Case, whole: Any) -> str:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "state.npz"
         sg.solve(replace(case.model, steps=case.model.steps[:cut])).save_state(path)
-        after = sg.solve(replace(case.model, steps=case.model.steps[cut:]), start=path, raise_on_failure=False)
+        after = solved(replace(case.model, steps=case.model.steps[cut:]), start=path)
     if after.status != whole.status:
         return f"cut behind step {cut}: {after.status}, the whole {whole.status}: {after.message[:200]}"
     for k, (one, two) in enumerate(zip(whole.steps[cut:], after.steps, strict=False)):
@@ -192,7 +206,7 @@ def refined(case: Case) -> Verdict:
     largest, off = np.abs(u).max(), []
     for count in COARSE:
         some = [replace(step, increments=count) for step in steps]
-        history = sg.solve(replace(case.model, steps=some), raise_on_failure=False)
+        history = solved(replace(case.model, steps=some))
         if history.status != "solved":
             return Verdict(outcome="beyond", words=history.message[:200])
         off.append(float(np.abs(history.last.displacement.ravel() - u).max() / largest))
