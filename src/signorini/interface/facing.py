@@ -25,16 +25,19 @@ def search_distance(nonmortar: Boundary, mortar: Boundary, search: float | None)
     return 0.5 * min(float(np.linalg.norm(extent(side.points[side.nodes]))) for side in (nonmortar, mortar))
 
 
-def near(points: Array, centres: Array, radius: Array | float, search: float) -> tuple[IntArray, IntArray]:
+def near(
+    points: Array, centres: Array, radius: Array | float, sizes: Array | float, search: float
+) -> tuple[IntArray, IntArray]:
     """Pairs of points and centres of what is around them that may be opposite each other along some normal.
 
-    Along the normal the other side can be twice as far as the closest centre, which is 60 degrees aside.
+    Along the normal the other side can be twice as far as the closest centre, which is 60 degrees aside. Facets of the
+    other side are looked for with others of their size, so that a few large ones do not make small ones all near.
 
     Parameters
     ----------
     points : (p, d) nodes, or centres of facets
     centres : (m, d) of the facets of the other side
-    radius : (p,) or a number: how far from its centre a facet may reach, both sides together, length
+    radius, sizes : (p,) and (m,), or numbers: how far from its centre a facet may reach, length
     search : how far apart they can be along the normal, length
 
     Returns
@@ -43,16 +46,24 @@ def near(points: Array, centres: Array, radius: Array | float, search: float) ->
 
     Examples
     --------
-    >>> i, j = near(np.array([[0.0, 0.0], [5.0, 0.0]]), np.array([[0.0, 1.0], [5.0, 3.0]]), 0.5, 2.0)
+    >>> i, j = near(np.array([[0.0, 0.0], [5.0, 0.0]]), np.array([[0.0, 1.0], [5.0, 3.0]]), 0.25, 0.25, 2.0)
     >>> i.tolist(), j.tolist()
     ([0], [0])
     """
-    tree = KDTree(centres)
-    closest, _ = tree.query(points)
+    closest, _ = KDTree(centres).query(points)
     reach = radius + np.minimum(2.0 * closest, search)
-    lists = tree.query_ball_point(points, reach * (1.0 + 1e-9), return_sorted=True)
-    count = np.array([len(found) for found in lists], int)
-    return np.repeat(np.arange(len(count)), count), np.concatenate([np.asarray(found, int) for found in lists])
+    width = np.broadcast_to(sizes, len(centres))
+    octave = np.frexp(width)[1]
+    first, second = [np.empty(0, int)], [np.empty(0, int)]
+    for each in np.unique(octave):
+        own = np.flatnonzero(octave == each)
+        farthest = (reach + width[own].max()) * (1.0 + 1e-9)
+        lists = KDTree(centres[own]).query_ball_point(points, farthest, return_sorted=True)
+        first.append(np.repeat(np.arange(len(points)), [len(found) for found in lists]))
+        second.append(own[np.concatenate([np.asarray(found, int) for found in lists])])
+    i, j = np.concatenate(first), np.concatenate(second)
+    order = np.lexsort([j, i])
+    return i[order], j[order]
 
 
 def near_pairs(first: Array, second: Array, search: float) -> tuple[IntArray, IntArray]:
@@ -69,7 +80,7 @@ def near_pairs(first: Array, second: Array, search: float) -> tuple[IntArray, In
     """
     centre_1, radius_1, normal_1 = _bounds(first)
     centre_2, radius_2, normal_2 = _bounds(second)
-    i, j = near(centre_1, centre_2, radius_1 + radius_2.max(), search)
+    i, j = near(centre_1, centre_2, radius_1, radius_2, search)
     across = centre_2[j] - centre_1[i]
     height = np.sum(across * normal_1[i], axis=1)
     beside = np.sqrt(np.maximum(np.sum(across**2, axis=1) - height**2, 0.0))

@@ -120,7 +120,7 @@ def _near(nonmortar: FacetBlock, mortar: FacetBlock, search: float) -> tuple[Int
     """Pairs of facets that may be opposite each other."""
     centres = [side.points[:, :2].mean(axis=1) for side in (nonmortar, mortar)]
     radii = [side.lengths / 2.0 for side in (nonmortar, mortar)]
-    return near(centres[0], centres[1], radii[0] + radii[1].max(), search)
+    return near(centres[0], centres[1], radii[0], radii[1], search)
 
 
 def _pieces(

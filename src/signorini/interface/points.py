@@ -91,8 +91,8 @@ def _nearest(
     weights (p, n) of its nodes, and how far it lies behind the surface that it stands for, (p,).
     """
     centres = block.points.mean(axis=1)
-    radius = np.linalg.norm(block.points - centres[:, None], axis=2).max()
-    i, j = near(points, centres, radius, search)
+    radius = np.linalg.norm(block.points - centres[:, None], axis=2).max(axis=1)
+    i, j = near(points, centres, 0.0, radius, search)
     places, distance = (_meet if block.dimension == 2 else meet)(points, normals, block.points, i, j)
     facing = np.sum(normals[i] * block.normals[j], axis=1) < FACING
     there = np.nonzero(_within(block.corners, places) & (np.abs(distance) <= search) & facing)[0]
