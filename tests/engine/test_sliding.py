@@ -168,6 +168,29 @@ def test_a_history_that_is_cut_goes_on_to_the_last_bit(tmp_path: Path) -> None:
         assert np.array_equal(one.contacts[0].normals, two.contacts[0].normals)
 
 
+def test_a_hub_is_pushed_along_its_shaft() -> None:
+    """Over three of its elements the press fit keeps its force, and the push is mu times it; axisymmetric."""
+    shaft = sg.rectangle(x=np.linspace(0.0, 1.0, 4), y=np.linspace(-1.0, 3.0, 17))
+    hub = sg.rectangle(x=np.linspace(1.0, 2.0, 4), y=np.linspace(0.0, 1.0, 6))
+    model = sg.Model(
+        mesh=sg.join({"shaft": shaft, "hub": hub}),
+        kind="axisymmetric",
+        bodies=[sg.Body("shaft", STEEL), sg.Body("hub", STEEL)],
+        supports=[sg.Support("shaft.bottom", u=(None, 0.0)), sg.Support("hub.bottom", u=(None, 0.6), name="push")],
+        contacts=[
+            sg.Contact("hub.left", "shaft.right", friction=0.2, sliding="finite", interference=0.002, name="fit")
+        ],
+        steps=[sg.Step(scale={"push": 0.0}), sg.Step(scale={"push": 1.0})],
+    )
+    push = sg.solve(model).steps[-1]
+    pushed = [of_contact(instant) for instant in push.instants if instant.what == "handover"][3:]
+    assert len(pushed) > 5
+    normal, tangential = np.transpose(pushed)
+    assert np.abs(tangential) == pytest.approx(0.2 * normal, rel=1e-12)
+    assert np.ptp(normal) < 0.01 * normal.mean()
+    assert push.reactions["push"][1] == pytest.approx(0.2 * normal[-1], rel=0.01)
+
+
 def test_a_block_in_space_slides_askew_and_keeps_its_axes() -> None:
     """Friction is against the way, whatever pairs are made anew; tangents do not turn with them."""
     top = sg.box(x=np.linspace(0.0, 1.0, 4), y=np.linspace(0.0, 1.0, 4), z=np.linspace(0.0, 0.6, 3))
