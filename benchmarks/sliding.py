@@ -16,6 +16,7 @@ from statistics import median
 
 import numpy as np
 
+import signorini as sg
 from benchmarks import page
 from signorini.engine.prepare import prepare
 from signorini.engine.sliding import paired
@@ -25,7 +26,17 @@ from signorini.linalg.registry import factorise
 from signorini.linalg.threads import one_thread
 
 _PAGE = Path(__file__).parent.parent / "docs" / "sliding.md"
-_HEAD = ("unknowns", "pairs", "kept", "factorisation, s", "pairing, s", "condensing, s", "stride / factorisation")
+_HEAD = (
+    "model",
+    "unknowns",
+    "pairs",
+    "kept",
+    "factorisation, s",
+    "pairing, s",
+    "condensing, s",
+    "stride / factorisation",
+)
+_FACETS = 360  # of the block: 2e5 unknowns
 _REPEATS = 7
 _STROKE = 0.5  # mm, half of the half-width
 
@@ -40,15 +51,30 @@ def seconds(work: Callable[[], object]) -> float:
     return median(taken)
 
 
+def block(facets: int) -> sg.Model:
+    """A block on a bed, meshed evenly, of which the contact is a small part."""
+    cell = 2.0 / facets
+    top = sg.rectangle(width=2.0, height=1.0, nx=facets, ny=facets // 6)
+    bed = sg.rectangle(width=3.5, height=1.0, nx=4 * facets // 3, ny=4 * facets // 9, origin=(-0.75 + 0.3 * cell, -1.0))
+    steel = sg.Elastic(E=200.0, nu=0.3)
+    return sg.Model(
+        sg.join({"pad": top, "flat": bed}),
+        bodies=[sg.Body("pad", steel), sg.Body("flat", steel)],
+        supports=[sg.Support("flat.bottom", u=(0.0, 0.0)), sg.Support("pad.top", u=(0.1, None), name="drag")],
+        loads=[sg.Load("pad.top", force=(None, -1.0), spread="displacement", name="press")],
+        contacts=[sg.Contact("pad.bottom", "flat.top", friction=0.3, sliding="finite")],
+    )
+
+
 @one_thread()
-def row(spacing: float) -> list[object]:
-    """A line of the table."""
-    prepared = prepare(dragged_cylinder(stroke=_STROKE, spacing=spacing))
+def row(name: str, given: sg.Model, away_by: float) -> list[object]:
+    """A line of the table: a model whose first contact slides by a distance."""
+    prepared = prepare(given)
     model, space, constraints = prepared.model, prepared.space, prepared.constraints
     T = constraints.transform
     reduced, condensed = (T.T @ prepared.K @ T).tocsr(), prepared.paths.condensed
     away = np.zeros(space.number_of_dofs)
-    away[space.dofs(model.mesh.nodes_of("pad.arc"))[:, 0]] = 0.3 * spacing
+    away[space.dofs(model.mesh.nodes_of(model.contacts[0].nonmortar))[:, 0]] = away_by
 
     def solved() -> object:
         return factorise(reduced, condensed.dofs, nodes=constraints.nodes, points=space.places)
@@ -60,7 +86,7 @@ def row(spacing: float) -> list[object]:
     whole, pairs, condensing = seconds(solved), seconds(pairing), seconds(lambda: paired(prepared, interface))
     stride = 2.0 * pairs + condensing
     sizes = [T.shape[1], len(interface), len(condensed.dofs)]
-    return [*sizes, f"{whole:.3f}", f"{pairs:.4f}", f"{condensing:.4f}", f"{stride / whole:.2f}"]
+    return [name, *sizes, f"{whole:.3f}", f"{pairs:.4f}", f"{condensing:.4f}", f"{stride / whole:.2f}"]
 
 
 def main() -> None:
@@ -69,7 +95,11 @@ def main() -> None:
     parser.add_argument("--spacing", type=float, nargs="+", default=[0.04, 0.02, 0.01, 0.005])
     parser.add_argument("--page", action="store_true", help="write the table into docs/sliding.md")
     given = parser.parse_args()
-    text = f"{page.table(_HEAD, [row(spacing) for spacing in given.spacing])}\n\nCPU seconds, {page.machine()}."
+    rows = [
+        row("cylinder", dragged_cylinder(stroke=_STROKE, spacing=spacing), 0.3 * spacing) for spacing in given.spacing
+    ]
+    rows.append(row("block", block(_FACETS), 0.6 / _FACETS))
+    text = f"{page.table(_HEAD, rows)}\n\nCPU seconds, {page.machine()}."
     print(text)
     if given.page:
         page.write("sliding", text, _PAGE)
