@@ -32,11 +32,13 @@ class Rubbing:
     distance : (n,) slid where they were closed, either way, length
     wearing : (n,) ``int p |ds|``, force per length; of pairs that wear by energy the work of friction per area
     travel : (n,) how far both sides have moved along each other, open or closed, length
+    volume : (m,) worn off at the corners of the sides by it
     """
 
     distance: Array
     wearing: Array
     travel: Array
+    volume: Array
 
     def and_then(self, other: Rubbing) -> Rubbing:
         """Both ways, one after the other."""
@@ -44,6 +46,7 @@ class Rubbing:
             distance=self.distance + other.distance,
             wearing=self.wearing + other.wearing,
             travel=self.travel + other.travel,
+            volume=self.volume + other.volume,
         )
 
 
@@ -62,7 +65,7 @@ def rubbing_of_states(sides: WornSides, interface: Interface, states: Sequence[S
         pressed = 0.5 * (one.forces + two.forces)[:n] * slid
         distance += slid
         wearing += np.where(sides.by_energy, two.dissipation - one.dissipation, pressed) / interface.area
-    return Rubbing(distance=distance, wearing=wearing, travel=distance)
+    return Rubbing(distance=distance, wearing=wearing, travel=distance, volume=sides.volume @ wearing)
 
 
 def rubbing_of_segment(sides: WornSides, interface: Interface, paths: CondensedSolver, segment: Segment) -> Rubbing:
@@ -84,12 +87,12 @@ def rubbing_of_segment(sides: WornSides, interface: Interface, paths: CondensedS
     distance[active] = np.where(normal > 0.0, slid, 0.0).sum(axis=0)
     pressed, work = (normal * slid).sum(axis=0), -(friction * slips).sum(axis=(0, 1))
     wearing[active] = np.where(sides.by_energy[active], work, pressed) / interface.area[active]
-    return Rubbing(distance=distance, wearing=wearing, travel=travel)
+    return Rubbing(distance=distance, wearing=wearing, travel=travel, volume=sides.volume @ wearing)
 
 
 def rubbed(wear: WearState, rubbing: Rubbing) -> WearState:
     """A state of wear after sides have slid, which have lost nothing by it yet."""
-    return replace(wear, distance=wear.distance + rubbing.distance, rubbed=wear.rubbed + rubbing.wearing)
+    return replace(wear, distance=wear.distance + rubbing.distance, loose=wear.loose + rubbing.volume)
 
 
 def worn(sides: WornSides, wear: WearState, *, cycles: int = 0) -> WearState:
@@ -101,11 +104,10 @@ def worn(sides: WornSides, wear: WearState, *, cycles: int = 0) -> WearState:
     wear : their state
     cycles : that have gone by since
     """
-    volume = sides.volume @ wear.rubbed
     return replace(
         wear,
-        depth=wear.depth + sides.depth(volume),
-        volume=wear.volume + volume,
-        rubbed=np.zeros_like(wear.rubbed),
+        depth=wear.depth + sides.depth(wear.loose),
+        volume=wear.volume + wear.loose,
+        loose=np.zeros_like(wear.loose),
         cycles=wear.cycles + cycles,
     )

@@ -21,6 +21,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.engine.rubbing import Rubbing, worn
 from signorini.engine.wear_paths import PathCycle, WornPaths
+from signorini.interface.worn_sides import WornSides
 
 _SETTLED = 1e-5  # of what the most worn pair loses in a block: how well the equation of a block is solved
 _CYCLES = 40  # tried for one block: three to six are usual
@@ -63,7 +64,7 @@ def implicit_block(paths: WornPaths, at: PathCycle, last: int, count: int, guess
     """
     sides, rubs, error, share = paths.sides, guess, np.inf, 1.0
     for tries in range(1, _CYCLES + 1):
-        wear = worn(sides, replace(at.wear, rubbed=at.wear.rubbed + count * rubs), cycles=count)
+        wear = worn(sides, replace(at.wear, loose=at.wear.loose + count * (sides.volume @ rubs)), cycles=count)
         moved = paths.worn(at, wear)
         found = None if moved is None else paths.cycle(moved, last)
         if moved is None or found is None:
@@ -72,21 +73,23 @@ def implicit_block(paths: WornPaths, at: PathCycle, last: int, count: int, guess
         grown = sides.rate * rubbing.wearing
         last_error, error = error, float(np.abs(grown - sides.rate * rubs).max())
         if error <= _SETTLED * grown.max():
-            done = _repeated(moved, done, rubbing, rubs, count)
+            done = _repeated(sides, moved, done, rubbing, rubs, count)
             return CycleBlock(count=count, last=count, moved=moved, done=done, rubs=rubbing.wearing, tries=tries)
         share = 0.5 * share if error > last_error and share > _LEAST_SHARE else share
         rubs = rubs + share * (_corrected(paths, done, rubbing, rubs, count) - rubs)
     return None
 
 
-def _repeated(moved: PathCycle, done: PathCycle, rubbing: Rubbing, rubs: Array, count: int) -> PathCycle:
+def _repeated(
+    sides: WornSides, moved: PathCycle, done: PathCycle, rubbing: Rubbing, rubs: Array, count: int
+) -> PathCycle:
     """The end of a block whose last cycle stands for all of them."""
     others = count - 1
     dissipation = done.now.dissipation + others * (done.now.dissipation - moved.now.dissipation)
     wear = replace(
         done.wear,
         distance=done.wear.distance + others * rubbing.distance,
-        rubbed=done.wear.rubbed + others * rubbing.wearing - count * rubs,
+        loose=done.wear.loose + others * rubbing.volume - count * (sides.volume @ rubs),
     )
     return replace(
         done,

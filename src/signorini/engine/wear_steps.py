@@ -204,7 +204,7 @@ class _Walk:
             wear=replace(
                 wear,
                 distance=wear.distance + others * (wear.distance - before.distance),
-                rubbed=block.done.wear.rubbed,
+                loose=block.done.wear.loose,
             ),
         )
         whole = joined(parts)
@@ -264,7 +264,7 @@ class _Walk:
         """
         end, step = self.state if cycle_end is None else cycle_end, self.stage.step
         one, two = wear_of(begin), wear_of(end)
-        lost = two.volume - one.volume if cycle_end is None else self.sides.volume @ (two.rubbed - one.rubbed)
+        lost = two.volume - one.volume if cycle_end is None else two.loose - one.loose
         cycle = replace(
             cycle_between(begin, end, two.distance - one.distance),
             number=number,

@@ -21,7 +21,7 @@ class WearState(Short):
     depth : (m,) length
     volume : (m,) worn volume there
     distance : (n,) slid by every pair where it is closed, either way
-    rubbed : (n,) ``int p |ds|``, or the work of friction per area, that has not worn the sides yet
+    loose : (m,) volume that has been rubbed off there and that the depth does not know yet
     energy : elastic energy that was set free with what is worn: forces of the pairs times what they give way
     cycles : worn so far
     """
@@ -29,7 +29,7 @@ class WearState(Short):
     depth: Array
     volume: Array
     distance: Array
-    rubbed: Array
+    loose: Array
     energy: float = 0.0
     cycles: int = 0
 
@@ -37,4 +37,4 @@ class WearState(Short):
 def unworn(sides: WornSides) -> WearState:
     """Nothing is worn yet."""
     depth, pairs = np.zeros(len(sides)), np.zeros(len(sides.by_energy))
-    return WearState(depth=depth, volume=depth, distance=pairs, rubbed=pairs)
+    return WearState(depth=depth, volume=depth, distance=pairs, loose=depth)
