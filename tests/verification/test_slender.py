@@ -66,10 +66,13 @@ def leaf_springs(length: float, force: float, cells: str, formulation: str) -> s
     )
 
 
-@pytest.mark.parametrize("length", [70.0, 100.0, 200.0])
+@pytest.mark.parametrize("length", [70.0, 200.0, 400.0, 1200.0])
 @pytest.mark.parametrize(("cells", "formulation"), [("quad8", "standard"), ("quad", "incompatible")])
 def test_two_leaf_springs_share_a_load_at_the_tip(length, cells, formulation):
-    """Each bends by half the load: friction between them is far below that of a common section."""
+    """Each bends by half the load: friction between them is far below that of a common section.
+
+    From 400 on rounding, which bends them, changes which pairs touch from one refinement to the next.
+    """
     force = 100.0 / length**2
     end = sg.solve(leaf_springs(length, force, cells, formulation)).last
     assert end.certificate.passed
@@ -77,7 +80,7 @@ def test_two_leaf_springs_share_a_load_at_the_tip(length, cells, formulation):
 
 
 def test_leaf_springs_too_slender_for_the_digits_are_told_so():
-    said = sg.solve(leaf_springs(400.0, 6.25e-4, "quad", "incompatible"), raise_on_failure=False)
+    said = sg.solve(leaf_springs(4000.0, 6.25e-6, "quad", "incompatible"), raise_on_failure=False)
     assert said.status == "not_found"
     assert "bodies are too slender for double precision: rounding of their displacements" in said.message
 
