@@ -21,6 +21,7 @@ ITERATIVE = "iterative"
 """The name of this way among the back ends."""
 
 _ENDLESS_PATIENCE = 10**6  # rounds
+_SHARP_AIM = 1e-12  # of the sizes of the data: what bodies that are hardly loaded bear, and thin ones bend by
 _SPRING_RATIO = 4.0  # springs of closed pairs, of what their nodes feel: multipliers then converge by as much a round
 
 
@@ -48,6 +49,7 @@ class Bodies:
     blocks : of the unknowns
     preconditioner : shared by all loads
     patience : rounds after which an increment is given up whose residual has not halved
+    aim : residual down to which rounds go on that need not, as long as it falls
     name : for reports
     """
 
@@ -63,6 +65,7 @@ class Bodies:
     blocks: Blocks
     preconditioner: Preconditioner
     patience: int = _ENDLESS_PATIENCE
+    aim: float = np.inf
     name: str = ITERATIVE
 
     @property
@@ -86,7 +89,7 @@ class Bodies:
         """
         known = np.unique(nodes)
         direct = Direct(self.K, np.repeat(known, self.blocks.size), points)
-        return replace(self, preconditioner=direct, patience=patience)
+        return replace(self, preconditioner=direct, patience=patience, aim=_SHARP_AIM)
 
     def among(self, kept: BoolArray) -> Bodies:
         """Bodies with fewer pairs.

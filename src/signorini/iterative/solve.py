@@ -40,6 +40,7 @@ from signorini.outcome import Outcome
 _MAX_NEWTON = 20  # steps a round
 _EQUILIBRIUM_SHARE = 0.1  # of what the multipliers change by: what equilibrium may lack in a round
 _NEWTON_RESIDUAL = 0.1  # of the residual before: what conjugate gradients leave of it
+_STILL_FALLS = 0.9  # of the least residual: what a round leaves of it where another one is worth it
 _STIFFNESS_FLOOR = 1e-4  # of their stiffness: what pairs that resist nothing keep where contact alone holds bodies
 _SPRING_CHANGE = 0.1  # of the stiffest spring: change of springs up to which a cycle serves
 _DRAGGED_STIFFNESS = 1e12  # force per slip: far beyond every bound, so that what is dragged slips
@@ -91,7 +92,8 @@ def solve_iteratively(bodies: Bodies, load: IncrementLoad, z: Array, forces: Arr
         rounds.newton()
         worst = rounds.update()
         best.append(min(worst, best[-1]))
-        if worst <= load.tolerance or not np.isfinite(worst):
+        as_good_as_it_gets = worst <= bodies.aim or worst > _STILL_FALLS * best[-2]
+        if (worst <= load.tolerance and as_good_as_it_gets) or not np.isfinite(worst):
             break
         if len(best) > bodies.patience and best[-1] > 0.5 * best[-1 - bodies.patience]:
             break
