@@ -61,11 +61,12 @@ def rough_block(n: int, rng: np.random.Generator) -> PosedLCP:
 def loaded(prepared: Prepared, factor: float) -> ContactProblem:
     """The law of the first step from rest, loads times the factor."""
     interface, condensed, T = prepared.interface, prepared.paths.condensed, prepared.constraints.transform
-    rows, zero = condensed.active_rows, np.zeros(prepared.space.number_of_dofs)
+    zero = np.zeros(prepared.space.number_of_dofs)
     imposed = sum(prepared.constraints.prescribed.values(), zero)
     load = T.T @ (factor * sum(prepared.loads.values(), zero) - prepared.K @ imposed)
-    offset = np.concatenate([interface.gap, np.zeros(len(interface))]) + interface.B @ imposed
-    b = condensed.right_hand_side(condensed.reduce(load).load, offset[rows])
+    offset = interface.motion(imposed)
+    offset[0] += interface.gap
+    b = condensed.right_hand_side(condensed.reduce(load).load, offset[:, condensed.active])
     return replace(prepared.paths.law, b=b)
 
 

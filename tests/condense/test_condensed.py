@@ -21,8 +21,8 @@ def with_compliance(model, compliance):
 
 def seen(prepared):
     """Rigid motions that supports leave, as the active pairs see them, scaled."""
-    rows = prepared.paths.condensed.active_rows
-    return prepared.paths.condensed.root[:, None] * (prepared.interface.B @ prepared.motions @ prepared.floating)[rows]
+    condensed, rows = prepared.paths.condensed, prepared.interface.rows(prepared.paths.condensed.active)
+    return np.tile(condensed.root, 2)[:, None] * (prepared.interface.B @ prepared.motions @ prepared.floating)[rows]
 
 
 FLOATING = [four_blocks, zhu_cylinder, dragged_block]
@@ -35,16 +35,15 @@ def test_the_image_form_is_equilibrium(make, compliance):
     """Any forces r and displacements u in equilibrium obey ``G h - W r = b`` with ``h = B u + C r + h_0``."""
     prepared = prepare(with_compliance(make(), compliance))
     condensed, interface, T = prepared.paths.condensed, prepared.interface, prepared.constraints.transform
-    rows, rng = condensed.active_rows, np.random.default_rng(1)
+    rows, rng = interface.rows(condensed.active), np.random.default_rng(1)
     u = rng.standard_normal(T.shape[1])
-    r = rng.standard_normal(len(rows))
-    offset = rng.standard_normal(len(rows))
+    r, offset = rng.standard_normal((2, 2, len(condensed.root)))
     B = (interface.B @ T).toarray()[rows]
-    f = T.T @ prepared.K @ T @ u - B.T @ r
-    C = np.concatenate([interface.normal_compliance, interface.tangential_compliance]) / np.tile(interface.area, 2)
-    h = B @ u + C[rows] * r + offset
+    f = T.T @ prepared.K @ T @ u - B.T @ r.ravel()
+    C = np.stack([interface.normal_compliance, interface.tangential_compliance]) / interface.area
+    h = (B @ u).reshape(r.shape) + C[:, condensed.active] * r + offset
     b = condensed.right_hand_side(condensed.reduce(f).load, offset)
-    H, R = condensed.root * h, r / condensed.root
+    H, R = (condensed.root * h).ravel(), (r / condensed.root).ravel()
     size = np.abs(b).max() + np.abs(H).max() + np.abs(R).max()
     np.testing.assert_allclose(H - condensed.image.W @ (H + R), b, rtol=0, atol=1e-11 * size)
     found = condensed.displacement(condensed.reduce(f), h, r, offset)

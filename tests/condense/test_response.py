@@ -58,10 +58,10 @@ def test_both_ways_give_the_same_interface(monkeypatch, name):
         (pairs.paths.condensed, nodes.paths.condensed),
         (pairs.paths.condensed.among(few), nodes.paths.condensed.among(few)),
     ):
-        u, (r, offset) = rng.standard_normal(T.shape[1]), rng.standard_normal((2, len(one.image.W)))
-        B = (pairs.interface.B @ T)[one.active_rows]
-        f = T.T @ (pairs.K @ (T @ u)) - B.T @ r
-        h = B @ u + offset + one.compliance * r
+        u, (r, offset) = rng.standard_normal(T.shape[1]), rng.standard_normal((2, 3, len(one.root)))
+        B = (pairs.interface.B @ T)[pairs.interface.rows(one.active)]
+        f = T.T @ (pairs.K @ (T @ u)) - B.T @ r.ravel()
+        h = (B @ u).reshape(r.shape) + offset + one.compliance * r
         np.testing.assert_allclose(one.image.A, two.image.A, rtol=0, atol=1e-12 * np.abs(two.image.A).max())
         np.testing.assert_allclose(one.image.W, two.image.W, rtol=0, atol=1e-12)
         b = two.right_hand_side(two.reduce(f).load, offset)

@@ -185,7 +185,7 @@ def test_rounding_of_forces_is_no_friction_that_lets_go():
     prepared = prepare(block([sg.Step(scale={"press": 1.0, "pull": 0.0})]))
     state = solve_prepared(prepared).end.state
     left = np.full_like(state.forces, 1e-15 * prepared.scale.force)
-    left[: len(prepared.interface)] = 0.0
+    left[0] = 0.0
     assert relaxed(prepared, replace(state, forces=left), "step 2") is None
     assert relaxed(prepared, replace(state, forces=1e6 * left), "step 2") is not None
 

@@ -14,9 +14,8 @@ class PreparedPath:
         self.prepared = prepare(model)
         self.problem = self.prepared.paths.law
         self.pairs = self.problem.pairs
-        self.rows = self.prepared.paths.condensed.active_rows
-        gap = self.prepared.interface.gap
-        self.offset = np.append(gap, np.zeros_like(gap))[self.rows]
+        gap = self.prepared.interface.gap[self.prepared.paths.condensed.active]
+        self.offset = np.stack([gap, np.zeros_like(gap)])
 
     def forces(self, factors):
         """Nodal forces of the loads; what is not named does not act."""
@@ -31,7 +30,7 @@ class PreparedPath:
     def start(self):
         """Nothing acts yet."""
         root = self.prepared.paths.condensed.root
-        return initial_state(self.problem, self.load({}), motion=self.problem.by_pair(root * self.offset))
+        return initial_state(self.problem, self.load({}), motion=root * self.offset)
 
     def run(self, *loads):
         """Segments through the loads, up to one that is not followed."""
@@ -46,13 +45,13 @@ class PreparedPath:
     def traction(self, r):
         """Forces of the pairs per area."""
         area = self.prepared.interface.area[self.prepared.paths.condensed.active]
-        return self.problem.by_pair(self.prepared.paths.condensed.root * r.ravel() / np.tile(area, 2))
+        return self.prepared.paths.condensed.root * r / area
 
     def displacement(self, factors, piece):
         """Of every degree of freedom, at a breakpoint."""
         condensed, T = self.prepared.paths.condensed, self.prepared.constraints.transform
         f = T.T @ self.forces(factors)
-        h, r = piece.h.ravel() / condensed.root, piece.r.ravel() * condensed.root
+        h, r = piece.h / condensed.root, piece.r * condensed.root
         return T @ condensed.displacement(condensed.reduce(f), h, r, self.offset)
 
     def energies(self, loads):

@@ -40,7 +40,7 @@ def test_sweeps_are_those_of_triangles(d):
 def springs(bodies, normal, tangential):
     """Of all pairs, as parts of their stiffness."""
     shares = np.repeat([normal, tangential, tangential], len(bodies.pairs))
-    return sp.csr_array(bodies.B.T @ sp.diags_array(shares * bodies.stiffness) @ bodies.B)
+    return sp.csr_array(bodies.B.T @ sp.diags_array(shares * np.tile(bodies.stiffness, 3)) @ bodies.B)
 
 
 def test_a_cycle_is_symmetric_and_positive(bodies):

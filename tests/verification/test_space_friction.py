@@ -22,13 +22,14 @@ from signorini.solution.state import LoadPoint
 def condensed(model):
     """The model's first increment as a problem of the law alone."""
     prepared = prepare(model)
-    interface, rows = prepared.interface, prepared.paths.condensed.active_rows
+    interface, active = prepared.interface, prepared.paths.condensed.active
     factors = dict.fromkeys(model.scaled_names, 1.0)
-    point = LoadPoint(factors=factors, gap=interface.gap, given=np.zeros(3 * len(interface)))
+    point = LoadPoint(factors=factors, gap=interface.gap, given=np.zeros((3, len(interface))))
     imposed = sum(prepared.constraints.prescribed.values())
-    offset = np.concatenate([interface.gap, np.zeros(2 * len(interface))]) + interface.B @ imposed
+    offset = interface.motion(imposed)
+    offset[0] += interface.gap
     load = prepared.paths.condensed.reduce(free_load(prepared, point)).load
-    return replace(prepared.paths.law, b=prepared.paths.condensed.right_hand_side(load, offset[rows]))
+    return replace(prepared.paths.law, b=prepared.paths.condensed.right_hand_side(load, offset[:, active]))
 
 
 @pytest.mark.parametrize("upper", [4, 5])

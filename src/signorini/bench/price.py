@@ -20,7 +20,7 @@ from signorini.iterative.bodies import ITERATIVE
 from signorini.linalg.registry import factorise
 from signorini.memory import peak_memory
 from signorini.model.model import Model
-from signorini.solution.state import LoadPoint
+from signorini.solution.state import initial_state
 
 Timer = Callable[[], float]
 
@@ -112,11 +112,8 @@ def _fixed(prepared: Prepared) -> tuple[sp.csr_array, IntArray, Array, Array]:
     T = prepared.constraints.transform
     keep = np.setdiff1d(np.arange(T.shape[1]), prepared.paths.condensed.dofs)
     K = sp.csr_array((T.T @ prepared.K @ T)[keep][:, keep])
-    full = LoadPoint(
-        factors=dict.fromkeys(prepared.model.scaled_names, 1.0),
-        gap=prepared.interface.gap,
-        given=np.zeros(prepared.interface.B.shape[0]),
-    )
+    factors = dict.fromkeys(prepared.model.scaled_names, 1.0)
+    full = initial_state(factors, prepared.space.number_of_dofs, prepared.interface).point
     return K, prepared.constraints.nodes[keep], prepared.space.places, free_load(prepared, full)[keep]
 
 

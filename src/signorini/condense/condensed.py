@@ -51,9 +51,9 @@ class Condensed:
     image : A, W and the rigid motions B_c Z of the a active pairs, d rows each, scaled
     active : (n,) pairs that the law is asked of: candidates that can move along their normal
     held : (n,) pairs that cannot, because supports hold them
-    root : (d a,) square roots of D, force per length to the 1/2
+    root : (a,) square roots of D, in all directions the same, force per length to the 1/2
     dofs : (m,) the contact dofs among the free displacements
-    compliance : (d a,) of the interface, C, length per force
+    compliance : (d, a) of the interface, C, length per force
     ties : tied pairs, which are no unknowns of the law: all displacements here leave them at rest
     B : (d a, m) relative displacements of the active pairs in terms of them, B_c
     K : (m, m) stiffness between the contact dofs where all others are held
@@ -82,16 +82,6 @@ class Condensed:
         """Of the back end, for reports."""
         return self.factorisation.name
 
-    @property
-    def active_rows(self) -> IntArray:
-        """Rows of B that belong to active pairs: normals, then tangents."""
-        return np.nonzero(np.tile(self.active, self.directions))[0]
-
-    @property
-    def directions(self) -> int:
-        """Rows a pair, d."""
-        return len(self.root) // max(1, int(self.active.sum()))
-
     def reduce(self, f: Array) -> Reduced:
         """Loads (z,) or (z, k) on the free displacements, condensed onto what is kept."""
         return self.response.reduce(f)
@@ -102,46 +92,47 @@ class Condensed:
         Parameters
         ----------
         load : condensed, see `reduce`
-        offset : (d a,) h_0, length: initial gaps and minus the tangential displacements of the step before, each plus
+        offset : (d, a) h_0, length: initial gaps and minus the tangential displacements of the step before, each plus
             the relative displacement that supports prescribe
         """
         basis = self._basis
         resultant = basis.coefficients(self.response.resultant(load))
-        free = self.root * (self.response.moved(load) + offset) - self._leaning @ resultant
-        return self.image.load(free, resultant)
+        free = self.root * (self.response.moved(load).reshape(offset.shape) + offset)
+        return self.image.load(free.ravel() - self._leaning @ resultant, resultant)
 
     def of_gaps(self, gap: Array) -> Array:
         """What gaps (a,), length, of the active pairs add to b: nothing of the bodies is asked."""
-        moved = np.zeros_like(self.root)
-        moved[: len(gap)] = self.root[: len(gap)] * gap
-        return self.image.load(moved, np.zeros(self.image.R.shape[1]))
+        moved = np.zeros_like(self.compliance)
+        moved[0] = self.root * gap
+        return self.image.load(moved.ravel(), np.zeros(self.image.R.shape[1]))
 
     def displacement(self, reduced: Reduced, h: Array, r: Array, offset: Array) -> Array:
-        """Free displacements (z,) under a load and the solution h, r (d a,), in the units of the problem.
+        """Free displacements (z,) under a load and the solution h, r (d, a), in the units of the problem.
 
         Parameters
         ----------
         reduced : the load, see `reduce`
-        h, r : (d a,) relative displacements, length, and forces; for k loads at once (d a, k)
-        offset : (d a,) h_0, see `right_hand_side`
+        h, r : (d, a) relative displacements, length, and forces; for k loads at once (d, a, k)
+        offset : (d, a) h_0, see `right_hand_side`
         """
         if not len(self.dofs):
             return reduced.expand(reduced.load)
 
         def travel(moved: Array) -> Array:
-            left = (self.root * (h.T - self.compliance * r.T - offset.T - moved.T)).T
+            beyond = h.T - self.compliance.T * r.T - offset.T - moved.reshape(h.shape).T  # directions last
+            left = (self.root[:, None] * beyond).T.reshape(moved.shape)
             motion: Array = scipy.linalg.solve_triangular(self._basis.triangle, self._basis.R.T @ left)
             return motion
 
-        return self.response.displacement(reduced, r, travel)
+        return self.response.displacement(reduced, r.reshape(-1, *r.shape[2:]), travel)
 
     def on_springs(self, f: Array) -> Array:
         """Free displacements (z,) under loads (z,) where springs of stiffness D hold every pair, closed or not.
 
         Then r = -h, and ``G h - W r = b`` says h = b: what bodies do that are held, without asking how contact does it.
         """
-        reduced, offset = self.reduce(f), np.zeros(len(self.root))
-        b = self.right_hand_side(reduced.load, offset)
+        reduced, offset = self.reduce(f), np.zeros_like(self.compliance)
+        b = self.right_hand_side(reduced.load, offset).reshape(offset.shape)
         return self.displacement(reduced, b / self.root, -self.root * b, offset)
 
     def among(self, kept: BoolArray) -> Condensed:
@@ -156,8 +147,9 @@ class Condensed:
         LinAlgError
             If they do not.
         """
-        rows = np.tile(kept[self.active], self.directions)
-        root, compliance = self.root[rows], self.compliance[rows]
+        own = kept[self.active]
+        root, compliance = self.root[own], self.compliance[:, own]
+        rows = np.tile(own, len(compliance))
         response = self.response.among(rows)
         return replace(
             self,
@@ -181,19 +173,8 @@ class Condensed:
         assert isinstance(self.response, ByNodes)
         seen, _, held, active = active_pairs(B, interface, np.ones(len(interface), np.bool_))
         B_c = sp.csr_array(seen[np.nonzero(interface.rows(active))[0]][:, self.dofs])
-        root = np.sqrt(_interface_stiffness(self.K, B_c, interface, np.flatnonzero(active), stiffness))
-        compliance = (interface.compliance / interface.areas)[interface.rows(active)]
         response = replace(self.response, B=B_c)
-        return replace(
-            self,
-            response=response,
-            active=active,
-            held=held,
-            root=root,
-            B=B_c,
-            compliance=compliance,
-            **_image(response, root, compliance),
-        )
+        return replace(self, held=held, **_seen_by(active, interface, response, self.K, B_c, stiffness))
 
     def moving(self, ways: Array) -> Condensed:
         """Bodies of whose k rigid motions only some combinations (k, m) occur: springs hold the others."""
@@ -249,35 +230,34 @@ def condense(
             factorisation = factorise(K, dofs, nodes=nodes, points=points, backend=backend, plans=plans)
     with clock.phase("condensation"):
         B_c, K_c = sp.csr_array(B[:, dofs]), sp.csr_array(K[dofs][:, dofs])
-        root = np.sqrt(_interface_stiffness(K_c, B_c, interface, np.flatnonzero(active), stiffness))
-        compliance = (interface.compliance / interface.areas)[interface.rows(active)]
         if response is None:
             size = float(K_c.diagonal().mean()) if K_c.nnz else stiffness
             parts = make_body_blocks(factorisation.schur(), ties.B[:, dofs].toarray(), rigid[dofs], size=size)
             parts = parts.inverted() if len(bodies.kept) else parts
             response = ByNodes(factorisation=factorisation, parts=parts, B=B_c, rigid=rigid[dofs])
-        return Condensed(
-            response=response,
-            active=active,
-            held=held,
-            root=root,
-            dofs=dofs,
-            B=B_c,
-            compliance=compliance,
-            ties=ties,
-            K=K_c,
-            **_image(response, root, compliance),
-        )
+        found = _seen_by(active, interface, response, K_c, B_c, stiffness)
+        return Condensed(held=held, dofs=dofs, ties=ties, K=K_c, **found)
+
+
+def _seen_by(
+    active: BoolArray, interface: Interface, response: Response, K: sp.csr_array, B: sp.csr_array, stiffness: float
+) -> dict[str, Any]:
+    """What active pairs make of the response of the bodies, as fields of `Condensed`; the arguments as there."""
+    root = np.sqrt(_interface_stiffness(K, B, interface, np.flatnonzero(active), stiffness))
+    compliance = interface.compliance[:, active]
+    image = _image(response, root, compliance)
+    return {"response": response, "active": active, "root": root, "B": B, "compliance": compliance, **image}
 
 
 def _image(response: Response, root: Array, compliance: Array) -> dict[str, Any]:
     """Compliance and rigid motions, scaled by the roots of D."""
-    motions = root[:, None] * response.motions
+    scale = np.tile(root, len(compliance))
+    motions = scale[:, None] * response.motions
     basis = make_basis(motions)
     A = response.compliance()
-    A *= root
-    A *= root[:, None]
-    A[np.diag_indices_from(A)] += root**2 * compliance
+    A *= scale
+    A *= scale[:, None]
+    A[np.diag_indices_from(A)] += (root**2 * compliance).ravel()
     if basis.R.size and A.diagonal().max(initial=0.0) > _LOOSE_COMPLIANCE:
         raise np.linalg.LinAlgError("contact hardly resists a rigid motion")
     leaning = basis.project(A)
@@ -288,7 +268,7 @@ def _image(response: Response, root: Array, compliance: Array) -> dict[str, Any]
 def _interface_stiffness(
     K_c: sp.csr_array, B_c: sp.csr_array, interface: Interface, pairs: IntArray, stiffness: float
 ) -> Array:
-    """D, (d a,) force per length: of the size that makes Newton's method most robust, equal in all directions.
+    """D, (a,) force per length: of the size that makes Newton's method most robust, equal in all directions.
 
     Half the mean stiffness that a pair of the contact feels where only its own nodes move, spread like the areas and
     divided by the root of their number (between the stiffness of a node and that of the whole surface). Of sides that
@@ -305,4 +285,4 @@ def _interface_stiffness(
         own = interface.contact[pairs] == contact
         area = interface.area[pairs][own]
         result[own] = 0.5 * felt[own].mean() / np.sqrt(own.sum()) * area / area.mean()
-    return np.tile(result, interface.directions)
+    return result

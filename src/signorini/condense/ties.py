@@ -45,6 +45,10 @@ class Ties:
         """
         return -self.shares(self.B @ residual)
 
+    def give(self, forces: Array, values: Array | float) -> None:
+        """Write the forces of the ties, (t,) or one for all, among those of all pairs, (d, n)."""
+        forces.reshape(-1)[self.rows] = values
+
     def closing(self, moved: Array) -> Array:
         """The smallest free displacements z with ``B_t z = -moved``, (z,); moved (t,) is what supports impose."""
         z: Array = -(self.B.T @ self.shares(moved))

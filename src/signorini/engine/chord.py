@@ -28,8 +28,8 @@ class Chord:
     prepared : condensed
     ends : the whole states
     factors : (m,) where on the way the states are, 0 .. 1
-    moved : (d a, m) motions of the active pairs off the way, length
-    forces : (d a, m) their forces off the way
+    moved : (d, a, m) motions of the active pairs off the way, length
+    forces : (d, a, m) their forces off the way
     """
 
     prepared: Prepared
@@ -47,13 +47,12 @@ class Chord:
         prepared, ends, factors : see `Chord`
         between : the m states on the path, of which only the contacts are known
         """
-        rows = prepared.paths.condensed.active_rows
+        active = prepared.paths.condensed.active
         begin, *path, end = (
-            np.stack([np.concatenate([state.gap, state.tangential])[rows], state.forces[rows]])
-            for state in (ends[0], *between, ends[1])
+            np.stack([state.motion, state.forces], axis=0)[..., active] for state in (ends[0], *between, ends[1])
         )
-        off = np.array(path) - begin - factors[:, None, None] * (end - begin)
-        moved, forces = np.moveaxis(off, 0, 2)
+        off = np.array(path) - begin - factors[:, None, None, None] * (end - begin)
+        moved, forces = np.moveaxis(off, 0, 3)
         return Chord(prepared=prepared, ends=ends, factors=factors, moved=moved, forces=forces)
 
     def energy(self, first: int, last: int) -> float:
@@ -68,13 +67,13 @@ class Chord:
         part = (factors[inside] - factors[first]) / (factors[last] - factors[first])
 
         def off(path: Array) -> Array:
-            none = np.zeros((len(path), 1))
-            path = np.hstack([path, none, none])
-            begin, end = path[:, [first]], path[:, [last]]
-            return np.asarray(path[:, inside] - begin - part * (end - begin))
+            none = np.zeros((*path.shape[:2], 2))
+            path = np.concatenate([path, none], axis=2)
+            begin, end = path[..., [first]], path[..., [last]]
+            return np.asarray(path[..., inside] - begin - part * (end - begin))
 
         forces, compliance = off(self.forces), self.prepared.paths.condensed.compliance
-        stored = 0.5 * (forces * (off(self.moved) - compliance[:, None] * forces)).sum(axis=0)
+        stored = 0.5 * (forces * (off(self.moved) - compliance[..., None] * forces)).sum(axis=(0, 1))
         return float(stored.max(initial=0.0))
 
     def displacements(self, which: IntArray) -> Array:
@@ -85,8 +84,8 @@ class Chord:
         for first in range(0, len(which), _BLOCK):
             own = which[first : first + _BLOCK]
             none = condensed.reduce(np.zeros((T.shape[1], len(own))))
-            offset = np.zeros((len(condensed.root), 1))
-            off = T @ condensed.displacement(none, self.moved[:, own], self.forces[:, own], offset)
+            offset = np.zeros_like(condensed.compliance)
+            off = T @ condensed.displacement(none, self.moved[..., own], self.forces[..., own], offset)
             part = self.factors[own, None]
             found.append((1.0 - part) * one + part * two + off.T)
         return np.concatenate(found)

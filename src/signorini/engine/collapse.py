@@ -89,14 +89,13 @@ def _bound(prepared: Prepared, start: LoadPoint, end: LoadPoint, mechanism: Mech
     taken = float(np.sqrt(2.0 / 3.0) * (bodies.weights[flowing] * limit[flowing]) @ strain[flowing])
     before, after = (float(applied(prepared, point)[0] @ v) for point in (start, end))
     rubs = False
-    n = len(prepared.interface)
-    if n:
-        moved = prepared.interface.B @ v
-        near = (forces[:n] > 0.0) & ~prepared.absent
-        if (moved[:n][near] < -_OPENING_TOL).any():
+    if len(prepared.interface):
+        moved = prepared.interface.motion(v)
+        near = (forces[0] > 0.0) & ~prepared.absent
+        if (moved[0, near] < -_OPENING_TOL).any():
             return None
-        slip = np.linalg.norm(moved[n:].reshape(-1, n), axis=0) if moved[n:].size else np.zeros(n)
-        bound = prepared.interface.most(forces[:n])
+        slip = np.linalg.norm(moved[1:], axis=0)
+        bound = prepared.interface.most(forces[0])
         rubs = bool((near & (bound > 0.0) & (slip > _OPENING_TOL)).any())
         taken += float(np.where(near & np.isfinite(bound), bound, 0.0) @ slip)
     elastic = float(v @ (prepared.K @ v)) * _elastic_share(prepared, bodies, v)

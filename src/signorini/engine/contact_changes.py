@@ -41,7 +41,7 @@ def switched(prepared: Prepared, state: State, absent: BoolArray) -> State:
     off, on = prepared.absent & ~absent, absent & ~prepared.absent
     if not off.any() and not on.any():
         return state
-    given = np.where(prepared.interface.rows(off), state.forces, 0.0)
+    given = np.where(off, state.forces, 0.0)
     overlap = np.where(on, np.maximum(-state.gap, 0.0), 0.0)
     # compliant interfaces let their energy go with the law
     soft = stored_energy(replace(prepared, absent=absent), state) - stored_energy(prepared, state)
@@ -49,7 +49,7 @@ def switched(prepared: Prepared, state: State, absent: BoolArray) -> State:
         state,
         point=replace(state.point, gap=state.point.gap + overlap, given=given),
         gap=state.gap + overlap,
-        slip=np.where(np.tile(on, prepared.interface.directions - 1), 0.0, state.slip),
+        slip=np.where(on, 0.0, state.slip),
         status=np.where(off | on, OPEN, state.status),
         released=state.released + soft,
     )
@@ -67,16 +67,16 @@ def relaxed(prepared: Prepared, state: State, where: str) -> tuple[State, Certif
     state : at the end of the step before
     where : name of the step, for messages
     """
-    n, interface = len(prepared.interface), prepared.interface
-    tangential, bound = interface.effort(state.forces[n:]), interface.most(state.forces[:n])
+    interface = prepared.interface
+    tangential, bound = interface.effort(state.forces[1:]), interface.most(state.forces[0])
     bound[interface.friction.sticks] = np.inf
     if not (
         ~prepared.absent & (tangential > (1.0 + _BOUND_TOL) * bound + _UNLOADED_FRICTION * prepared.scale.force)
     ).any():
         return None
     after, certificate, tried = advance(prepared, state, state.point, f"{where}, friction lowered")
-    spent = 0.5 * (state.forces + after.forces)[n:] * (after.slip - state.slip)
-    taken = np.where(prepared.absent, 0.0, np.maximum(-spent.reshape(-1, n).sum(axis=0), 0.0))
+    spent = 0.5 * (state.forces + after.forces)[1:] * (after.slip - state.slip)
+    taken = np.where(prepared.absent, 0.0, np.maximum(-spent.sum(axis=0), 0.0))
     return set_free(prepared, state, after, taken=taken), certificate, tried
 
 

@@ -39,7 +39,7 @@ def make_cycles(followed: FollowedPart, ends: Sequence[float]) -> tuple[Cycle, .
     sliding = np.zeros(n)
     for snapshot in followed.snapshots:
         state = snapshot.state
-        sliding, last = sliding + _across(state.slip - last, n), state.slip
+        sliding, last = sliding + np.linalg.norm(state.slip - last, axis=0), state.slip
         if snapshot.load_factor != ends[len(found)]:
             continue
         found.append(
@@ -74,7 +74,7 @@ def cycle_between(begin: State, end: State, sliding: Array) -> Cycle:
 def _drift(begin: State, end: State) -> float:
     """Largest change of the tangential displacement of pairs that touch at both ends; what opens may slide unseen."""
     touching = (begin.status != OPEN) & (end.status != OPEN)
-    return float(_across(end.tangential - begin.tangential, len(touching))[touching].max(initial=0.0))
+    return float(np.linalg.norm((end.tangential - begin.tangential)[:, touching], axis=0).max(initial=0.0))
 
 
 def _flow(begin: State, end: State) -> dict[str, float]:
@@ -86,11 +86,6 @@ def _flow(begin: State, end: State) -> dict[str, float]:
     squares = (change[:, :3] ** 2).sum(axis=1) + 0.5 * (change[:, 3:] ** 2).sum(axis=1)
     grown = two.equivalent - one.equivalent
     return {"flow": float(grown.max()), "plastic_drift": float(np.sqrt(2.0 / 3.0 * squares.max()))}
-
-
-def _across(tangential: Array, n: int) -> Array:
-    """(n,) length of tangential vectors that are given row by row, ((d - 1) n,)."""
-    return np.linalg.norm(tangential.reshape(-1, n), axis=0) if n else np.zeros(0)
 
 
 def judge(cycles: Sequence[Cycle], scale: Scale) -> tuple[str, str]:

@@ -64,6 +64,5 @@ def stored_energy(prepared: Prepared, state: State) -> float:
 
 def interface_energy(prepared: Prepared, state: State) -> float:
     """In compliant interfaces."""
-    interface = prepared.interface
-    forces = np.where(interface.rows(prepared.absent), 0.0, state.forces)
-    return 0.5 * float(forces**2 @ (interface.compliance / interface.areas))
+    forces = np.where(prepared.absent, 0.0, state.forces)
+    return 0.5 * float(np.vdot(forces**2, prepared.interface.compliance))

@@ -48,9 +48,9 @@ def approached(part: StepPart) -> FollowedPart | None:
         Where such a motion has no end, and it is proved that the loads pull a body away, which is named.
     """
     prepared, state = part.prepared, part.before
-    interface, n = prepared.interface, len(prepared.interface)
+    interface = prepared.interface
     floating, motions = prepared.floating, prepared.motions
-    if not floating.shape[1] or not n:
+    if not floating.shape[1] or not len(interface):
         return None
     change = change_of_loads(part)
     work, enough = floating.T @ (motions.T @ change), DRIVES * float(np.abs(change).sum())
@@ -60,8 +60,8 @@ def approached(part: StepPart) -> FollowedPart | None:
     if (state.gap[apart] < -width).any():  # overlaps press first
         return None
     moved = np.asarray((interface.B @ motions) @ floating)
-    rubs = np.tile(presses & interface.friction.rubs, interface.directions - 1)
-    basis = unfelt(moved[np.concatenate([presses, rubs])])
+    rubs = presses & interface.friction.rubs
+    basis = unfelt(moved[np.concatenate([presses, *[rubs] * (interface.directions - 1)])])
     basis = basis @ _alike(prepared, floating @ basis)
     if np.abs(basis.T @ work).max(initial=0.0) <= enough:
         return None
@@ -83,9 +83,8 @@ def approached(part: StepPart) -> FollowedPart | None:
         raise _pulled_away(part, floating @ basis @ found.escape, share)
     if found is None or not found.motion.any():
         return None
-    relative = moved @ (basis @ found.motion)
-    relative[interface.rows(presses)] = 0.0
-    relative[np.flatnonzero(apart)] = found.gap - state.gap[apart]
+    relative = np.where(presses, 0.0, (moved @ (basis @ found.motion)).reshape(state.forces.shape))
+    relative[0, apart] = found.gap - state.gap[apart]
     return _approach(part, apart, floating @ basis @ found.motion, floating @ basis @ found.loose, relative)
 
 
@@ -100,14 +99,13 @@ def change_of_loads(part: StepPart) -> Array:
     """(dofs,) Change of the nodal forces in a part of a step, with those of contacts that are switched off."""
     prepared, begin, end = part.prepared, part.before.point, part.end
     loads = applied(prepared, end)[0] - applied(prepared, begin)[0]
-    return np.asarray(loads + prepared.interface.B.T @ (end.given - begin.given))
+    return np.asarray(loads + prepared.interface.on_bodies(end.given - begin.given))
 
 
 def standing(prepared: Prepared, state: State) -> tuple[BoolArray, BoolArray, float]:
     """(n,) Pairs that press, (n,) those of the law that do not, and the largest gap of pairs that touch."""
-    n = len(state.gap)
     there = ~prepared.absent & ~prepared.interface.tied & ~prepared.solver.held
-    presses = there & (state.forces[:n] > _PRESSES * prepared.scale.force)
+    presses = there & (state.forces[0] > _PRESSES * prepared.scale.force)
     apart = there & ~presses
     size = max(prepared.scale.length, _LENGTH_PER_GAP * float(np.abs(state.gap[apart]).max(initial=0.0)))
     return presses, apart, _TOUCHES * size
@@ -142,18 +140,17 @@ def _approach(part: StepPart, apart: BoolArray, motion: Array, loose: Array, rel
     Parameters
     ----------
     apart : (n,) pairs that do not press
-    relative : (d n,) motions of the pairs
+    relative : (d, n) motions of the pairs
     """
-    prepared, state, n = part.prepared, part.before, len(apart)
-    interface = prepared.interface
+    prepared, state = part.prepared, part.before
     after = next_state(
         prepared,
         state,
         point=state.point,
         loads=applied(prepared, state.point)[0],
         displacement=state.displacement + prepared.motions @ motion,
-        forces=np.where(interface.rows(apart), 0.0, state.forces),
-        moved=np.concatenate([state.gap + relative[:n], relative[n:]]),
+        forces=np.where(apart, 0.0, state.forces),
+        moved=np.concatenate([state.gap + relative[:1], relative[1:]]),
         status=np.where(apart, OPEN, state.status),
     )
     notes = []

@@ -104,8 +104,8 @@ def advance(
         If there is no certified solution.
     """
     _, imposed = applied(prepared, point)
-    offset = np.concatenate([point.gap, -state.tangential]) + moved_by_supports(prepared, imposed)
-    refuse_overlap(prepared, offset[: len(prepared.interface)], where)
+    offset = np.concatenate([point.gap[None], -state.tangential]) + moved_by_supports(prepared, imposed)
+    refuse_overlap(prepared, offset[0], where)
     increment = Increment(
         system=prepared,
         f=free_load(prepared, point),
@@ -140,8 +140,7 @@ def _recovered(prepared: Prepared, increment: Increment, answer: IncrementAnswer
     active, (loads, imposed) = prepared.solver.active, applied(prepared, point)
     with prepared.clock.phase("recovery"):
         displacement = constraints.transform @ answer.free + imposed
-        outside, moved = np.nonzero(~interface.rows(active))[0], answer.moved
-        moved[outside] = (increment.offset + interface.B @ (displacement - imposed))[outside]
+        moved = np.where(active, answer.moved, increment.offset + interface.motion(displacement - imposed))
         status = np.full(n, OPEN)
         status[active] = answer.status
         status[interface.tied] = STICK
@@ -187,11 +186,11 @@ def settled(prepared: Prepared, forces: Array, status: IntArray) -> tuple[Array,
     Parameters
     ----------
     prepared : the model
-    forces, status : (d n,) forces and (n,) codes as they were found
+    forces, status : (d, n) forces and (n,) codes as they were found
     """
-    interface, n = prepared.interface, len(status)
-    idle = ~interface.tied & (status != OPEN) & (forces[:n] <= _UNLOADED * prepared.scale.force)
-    return np.where(interface.rows(idle), 0.0, forces), np.where(idle, OPEN, status)
+    interface = prepared.interface
+    idle = ~interface.tied & (status != OPEN) & (forces[0] <= _UNLOADED * prepared.scale.force)
+    return np.where(idle, 0.0, forces), np.where(idle, OPEN, status)
 
 
 def applied(prepared: Prepared, point: LoadPoint) -> tuple[Array, Array]:
@@ -210,12 +209,12 @@ def applied(prepared: Prepared, point: LoadPoint) -> tuple[Array, Array]:
 
 
 def moved_by_supports(prepared: Prepared, imposed: Array) -> Array:
-    """(d n,) Relative displacements of the pairs that supports impose; where they cancel, no rounding drags a pair."""
-    B = prepared.interface.B
-    moved: Array = B @ imposed
+    """(d, n) Motions of the pairs that supports impose; where they cancel, no rounding drags a pair."""
+    interface = prepared.interface
+    moved = interface.motion(imposed)
     largest = float(np.abs(imposed).max(initial=0.0))
     if largest > 0.0:
-        moved[np.abs(moved) <= _CANCELLED * largest * abs(B).sum(axis=1)] = 0.0
+        moved[np.abs(moved) <= _CANCELLED * largest * abs(interface.B).sum(axis=1).reshape(moved.shape)] = 0.0
     return moved
 
 
@@ -223,7 +222,7 @@ def free_load(prepared: Prepared, point: LoadPoint) -> Array:
     """(z,) Forces on the free displacements: loads, what supports impose, contacts that are being switched off."""
     loads, imposed = applied(prepared, point)
     if point.given.any():
-        loads = loads + prepared.interface.B.T @ point.given
+        loads = loads + prepared.interface.on_bodies(point.given)
     if len(prepared.flowed):
         loads = loads + prepared.flowed
     if imposed.any():
@@ -270,7 +269,7 @@ def measured(
     ----------
     prepared : the model under the law of the moment
     state : to be measured
-    before : ((d - 1) n,) tangential displacement at which its slip increment began; its own where not given
+    before : (d - 1, n) tangential displacement at which its slip increment began; its own where not given
     origin : what the points of bodies that yield remembered there; None: the flow rule is not asked
     """
     paths = prepared.solver.paths

@@ -203,8 +203,7 @@ def _far(part: StepPart, before: State, after: State) -> bool:
     prepared = part.prepared
     if not _looked_at(prepared) or not prepared.floating.shape[1] or not before.forces.any():
         return False
-    rows = prepared.interface.rows(prepared.solver.active & ~prepared.absent)
-    moved = np.concatenate([after.gap - before.gap, after.tangential - before.tangential])[rows]
+    moved = (after.motion - before.motion)[:, prepared.solver.active & ~prepared.absent]
     far = compression(prepared.interface, prepared.scale, prepared.solver.active)
     return bool(np.abs(moved).max(initial=0.0) > far)
 

@@ -73,7 +73,7 @@ def limit_load(prepared: Prepared, state: State, end: LoadPoint, *, near: bool) 
         return None
 
     def work(point: LoadPoint) -> Array:
-        loads = applied(prepared, point)[0] + interface.B.T @ point.given
+        loads = applied(prepared, point)[0] + interface.on_bodies(point.given)
         return np.asarray(np.linalg.solve(triangle.T, moving.T @ loads))
 
     load = work(state.point)
@@ -85,7 +85,7 @@ def limit_load(prepared: Prepared, state: State, end: LoadPoint, *, near: bool) 
         may = state.gap[acts] <= NEAR_GAP * compression(interface, prepared.scale, prepared.solver.active)
     sections = np.minimum(slope, STICKING_FRICTION) * interface.anisotropy[acts].T
     cones = FrictionSection(axes=sections, sides=interface.facets[acts])
-    held = (state.forces - state.point.given)[interface.rows(acts)].reshape(interface.directions, -1)
+    held = (state.forces - state.point.given)[:, acts]
     found = unheld(R, cones, held, load, growth, near=may)
     if found is None or isinstance(found, Spent):
         return found

@@ -98,14 +98,14 @@ class MultiplierSolver:
 
         Parameters
         ----------
-        free, forces : (z,) displacements and (d n,) forces of the pairs near which the answer may be
+        free, forces : (z,) displacements and (d, n) forces of the pairs near which the answer may be
         length : to whose digits motions are wanted
         """
-        bodies, rows, system = self.bodies, self.bodies.rows, increment.system
+        bodies, own, system = self.bodies, self.bodies.pairs, increment.system
         load = IncrementLoad(
             f=bodies.blocks.spread(increment.f),
-            offset=increment.offset[rows].reshape(bodies.directions, -1),
-            bound=system.interface.bound.among(np.isin(np.arange(len(bodies.active)), bodies.pairs)),
+            offset=increment.offset[:, own],
+            bound=system.interface.bound.among(np.isin(np.arange(len(bodies.active)), own)),
             force=system.scale.force,
             length=length,
             tolerance=self.settings.tolerance,
@@ -114,9 +114,9 @@ class MultiplierSolver:
         )
         start = bodies.blocks.spread(free)
         with increment.clock.phase("complementarity"):
-            found, near = solve_iteratively(bodies, load, start, forces[rows].reshape(bodies.directions, -1))
-        carried, moved = np.zeros(len(increment.offset)), np.zeros(len(increment.offset))
-        carried[rows], moved[rows] = found.r.ravel(), found.h.ravel()
+            found, near = solve_iteratively(bodies, load, start, forces[:, own])
+        carried, moved = np.zeros_like(increment.offset), np.zeros_like(increment.offset)
+        carried[:, own], moved[:, own] = found.r, found.h
         return IncrementAnswer(
             outcome=found.outcome,
             message=found.message,

@@ -113,17 +113,17 @@ def formulate(model: Model | Prepared, *, E_n: float, E_tau: float) -> PaperForm
     if not condensed.active.any():
         raise InputError("there is none that can move; the paper's LCP needs one", where=("contact",))
     loads, imposed = applied(prepared, _full_load(prepared))
-    n, rows = len(interface), condensed.active_rows
-    pairs = rows[: len(rows) // 2]
-    order = np.arange(len(rows)).reshape(2, -1)[::-1].T.ravel()  # (tau, n) pair by pair
-    offset = np.concatenate([interface.gap, np.zeros(n)]) + interface.B @ imposed
+    pairs = np.flatnonzero(condensed.active)
+    order = np.arange(2 * len(pairs)).reshape(2, -1)[::-1].T.ravel()  # (tau, n) pair by pair
+    offset = interface.motion(imposed)
+    offset[0] += interface.gap
     f = prepared.constraints.transform.T @ (loads - prepared.K @ imposed)
     try:
         problem = paper_problem(
             condensed.factorisation.schur(),
             condensed.B.toarray()[order],
             condensed.reduce(f).load,
-            offset[rows][order],
+            offset[:, pairs].ravel()[order],
             interface.friction.steepest[pairs],
             interface.area[pairs],
             E_tau=E_tau,
@@ -145,17 +145,16 @@ def solve_literally(formulation: PaperFormulation) -> PaperAnswer:
     """
     prepared, problem = formulation.prepared, formulation.problem
     interface, condensed = prepared.interface, prepared.paths.condensed
-    n, rows = len(interface), condensed.active_rows
-    pairs = rows[: len(rows) // 2]
+    n, pairs = len(interface), np.flatnonzero(condensed.active)
     # large penalties leave rounding in M itself; how much is too much the certificate says, on the law
     found = lcp.solve(problem.M, problem.q, method=lcp.Lemke(covering=problem.covering), tolerance=1e-3)
     condition = _condition(prepared, problem, formulation)
     multipliers = np.zeros(3 * len(pairs)) if found.z is None else found.z
     u, P = problem.recover(multipliers)
-    forces, moved = np.zeros(2 * n), np.zeros(2 * n)
-    forces[pairs], forces[n + pairs] = -P[:, 1] * interface.area[pairs], -P[:, 0] * interface.area[pairs]
+    forces, moved = np.zeros((2, n)), np.zeros((2, n))
+    forces[:, pairs] = -P[:, ::-1].T * interface.area[pairs]
     slip = multipliers.reshape(-1, 3)
-    moved[pairs], moved[n + pairs] = slip[:, 2], slip[:, 0] - slip[:, 1]
+    moved[:, pairs] = slip[:, 2], slip[:, 0] - slip[:, 1]
     loads, imposed = applied(prepared, _full_load(prepared))
     f = prepared.constraints.transform.T @ (loads - prepared.K @ imposed)
     displacement = prepared.constraints.transform @ condensed.reduce(f).expand(u) + imposed
@@ -182,10 +181,10 @@ def solve_literally(formulation: PaperFormulation) -> PaperAnswer:
     certificate = certify(penalised, state, loads=loads, before=before.tangential)
     return PaperAnswer(
         lcp=found,
-        pressure=forces[:n] / interface.area,
-        traction=forces[n:] / interface.area,
+        pressure=forces[0] / interface.area,
+        traction=forces[1] / interface.area,
         displacement=prepared.space.at_nodes(displacement),
-        normal_force=forces[:n] @ interface.normals,
+        normal_force=forces[0] @ interface.normals,
         condition=condition,
         certificate=certificate,
         message=_judge(found, certificate, condition),
@@ -222,4 +221,4 @@ def _judge(found: lcp.LCPSolution, certificate: Certificate, condition: float) -
 def _full_load(prepared: Prepared) -> LoadPoint:
     """The end of the history; the paper goes there in one increment."""
     gap = prepared.interface.gap
-    return LoadPoint(factors=prepared.model.factors()[-1], gap=gap, given=np.zeros(2 * len(gap)))
+    return LoadPoint(factors=prepared.model.factors()[-1], gap=gap, given=np.zeros((2, len(gap))))

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray
+from signorini.arrays import Array
 from signorini.engine.energy import stored_energy
 from signorini.engine.increments import applied, free_load, moved_by_supports, settled
 from signorini.engine.prepare import Prepared
@@ -20,10 +20,10 @@ _SPENT = 1e-9  # of the friction bound: what a slipping pair may lack of it
 
 
 def offsets(prepared: Prepared, point: LoadPoint) -> Array:
-    """(d n,) Motions of all pairs that loads do not cause: gaps and what supports impose, no slip of the past."""
+    """(d, n) Motions of all pairs that loads do not cause: gaps and what supports impose, no slip of the past."""
     _, imposed = applied(prepared, point)
-    none = np.zeros(len(point.gap) * (prepared.interface.directions - 1))
-    offset: Array = np.concatenate([point.gap, none]) + moved_by_supports(prepared, imposed)
+    offset = moved_by_supports(prepared, imposed)
+    offset[0] += point.gap
     return offset
 
 
@@ -34,26 +34,25 @@ def right_hand_side(prepared: Prepared, point: LoadPoint, slipped: Array | None 
     ----------
     prepared : condensed
     point : of the load history
-    slipped : ((d - 1) n,) tangential displacements that slips are counted from, length; from the beginning if not given
+    slipped : (d - 1, n) tangential displacements that slips are counted from, length; from the beginning if not given
     """
     condensed, offset = prepared.paths.condensed, offsets(prepared, point)
     if slipped is not None:
-        offset[len(point.gap) :] -= slipped
+        offset[1:] -= slipped
     reduced = condensed.reduce(free_load(prepared, point))
-    return condensed.right_hand_side(reduced.load, offset[condensed.active_rows])
+    return condensed.right_hand_side(reduced.load, offset[:, condensed.active])
 
 
 def path_state(prepared: Prepared, state: State) -> PathState:
     """A state in the scaled units of the law; overlaps of bodies that nothing has moved yet press first."""
     paths, condensed, active = prepared.paths, prepared.paths.condensed, prepared.paths.active
-    b, rows, law = right_hand_side(prepared, state.point), condensed.active_rows, paths.law
-    h = law.by_pair(condensed.root * np.concatenate([state.gap, state.tangential])[rows])
-    slip = (condensed.root[law.pairs :] * state.slip[_tangential_rows(prepared)]).reshape(h[1:].shape)
+    b, root, law = right_hand_side(prepared, state.point), condensed.root, paths.law
+    h, slip = root * state.motion[:, active], root * state.slip[:, active]
     dissipation = state.dissipation[active]
     if not state.forces.any() and not state.displacement.any() and (h[0] < 0.0).any():
         pressed = initial_state(law, b, settings=prepared.settings)
         return replace(pressed, slip=slip + pressed.slip, dissipation=dissipation + pressed.dissipation)
-    r, status = law.by_pair(state.forces[rows] / condensed.root), state.status[active]
+    r, status = state.forces[:, active] / root, state.status[active]
     if prepared.interface.directions == 2:  # friction that has risen since leaves some to spare
         spare = (status > STICK) & (np.abs(r[1]) < (1.0 - _SPENT) * law.bound.at(r[0]))
         status = np.where(spare, STICK, status)
@@ -70,22 +69,20 @@ def on_the_way(prepared: Prepared, last: State, point: LoadPoint, now: PathState
     point : of the load history
     now : the state of the path there
     """
-    condensed, n = prepared.paths.condensed, len(prepared.interface)
-    rows, active = condensed.active_rows, condensed.active
-    forces, moved = np.zeros(len(point.given)), np.full(prepared.interface.directions * n, np.nan)
-    forces[rows] = condensed.root * now.r.ravel()
-    moved[rows] = now.h.ravel() / condensed.root
-    status, slip, dissipation = np.full(n, OPEN), last.slip.copy(), last.dissipation.copy()
+    active, root = prepared.paths.condensed.active, prepared.paths.condensed.root
+    forces, moved = np.zeros_like(point.given), np.full(point.given.shape, np.nan)
+    forces[:, active], moved[:, active] = root * now.r, now.h / root
+    status, slip, dissipation = np.full(len(active), OPEN), last.slip.copy(), last.dissipation.copy()
     status[active], status[prepared.interface.tied] = plain(now.state), STICK
     forces, status = settled(prepared, forces, status)
-    slip[_tangential_rows(prepared)] = now.slip.ravel() / condensed.root[now.pairs :]
+    slip[:, active] = now.slip / root
     dissipation[active] = now.dissipation
     return replace(
         last,
         point=point,
         forces=forces + point.given,
-        gap=moved[:n],
-        tangential=moved[n:],
+        gap=moved[0],
+        tangential=moved[1:],
         slip=slip,
         status=status,
         dissipation=dissipation,
@@ -101,19 +98,17 @@ def recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState)
     last : the last state that was recovered
     """
     condensed, interface, T = prepared.paths.condensed, prepared.interface, prepared.constraints.transform
-    n, rows = len(interface), condensed.active_rows
+    active = condensed.active
     seen = on_the_way(prepared, last, point, now)
     (loads, imposed), offset = applied(prepared, point), offsets(prepared, point)
-    moved = np.concatenate([seen.gap, seen.tangential])
     reduced = condensed.reduce(free_load(prepared, point))
-    free = condensed.displacement(reduced, moved[rows], seen.forces[rows], offset[rows])
+    free = condensed.displacement(reduced, seen.motion[:, active], seen.forces[:, active], offset[:, active])
     displacement = T @ free + imposed
-    outside = np.setdiff1d(np.arange(len(moved)), rows)
-    moved[outside] = (offset + interface.B @ (displacement - imposed))[outside]
-    moved[n:] -= last.tangential
+    moved = np.where(active, seen.motion, offset + interface.motion(displacement - imposed))
+    moved[1:] -= last.tangential
     forces, ties = seen.forces.copy(), condensed.ties
     given = loads + prepared.flowed if len(prepared.flowed) else loads
-    forces[ties.rows] = ties.forces(T.T @ (given + interface.B.T @ forces - prepared.K @ displacement))
+    ties.give(forces, ties.forces(T.T @ (given + interface.on_bodies(forces) - prepared.K @ displacement)))
     after = next_state(
         prepared,
         last,
@@ -144,7 +139,7 @@ def balanced(prepared: Prepared, last: State, here: State, lost: float) -> State
 
 
 def tangential(prepared: Prepared, state: State, h: Array) -> Array:
-    """((d - 1) n,) Tangential displacements of a state, of active pairs those of a path, length.
+    """(d - 1, n) Tangential displacements of a state, of active pairs those of a path, length.
 
     Parameters
     ----------
@@ -152,12 +147,6 @@ def tangential(prepared: Prepared, state: State, h: Array) -> Array:
     state : of all pairs
     h : (d, a) motions of the active pairs, scaled
     """
-    paths, moved = prepared.paths, state.tangential.copy()
-    n = paths.law.pairs
-    moved[_tangential_rows(prepared)] = h[1:].ravel() / paths.condensed.root[n:]
+    condensed, moved = prepared.paths.condensed, state.tangential.copy()
+    moved[:, condensed.active] = h[1:] / condensed.root
     return moved
-
-
-def _tangential_rows(prepared: Prepared) -> BoolArray:
-    """((d - 1) n,) Tangential rows of the active pairs."""
-    return np.tile(prepared.solver.active, prepared.interface.directions - 1)

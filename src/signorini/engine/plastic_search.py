@@ -94,17 +94,14 @@ class LineSearch:
         system, T = self.increment.system, self.increment.system.constraints.transform
         here = between(self.one, self.two, s)
         inner = T.T @ (system.K @ (T @ here.free) - at.state.forces) - self.increment.f
-        interface, n = system.interface, len(system.interface)
-        bound = interface.most(self.two.forces[:n])
+        bound = system.interface.most(self.two.forces[0])
         bound = np.where(np.isfinite(bound), bound, 0.0)
-        shape = interface.directions - 1, n
-        slip = here.moved[n:].reshape(shape)
-        change = (self.two.moved - self.one.moved)[n:].reshape(shape)
+        slip, change = here.moved[1:], (self.two.moved - self.one.moved)[1:]
         length = np.linalg.norm(slip, axis=0)
         along = np.divide(
             (slip * change).sum(axis=0),
             length,
-            out=np.zeros(n),
+            out=np.zeros_like(length),
             where=length > _RESTS * np.abs(change).max(initial=0.0),
         )
         return float(step @ inner + bound @ along)

@@ -303,7 +303,7 @@ class PlasticSolver:
     def _lack(self, increment: Increment, answer: IncrementAnswer, after: PlasticResponse) -> float:
         """What equilibrium lacks at an answer, of the size of the forces."""
         system, T = increment.system, increment.system.constraints.transform
-        forces = after.state.forces + system.interface.B.T @ answer.forces - system.K @ (T @ answer.free)
+        forces = after.state.forces + system.interface.on_bodies(answer.forces) - system.K @ (T @ answer.free)
         return float(np.abs(increment.f + T.T @ forces).max(initial=0.0)) / system.scale.force
 
     def _pays(self, tangent: _Tangent, rounds: _Rounds) -> bool:

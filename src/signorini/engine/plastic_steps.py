@@ -177,7 +177,7 @@ def _collapsed(part: StepPart, found: Collapse, fraction: float, number: int) ->
 def _change(prepared: Prepared, coarse: FollowedPart, fine: FollowedPart) -> tuple[float, str]:
     """By how much two ways between the same loads differ, tractions in the norm of areas, and in words."""
     interface, one, two = prepared.interface, coarse.after, fine.after
-    area = np.sqrt(np.tile(interface.area, interface.directions))
+    area = np.sqrt(interface.area)
     tractions = _ratio((two.forces - one.forces) / area, two.forces / area) if len(area) else 0.0
     spent = [points_of(prepared, state)[1].dissipation for state in (fine.before, one, two)]
     taken = abs(spent[2] - spent[1]) / (max(abs(spent[2] - spent[0]), _LITTLE_WORK * spent[2]) or 1.0)

@@ -192,7 +192,7 @@ def contacts_of(prepared: Prepared, before: State, state: State) -> tuple[Contac
     prepared : the model
     before, state : the other state, and the one
     """
-    moved = prepared.interface.across(state.slip - before.slip)
+    moved = np.linalg.norm(state.slip - before.slip, axis=0)
     return tuple(
         _contact_result(prepared, _surface(prepared, i), before, state, moved, moved)
         for i in range(len(prepared.model.contacts))
@@ -208,19 +208,19 @@ def _instants(
     low, high, cycle, wear = last, last, 0, followed.before.wear
     begun, end = heat(followed.before), followed.snapshots[-1]
     for snapshot in followed.snapshots:
-        slip, across = snapshot.state.slip, prepared.interface.across
+        slip = snapshot.state.slip
         now, shown = prepared, surfaces
         if snapshot.interface is not None:
             now = replace(prepared, interface=snapshot.interface)
             shown = [_surface(now, i) for i in range(len(prepared.model.contacts))]
-        sliding = sliding + across(slip - last)
+        sliding = sliding + np.linalg.norm(slip - last, axis=0)
         if wear is not snapshot.state.wear and snapshot.state.wear is not None and followed.before.wear is not None:
             wear = snapshot.state.wear  # of cycles that nobody has looked at too
             sliding = wear.distance - followed.before.wear.distance
         low, high, last = np.minimum(low, slip), np.maximum(high, slip), slip
+        slid = np.linalg.norm(high - low, axis=0)
         contacts = tuple(
-            _contact_result(now, surface, followed.before, snapshot.state, sliding, across(high - low))
-            for surface in shown
+            _contact_result(now, surface, followed.before, snapshot.state, sliding, slid) for surface in shown
         )
         yield Instant(
             load_factor=snapshot.load_factor,
@@ -274,11 +274,11 @@ def _surface(prepared: Prepared, i: int) -> _Surface:
 def _contact_result(
     prepared: Prepared, surface: _Surface, before: State, state: State, sliding: Array, slip_range: Array
 ) -> ContactResult:
-    interface, n, own = prepared.interface, len(prepared.interface), surface.own
-    normal = state.forces[:n][own]
-    tangential = interface.effort(state.forces[n:])[own]
+    interface, own = prepared.interface, surface.own
+    normal = state.forces[0, own]
+    tangential = interface.effort(state.forces[1:])[own]
     code, area = state.status[own], surface.fixed["area"]
-    bound = interface.most(state.forces[:n])[own]
+    bound = interface.most(state.forces[0])[own]
     # a pair that a support guides carries no friction: it touches without slipping
     sticks = (code == STICK) | (interface.friction.rubs[own] & (tangential < (1.0 - 1e-9) * bound))
     status = np.where(code == OPEN, results.OPEN, np.where(sticks, results.STICK, results.SLIP))
@@ -287,8 +287,8 @@ def _contact_result(
         name=surface.name,
         gap=frozen(state.gap[own] - interface.normal_compliance[own] * normal / area),
         pressure=frozen(normal / area),
-        traction=frozen(_rows(state.forces[n:] / np.tile(interface.area, interface.directions - 1), n)[own]),
-        slip=frozen(_rows(state.slip, n)[own]),
+        traction=frozen(_by_pair(state.forces[1:, own] / area)),
+        slip=frozen(_by_pair(state.slip[:, own])),
         sliding=frozen(sliding[own]),
         slip_range=frozen(slip_range[own]),
         status=status,
@@ -319,6 +319,6 @@ def _contact_wear(prepared: Prepared, surface: _Surface, state: State) -> Contac
     )
 
 
-def _rows(tangential: Array, n: int) -> Array:
-    """Tangential values row by row, ((d - 1) n,), pair by pair: (n,) in the plane, (n, 2) in space."""
-    return tangential if len(tangential) == n else tangential.reshape(-1, n).T
+def _by_pair(tangential: Array) -> Array:
+    """Tangential values, (d - 1, n), pair by pair: (n,) in the plane, (n, 2) in space."""
+    return tangential[0] if len(tangential) == 1 else tangential.T

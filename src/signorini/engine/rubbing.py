@@ -61,8 +61,8 @@ def rubbing_of_states(sides: WornSides, interface: Interface, states: Sequence[S
     n = len(interface)
     distance, wearing = np.zeros(n), np.zeros(n)
     for one, two in pairwise(states):
-        slid = interface.across(two.slip - one.slip)
-        pressed = 0.5 * (one.forces + two.forces)[:n] * slid
+        slid = np.linalg.norm(two.slip - one.slip, axis=0)
+        pressed = 0.5 * (one.forces + two.forces)[0] * slid
         distance += slid
         wearing += np.where(sides.by_energy, two.dissipation - one.dissipation, pressed) / interface.area
     return Rubbing(distance=distance, wearing=wearing, travel=distance, volume=sides.volume @ wearing)
@@ -77,7 +77,7 @@ def rubbing_of_segment(sides: WornSides, interface: Interface, paths: CondensedS
     paths : in whose scaled units the segment is
     segment : as it was followed
     """
-    n, active, root = len(interface), paths.active, paths.law.by_pair(paths.condensed.root)
+    n, active, root = len(interface), paths.active, paths.condensed.root
     h, r = (np.array([getattr(piece, name) for piece in segment.pieces]) for name in ("h", "r"))
     forces, slips = 0.5 * (r[1:] + r[:-1]) * root, (np.diff(h, axis=0) / root)[:, 1:]
     normal, friction = forces[:, 0], forces[:, 1:]

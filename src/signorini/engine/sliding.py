@@ -153,7 +153,7 @@ class _Walk:
             end = _Pairing.at(now, after.displacement)
         touch = facing(end.interface) & own & ((before.status != OPEN) | (after.status != OPEN))
         begin = middle if last is None or not expected.any() else last.end
-        pressed = max(float(state.forces[: len(own)].sum()) for state in (before, after)) / prepared.scale.stiffness
+        pressed = max(float(state.forces[0].sum()) for state in (before, after)) / prepared.scale.stiffness
         bent = np.abs(_bent(begin, middle, end)[touch]).max(initial=0.0) / (_BENT * pressed) if pressed > 0.0 else 0.0
         moved = after.displacement - u
         # gaps of sides with corners jump, and no stride is short enough for that
@@ -225,7 +225,7 @@ def _finished(part: StepPart, strides: list[_Stride]) -> FollowedPart:
     """All strides as one; the state at the end refers to the pairs before anything moved, as that before does."""
     followed, changed = joined([stride.followed for stride in strides]), max(stride.changed for stride in strides)
     nominal = part.prepared.interface
-    own = nominal.rows(sliding_pairs(part.prepared.model, nominal))
+    own = sliding_pairs(part.prepared.model, nominal)
     forces = np.where(own, turned(followed.after.forces, strides[-1].interface, nominal), followed.after.forces)
     after = replace(followed.after, point=replace(followed.after.point, gap=part.end.gap), forces=forces)
     notes = followed.notes
@@ -236,7 +236,7 @@ def _finished(part: StepPart, strides: list[_Stride]) -> FollowedPart:
 
 
 def turned(forces: Array, old: Interface, new: Interface) -> Array:
-    """Forces of pairs (d n,) in other frames.
+    """Forces of pairs (d, n) in other frames.
 
     Parameters
     ----------
@@ -244,7 +244,7 @@ def turned(forces: Array, old: Interface, new: Interface) -> Array:
     old, new : interfaces with as many pairs
     """
     one, other = (np.concatenate([of.normals[:, None], of.tangents], axis=1) for of in (old, new))
-    return np.asarray(np.einsum("kij,klj,lk->ik", other, one, forces.reshape(old.directions, -1)).ravel())
+    return np.asarray(np.einsum("kij,klj,lk->ik", other, one, forces))
 
 
 def paired(prepared: Prepared, interface: Interface) -> Prepared:
@@ -273,19 +273,19 @@ def posed(prepared: Prepared, state: State, last: Interface, gap: Array) -> Stat
     last : the last ones
     gap : (n,) before anything moved, of pairs that do not touch, length
     """
-    interface, n, d = prepared.interface, len(gap), prepared.interface.directions
+    interface = prepared.interface
     own, faces = sliding_pairs(prepared.model, interface), facing(interface)
-    there = np.where(interface.rows(faces), turned(state.forces, last, interface), 0.0)
-    forces = np.where(interface.rows(own), there, state.forces)
-    moved = interface.B @ state.displacement + interface.compliance / interface.areas * forces
+    there = np.where(faces, turned(state.forces, last, interface), 0.0)
+    forces = np.where(own, there, state.forces)
+    moved = interface.motion(state.displacement) + interface.compliance * forces
     touches = faces & (state.status != OPEN)
-    point_gap = np.where(touches, state.gap - moved[:n], gap)
+    point_gap = np.where(touches, state.gap - moved[0], gap)
     return replace(
         state,
         point=replace(state.point, gap=np.where(own, point_gap, state.point.gap)),
         forces=forces,
-        gap=np.where(own, point_gap + moved[:n], state.gap),
-        tangential=np.where(np.tile(own, d - 1), moved[n:], state.tangential),
+        gap=np.where(own, point_gap + moved[0], state.gap),
+        tangential=np.where(own, moved[1:], state.tangential),
         status=np.where(own & ~faces, OPEN, state.status),
     )
 
@@ -303,15 +303,15 @@ def hand_over(prepared: Prepared, state: State, part: StepPart, ahead: float) ->
     part : that begins there
     ahead : how far that is, length
     """
-    where, n = f"{part.where} at {part.interval.low:.6%}, handing over", len(state.gap)
+    where = f"{part.where} at {part.interval.low:.6%}, handing over"
     drags = sliding_pairs(prepared.model, prepared.interface) & (state.status > STICK)
-    forces = state.forces.reshape(-1, n)[1:]
+    forces = state.forces[1:]
     way = np.where(drags, -ahead * forces / np.maximum(np.linalg.norm(forces, axis=0), np.finfo(float).tiny), 0.0)
-    led = replace(state, tangential=state.tangential - way.ravel())
+    led = replace(state, tangential=state.tangential - way)
     after, certificate, trace = advance(prepared, led, state.point, where)
-    after = replace(after, slip=after.slip - np.where(after.status == OPEN, 0.0, way).ravel())
+    after = replace(after, slip=after.slip - np.where(after.status == OPEN, 0.0, way))
     moved = after.tangential - state.tangential
-    taken = -(0.5 * (state.forces + after.forces)[n:] * moved).reshape(-1, n).sum(axis=0)
+    taken = -(0.5 * (state.forces + after.forces)[1:] * moved).sum(axis=0)
     after = set_free(prepared, state, after, taken=np.where(drags, taken, 0.0))
     shot = Snapshot(number=part.interval.number, fraction=part.interval.low, what="handover", state=after)
     handed = FollowedPart(
@@ -333,8 +333,7 @@ def _on(followed: FollowedPart, prepared: Prepared) -> FollowedPart:
 
 def _slid(prepared: Prepared, begin: State, end: State, own: BoolArray) -> float:
     """The longest way, length, of sliding pairs that touch at the beginning or the end; of all where none does."""
-    interface, n = prepared.interface, len(own)
-    way = interface.across((interface.B @ (end.displacement - begin.displacement))[n:])
+    way = np.linalg.norm(prepared.interface.motion(end.displacement - begin.displacement)[1:], axis=0)
     touch = own & ((begin.status != OPEN) | (end.status != OPEN))
     return float(way[touch if touch.any() else own].max(initial=0.0))
 

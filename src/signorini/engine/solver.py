@@ -45,7 +45,7 @@ class Increment:
     ----------
     system : bodies, supports, pairs and sizes of the data
     f : (z,) forces on the free displacements
-    offset : (d n,) relative displacements of the pairs that f does not cause: gaps, supports, slips of the past, length
+    offset : (d, n) relative displacements of the pairs that f does not cause: gaps, supports, slips of the past, length
     state : before the increment
     last : the state an increment as long as this one before, where there is one
     start : what a condensed law starts from: states (a,) in the plane, ``r - h`` (3, a) in space; None: as the state is
@@ -77,7 +77,7 @@ class Mechanism(NamedTuple):
     Attributes
     ----------
     free : (z,) velocity of the free displacements
-    forces : (d n,) of the pairs meanwhile
+    forces : (d, n) of the pairs meanwhile
     """
 
     free: Array
@@ -91,7 +91,7 @@ class IncrementAnswer:
     Attributes
     ----------
     outcome, message : how it ended, in one word and in words
-    forces, moved : (d n,) forces of the pairs; gaps, length, and slip increments of those that the law is asked of
+    forces, moved : (d, n) forces of the pairs; gaps, length, and slip increments of those that the law is asked of
     free : (z,) free displacements
     status : (a,) codes of :mod:`signorini.law.states`, of the pairs that the law is asked of
     trace : the methods tried, in order
@@ -194,7 +194,10 @@ class CondensedSolver:
         """
         data = _friction(condensed, interface)
         law = ContactProblem(
-            image=condensed.image, b=np.zeros(len(condensed.root)), scale=_size(condensed, interface, scale), **data
+            image=condensed.image,
+            b=np.zeros(condensed.compliance.size),
+            scale=_size(condensed, interface, scale),
+            **data,
         )
         return CondensedSolver(condensed=condensed, law=law, settings=settings)
 
@@ -251,10 +254,9 @@ class CondensedSolver:
         """
         condensed, law, system, f = self.condensed, self.law, increment.system, increment.f
         offset, interface, scale = increment.offset, system.interface, system.scale
-        rows, T, ties = condensed.active_rows, system.constraints.transform, condensed.ties
-        forces, moved, free = np.zeros(len(offset)), np.zeros(len(offset)), np.zeros_like(f)
-        residual, misfit, b, lost = f, offset[rows], np.zeros(len(rows)), 0.0
-        guided = np.concatenate([np.zeros(law.pairs, dtype=np.bool_), law.locked.ravel()])
+        own, T, ties = np.flatnonzero(condensed.active), system.constraints.transform, condensed.ties
+        forces, moved, free = np.zeros_like(offset), np.zeros_like(offset), np.zeros_like(f)
+        residual, misfit, b, lost = f, offset[:, own], np.zeros(len(law.b)), 0.0
         start = self._start(increment)
         allowed = self._allowed(increment.allowed_lack, scale)
         for step in range(_SETTLING + 1):
@@ -265,18 +267,21 @@ class CondensedSolver:
             if not result.solved:
                 break
             with increment.clock.phase("recovery"):
-                before = moved[rows], forces[rows]
-                forces[rows] = condensed.root * result.r.ravel()
-                moved[rows] = result.h.ravel() / condensed.root
-                free = free + condensed.displacement(reduced, moved[rows] - before[0], forces[rows] - before[1], misfit)
+                before = moved[:, own], forces[:, own]
+                forces[:, own] = condensed.root * result.r.reshape(misfit.shape)  # a law without pairs knows no d
+                moved[:, own] = result.h.reshape(misfit.shape) / condensed.root
+                free = free + condensed.displacement(
+                    reduced, moved[:, own] - before[0], forces[:, own] - before[1], misfit
+                )
                 u = T @ free
-                forces[ties.rows] = 0.0
+                ties.give(forces, 0.0)
                 internal = internal_forces(system.K, u) if step else system.K @ u
-                residual = f + T.T @ (interface.B.T @ forces - internal)
-                forces[ties.rows] = ties.forces(residual)
-                residual += ties.B.T @ forces[ties.rows]
-                misfit = (offset + interface.B @ u - moved)[rows] + condensed.compliance * forces[rows]
-                misfit[guided] = 0.0
+                residual = f + T.T @ (interface.on_bodies(forces) - internal)
+                tied = ties.forces(residual)
+                ties.give(forces, tied)
+                residual += ties.B.T @ tied
+                misfit = (offset + interface.motion(u) - moved)[:, own] + condensed.compliance * forces[:, own]
+                misfit[1:][law.locked.reshape(misfit[1:].shape)] = 0.0
             lost = float(np.abs(misfit).max(initial=0.0))
             lack = np.abs(residual).max(initial=0.0) / scale.force if step < _REFINEMENTS else 0.0
             if max(lack, lost / scale.length) <= max(_BALANCED, increment.allowed_lack):
@@ -311,12 +316,12 @@ class CondensedSolver:
         state, near, law = increment.state, increment.near, self.law
         if near is None and (increment.start is not None or not state.forces.any()):
             return increment.start
-        condensed, rows = self.condensed, self.condensed.active_rows
-        r = law.by_pair((state if near is None else near).forces[rows] / condensed.root)
+        root, active = self.condensed.root, self.condensed.active
+        r = (state if near is None else near).forces[:, active] / root
         if law.piecewise_linear:
-            return law.pieces.coded(state.status[condensed.active] if near is None else near.status, r[0])
-        still = np.concatenate([state.gap, np.zeros_like(state.tangential)])
-        start: Array = r - law.by_pair(condensed.root * (still if near is None else near.moved)[rows])
+            return law.pieces.coded(state.status[active] if near is None else near.status, r[0])
+        still = np.concatenate([state.gap[None], np.zeros_like(state.tangential)])
+        start: Array = r - root * (still if near is None else near.moved)[:, active]
         return start
 
     def follow(self, start: PathState, b: Array, stops: PathSettings | None, tell: Callable[[float], None]) -> Segment:
@@ -351,7 +356,7 @@ class CondensedSolver:
 def _friction(condensed: Condensed, interface: Interface) -> dict[str, Any]:
     """The friction of the active pairs as the laws take it, forces scaled."""
     active = condensed.active
-    posed = interface.friction.among(active).posed(interface.area[active] / condensed.root[: int(active.sum())])
+    posed = interface.friction.among(active).posed(interface.area[active] / condensed.root)
     if interface.directions == 2:
         return posed
     if not isinstance(posed["friction"], Bound):

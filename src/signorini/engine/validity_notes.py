@@ -184,7 +184,7 @@ def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
                     "bodies, which holds for small displacements"
                 )
     interface = prepared.interface
-    slip = np.where(state.status == OPEN, 0.0, interface.across(state.slip))
+    slip = np.where(state.status == OPEN, 0.0, np.linalg.norm(state.slip, axis=0))
     for i, contact in enumerate(prepared.model.contacts):
         own = (interface.contact == i) & (state.status != OPEN)
         if not own.any():

@@ -103,7 +103,7 @@ def _corrected(paths: WornPaths, done: PathCycle, rubbing: Rubbing, rubs: Array,
     """(n,) What a cycle rubs on sides that are worn by it, from a cycle on sides worn by ``rubs``."""
     law, condensed, sides = paths.prepared.paths.law, paths.prepared.paths.condensed, paths.sides
     a, active = law.pairs, condensed.active
-    root, area = condensed.root[:a], paths.prepared.interface.area[active]
+    root, area = condensed.root, paths.prepared.interface.area[active]
     h, p = done.now.h[0], done.now.r[0]
     slope = np.where(sides.by_energy[active], law.mu, 1.0) * rubbing.travel[active] * root / area
     grows = count * sides.rate[active] * root

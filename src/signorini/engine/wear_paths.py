@@ -139,7 +139,6 @@ class WornPaths:
     def _freed(self, segment: Segment, change: Array) -> float:
         """``int r_n dg`` along a segment in which gaps grow by a change (n,)."""
         condensed = self.prepared.paths.condensed
-        a = self.prepared.paths.law.pairs
-        forces = np.array([piece.r[0] for piece in segment.pieces]) * condensed.root[:a]
+        forces = np.array([piece.r[0] for piece in segment.pieces]) * condensed.root
         steps = np.diff([piece.factor for piece in segment.pieces])
         return float(steps @ (0.5 * (forces[1:] + forces[:-1]) @ change[condensed.active]))

@@ -346,11 +346,10 @@ def set_loose(before: State, followed: FollowedPart) -> FollowedPart:
     before : where the part began
     followed : as it was followed
     """
-    n = len(before.gap)
     last, energy, shots = before, 0.0, list[Snapshot]()
     for shot in followed.snapshots:
         now = shot.state
-        energy += float(0.5 * (last.forces + now.forces)[:n] @ (now.point.gap - last.point.gap))
+        energy += float(0.5 * (last.forces + now.forces)[0] @ (now.point.gap - last.point.gap))
         shots.append(replace(shot, state=_freed(now, energy)))
         last = now
     return replace(followed, snapshots=tuple(shots), after=_freed(followed.after, energy))

@@ -93,15 +93,21 @@ class Interface:
         }
         return replace(self, B=self.B[self.rows(kept)], friction=self.friction.among(kept), **parts)
 
-    @property
-    def compliance(self) -> Array:
-        """(d n,) of every row of B, length per pressure."""
-        return np.concatenate([self.normal_compliance, np.tile(self.tangential_compliance, self.directions - 1)])
+    def motion(self, displacement: Array) -> Array:
+        """(d, n) Motions of the pairs, ``B u``, that displacements (dofs,) are, length."""
+        moved: Array = self.B @ displacement
+        return moved.reshape(self.directions, len(self))
+
+    def on_bodies(self, forces: Array) -> Array:
+        """(dofs,) Nodal forces ``B^T r`` of the forces (d, n) of the pairs on the bodies."""
+        nodal: Array = self.B.T @ forces.ravel()
+        return nodal
 
     @property
-    def areas(self) -> Array:
-        """(d n,) of every row of B."""
-        return np.tile(self.area, self.directions)
+    def compliance(self) -> Array:
+        """(d, n) of the pairs, length per force."""
+        tangential = [self.tangential_compliance] * (self.directions - 1)
+        return np.stack([self.normal_compliance, *tangential]) / self.area
 
     @property
     def bound(self) -> Bound:
@@ -118,13 +124,8 @@ class Interface:
         return FrictionSection(axes=self.anisotropy.T, sides=self.facets)
 
     def effort(self, tangential: Array) -> Array:
-        """(n,) size of tangential forces ((d - 1) n,) as friction feels it, see `law.section`."""
-        return self.section.effort(tangential.reshape(self.directions - 1, len(self)))
-
-    def across(self, tangential: Array) -> Array:
-        """(n,) length of tangential vectors that are given row by row, ((d - 1) n,)."""
-        length: Array = np.linalg.norm(tangential.reshape(self.directions - 1, len(self)), axis=0)
-        return length
+        """(n,) size of tangential forces (d - 1, n) as friction feels it, see `law.section`."""
+        return self.section.effort(tangential)
 
 
 def make_interface(

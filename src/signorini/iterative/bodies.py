@@ -43,8 +43,8 @@ class Bodies:
     pairs : (a,) their numbers
     tied : (a,) those that neither slip nor open
     active, held : (n,) pairs that the law is asked of; pairs that supports hold
-    stiffness : (d a,) D of the springs that trial forces are made with, force per length
-    compliance : (d a,) of the interface, length per force
+    stiffness : (a,) D of the springs that trial forces are made with, in all directions, force per length
+    compliance : (d, a) of the interface, length per force
     rigid : (b, k) rigid motions of all parts
     blocks : of the unknowns
     preconditioner : shared by all loads
@@ -73,11 +73,6 @@ class Bodies:
         """Rows a pair, d."""
         return self.blocks.size
 
-    @property
-    def rows(self) -> IntArray:
-        """(d a,) Rows of the interface's B that the pairs have."""
-        return np.concatenate([self.pairs + k * len(self.active) for k in range(self.directions)])
-
     def factored(self, nodes: IntArray, points: Array, *, patience: int) -> Bodies:
         """Bodies with factors in place of multigrid: thin bodies and flat cells cost those nothing.
 
@@ -99,15 +94,14 @@ class Bodies:
         kept : (n,) pairs that stay
         """
         own = kept[self.pairs]
-        rows = np.tile(own, self.directions)
         return replace(
             self,
-            B=self.B[np.flatnonzero(rows)],
+            B=self.B[np.flatnonzero(np.tile(own, self.directions))],
             pairs=self.pairs[own],
             tied=self.tied[own],
             active=self.active & kept,
-            stiffness=self.stiffness[rows],
-            compliance=self.compliance[rows],
+            stiffness=self.stiffness[own],
+            compliance=self.compliance[:, own],
         )
 
 
@@ -128,8 +122,7 @@ def make_bodies(
     K, B, nodes, points = free[:4]
     seen, moves, held, active = active_pairs(B, interface, candidates)
     pairs = np.flatnonzero(active | (interface.tied & moves.reshape(d, n).any(axis=0)))
-    rows = np.concatenate([pairs + k * n for k in range(d)])
-    own = sp.csr_array(seen[rows])
+    own = sp.csr_array(seen[np.concatenate([pairs + k * n for k in range(d)])])
     blocks = make_blocks(nodes, axis, d)
     matrix = blocks.matrix(K)
     felt = np.asarray((own @ K).multiply(own).sum(axis=1)).ravel().reshape(d, -1).max(axis=0, initial=0.0)
@@ -142,8 +135,8 @@ def make_bodies(
         tied=interface.tied[pairs],
         active=active,
         held=held,
-        stiffness=np.tile(_SPRING_RATIO * felt, d),
-        compliance=(interface.compliance / interface.areas)[rows],
+        stiffness=_SPRING_RATIO * felt,
+        compliance=interface.compliance[:, pairs],
         rigid=sp.csr_array(blocks.columns(sp.csr_array(rigid.T)).T),
         blocks=blocks,
         preconditioner=Multigrid(matrix, near_null),

@@ -110,8 +110,7 @@ class _Rounds:
         d, a = load.offset.shape
         self.bodies, self.load = bodies, load
         self.z, self.multiplier = z.copy(), forces.copy()
-        self.D = bodies.stiffness.reshape(d, a)
-        self.C = bodies.compliance.reshape(d, a)
+        self.D, self.C = bodies.stiffness, bodies.compliance
         self.E = 1.0 / (1.0 + self.D * self.C)
         self.softened = self.E * self.D
         self.transposed = bodies.B.T.tocsr()

@@ -108,7 +108,7 @@ def certify(
     system : the problem as posed
     state : its displacement and pair forces are the answer to be measured
     loads : (dofs,) nodal forces
-    before : ((d - 1) n,) tangential displacement at which the slip increment began
+    before : (d - 1, n) tangential displacement at which the slip increment began
     yielding : displacements under forces on the free displacements: what slender bodies lack of equilibrium is many
         roundings of the load, and may be so where it moves them by no more than the last digits of their displacements
     origin : what points of bodies that yield remembered before the increment; None: the flow rule is not asked
@@ -118,21 +118,21 @@ def certify(
     Certificate; every number infinite where something is not finite or a body has left
     """
     interface, constraints, scale, motions = system.interface, system.constraints, system.scale, system.motions
-    u, r, n = state.displacement, state.forces, len(interface)
+    u, r = state.displacement, state.forces
     if not (np.isfinite(u).all() and np.isfinite(r).all()) or np.abs(u).max(initial=0.0) > _MAX_LENGTHS * scale.length:
         return Certificate(equilibrium=np.inf, penetration=np.inf, tension=np.inf, cone=np.inf, complementarity=np.inf)
-    applied = loads + interface.B.T @ r
+    of_pairs = interface.on_bodies(r)
+    applied = loads + of_pairs
     if state.plastic is not None:
         applied = applied + state.plastic.forces
     residual = constraints.transform.T @ (system.K @ u - applied)
-    balance = motions.T @ (state.external + constraints.foundation_forces(u) + interface.B.T @ r)
-    moved = interface.B @ u
-    moved = (moved + interface.compliance * r / interface.areas) / scale.length
-    gap = state.point.gap / scale.length + moved[:n]
-    normal, tangential = r[:n] / scale.force, r[n:] / scale.force
-    sliding = moved[n:] - before / scale.length
+    balance = motions.T @ (state.external + constraints.foundation_forces(u) + of_pairs)
+    moved = (interface.motion(u) + interface.compliance * r) / scale.length
+    gap = state.point.gap / scale.length + moved[0]
+    normal, tangential = r[0] / scale.force, r[1:] / scale.force
+    sliding = moved[1:] - before / scale.length
     gap, tension = np.where(interface.tied, -np.abs(gap), gap), np.where(interface.tied, 0.0, normal)
-    bound = np.where(interface.tied, np.inf, interface.most(r[:n]) / scale.force)
+    bound = np.where(interface.tied, np.inf, interface.most(r[0]) / scale.force)
     room = bound - interface.effort(tangential)
     friction = _friction(interface, bound, tangential, sliding, room)
     gap, normal, tension, room, friction = (
@@ -186,8 +186,7 @@ def _friction(interface: Interface, bound: Array, tangential: Array, sliding: Ar
 
     Where a pair is open, slip is free: its section is a point and has no room.
     """
-    shape = interface.directions - 1, len(bound)
-    r, s = tangential.reshape(shape), sliding.reshape(shape)
+    r, s = tangential, sliding
     slip, size = np.linalg.norm(s, axis=0), np.linalg.norm(r, axis=0)
     # 0 where friction opposes the slip, 2 where it goes with it
     turned = np.linalg.norm(_directions(r, size) + _directions(s, slip), axis=0)

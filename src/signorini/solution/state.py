@@ -27,7 +27,7 @@ class LoadPoint(Short):
     ----------
     factors : load factors by name
     gap : (n,) initial gaps, with the interferences of the moment
-    given : (d n,) forces of pairs whose contact is switched off, on their way to zero; 0 elsewhere
+    given : (d, n) forces of pairs whose contact is switched off, on their way to zero; 0 elsewhere
     reaction : (dofs,) forces of supports that let go, on their way to zero; empty where none ever did
     offset : (dofs,) displacements beyond what supports prescribe, of those that hold again; empty where none ever did
     """
@@ -61,11 +61,11 @@ class State(Short):
     point : of the load history
     displacement : (dofs,) length
     external : (dofs,) loads, reactions of supports and forces inside rigid boundaries, rigid bodies and equations
-    forces : (d n,) of the pairs on the nonmortar body: normal (pressing > 0), then tangential
+    forces : (d, n) of the pairs on the nonmortar body: normal (pressing > 0), then tangential
     gap : (n,) of the contact law, 0 where closed
-    tangential : ((d - 1) n,) tangential displacement of the contact law, length: where the next slip increment starts
-    increment : ((d - 1) n,) slip increment of the last increment
-    slip : ((d - 1) n,) accumulated while closed
+    tangential : (d - 1, n) tangential displacement of the contact law, length: where the next slip increment starts
+    increment : (d - 1, n) slip increment of the last increment
+    slip : (d - 1, n) accumulated while closed
     status : (n,) codes of :mod:`signorini.law.states`
     work : of loads, moving supports and interferences since the beginning
     dissipation : (n,) frictional dissipation since the beginning
@@ -90,6 +90,11 @@ class State(Short):
     wear: WearState | None = None
 
     @property
+    def motion(self) -> Array:
+        """(d, n) Motions of the pairs in the contact law since the beginning: gaps and tangential displacements."""
+        return np.concatenate([self.gap[None], self.tangential])
+
+    @property
     def plastic_work(self) -> float:
         """Since the beginning; 0 where no body yields."""
         return 0.0 if self.plastic is None else self.plastic.dissipation
@@ -105,15 +110,16 @@ def initial_state(factors: Mapping[str, float], dofs: int, interface: Interface)
     interface : the n pairs
     """
     n, d, gap = len(interface), interface.directions, interface.gap
+    still = np.zeros((d - 1, n))
     return State(
-        point=LoadPoint(factors=MappingProxyType(dict(factors)), gap=gap, given=np.zeros(d * n)),
+        point=LoadPoint(factors=MappingProxyType(dict(factors)), gap=gap, given=np.zeros((d, n))),
         displacement=np.zeros(dofs),
         external=np.zeros(dofs),
-        forces=np.zeros(d * n),
+        forces=np.zeros((d, n)),
         gap=gap,
-        tangential=np.zeros((d - 1) * n),
-        increment=np.zeros((d - 1) * n),
-        slip=np.zeros((d - 1) * n),
+        tangential=still,
+        increment=still,
+        slip=still,
         status=np.zeros(n, np.int64),
         work=0.0,
         dissipation=np.zeros(n),
@@ -141,7 +147,7 @@ def next_state(
     state : before the increment
     point : of the load history, at the end of the increment
     loads, displacement : (dofs,) nodal forces and displacements there
-    forces, moved : (d n,) forces of the pairs; gaps and slip increments
+    forces, moved : (d, n) forces of the pairs; gaps and slip increments
     status : (n,) codes of the pairs
     plastic : of the points, where plastic flow has changed it
 
@@ -149,34 +155,34 @@ def next_state(
     -----
     Work is trapezoidal in time, that of interferences included; dissipation is that of the forces at the end.
     """
-    interface, n = system.interface, len(system.interface)
+    interface = system.interface
     plastic = state.plastic if plastic is None else plastic
-    inner = system.K @ displacement - interface.B.T @ forces
+    inner = system.K @ displacement - interface.on_bodies(forces)
     if plastic is not None:
         inner -= plastic.forces
     # the loads where a displacement is free on its own, whatever equilibrium takes where it is held, tied or linked
     external = np.where(system.constraints.alone, loads, inner)
-    increment = moved[n:]
+    increment, parted = moved[1:], status == OPEN
     work = 0.5 * (state.external + external) @ (displacement - state.displacement)
-    work -= 0.5 * (state.forces + forces)[:n] @ (point.gap - state.point.gap)
+    work -= 0.5 * (state.forces + forces)[0] @ (point.gap - state.point.gap)
     bodies = system.yielding
     if bodies is not None and bodies.heat_works and state.plastic is not None and plastic is not None:
         heat = bodies.heat(state.point.factors), bodies.heat(point.factors)
         work += heat_work(bodies, (state.plastic, heat[0]), (plastic, heat[1]))
-    spent = (forces[n:] * increment).reshape(-1, n).sum(axis=0) if n else np.zeros(0)
-    taken = 0.5 * (state.point.given + point.given) @ (interface.B @ (displacement - state.displacement))
+    spent = (forces[1:] * increment).sum(axis=0)
+    taken = 0.5 * np.vdot(state.point.given + point.given, interface.motion(displacement - state.displacement))
     return State(
         point=point,
         displacement=displacement,
         external=external,
         forces=forces,
-        gap=moved[:n],
+        gap=moved[0],
         tangential=state.tangential + increment,
         increment=increment,
-        slip=state.slip + np.where(np.tile(status == OPEN, interface.directions - 1), 0.0, increment),
+        slip=state.slip + np.where(parted, 0.0, increment),
         status=status,
         work=state.work + float(work),
-        dissipation=state.dissipation + np.where(status == OPEN, 0.0, np.maximum(-spent, 0.0)),
+        dissipation=state.dissipation + np.where(parted, 0.0, np.maximum(-spent, 0.0)),
         released=state.released - float(taken),
         plastic=plastic,
         wear=state.wear,
