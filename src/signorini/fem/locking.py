@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from signorini.errors import InputError, Where
 from signorini.fem.kinematics import BRICKS
 from signorini.fem.space import Space, has_mean_dilatation
-from signorini.model.body import Body
+from signorini.model.body import Body, locking_families
 from signorini.model.material import Elastic
 from signorini.model.model import Model
 
@@ -32,7 +34,7 @@ def refuse_locking(model: Model) -> None:
         where = ("body", i, "formulation")
         families = model.mesh.families(body.name)
         found = " and ".join(sorted(families))
-        if body.formulation == "incompatible" and not families & set(BRICKS):
+        if body.formulation == "incompatible" and not families.keys() & BRICKS.keys():
             raise InputError(
                 f"is 'incompatible', but '{body.name}' has no 'quad' or 'hexahedron' cells; it has {found}", where=where
             )
@@ -43,7 +45,7 @@ def refuse_locking(model: Model) -> None:
         if model.kind == "plane stress" or ratio <= _LOCKING_RATIO:
             continue
         # with a hoop strain, and in space, internal modes do not keep the volume of distorted cells
-        if body.formulation == "incompatible" and families == {"quad"} and model.kind == "plane strain":
+        if body.formulation == "incompatible" and set(families) == {"quad"} and model.kind == "plane strain":
             continue
         raise InputError(
             f"'{body.name}' is nearly incompressible (bulk over shear modulus {ratio:.3g}): its cells ({found}) would "
@@ -53,13 +55,13 @@ def refuse_locking(model: Model) -> None:
         )
 
 
-def _refuse_mean_dilatation(model: Model, body: Body, families: set[str], where: Where) -> None:
+def _refuse_mean_dilatation(model: Model, body: Body, families: Mapping[str, int], where: Where) -> None:
     """Only for isotropic bodies, of cells that it helps, whose strain across the plane is given."""
     if model.kind == "plane stress":
         raise InputError("is 'mean dilatation', of which plane stress has no need; expected 'standard'", where=where)
     if not isinstance(body.material, Elastic):
         raise InputError(f"is 'mean dilatation', but the material of '{body.name}' is not isotropic", where=where)
-    lost = sorted(family for family in families if not has_mean_dilatation(family))
+    lost = sorted(locking_families(families) | {family for family in families if not has_mean_dilatation(family)})
     if lost:
         raise InputError(
             f"is 'mean dilatation', but '{body.name}' has {' and '.join(lost)} cells, which lock all the same; "
@@ -76,7 +78,7 @@ def stiffened_bodies(model: Model) -> tuple[str, ...]:
         body.name
         for body in model.bodies
         if body.formulation == "standard"
-        and not model.mesh.families(body.name) <= _SUPPLE
+        and not model.mesh.families(body.name).keys() <= _SUPPLE
         and body.material.bulk_modulus > _NOTICED_RATIO * body.material.shear_modulus
     )
 

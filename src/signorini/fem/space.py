@@ -56,7 +56,7 @@ _ELEMENTS: Mapping[str, _Element] = {
     "hexahedron": _Element(skfem.ElementHex1, 2, 2, 2, _TRILINEAR, _SOLID[:1]),
     "hexahedron20": _Element(skfem.ElementHexS2, 5, 5, 2, _TRILINEAR, _SOLID),
     "hexahedron27": _Element(skfem.ElementHex2, 5, 5, 2, _TRILINEAR, _SOLID),
-    "wedge": _Element(skfem.ElementWedge1, 3, 3, 2, _SOLID),
+    "wedge": _Element(skfem.ElementWedge1, 3, 3, 2, _SOLID, _SOLID[:1]),
     "wedge15": _Element(QuadraticWedge, 5, 5, 2, (*_SOLID, (1, 0, 1), (0, 1, 1))),
 }
 
@@ -282,7 +282,7 @@ def _monomials(at: Array, of: tuple[tuple[int, ...], ...]) -> Array:
 
 
 def has_mean_dilatation(family: str) -> bool:
-    """Whether cells of a family do not lock with a mean dilatation."""
+    """Whether cells of a family may have one; triangles and tetrahedra with corners alone would lock all the same."""
     return bool(_ELEMENTS[family].pressures)
 
 

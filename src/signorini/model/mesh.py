@@ -215,10 +215,11 @@ class Mesh:
         found = self.facets(name) if name in self.boundaries else (self.nodes[name],)
         return np.unique(np.concatenate([part.ravel() for part in found]))
 
-    def families(self, body: str) -> set[str]:
-        """Families of the cells of a body."""
+    def families(self, body: str) -> dict[str, int]:
+        """Families of the cells of a body, and how many there are of each."""
         ends = np.cumsum([len(nodes) for nodes in self.cells.values()])
-        return {list(self.cells)[i] for i in distinct(np.searchsorted(ends, self.bodies[body], side="right"))}
+        counts = np.bincount(np.searchsorted(ends, self.bodies[body], side="right"), minlength=len(ends))
+        return {family: int(count) for family, count in zip(self.cells, counts, strict=True) if count}
 
     def bounds_nothing(self, name: str) -> bool:
         """Whether no node of a boundary belongs to a cell: a line or surface of its own, for a rigid obstacle."""
