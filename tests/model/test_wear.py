@@ -84,13 +84,3 @@ def test_a_deck_says_what_a_model_does(tmp_path: Path):
         "contact[0].wear.coeficient: unknown key; did you mean 'coefficient'? Known: coefficient, energy, mortar"
         in str(caught.value)
     )
-
-
-def test_contacts_that_slide_far_and_contacts_that_wear_do_not_go_together():
-    worn = MODEL.contacts[0]
-    other = replace(worn, nonmortar="pad.arc", wear=None, sliding="finite", name="arc")
-    with pytest.raises(sg.InputError) as caught:
-        sg.prepare(replace(MODEL, contacts=[worn, other]))
-    assert str(caught.value).startswith(
-        'contact[1].sliding: is "finite", but a contact wears, whose pairs have to stay'
-    )

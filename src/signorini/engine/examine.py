@@ -104,14 +104,11 @@ def _refuse_sliding(model: Model) -> None:
     Raises
     ------
     InputError
-        The first of them beside bodies that yield or sides that wear.
+        The first of them beside bodies that yield.
     """
     for i, contact in enumerate(model.contacts):
         if contact.slides and model.yields:
             words = 'is "finite", but a body yields, and its compliance would change; expected elastic bodies'
-            raise InputError(words, where=("contact", i, "sliding"))
-        if contact.slides and model.wears:
-            words = 'is "finite", but a contact wears, whose pairs have to stay; expected small slips, or no wear'
             raise InputError(words, where=("contact", i, "sliding"))
 
 

@@ -15,11 +15,13 @@ from itertools import pairwise
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.engine.prepare import Prepared
 from signorini.engine.solver import CondensedSolver
+from signorini.engine.step_parts import FollowedPart, Snapshot
 from signorini.friction.history import Segment
 from signorini.interface.interface import Interface
 from signorini.interface.worn_sides import WornSides
-from signorini.solution.state import State
+from signorini.solution.state import State, wear_of
 from signorini.solution.wear_state import WearState
 
 
@@ -90,6 +92,25 @@ def rubbing_of_segment(sides: WornSides, interface: Interface, paths: CondensedS
     return Rubbing(distance=distance, wearing=wearing, travel=travel, volume=sides.volume @ wearing)
 
 
+def handed(prepared: Prepared, normal: Array, moved: Array, taken: Array) -> Rubbing:
+    """Rubbing of pairs that hand over: what friction takes is taken at its bound, so that it is as much in all as rubs.
+
+    Parameters
+    ----------
+    prepared : with sides that wear
+    normal : (2, n) normal forces before and behind
+    moved : (d - 1, n) along the tangents, length
+    taken : (n,) energy that friction takes of pairs that slip, 0 of others
+    """
+    assert prepared.wearing is not None
+    sides, interface = prepared.wearing, prepared.interface
+    held = interface.most(normal[0]) + interface.most(normal[1])
+    distance = np.divide(2.0 * taken, held, out=np.zeros_like(taken), where=held > 0.0)
+    wearing = np.where(sides.by_energy, taken, normal.mean(axis=0) * distance) / interface.area
+    travel = np.linalg.norm(moved, axis=0)
+    return Rubbing(distance=distance, wearing=wearing, travel=travel, volume=sides.volume @ wearing)
+
+
 def rubbed(wear: WearState, rubbing: Rubbing) -> WearState:
     """A state of wear after sides have slid, which have lost nothing by it yet."""
     return replace(wear, distance=wear.distance + rubbing.distance, loose=wear.loose + rubbing.volume)
@@ -110,4 +131,33 @@ def worn(sides: WornSides, wear: WearState, *, cycles: int = 0) -> WearState:
         volume=wear.volume + wear.loose,
         loose=np.zeros_like(wear.loose),
         cycles=wear.cycles + cycles,
+    )
+
+
+def set_loose(before: State, followed: FollowedPart) -> FollowedPart:
+    """A part at constant loads in which gaps have grown: forces that gave way there did work, which is set free.
+
+    Its states hold ``- int r_n dg`` as work of an interference, and it is none of the loads.
+
+    Parameters
+    ----------
+    before : where the part began
+    followed : as it was followed
+    """
+    last, energy, shots = before, 0.0, list[Snapshot]()
+    for shot in followed.snapshots:
+        now = shot.state
+        energy += float(0.5 * (last.forces + now.forces)[0] @ (now.point.gap - last.point.gap))
+        shots.append(replace(shot, state=_freed(now, energy)))
+        last = now
+    return replace(followed, snapshots=tuple(shots), after=_freed(followed.after, energy))
+
+
+def _freed(state: State, energy: float) -> State:
+    wear = wear_of(state)
+    return replace(
+        state,
+        work=state.work + energy,
+        released=state.released + energy,
+        wear=replace(wear, energy=wear.energy + energy),
     )

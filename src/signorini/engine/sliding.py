@@ -19,18 +19,19 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
-from signorini.engine.energy import set_free
-from signorini.engine.increments import advance
+from signorini.engine.handing_over import hand_over, posed, turned, with_pairs
 from signorini.engine.prepare import Prepared
+from signorini.engine.rubbing import rubbed, rubbing_of_states, set_loose
 from signorini.engine.solver import CondensedSolver
-from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, joined, keep
+from signorini.engine.step_parts import FollowedPart, StepPart, ending, joined, keep
 from signorini.errors import InputError, SolveFailed
 from signorini.fem.boundary import boundary
 from signorini.interface.interface import Interface
 from signorini.interface.sliding import facing, paired_at, sliding_pairs
-from signorini.law.states import OPEN, STICK
+from signorini.interface.worn_sides import worn_sides
+from signorini.law.states import OPEN
 from signorini.outcome import Outcome
-from signorini.solution.state import State
+from signorini.solution.state import State, wear_of
 
 _STRIDE = 0.25  # of the shortest facet: how far sides slide before pairs are made anew
 _AHEAD = 0.1  # of a stride: more than what handing over moves
@@ -77,21 +78,25 @@ class _Pairing:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class _Stride:
+class Stride:
     """A stride as it was followed.
 
     Attributes
     ----------
+    part : from where the last one ended, as far as it goes
+    prepared : with its pairs
+    gaps : (2, n) at its ends between sides that are not worn, before anything moved as its pairs see the motion since
     followed : from the handing over to the end
-    interface : its pairs
     end : pairs at its end, or where that was expected
     moved : (dofs,) displacement in it
     slid : the longest way of a pair that touches, in strides
     changed : by how much handing over changed the forces, of the largest
     """
 
+    part: StepPart
+    prepared: Prepared
+    gaps: Array
     followed: FollowedPart
-    interface: Interface
     end: _Pairing
     moved: Array
     slid: float
@@ -107,19 +112,38 @@ class _Walk:
     part : with the pairs before anything moved
     follow : the way through a stride
     limit : a stride, length
+    lost : (m,) depth that the sides lose in it, see `WornSides`; empty where none does
     """
 
     part: StepPart
     follow: Follow
     limit: float
+    lost: Array
 
-    def beyond(self, fraction: float) -> Array:
-        """(n,) Gaps beyond those of the geometry at a fraction of the step, of interferences that it changes."""
-        part, t = self.part, self.part.interval.within(fraction)
-        nominal = (1.0 - t) * part.before.point.gap + t * part.end.gap
-        return np.asarray(nominal - part.prepared.interface.gap)
+    def beyond(self, prepared: Prepared, t: float) -> Array:
+        """(n,) Gaps of pairs beyond those of the geometry: of interferences that the step changes, and of wear.
 
-    def stride(self, now: StepPart, last: _Stride | None, expected: Array) -> _Stride:
+        Parameters
+        ----------
+        prepared : with the pairs
+        t : the fraction of the part
+        """
+        part, seen, nominal = self.part, prepared.wearing, self.part.prepared.wearing
+        gap = (1.0 - t) * part.before.point.gap + t * part.end.gap - part.prepared.interface.gap
+        if seen is None or nominal is None:
+            return np.asarray(gap)
+        return np.asarray(gap + self.worn_gap(prepared, t) - nominal.gap @ self.depth(t))
+
+    def depth(self, t: float) -> Array:
+        """(m,) Worn depth at a fraction of the part; empty where no side wears."""
+        wear = self.part.before.wear
+        return np.zeros(0) if wear is None else wear.depth - (1.0 - t) * self.lost
+
+    def worn_gap(self, prepared: Prepared, t: float) -> Array | float:
+        """(n,) What pairs feel of it there."""
+        return 0.0 if prepared.wearing is None else np.asarray(prepared.wearing.gap @ self.depth(t))
+
+    def stride(self, now: StepPart, last: Stride | None, expected: Array) -> Stride:
         """One stride, with the pairs of its middle as it is expected.
 
         Parameters
@@ -132,20 +156,25 @@ class _Walk:
         middle = _Pairing.at(now, u + 0.5 * expected)
         end = _Pairing.at(now, u + expected) if expected.any() else middle
         prepared = paired(now.prepared, middle.interface)
-        frames = self.part.prepared.interface if last is None else last.interface
+        frames = self.part.prepared.interface if last is None else last.prepared.interface
         behind, changed = list[FollowedPart](), 0.0
-        before = posed(prepared, now.before, frames, middle.gap_before() + self.beyond(interval.low))
+        begun = self.part.interval.within(interval.low) if interval.high > interval.low else 0.0
+        done = self.part.interval.within(interval.high)
+        first = middle.gap_before() + self.beyond(prepared, begun)
+        before = posed(prepared, now.before, frames, first)
         if before.forces.any():
-            handed = hand_over(prepared, before, now, _AHEAD * self.limit)
-            changed = float(np.abs(handed.after.forces - before.forces).max() / np.abs(before.forces).max())
-            behind.append(handed)
-            before = handed.after
+            passed = hand_over(prepared, before, now, _AHEAD * self.limit)
+            changed = float(np.abs(passed.after.forces - before.forces).max() / np.abs(before.forces).max())
+            behind.append(passed)
+            before = passed.after
         faces = facing(middle.interface) & facing(end.interface)
-        gap = np.where(faces, end.gap_before(middle.interface), middle.gap_before()) + self.beyond(interval.high)
+        gap = np.where(faces, end.gap_before(middle.interface), middle.gap_before())
+        gap += self.beyond(prepared, done)
         own = sliding_pairs(prepared.model, prepared.interface)
         point = replace(now.end, gap=np.where(own, gap, now.end.gap))
         try:
-            followed = _on(self.follow(replace(now, prepared=prepared, before=before, end=point)), prepared)
+            followed = with_pairs(self.follow(replace(now, prepared=prepared, before=before, end=point)), prepared)
+            followed = self.worn(prepared, before, followed)
         except (SolveFailed, KeyboardInterrupt) as stop:
             raise keep(stop, behind) from None
         after = followed.after
@@ -158,14 +187,26 @@ class _Walk:
         moved = after.displacement - u
         # gaps of sides with corners jump, and no stride is short enough for that
         shortened = min(float(bent) ** 0.5, float(np.abs(moved).max()) / (_SHORTEST_MOVE * self.limit))
-        return _Stride(
+        return Stride(
+            part=replace(now, prepared=prepared),
+            prepared=prepared,
+            gaps=np.array([first - self.worn_gap(prepared, begun), gap - self.worn_gap(prepared, done)]),
             followed=joined([*behind, followed]),
-            interface=prepared.interface,
             end=end,
             moved=moved,
             slid=max(_slid(prepared, before, after, own) / self.limit, shortened),
             changed=changed,
         )
+
+    def worn(self, prepared: Prepared, before: State, followed: FollowedPart) -> FollowedPart:
+        """A stride with what it has rubbed off the sides, and what gaps that grow by wear alone have set free."""
+        if prepared.wearing is None:
+            return followed
+        if self.lost.any():
+            followed = set_loose(before, followed)
+        states = [before, *(shot.state for shot in followed.snapshots)]
+        rubbing = rubbing_of_states(prepared.wearing, prepared.interface, states)
+        return ending(followed, replace(followed.after, wear=rubbed(wear_of(followed.after), rubbing)))
 
 
 def _bent(begin: _Pairing, middle: _Pairing, end: _Pairing) -> Array:
@@ -181,70 +222,67 @@ def _bent(begin: _Pairing, middle: _Pairing, end: _Pairing) -> Array:
     return np.where(known, bent, 0.0)
 
 
-def follow_sliding(part: StepPart, follow: Follow) -> FollowedPart:
-    """Follow a straight part of a step in strides.
+def follow_sliding(
+    part: StepPart, follow: Follow, lost: Array | None = None, strides: list[Stride] | None = None
+) -> FollowedPart:
+    """Follow a straight part of a step in strides; what they rub off sides that wear is in the states.
 
     Parameters
     ----------
     part : with the pairs before anything moved; gaps of its points are those of these pairs
     follow : the way through a stride
+    lost : (m,) depth that sides lose in a part at constant loads, the state before it has it already; None: nothing
+    strides : are added to it where given
 
     Raises
     ------
     SolveFailed
         What ended a stride, with all strides before it.
     """
-    walk = _Walk(part=part, follow=follow, limit=_STRIDE * shortest_facet(part.prepared))
-    behind: list[_Stride] = []
+    none = np.zeros(0 if part.before.wear is None else len(part.before.wear.depth))
+    limit = _STRIDE * shortest_facet(part.prepared)
+    walk = _Walk(part=part, follow=follow, limit=limit, lost=none if lost is None else lost)
+    behind: list[Stride] = [] if strides is None else strides
+    first = len(behind)
     rest, share = part, 1.0
     rate = np.zeros(len(part.before.displacement))
     while True:
         now = rest if share >= 1.0 else rest.cut(share, "handover")
         length = now.interval.high - now.interval.low
         try:
-            stride = walk.stride(now, behind[-1] if behind else None, length * rate)
+            stride = walk.stride(now, behind[-1] if behind[first:] else None, length * rate)
         except (SolveFailed, KeyboardInterrupt) as stop:
-            lost = isinstance(stop, SolveFailed) and stop.status in (Outcome.NOT_FOUND, Outcome.JUMP)
-            if not lost or share < _SHORTEST_SHARE:
-                raise keep(stop, [done.followed for done in behind]) from None
+            again = isinstance(stop, SolveFailed) and stop.status in (Outcome.NOT_FOUND, Outcome.JUMP)
+            if not again or share < _SHORTEST_SHARE:
+                raise keep(stop, [done.followed for done in behind[first:]]) from None
             share /= _SHORTER
             continue
-        rate = stride.moved / length
+        rate = stride.moved / (length or 1.0)
         if stride.slid > _OVER:
             share /= ceil(stride.slid)
             continue
         behind.append(stride)
         if now is rest:
-            return _finished(part, behind)
+            return _finished(part, behind[first:])
         rest = rest.rest(now, stride.followed.after)
         wanted = length * min(_GROWTH, 1.0 / max(stride.slid, 1.0 / _GROWTH))
         share = 1.0 / max(1, ceil((rest.interval.high - rest.interval.low) / wanted - 1e-9))
 
 
-def _finished(part: StepPart, strides: list[_Stride]) -> FollowedPart:
+def _finished(part: StepPart, strides: list[Stride]) -> FollowedPart:
     """All strides as one; the state at the end refers to the pairs before anything moved, as that before does."""
     followed, changed = joined([stride.followed for stride in strides]), max(stride.changed for stride in strides)
     nominal = part.prepared.interface
     own = sliding_pairs(part.prepared.model, nominal)
-    forces = np.where(own, turned(followed.after.forces, strides[-1].interface, nominal), followed.after.forces)
+    forces = np.where(
+        own, turned(followed.after.forces, strides[-1].prepared.interface, nominal), followed.after.forces
+    )
     after = replace(followed.after, point=replace(followed.after.point, gap=part.end.gap), forces=forces)
     notes = followed.notes
     if changed > _SAID_FROM:
         words = f"pairs followed the bodies in {len(strides)} strides; handing over changed forces by {changed:.1e}"
         notes = (*notes, f"{words} of the largest at most")
     return replace(followed, after=after, notes=notes)
-
-
-def turned(forces: Array, old: Interface, new: Interface) -> Array:
-    """Forces of pairs (d, n) in other frames.
-
-    Parameters
-    ----------
-    forces : in the old frames
-    old, new : interfaces with as many pairs
-    """
-    one, other = (np.concatenate([of.normals[:, None], of.tangents], axis=1) for of in (old, new))
-    return np.asarray(np.einsum("kij,klj,lk->ik", other, one, forces))
 
 
 def paired(prepared: Prepared, interface: Interface) -> Prepared:
@@ -260,75 +298,8 @@ def paired(prepared: Prepared, interface: Interface) -> Prepared:
     if prepared.absent.any():
         condensed = condensed.among(~prepared.absent)
     solver = CondensedSolver.of(condensed, interface, prepared.scale, prepared.settings)
-    return replace(prepared, interface=interface, solver=solver)
-
-
-def posed(prepared: Prepared, state: State, last: Interface, gap: Array) -> State:
-    """A state as other pairs see it: slips go on from where the bodies are, and forces keep their directions.
-
-    Parameters
-    ----------
-    prepared : with the pairs
-    state : of the last ones
-    last : the last ones
-    gap : (n,) before anything moved, of pairs that do not touch, length
-    """
-    interface = prepared.interface
-    own, faces = sliding_pairs(prepared.model, interface), facing(interface)
-    there = np.where(faces, turned(state.forces, last, interface), 0.0)
-    forces = np.where(own, there, state.forces)
-    moved = interface.motion(state.displacement) + interface.compliance * forces
-    touches = faces & (state.status != OPEN)
-    point_gap = np.where(touches, state.gap - moved[0], gap)
-    return replace(
-        state,
-        point=replace(state.point, gap=np.where(own, point_gap, state.point.gap)),
-        forces=forces,
-        gap=np.where(own, point_gap + moved[0], state.gap),
-        tangential=np.where(own, moved[1:], state.tangential),
-        status=np.where(own & ~faces, OPEN, state.status),
-    )
-
-
-def hand_over(prepared: Prepared, state: State, part: StepPart, ahead: float) -> FollowedPart:
-    """Equilibrium of a state with the pairs that it has now, at the same loads; friction takes its part of the energy.
-
-    Pairs that slip go on slipping, as if they had slipped a little on from where they are, for otherwise all of them
-    would stick for a moment, and slip again one after the other.
-
-    Parameters
-    ----------
-    prepared : with the pairs
-    state : as they see it, not in equilibrium by the error of the mesh
-    part : that begins there
-    ahead : how far that is, length
-    """
-    where = f"{part.where} at {part.interval.low:.6%}, handing over"
-    drags = sliding_pairs(prepared.model, prepared.interface) & (state.status > STICK)
-    forces = state.forces[1:]
-    way = np.where(drags, -ahead * forces / np.maximum(np.linalg.norm(forces, axis=0), np.finfo(float).tiny), 0.0)
-    led = replace(state, tangential=state.tangential - way)
-    after, certificate, trace = advance(prepared, led, state.point, where)
-    after = replace(after, slip=after.slip - np.where(after.status == OPEN, 0.0, way))
-    moved = after.tangential - state.tangential
-    taken = -(0.5 * (state.forces + after.forces)[1:] * moved).sum(axis=0)
-    after = set_free(prepared, state, after, taken=np.where(drags, taken, 0.0))
-    shot = Snapshot(number=part.interval.number, fraction=part.interval.low, what="handover", state=after)
-    handed = FollowedPart(
-        path="single",
-        before=state,
-        after=after,
-        certificates=(certificate,),
-        trace=(trace,),
-        snapshots=(shot,),
-    )
-    return _on(handed, prepared)
-
-
-def _on(followed: FollowedPart, prepared: Prepared) -> FollowedPart:
-    """What was followed, with the pairs that it was followed with."""
-    shots = tuple(replace(shot, interface=prepared.interface) for shot in followed.snapshots)
-    return replace(followed, snapshots=shots)
+    wearing = None if prepared.wearing is None else worn_sides(prepared.space, prepared.model, interface)
+    return replace(prepared, interface=interface, solver=solver, wearing=wearing)
 
 
 def _slid(prepared: Prepared, begin: State, end: State, own: BoolArray) -> float:

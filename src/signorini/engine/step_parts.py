@@ -245,6 +245,12 @@ def joined(behind: Sequence[FollowedPart]) -> FollowedPart:
     )
 
 
+def ending(followed: FollowedPart, after: State) -> FollowedPart:
+    """A part whose last state knows more than it was followed with."""
+    *shots, last = followed.snapshots
+    return replace(followed, after=after, snapshots=(*shots, replace(last, state=after)))
+
+
 def keep(stop: SolveFailed | KeyboardInterrupt, behind: Sequence[FollowedPart]) -> SolveFailed | KeyboardInterrupt:
     """What stopped a step, with what was followed before: ``behind``, and what it already carries."""
     last = reached(stop)

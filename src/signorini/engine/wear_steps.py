@@ -11,7 +11,7 @@ and 2, 5, 10, 20, 50, ...
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -20,12 +20,14 @@ from signorini.attempt import MethodRun
 from signorini.engine.cycles import cycle_between
 from signorini.engine.events import stops_at
 from signorini.engine.prepare import Prepared
-from signorini.engine.rubbing import rubbed, rubbing_of_states, worn
+from signorini.engine.rubbing import rubbed, rubbing_of_states, set_loose, worn
+from signorini.engine.sliding import follow_sliding
 from signorini.engine.step_parts import (
     FollowedPart,
     Interval,
     Snapshot,
     StepPart,
+    ending,
     joined,
     keep,
     lightened,
@@ -35,6 +37,7 @@ from signorini.engine.ways import SPACE_INCREMENTS, follow_part
 from signorini.engine.wear_blocks import CycleBlock, implicit_block
 from signorini.engine.wear_paths import PathCycle, WornPaths
 from signorini.errors import SolveFailed, told
+from signorini.interface.sliding import slides
 from signorini.interface.worn_sides import WornSides
 from signorini.model.stage import Stage
 from signorini.outcome import Outcome
@@ -208,7 +211,7 @@ class _Walk:
             ),
         )
         whole = joined(parts)
-        self._keep(_ending(whole, self.state), begin, behind, cycle_end=once)
+        self._keep(ending(whole, self.state), begin, behind, cycle_end=once)
 
     def _on_path(self, behind: int) -> PathCycle:
         """Where the step stands on the condensed interface, so many cycles behind."""
@@ -288,8 +291,14 @@ class _Walk:
             parts.append(lightened(followed, every=every, end=interval.asked, heated=self.heated))
         return parts, interval
 
-    def _part(self, interval: Interval, point: LoadPoint) -> FollowedPart:
-        """Follow a straight part from the present state on, and note what it has rubbed."""
+    def _part(self, interval: Interval, point: LoadPoint, lost: Array | None = None) -> FollowedPart:
+        """Follow a straight part from the present state on, and note what it has rubbed.
+
+        Parameters
+        ----------
+        interval, point : the part, and the point at its end
+        lost : (m,) depth that sides lose in a part at constant loads, which the state has already
+        """
         part = StepPart(
             prepared=self.prepared,
             where=self.stage.name,
@@ -298,10 +307,15 @@ class _Walk:
             end=point,
             whole=self.stage.step.at == "events",
         )
-        followed = follow_part(self.stage, part)
-        states = [self.state, *(shot.state for shot in followed.snapshots)]
-        rubbing = rubbing_of_states(self.sides, self.prepared.interface, states)
-        followed = _ending(followed, replace(followed.after, wear=rubbed(wear_of(self.state), rubbing)))
+        if slides(self.prepared.model):
+            followed = follow_sliding(part, partial(follow_part, self.stage), lost)
+        else:
+            followed = follow_part(self.stage, part)
+            if lost is not None:
+                followed = set_loose(self.state, followed)
+            states = [self.state, *(shot.state for shot in followed.snapshots)]
+            rubbing = rubbing_of_states(self.sides, self.prepared.interface, states)
+            followed = ending(followed, replace(followed.after, wear=rubbed(wear_of(followed.after), rubbing)))
         self.state = followed.after
         return followed
 
@@ -310,12 +324,9 @@ class _Walk:
         old = self.state
         wear = worn(self.sides, wear_of(old), cycles=1)
         self.state = replace(old, wear=wear)
-        gap = old.point.gap + self.sides.gap @ (wear.depth - wear_of(old).depth)
+        lost = wear.depth - wear_of(old).depth
         still = replace(interval, low=interval.high, ends="wear", cycle=0, asked=False)
-        before = self.state
-        followed = self._part(still, replace(old.point, gap=gap))
-        followed = set_loose(before, followed)
-        self.state = followed.after
+        followed = self._part(still, replace(old.point, gap=old.point.gap + self.sides.gap @ lost), lost)
         last = replace(followed.snapshots[-1], what="wear")
         return lightened(
             replace(followed, snapshots=(last,)), every=self.stage.step.at == "events", end=False, heated=self.heated
@@ -334,38 +345,3 @@ def is_round(number: int) -> bool:
     [1, 2, 5, 10, 20, 50, 100]
     """
     return str(number).rstrip("0") in ("1", "2", "5")
-
-
-def set_loose(before: State, followed: FollowedPart) -> FollowedPart:
-    """A part at constant loads in which gaps have grown: forces that gave way there did work, which is set free.
-
-    Its states hold ``- int r_n dg`` as work of an interference, and it is none of the loads.
-
-    Parameters
-    ----------
-    before : where the part began
-    followed : as it was followed
-    """
-    last, energy, shots = before, 0.0, list[Snapshot]()
-    for shot in followed.snapshots:
-        now = shot.state
-        energy += float(0.5 * (last.forces + now.forces)[0] @ (now.point.gap - last.point.gap))
-        shots.append(replace(shot, state=_freed(now, energy)))
-        last = now
-    return replace(followed, snapshots=tuple(shots), after=_freed(followed.after, energy))
-
-
-def _freed(state: State, energy: float) -> State:
-    wear = wear_of(state)
-    return replace(
-        state,
-        work=state.work + energy,
-        released=state.released + energy,
-        wear=replace(wear, energy=wear.energy + energy),
-    )
-
-
-def _ending(followed: FollowedPart, after: State) -> FollowedPart:
-    """A part whose last state knows more than it was followed with."""
-    *shots, last = followed.snapshots
-    return replace(followed, after=after, snapshots=(*shots, replace(last, state=after)))

@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 
@@ -33,6 +35,7 @@ def rubbed_cylinder(
     spacing: float = 0.01,
     ratio: float = 1.0,
     stroke: float = 0.0025,
+    sliding: Literal["small", "finite"] = "small",
 ) -> Model:
     """A cylinder pressed on a flat that is driven to and fro under it: "press" is the force, "drive" the motion.
 
@@ -43,6 +46,7 @@ def rubbed_cylinder(
     spacing : of the nodes of the cylinder where they touch, length
     ratio : of the flat's spacing to it; 1: nodes are opposite nodes
     stroke : displacement of the flat at factor 1, length
+    sliding : "finite" where that is not a small part of the spacing
 
     References
     ----------
@@ -50,9 +54,13 @@ def rubbed_cylinder(
     """
     reach = 0.3
     pad = _with_pole(half_disk(radius=RADIUS, contact_length=reach, contact_spacing=spacing), reach)
-    right = graded_lines(reach, ratio * spacing, RADIUS, 1.3)
+    wide = reach + (stroke if sliding == "finite" else 0.0)  # the flat goes under the cylinder
+    cells = ratio * spacing
+    right = graded_lines(cells * math.ceil(wide / cells - 1e-9), cells, RADIUS, 1.3)
     down = graded_lines(0.1, spacing, RADIUS, 1.3)
-    flat = with_seat(rectangle(x=np.concatenate([-right[:0:-1], right]), y=-down[::-1]), "top", reach)
+    flat = with_seat(
+        rectangle(x=np.concatenate([-right[:0:-1], right]), y=-down[::-1]), "top", right[right <= wide + cells].max()
+    )
     steel = Elastic(E=E, nu=NU)
     return Model(
         join({"pad": pad, "flat": flat}),
@@ -60,7 +68,7 @@ def rubbed_cylinder(
         bodies=[Body("pad", steel), Body("flat", steel)],
         supports=[Support("pad.cut", u=(0.0, None)), Support("flat.bottom", u=(stroke, 0.0), name="drive")],
         loads=[Load("pad.cut", force=(None, -FORCE), spread="displacement", name="press")],
-        contacts=[Contact("pad.seat", "flat.seat", friction=FRICTION, wear=wear, name="contact")],
+        contacts=[Contact("pad.seat", "flat.seat", friction=FRICTION, wear=wear, sliding=sliding, name="contact")],
         steps=steps,
     )
 
@@ -71,6 +79,18 @@ def _with_pole(disk: Mesh, reach: float) -> Mesh:
     x, y = np.moveaxis(disk.points[facets], -1, 0)
     own = (np.abs(x).max(axis=1) <= reach * (1.0 + 1e-9)) & (y.max(axis=1) < 0.5 * RADIUS)
     return replace(disk, boundaries={**disk.boundaries, "seat": facets[own]})
+
+
+def fretting(cycles: int, **options: object) -> list[Step]:
+    """A force that stays, a motion to one end of the stroke, and from there to the other and back as often as asked.
+
+    Parameters
+    ----------
+    cycles : how often
+    options : of the step that repeats
+    """
+    rub = Step(name="rub", scale={"drive": [1.0, -1.0]}, repeat=cycles, **options)  # type: ignore[arg-type]
+    return [Step(name="press", scale={"press": 1.0}), Step(name="out", scale={"drive": -1.0}), rub]
 
 
 def to_and_fro(cycles: int, **options: object) -> list[Step]:

@@ -23,6 +23,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.fem.boundary import boundary
 from signorini.fem.facets import facet_nodes, facet_shapes
+from signorini.fem.measure import facet_areas
 from signorini.fem.space import Space
 from signorini.interface.interface import Interface
 from signorini.model.model import Model
@@ -30,6 +31,7 @@ from signorini.model.wear import Wear
 
 _SHARED = 1e-13  # of an area: how well shares add up to it
 _ROUNDS = 1000  # of sharing: some dozens are enough where facets are of like sizes
+_STAYS = 0.99  # of what shares lacked a round before: sides that cover each other in part have none that fit all sums
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -43,7 +45,7 @@ class WornSides:
     coefficient : (m,) worn depth over what wears, area per force
     by_energy : (n,) pairs that the work of friction wears, not pressure and distance
     gap : (n, m) what the pairs feel of the depths
-    area : (m,) of the corners as the pairs see them; 0 where none does
+    area : (m,) of the corners as the pairs see them, 0 where none does; where sides slide far, of the facets there
     volume : (m, n) worn volume at the corners over what wears per area of the pairs
     """
 
@@ -88,12 +90,15 @@ def worn_sides(space: Space, model: Model, interface: Interface) -> WornSides:
     sizes = [len(nodes) for _, _, nodes, _ in parts]
     weights = [seen for *_, seen in parts] or [none[1]]
     gap = sp.csr_array(sp.hstack(weights))
-    area = np.asarray(gap.T @ interface.area, dtype=np.float64)
+    seen = np.asarray(gap.T @ interface.area, dtype=np.float64)
     node = np.concatenate([none[0], *(nodes for _, _, nodes, _ in parts)])
     contact = np.repeat(np.array([i for i, *_ in parts], np.int64), sizes)
     coefficient = np.repeat(
         [_coefficients(model, interface, i)[int(mortar)] for i, mortar, *_ in parts] or np.zeros(0), sizes
     )
+    slides = np.array([contact.slides for contact in model.contacts], np.bool_)
+    whole = [_of_facets(space, model, interface, i, mortar=mortar) for i, mortar, *_ in parts]
+    area = np.where(slides[contact], np.concatenate([np.zeros(0), *whole]), seen)
     energies = np.array([contact.wear is not None and contact.wear.by_energy for contact in model.contacts], np.bool_)
     return WornSides(
         contact=contact,
@@ -103,7 +108,7 @@ def worn_sides(space: Space, model: Model, interface: Interface) -> WornSides:
         by_energy=energies[interface.contact],
         gap=gap,
         area=area,
-        volume=sp.csr_array(sp.diags_array(coefficient) @ _shares(gap, interface.area, area, sizes)),
+        volume=sp.csr_array(sp.diags_array(coefficient) @ _shares(gap, interface.area, seen, sizes)),
     )
 
 
@@ -122,22 +127,44 @@ def _shares(gap: sp.csr_array, pairs: Array, corners: Array, sizes: list[int]) -
     """
     sides, begin = [], 0
     for size in sizes:
-        own = slice(begin, begin + size)
-        shares = sp.diags_array(pairs) @ gap[:, own].maximum(0.0)
-        seen = np.asarray(shares.sum(axis=1)) > 0.0
-        for _ in range(_ROUNDS):
-            shares = shares @ sp.diags_array(_over(corners[own], shares.sum(axis=0)))
-            total = shares.sum(axis=1)
-            shares = sp.diags_array(_over(pairs, total)) @ shares
-            if np.abs(np.asarray(total) - pairs)[seen].max(initial=0.0) <= _SHARED * pairs.max():
-                break
-        sides.append(shares.T)
+        weights = sp.coo_array(gap[:, begin : begin + size])
+        positive = weights.data > 0.0
+        shares = _scaled(
+            weights.row[positive],
+            weights.col[positive],
+            (pairs[weights.row] * weights.data)[positive],
+            pairs,
+            corners[begin : begin + size],
+        )
+        sides.append(sp.csr_array(shares.T))
         begin += size
     return sp.csr_array(sp.vstack(sides)) if sides else sp.csr_array((0, len(pairs)))
 
 
+def _scaled(k: IntArray, at: IntArray, shares: Array, pairs: Array, corners: Array) -> sp.coo_array:
+    """(n, corners) Shares with the sums of rows, and as far as their places allow of columns.
+
+    Parameters
+    ----------
+    k, at : (entries,) rows and columns
+    shares : (entries,) before they are scaled
+    pairs, corners : (n,) and (corners,) sums
+    """
+    n, m, last = len(pairs), len(corners), np.inf
+    seen = np.bincount(k, minlength=n) > 0
+    for _ in range(_ROUNDS):
+        shares = shares * _over(corners, np.bincount(at, shares, m).astype(np.float64))[at]
+        total = np.bincount(k, shares, n).astype(np.float64)
+        shares = shares * _over(pairs, total)[k]
+        lacks = float(np.abs(total - pairs)[seen].max(initial=0.0)) / float(pairs.max(initial=1.0))
+        if lacks <= _SHARED or lacks > _STAYS * last:
+            break
+        last = lacks
+    return sp.coo_array((shares, (k, at)), shape=(n, m))
+
+
 def _over(wanted: Array, found: Array) -> Array:
-    return np.divide(wanted, found, out=np.zeros_like(wanted), where=np.asarray(found) > 0.0)
+    return np.divide(wanted, found, out=np.zeros_like(wanted), where=found > 0.0)
 
 
 def _coefficients(model: Model, interface: Interface, i: int) -> tuple[float, float]:
@@ -164,6 +191,14 @@ def _corners(space: Space, interface: Interface, i: int, *, mortar: bool) -> tup
         seen = seen - sp.diags_array(interface.normals[own, k]) @ interface.B[own][:, dofs[:, k]]
     hats = sp.csr_array(seen @ _hats(space, sides.mortar, i)).tocoo()
     return side.corner_nodes, sp.csr_array((hats.data, (own[hats.row], hats.col)), shape=(n, hats.shape[1]))
+
+
+def _of_facets(space: Space, model: Model, interface: Interface, i: int, *, mortar: bool) -> Array:
+    """Areas of the corners of a side, whatever is opposite them: what slides over a corner wears all around it."""
+    sides = interface.sides[i]
+    side = boundary(space, sides.mortar if mortar else sides.nonmortar, ("contact", i))
+    areas = side.nodal((facet_areas(model, block) for block in side.blocks), corners=True)
+    return areas[np.searchsorted(side.nodes, side.corner_nodes)]
 
 
 def _hats(space: Space, side: str, i: int) -> sp.csr_array:

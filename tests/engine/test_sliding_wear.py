@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sides that wear while they slide over many elements: what pairs of the moment rub off stays where it was worn."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.gallery.sliding import driven_wheel
+from signorini.gallery.wearing import to_and_fro
+
+STEEL = sg.Elastic(E=200.0, nu=0.3)
+WEAR = sg.Wear(1e-3, mortar=2e-3)
+
+
+def block_on_bed(kind: str = "plane strain", *, stroke: float = 0.2) -> sg.Model:
+    """A block of length 1 that is pressed by 1 on a bed from -0.5 to 2 and driven along it; in space 0.4 wide."""
+    low, high = np.linspace(-0.5, 0.0, 3), np.linspace(0.0, 0.5, 3)
+    short, long = np.linspace(0.0, 1.0, 4), np.linspace(-0.5, 2.0, 10)
+    aside = (0.0,) if kind == "3d" else ()
+    if kind == "3d":
+        across = np.linspace(0.0, 0.4, 3)
+        top, bed = sg.box(x=short, y=across, z=high), sg.box(x=long, y=across, z=low)
+    else:
+        top, bed = sg.rectangle(x=short, y=high), sg.rectangle(x=long, y=low)
+    return sg.Model(
+        mesh=sg.join({"top": top, "bed": bed}),
+        kind=kind,
+        bodies=[sg.Body("top", STEEL), sg.Body("bed", STEEL)],
+        supports=[
+            sg.Support("bed.bottom", u=(0.0, *aside, 0.0)),
+            sg.Support("top.top", u=(stroke, *aside, None), name="drive"),
+        ],
+        loads=[
+            sg.Load("top.top", force=(None, *[None for _ in aside], -1.0), spread="displacement", name="press"),
+        ],
+        contacts=[sg.Contact("top.bottom", "bed.top", friction=0.3, sliding="finite", wear=WEAR, name="sole")],
+        steps=to_and_fro(1),
+    )
+
+
+def hub_on_shaft() -> sg.Model:
+    """A press fit that is pushed along its shaft."""
+    shaft = sg.rectangle(x=np.linspace(0.0, 1.0, 3), y=np.linspace(-0.5, 1.5, 8))
+    hub = sg.rectangle(x=np.linspace(1.0, 2.0, 3), y=np.linspace(0.0, 1.0, 4))
+    fit = sg.Contact(
+        "hub.left", "shaft.right", friction=0.2, sliding="finite", interference=0.002, wear=WEAR, name="fit"
+    )
+    return sg.Model(
+        mesh=sg.join({"shaft": shaft, "hub": hub}),
+        kind="axisymmetric",
+        bodies=[sg.Body("shaft", STEEL), sg.Body("hub", STEEL)],
+        supports=[sg.Support("shaft.bottom", u=(None, 0.0)), sg.Support("hub.bottom", u=(None, 0.2), name="push")],
+        contacts=[fit],
+        steps=[sg.Step(scale={"push": 0.0}), sg.Step(scale={"push": 1.0})],
+    )
+
+
+def rubbed(solution: sg.Solution, friction: float) -> float:
+    """All that friction took over its coefficient: pressure times distance."""
+    return float(sum(step.dissipation for step in solution.steps)) / friction
+
+
+@pytest.mark.parametrize(
+    ("model", "friction", "rounding"),
+    [(block_on_bed(), 0.3, 1e-12), (hub_on_shaft(), 0.2, 1e-4), (block_on_bed("3d", stroke=0.05), 0.3, 1e-3)],
+    ids=["plane", "axisymmetric", "space"],
+)
+def test_worn_volume_is_pressure_times_distance_of_both_sides(
+    model: sg.Model, friction: float, rounding: float
+) -> None:
+    """To rounding, each side with its coefficient; a press fit is pressed in one increment, and in space all is."""
+    solution = sg.solve(model)
+    wear, sides = solution.end.state.wear, solution.last.contacts[0].wear
+    whole = wear.volume + wear.loose
+    assert whole.sum() == pytest.approx(3e-3 * rubbed(solution, friction), rel=rounding)
+    own, other = whole[~sides.on_mortar].sum(), whole[sides.on_mortar].sum()
+    assert other == pytest.approx(2.0 * own, rel=1e-12)
+    assert wear.depth.min() >= 0.0
+    assert abs(solution.last.energy_defect) <= rounding * solution.last.work
+
+
+def test_the_bed_is_worn_where_the_block_has_been() -> None:
+    """Beyond the reach of the block and its stroke nothing is worn."""
+    solution = sg.solve(block_on_bed())
+    wear = solution.last.contacts[0].wear
+    x, depth = wear.points[wear.on_mortar, 0], wear.depths[wear.on_mortar]
+    assert depth[(x > -0.2) & (x < 1.2)].min() > 0.0
+    assert not depth[(x < -0.5) | (x > 1.5)].any()
+
+
+def test_a_driven_wheel_with_creepage_wears_its_bed() -> None:
+    """The bed loses k int p ds, to rounding, where the wheel slips on its way: nowhere as much as if it were locked."""
+    model = driven_wheel(ratio=0.64, ways=(0.5, 0.25), across=4)
+    worn = replace(model, contacts=[replace(model.contacts[0], wear=sg.Wear(1e-6))])
+    solution = sg.solve(worn)
+    wear = solution.end.state.wear
+    whole = wear.volume.sum() + wear.loose.sum()
+    assert whole == pytest.approx(1e-6 * rubbed(solution, 0.3), rel=1e-12)
+    way = abs(worn.supports[0].u[0])
+    assert 0.0 < wear.volume.sum() < 2e-3 * 1e-6 * 10.0 * way
+
+
+def test_sides_that_slid_and_wore_go_on_to_the_last_bit(tmp_path: Path) -> None:
+    """From a file, in the step behind."""
+    model = block_on_bed(stroke=0.1)
+    steps = [model.steps[0], sg.Step(name="out", scale={"drive": 1.0}), sg.Step(name="back", scale={"drive": 0.0})]
+    whole = sg.solve(replace(model, steps=steps))
+    sg.solve(replace(model, steps=steps[:2])).save_state(tmp_path / "state.npz")
+    rest = sg.solve(replace(model, steps=steps[2:]), start=tmp_path / "state.npz")
+    assert np.array_equal(rest.end.state.wear.depth, whole.end.state.wear.depth)
