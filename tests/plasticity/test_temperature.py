@@ -94,6 +94,31 @@ def test_limit_loads_are_those_of_the_temperature():
     assert "flow plastically at 45.000" in solution.message
 
 
+SOFTENED = sg.Plastic([(0.0, 235.0, 0.0), (0.0, 150.0, 200.0), (0.0, 260.0, 300.0)])
+COLD, STEEP = sg.Step(scale={"pull": 1.0, "heat": 0.0}), sg.Step(scale={"pull": 1.0, "heat": 1.0})
+
+
+@pytest.mark.parametrize(
+    ("stress", "temperature", "steps", "limit"),
+    [
+        (235.0, 200.0, [STEEP], 235.0 / 320.0),  # 235 s = 235 - 85 s
+        (180.0, 200.0, [COLD, STEEP], 55.0 / 85.0),  # heat alone: 235 - 85 s = 180
+        (200.0, 300.0, [COLD, STEEP], 35.0 / 127.5),  # it would bear its load at the end, and not on the way there
+        (240.0, -100.0, [STEEP], 235.0 / 240.0),  # colder than its tables
+    ],
+)
+@KINDS
+def test_collapse_on_the_way_to_another_temperature_is_named_where_it_is(
+    kind, formulation, stress, temperature, steps, limit
+):
+    model = bar(SOFTENED, stress, temperature, kind=kind, formulation=formulation, steps=steps)
+    history = sg.solve(model, raise_on_failure=False)
+    assert history.status == "no_equilibrium"
+    named = float(history.message.split("flow plastically at ")[1].split("%")[0]) / 100.0
+    loose = 0.02 if formulation else 2e-4  # modes leave a motion more ways to flow, dearer ones too
+    assert limit * (1.0 - 1e-6) <= named <= limit * (1.0 + loose)
+
+
 def test_what_a_table_of_temperatures_cannot_be():
     for rows, words in (
         ([(0.0, 2.0, 20.0), (0.0, 1.0, 10.0)], "yield_stress[1][2]: is 10 after 20; expected increasing temperatures"),

@@ -2,7 +2,7 @@
 """The load beyond which bodies flow plastically without end, from the motion in which they do: an upper bound.
 
 A motion v dissipates ``D(v) = sum w Y sqrt(2/3 eps(v) : eps(v))`` at most; loads that do more work on it have no
-equilibrium, whatever the history was.
+equilibrium, whatever the history was. Where temperature changes Y on the way, so does what flow takes.
 
 References
 ----------
@@ -36,7 +36,7 @@ class Collapse:
 
     Attributes
     ----------
-    part : of the way from one point of the load history to another, beyond which there is no equilibrium; at most
+    part : of the way from one point of the load history to another, right beyond which there is no equilibrium
     motion : (nodes, d) velocity, largest entry 1
     rubs : whether pairs slip with friction in it, which makes the bound evidence and no proof
     """
@@ -82,11 +82,11 @@ def _bound(prepared: Prepared, start: LoadPoint, end: LoadPoint, mechanism: Mech
     rate[:, :3] -= rate[:, :3].mean(axis=1)[:, None]
     rate[:, 3:] *= 0.5
     strain = size(rate)
-    limit = _final_yield_stress(bodies, *heat)
-    flowing = strain > 0.0
-    if not np.isfinite(limit[flowing]).all() or dilatation > _MAX_DILATATION * float(bodies.weights @ strain):
+    if bodies.laws.endless[bodies.body[strain > 0.0]].any():
         return None
-    taken = float(np.sqrt(2.0 / 3.0) * (bodies.weights[flowing] * limit[flowing]) @ strain[flowing])
+    if dilatation > _MAX_DILATATION * float(bodies.weights @ strain):
+        return None
+    parts, taken = _taken(bodies, np.sqrt(2.0 / 3.0) * bodies.weights * strain, *heat)
     before, after = (float(applied(prepared, point)[0] @ v) for point in (start, end))
     rubs = False
     if len(prepared.interface):
@@ -99,35 +99,61 @@ def _bound(prepared: Prepared, start: LoadPoint, end: LoadPoint, mechanism: Mech
         rubs = bool((near & (bound > 0.0) & (slip > _OPENING_TOL)).any())
         taken += float(np.where(near & np.isfinite(bound), bound, 0.0) @ slip)
     elastic = float(v @ (prepared.K @ v)) * _elastic_share(prepared, bodies, v)
-    if after <= before or elastic > _MAX_ELASTIC * taken:
-        return None
-    part = (taken - before) / (after - before)
-    if not part < 1.0:
+    part = _first_beyond(parts, before + (after - before) * parts - taken)
+    if part is None or elastic > _MAX_ELASTIC * float(np.interp(part, parts, taken)):
         return None
     motion = v[: prepared.model.dimension * len(prepared.model.mesh.points)].reshape(-1, prepared.model.dimension)
     return Collapse(part=part, motion=frozen(motion / (np.abs(motion).max() or 1.0)), rubs=rubs)
 
 
-def _final_yield_stress(bodies: YieldingBodies, cold: Heat, warm: Heat) -> Array:
-    """(p,) Yield stress in tension once everything has hardened that can; infinite where hardening never ends.
+def _taken(bodies: YieldingBodies, flow: Array, cold: Heat, warm: Heat) -> tuple[Array, Array]:
+    """What flow takes on the way between two temperatures, once all has hardened that can: piecewise linear.
 
-    The largest at any temperature between two, on the way between which the load is that bodies flow at.
+    Returns (k,) the parts of the way at which its slope changes, both ends among them, and what it takes there.
+
+    Parameters
+    ----------
+    bodies : whose flow it is
+    flow : (p,) volumes of the points times equivalent strain rates
+    cold, warm : at the ends of the way
     """
     laws, own = bodies.laws, bodies.body
-    final, points, count = laws.stress[own, :, -1], np.arange(len(own)), laws.stress.shape[1]
-    low, high = np.minimum(cold.level, warm.level), np.maximum(cold.level, warm.level)
-    table = np.arange(count)
-    between = (table > low[:, None]) & (table < high[:, None])
-    last = np.where(between, final, 0.0).max(axis=1)
-    for level in (low, high):
-        below = level.astype(np.int64)
-        one, two = final[points, below], final[points, np.minimum(below + 1, count - 1)]
-        last = np.maximum(last, one + (level - below) * (two - one))
-    grows = laws.beyond > 0.0
-    grows |= ((laws.back > 0.0) & (laws.recovery == 0.0)).any(axis=1)
-    saturated = np.divide(laws.back, laws.recovery, out=np.zeros_like(laws.back), where=laws.recovery > 0.0).sum(axis=1)
-    limit: Array = np.where(grows[own], np.inf, last + saturated[own])
-    return limit
+    final = laws.stress[:, :, -1]
+    ends = np.array([flow @ (_between(final[own], heat.level) + laws.saturated[own]) for heat in (cold, warm)])
+    way, table = warm.temperature - cold.temperature, laws.temperature
+    rise = np.diff(table, axis=1)
+    slopes = np.divide(np.diff(final, axis=1), rise, out=np.zeros_like(rise), where=rise > 0.0)
+    bends = np.diff(slopes, axis=1, prepend=0.0, append=0.0)[own] * (flow * np.abs(way))[:, None]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        at = (table[own] - cold.temperature[:, None]) / way[:, None]
+    inside = (at > 0.0) & (at < 1.0) & (bends != 0.0)
+    order = np.argsort(at[inside])
+    at, bends = at[inside][order], bends[inside][order]
+    first = ends[1] - ends[0] - float(bends @ (1.0 - at))
+    parts = np.concatenate([[0.0], at, [1.0]])
+    steps = np.diff(parts) * (first + np.concatenate([[0.0], np.cumsum(bends)]))
+    return parts, ends[0] + np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def _between(stress: Array, level: Array) -> Array:
+    """(p,) Yield stresses between those at temperatures, (p, t), see `Heat.level`."""
+    below, points = level.astype(np.int64), np.arange(len(level))
+    one, two = stress[points, below], stress[points, np.minimum(below + 1, stress.shape[1] - 1)]
+    found: Array = one + (level - below) * (two - one)
+    return found
+
+
+def _first_beyond(parts: Array, excess: Array) -> float | None:
+    """Where a piecewise linear function becomes positive; None where it does not.
+
+    >>> _first_beyond(np.array([0.0, 0.5, 1.0]), np.array([-1.0, 1.0, -3.0]))
+    0.25
+    """
+    rises = np.flatnonzero((excess[1:] > 0.0) & (excess[1:] > excess[:-1]))
+    if not len(rises):
+        return None
+    i = rises[0]
+    return float(parts[i] - excess[i] * (parts[i + 1] - parts[i]) / (excess[i + 1] - excess[i]))
 
 
 def _elastic_share(prepared: Prepared, bodies: YieldingBodies, v: Array) -> float:

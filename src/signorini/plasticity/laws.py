@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.model.material import Elastic, Material
 from signorini.model.model import Model
 from signorini.model.plastic import Plastic
@@ -46,6 +46,19 @@ class YieldLaws(NamedTuple):
     def varies(self) -> bool:
         """Whether some yield stress depends on temperature."""
         return self.stress.shape[1] > 1
+
+    @property
+    def endless(self) -> BoolArray:
+        """(b,) Whether what flow takes grows without end."""
+        found: BoolArray = (self.beyond > 0.0) | ((self.back > 0.0) & (self.recovery == 0.0)).any(axis=1)
+        return found
+
+    @property
+    def saturated(self) -> Array:
+        """(b,) What back stresses tend to in tension, as far as they do."""
+        ends = np.divide(self.back, self.recovery, out=np.zeros_like(self.back), where=self.recovery > 0.0)
+        found: Array = ends.sum(axis=1)
+        return found
 
 
 class Heat(NamedTuple):
