@@ -21,20 +21,31 @@ _SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 _MIDDLES = [(0.5, 0), (1, 0.5), (0.5, 1), (0, 0.5)]
 _CUBE = [(x, y, z) for z in (0, 1) for x, y in _SQUARE]
 _TRILINEAR = [(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+_CUBE20 = _CUBE + [(x, y, z) for z in (0, 1) for x, y in _MIDDLES] + [(x, y, 0.5) for x, y in _SQUARE]
+_FACES = [(0, 0.5, 0.5), (1, 0.5, 0.5), (0.5, 0, 0.5), (0.5, 1, 0.5), (0.5, 0.5, 0), (0.5, 0.5, 1)]
+_TRIANGLE = [(0, 0), (1, 0), (0, 1)]
+_SIDES = [(0.5, 0), (0.5, 0.5), (0, 0.5)]
 _TETRA = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
 _EDGES = [(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)]
 FAMILIES = {
     "quad": (_SQUARE, [(0, 0), (1, 0), (0, 1), (1, 1)]),
     "quad8": (_SQUARE + _MIDDLES, [(0, 0), (1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2)]),
-    "triangle6": (
-        [(0, 0), (1, 0), (0, 1), (0.5, 0), (0.5, 0.5), (0, 0.5)],
-        [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)],
-    ),
+    "quad9": (_SQUARE + _MIDDLES + [(0.5, 0.5)], [(i, j) for i in range(3) for j in range(3)]),
+    "triangle6": (_TRIANGLE + _SIDES, [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)]),
     "hexahedron": (_CUBE, _TRILINEAR),
     "hexahedron20": (
-        _CUBE + [(x, y, z) for z in (0, 1) for x, y in _MIDDLES] + [(x, y, 0.5) for x, y in _SQUARE],
+        _CUBE20,
         _TRILINEAR
         + [tuple(2 if i == axis else e[i] for i in range(3)) for axis in range(3) for e in _TRILINEAR if not e[axis]],
+    ),
+    "hexahedron27": (
+        _CUBE20 + _FACES + [(0.5, 0.5, 0.5)],
+        [(i, j, k) for i in range(3) for j in range(3) for k in range(3)],
+    ),
+    "wedge15": (
+        [(x, y, z) for part in (_TRIANGLE, _SIDES) for z in (0, 1) for x, y in part]
+        + [(x, y, 0.5) for x, y in _TRIANGLE],
+        [(i, j, k) for i in range(3) for j in range(3) for k in range(3) if i + j < 3 and (k < 2 or i + j < 2)],
     ),
     "tetra10": (
         _TETRA + [tuple((a + b) / 2 for a, b in zip(_TETRA[i], _TETRA[j], strict=True)) for i, j in _EDGES],
@@ -46,6 +57,7 @@ FAMILIES = {
 EYE = np.eye(3)
 ROOT32 = 1.5**0.5
 _REWEIGHTED = 60  # rounds of least squares for the least sum of sizes
+_QUADRATIC = ("quad8", "quad9", "hexahedron20", "hexahedron27")  # whose mean dilatation is the nearest linear function
 _ROUNDING = 2e-15  # of the largest value of a function
 
 
@@ -62,7 +74,15 @@ def rule(family: str, axisymmetric: bool) -> tuple[Array, Array]:
     if family == "tetra10":
         near = (5 - np.sqrt(5)) / 20
         return near + (1 - 4 * near) * np.array([[0, 0, 0], *np.eye(3)]), np.full(4, 1 / 24)
-    count = {"quad": 2, "hexahedron": 2, "hexahedron20": 3, "quad8": 4 if axisymmetric else 3}[family]
+    if family == "wedge15":  # Radon's points of degree 5, and Gauss's three along the height
+        root, third = np.sqrt(15), [[1 / 3, 1 / 3]]
+        near, far = (6 - root) / 21, (6 + root) / 21
+        flat = np.array(third + [[a, b] for x in (near, far) for a, b in ((x, x), (1 - 2 * x, x), (x, 1 - 2 * x))])
+        share = np.array([9 / 80, *[(155 - root) / 2400] * 3, *[(155 + root) / 2400] * 3])
+        line, part = np.polynomial.legendre.leggauss(3)
+        at = np.column_stack([np.repeat(flat, 3, axis=0), np.tile((line + 1) / 2, len(flat))])
+        return at, np.outer(share, part / 2).ravel()
+    count = 2 if family in ("quad", "hexahedron") else 4 if axisymmetric else 3
     d = 3 if family.startswith("hexahedron") else 2
     line, share = np.polynomial.legendre.leggauss(count)
     grid = np.stack(np.meshgrid(*[(line + 1) / 2] * d, indexing="ij"), axis=-1).reshape(-1, d)
@@ -109,8 +129,9 @@ def points(
 ) -> Points:
     """The points of cells of one family.
 
-    With a mean dilatation the volume strain is that of the mean over the cell, in quad8 and hexahedron20 of the nearest
-    linear function. Incompatible modes are those of Taylor, Beresford and Wilson (1976) less their mean strain.
+    With a mean dilatation the volume strain is that of the mean over the cell, in quadratic quadrilaterals and
+    hexahedra of the nearest linear function. Incompatible modes are those of Taylor, Beresford and Wilson (1976) less
+    their mean strain.
     """
     d, (corners, exponents) = nodes.shape[1], FAMILIES[family]
     ring = kind == "axisymmetric"
@@ -118,7 +139,7 @@ def points(
     inverse = np.linalg.inv(powers(np.array(corners, float), exponents))
     values = powers(at, exponents) @ inverse
     gradients = np.einsum("qmd,mk->qkd", slopes(at, exponents), inverse)
-    few = np.column_stack([np.ones(len(at)), at]) if family in ("quad8", "hexahedron20") else np.ones((len(at), 1))
+    few = np.column_stack([np.ones(len(at)), at]) if family in _QUADRATIC else np.ones((len(at), 1))
     own = d * d if formulation == "incompatible" else 0
     B = np.zeros((len(cells), len(at), 3, 3, nodes.size + own * len(cells)))
     weights, places = np.zeros((len(cells), len(at))), np.zeros((len(cells), len(at), d))
@@ -158,18 +179,43 @@ def points(
 
 @dataclass(kw_only=True)
 class Law:
-    """One material: moduli, rows (p, Y), the slope beyond them, rows (C, gamma)."""
+    """One material.
+
+    Attributes
+    ----------
+    E, nu, expansion : elastic
+    tables : rows (p, Y), one table a temperature
+    temperatures : of the tables, increasing
+    beyond : slope behind their last rows
+    backs : rows (C, gamma)
+    """
 
     E: float
     nu: float
-    rows: Array
+    expansion: float
+    tables: list[Array]
+    temperatures: Array
     beyond: float
     backs: Array
 
-    def limit(self, p: Array) -> Array:
-        """Yield stress; infinite of elastic bodies."""
-        over = np.maximum(p - self.rows[-1, 0], 0.0)
-        return np.interp(p, self.rows[:, 0], self.rows[:, 1]) + (self.beyond * over if self.beyond else 0.0)
+    def limit(self, p: Array, warm: Array) -> Array:
+        """Yield stress at plastic strains and temperatures (p,); infinite of elastic bodies."""
+        curves = [np.interp(p, *rows.T) for rows in self.tables]
+        if self.beyond:
+            curves = [
+                Y + self.beyond * np.maximum(p - rows[-1, 0], 0.0) for Y, rows in zip(curves, self.tables, strict=True)
+            ]
+        if len(curves) == 1:
+            return curves[0]
+        place = np.interp(warm, self.temperatures, np.arange(len(curves)))
+        low = np.minimum(place.astype(int), len(curves) - 2)
+        every, point = np.stack(curves), np.arange(len(p))
+        found: Array = every[low, point] * (low + 1 - place) + every[low + 1, point] * (place - low)
+        return found
+
+    def warm(self, heat: Array) -> Array:
+        """Temperatures (p,) of thermal strains."""
+        return heat / self.expansion if self.expansion else np.zeros_like(heat)
 
 
 @dataclass(kw_only=True)
@@ -213,8 +259,8 @@ def size(t: Array) -> Array:
     return np.sqrt((t**2).sum(axis=(-2, -1)))
 
 
-def in_body(law: Law, strain: Array, old: State) -> tuple[Array, State]:
-    """Stresses of total strains (p, 3, 3) and the state behind them: backward Euler."""
+def in_body(law: Law, strain: Array, warm: Array, old: State) -> tuple[Array, State]:
+    """Stresses of strains (p, 3, 3) at temperatures (p,) and the state behind them: backward Euler."""
     G, bulk = law.E / 2 / (1 + law.nu), law.E / 3 / (1 - 2 * law.nu)
     trial = 2 * G * deviator(strain - old.strain)
     C, gamma = law.backs[:, 0], law.backs[:, 1]
@@ -226,7 +272,7 @@ def in_body(law: Law, strain: Array, old: State) -> tuple[Array, State]:
 
     def excess(dp: Array, own: slice | NDArray[np.bool_]) -> Array:
         xi, stiff = parts(dp, own)
-        limit = law.limit(old.equivalent[own] + dp)
+        limit = law.limit(old.equivalent[own] + dp, warm[own])
         return size(xi) - limit / ROOT32 - ROOT32 * stiff * dp
 
     state = State(strain=old.strain.copy(), equivalent=old.equivalent.copy(), back=old.back.copy())
@@ -244,7 +290,7 @@ def in_body(law: Law, strain: Array, old: State) -> tuple[Array, State]:
     return stress + bulk * np.trace(strain, axis1=1, axis2=2)[:, None, None] * EYE, state
 
 
-def in_sheet(law: Law, strain: Array, old: State) -> tuple[Array, State]:
+def in_sheet(law: Law, strain: Array, warm: Array, old: State) -> tuple[Array, State]:
     """The same with the strain across that leaves no stress there."""
 
     def at(across: Array) -> Array:
@@ -254,8 +300,8 @@ def in_sheet(law: Law, strain: Array, old: State) -> tuple[Array, State]:
 
     centre = old.strain[:, 2, 2]
     room = 3 * (size(strain) + size(old.strain) + np.abs(centre)) + 1e-300
-    across = rooted(lambda x: -in_body(law, at(x), old)[0][:, 2, 2], centre - room, centre + room)
-    return in_body(law, at(across), old)
+    across = rooted(lambda x: -in_body(law, at(x), warm, old)[0][:, 2, 2], centre - room, centre + room)
+    return in_body(law, at(across), warm, old)
 
 
 @dataclass(kw_only=True)
@@ -290,15 +336,15 @@ class Structure:
 
     def respond(self, u: Array, heat: Array, old: State) -> tuple[Array, State]:
         """Stresses (p, 3, 3) and states at displacements (dofs,) and thermal strains (p,)."""
-        return self.at(self.points.B @ u - heat[:, None, None] * EYE, old)
+        return self.at(self.points.B @ u - heat[:, None, None] * EYE, heat, old)
 
-    def at(self, strain: Array, old: State) -> tuple[Array, State]:
-        """Stresses (p, 3, 3) and states at strains (p, 3, 3)."""
+    def at(self, strain: Array, heat: Array, old: State) -> tuple[Array, State]:
+        """Stresses (p, 3, 3) and states at strains (p, 3, 3) less thermal ones (p,)."""
         stress, new = np.zeros_like(strain), self.untouched()
         for b, law in enumerate(self.laws):
             own, M = self.points.body == b, len(law.backs)
             before = State(strain=old.strain[own], equivalent=old.equivalent[own], back=old.back[own][:, :M])
-            stress[own], after = (in_sheet if self.thin else in_body)(law, strain[own], before)
+            stress[own], after = (in_sheet if self.thin else in_body)(law, strain[own], law.warm(heat[own]), before)
             new.strain[own], new.equivalent[own] = after.strain, after.equivalent
             back = np.zeros_like(new.back[own])
             back[:, :M] = after.back
@@ -314,7 +360,7 @@ class Structure:
         """(dofs, dofs) derivative of the internal forces, by differences of the stresses."""
         strain = self.points.B @ u - heat[:, None, None] * EYE
         K = np.zeros((len(u), len(u)))
-        yields = min(law.rows[0, 1] / law.E for law in self.laws)
+        yields = min(rows[0, 1] / law.E for law in self.laws for rows in law.tables)
         h = 1e-6 * min(yields, 1.0)
         for i in range(3):
             for j in range(i + 1):
@@ -322,13 +368,13 @@ class Structure:
                     continue
                 way = np.zeros((3, 3))
                 way[i, j] = way[j, i] = h
-                slope = (self.at(strain + way, old)[0] - self.at(strain - way, old)[0]) / (2 * h)
+                slope = (self.at(strain + way, heat, old)[0] - self.at(strain - way, heat, old)[0]) / (2 * h)
                 left = np.einsum("p,pij,pijd->pd", self.points.weights, slope, self.points.B)
                 K += left.T @ self.points.B[:, i, j]
         return K
 
-    def yielding(self, v: Array) -> Array:
-        """A motion whose modes follow: the strain rate is the least, in the mean, with hardly a volume rate."""
+    def yielding(self, v: Array, limit: Array) -> Array:
+        """A motion whose modes follow: flow below a limit (p,) takes the least of them, with hardly a volume rate."""
         v, G = v.copy(), self.points.B[..., self.inner]
         if not G.shape[-1]:
             return v
@@ -336,24 +382,29 @@ class Structure:
         rows = np.concatenate(
             [G - EYE[:, :, None] / 3 * volume[:, None, None], EYE[:, :, None] * volume[:, None, None]]
         )
+        share = self.points.weights * np.where(
+            np.isfinite(limit), limit / limit[np.isfinite(limit)].max(initial=1.0), 1.0
+        )
         for _ in range(_REWEIGHTED):
             rate = self.points.B @ v
             dev, mean = deviator(rate), rate - deviator(rate)
             soft = np.maximum(size(dev), 1e-9 * size(dev).max())
-            weight = np.sqrt(np.concatenate([self.points.weights / soft, self.points.weights * 1e6 / soft.max()]))
+            weight = np.sqrt(np.concatenate([share / soft, share * 1e6 / soft.max()]))
             lead = np.concatenate([dev, 3 * mean])
             A, b = (weight[:, None, None, None] * rows).reshape(-1, G.shape[-1]), (weight[:, None, None] * lead).ravel()
             v[self.inner] -= np.linalg.lstsq(A, b, rcond=None)[0]
         return v
 
-    def dissipation(self, v: Array) -> float:
-        """The most that plastic flow can take on a motion (dofs,), infinite where it hardens without end."""
-        rate = size(deviator(self.points.B @ self.yielding(v)))
-        limit = np.empty(len(rate))
+    def dissipation(self, v: Array, heat: Array) -> float:
+        """The most that flow can take on a motion (dofs,) at thermal strains (p,), infinite where it hardens on."""
+        limit = np.empty(len(heat))
         for b, law in enumerate(self.laws):
+            own = self.points.body == b
             endless = law.beyond > 0 or (law.backs[:, 1] == 0).any()
             back = 0.0 if endless or not len(law.backs) else (law.backs[:, 0] / law.backs[:, 1]).sum()
-            limit[self.points.body == b] = np.inf if endless else law.rows[-1, 1] + back
+            last = law.limit(np.full(own.sum(), np.inf), law.warm(heat[own])) if not endless else np.inf
+            limit[own] = last + back
+        rate = size(deviator(self.points.B @ self.yielding(v, limit)))
         with np.errstate(invalid="ignore"):
             work = np.where(rate > 1e-7 * rate.max(), limit * rate / ROOT32, 0.0)
         return float(self.points.weights @ work)

@@ -25,7 +25,7 @@ def in_other_units(model: sg.Model) -> tuple[sg.Model, Back]:
     def law(plastic: Any) -> Any:
         return plastic and replace(
             plastic,
-            yield_stress=[(p, Y * _STRESS) for p, Y in plastic.yield_stress],
+            yield_stress=[(p, Y * _STRESS, *warm) for p, Y, *warm in plastic.yield_stress],
             hardening=plastic.hardening * _STRESS,
             backstresses=[(C * _STRESS, gamma) for C, gamma in plastic.backstresses],
         )
@@ -71,10 +71,10 @@ def turned(model: sg.Model) -> tuple[sg.Model, Back]:
     def place(x: Sequence[float]) -> tuple[float, ...]:
         return tuple((R @ x + away).tolist())
 
-    def plane(shape: Any) -> Any:
-        return (
-            sg.Plane(place(shape.point), tuple((R @ shape.normal).tolist())) if isinstance(shape, sg.Plane) else shape
-        )
+    def shape(one: Any) -> Any:
+        if isinstance(one, sg.Plane):
+            return sg.Plane(place(one.point), tuple((R @ one.normal).tolist()))
+        return replace(one, centre=place(one.centre)) if isinstance(one, sg.Circle) else one
 
     def load(one: sg.Load) -> sg.Load:
         if one.temperature is not None:
@@ -86,9 +86,9 @@ def turned(model: sg.Model) -> tuple[sg.Model, Back]:
         mesh=replace(model.mesh, points=model.mesh.points @ R.T + away),
         supports=[replace(support, u=vector(support.u)) for support in model.supports],
         loads=[load(one) for one in model.loads],
-        contacts=[replace(contact, mortar=plane(contact.mortar)) for contact in model.contacts],
+        contacts=[replace(contact, mortar=shape(contact.mortar)) for contact in model.contacts],
         obstacles=[
-            replace(one, shape=plane(one.shape), u=vector(one.u), point=None if one.point is None else place(one.point))
+            replace(one, shape=shape(one.shape), u=vector(one.u), point=None if one.point is None else place(one.point))
             for one in model.obstacles
         ],
         rigid_bodies=[replace(body, point=place(body.point)) for body in model.rigid_bodies],

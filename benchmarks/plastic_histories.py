@@ -25,6 +25,7 @@ slow solver finds none either; "jump"; failures are in capitals.
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Collection
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -47,15 +48,16 @@ HALVED = 0.75  # of the difference: what is left with twice the increments, 0.47
 ALIKE = 1e-4  # of the largest displacement: differences below are of increments that all but agree
 
 
-def solved(model: sg.Model, **given: Any) -> Any:
-    """As far as there is an answer.
+def solved(model: sg.Model, kinds: Collection[str] = (), **given: Any) -> Any:
+    """As far as there is an answer, the way that the kinds say.
 
     Raises
     ------
     KeyboardInterrupt
         Where it comes while the package solves, which ends that in good order.
     """
-    history = sg.solve(model, raise_on_failure=False, **given)
+    backend = "iterative" if "iterated" in kinds else "auto"
+    history = sg.solve(model, raise_on_failure=False, backend=backend, **given)
     if history.status == "interrupted":
         raise KeyboardInterrupt
     return history
@@ -64,7 +66,7 @@ def solved(model: sg.Model, **given: Any) -> Any:
 def judge(case: Case, *, solve: bool = False) -> Verdict:
     """Solve, and look at every instant; ``solve``: beside the slow solver too."""
     try:
-        history = solved(case.model)
+        history = solved(case.model, case.kinds)
     except Exception as error:  # whatever a solver may do is told, not raised
         return Verdict(outcome="ERROR", words=f"{type(error).__name__}: {str(error)[:300]}")
     follower = Follower.of(case.structure)
@@ -127,7 +129,7 @@ def _without_answer(case: Case, history: Any, follower: Follower) -> Verdict:
     if "flow plastically" in history.message and history.escape is not None:
         v = np.zeros(len(s.T))
         v[: history.escape.size] = history.escape.ravel()
-        taken, given = s.dissipation(v), float(acts.force @ v)
+        taken, given = s.dissipation(v, acts.heat), float(acts.force @ v)
         rates = (s.pairs @ v)[:, ~s.tied]
         opens, slides = rates[0], np.linalg.norm(rates[1:], axis=0)
         size = np.abs(v).max()
@@ -150,7 +152,7 @@ def _solved_again(case: Case, history: Any) -> Verdict | None:
         if kind not in case.kinds:
             continue
         model, back = moved(case.model)
-        other = solved(model)
+        other = solved(model, case.kinds)
         if other.status != history.status or len(other.steps) != len(history.steps):
             words = f"{other.status}, as it was {history.status}: {other.message[:200]}"
             return Verdict(outcome=kind.upper(), words=words)
@@ -174,8 +176,8 @@ def _cut(case: Case, whole: Any) -> str:
         return ""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "state.npz"
-        sg.solve(replace(case.model, steps=case.model.steps[:cut])).save_state(path)
-        after = solved(replace(case.model, steps=case.model.steps[cut:]), start=path)
+        solved(replace(case.model, steps=case.model.steps[:cut]), case.kinds).save_state(path)
+        after = solved(replace(case.model, steps=case.model.steps[cut:]), case.kinds, start=path)
     if after.status != whole.status:
         return f"cut behind step {cut}: {after.status}, the whole {whole.status}: {after.message[:200]}"
     for k, (one, two) in enumerate(zip(whole.steps[cut:], after.steps, strict=False)):
@@ -206,7 +208,7 @@ def refined(case: Case) -> Verdict:
     largest, off = np.abs(u).max(), []
     for count in COARSE:
         some = [replace(step, increments=count) for step in steps]
-        history = solved(replace(case.model, steps=some))
+        history = solved(replace(case.model, steps=some), case.kinds)
         if history.status != "solved":
             return Verdict(outcome="beyond", words=history.message[:200])
         off.append(float(np.abs(history.last.displacement.ravel() - u).max() / largest))

@@ -16,14 +16,16 @@ from benchmarks.independent_history import Acts
 from signorini.engine.prepare import prepare
 
 GEOMETRIES = ("plane strain", "plane stress", "axisymmetric", "space")
-LAWS = ("perfect", "table", "prager", "frederick")
-FLAT, SOLID = ("quad", "quad8", "triangle6"), ("hexahedron", "hexahedron20", "tetra10")
-BODIES = ("incompatible", "two", "mortar", "curved", "elastic", "rigid", "tied")
-ACTIONS = ("driven", "moving", "heated", "overlap")
-STEPS = ("auto", "restart", "units", "turned")
+LAWS = ("perfect", "table", "prager", "frederick", "combined")
+FLAT = ("quad", "quad8", "quad9", "triangle6")
+SOLID = ("hexahedron", "hexahedron20", "hexahedron27", "tetra10", "wedge15")
+BODIES = ("incompatible", "two", "mortar", "curved", "elastic", "rigid", "tied", "round")
+ACTIONS = ("driven", "moving", "heated", "softened", "overlap")
+STEPS = ("auto", "iterated", "restart", "units", "turned")
 KINDS = (*GEOMETRIES, *FLAT, *SOLID, *LAWS, *BODIES, *ACTIONS, *STEPS)
-_MORE = ("incompatible", "elastic", "rigid", "tied", "moving", "heated", "overlap", *STEPS)
+_MORE = ("incompatible", "elastic", "rigid", "tied", "round", "moving", "heated", "softened", "overlap", *STEPS)
 _SHARE = 0.15  # of models that have one of them
+_FORMULATIONS = {"incompatible": "incompatible", "wedge15": "standard"}
 E, NU, EXPANSION = 200.0, 0.3, 1e-3
 
 
@@ -65,9 +67,9 @@ def chosen(rng: np.random.Generator, wanted: frozenset[str]) -> frozenset[str]:
     geometry = one_of(GEOMETRIES, (0.4, 0.25, 0.15, 0.2))
     if wanted & set(SOLID):
         geometry = "space"
-    law = one_of(LAWS, (0.3, 0.3, 0.2, 0.2))
+    law = one_of(LAWS, (0.3, 0.2, 0.1, 0.2, 0.2))
     families = SOLID if geometry == "space" else FLAT
-    family = str(rng.choice(families, p=(0.5, 0.25, 0.25)))
+    family = str(rng.choice(families, p=[0.5, *[0.5 / (len(families) - 1)] * (len(families) - 1)]))
     family = families[0] if "incompatible" in wanted else family
     family = next((asked for asked in families if asked in wanted), family)
     found = {kind for kind in ("two", "mortar", "curved", "driven") if rng.random() < 0.5}
@@ -83,8 +85,10 @@ def consistent(kinds: set[str]) -> frozenset[str]:
         found.add("two")
     if "rigid" in found:
         found -= {"elastic"}
+    if "softened" in found:
+        found.add("heated")
     if "two" in found:
-        found -= {"moving"}
+        found -= {"moving", "round"}
     if "two" not in found or "space" in found:
         found -= {"curved"}
     if "tied" in found:
@@ -94,9 +98,26 @@ def consistent(kinds: set[str]) -> frozenset[str]:
     return frozenset(found)
 
 
-def plastic(rng: np.random.Generator, law: str, yields: float) -> sg.Plastic:
-    """A random law with a yield stress."""
+def plastic(rng: np.random.Generator, law: str, yields: float, heat: float = 0.0) -> sg.Plastic:
+    """A random law.
+
+    Parameters
+    ----------
+    rng : random numbers
+    law : one of `LAWS`
+    yields : yield stress
+    heat : temperatures about which the yield stress changes; 0: it does not
+    """
     H = float(rng.choice([1e-3, 1e-2, 0.1])) * E
+    if heat:
+        made = plastic(rng, law, yields)
+        warm = heat * np.array([-1.0, 0.0, rng.uniform(0.5, 1.0), 2.0])
+        parts = [rng.uniform(1.0, 1.2), 1.0, *rng.uniform(0.75, 1.05, 2)]
+        rows = [(p, part * Y, T) for T, part in zip(warm, parts, strict=True) for p, Y in made.curve]
+        return replace(made, yield_stress=rows)
+    if law == "combined":
+        rows = [(0.0, yields), (5e-3, yields + 5e-3 * H)]
+        return sg.Plastic(rows, hardening=0.1 * H, backstresses=[(0.5 * H, 0.0), (H, 2.0 * H / yields)])
     if law == "table":
         rows = [(0.0, yields), (2e-3, yields + 2e-3 * H), (1e-2, yields + 5e-3 * H)]
         return sg.Plastic(rows, hardening=0.2 * H)
@@ -136,6 +157,14 @@ class _Maker:
     def top(self) -> str:
         return self.boundary(self.names[0], "top")
 
+    def nodes_of(self, side: str) -> np.ndarray:
+        """All nodes of a side; faces of wedges are named by their corners."""
+        found: np.ndarray = self.mesh.nodes_of(side)
+        if "wedge15" not in self.kinds:
+            return found
+        low, high = self.mesh.points[found].min(axis=0), self.mesh.points[found].max(axis=0)
+        return np.flatnonzero(((self.mesh.points >= low) & (self.mesh.points <= high)).all(axis=1))
+
     def rows(self, nodes: np.ndarray, direction: int) -> np.ndarray:
         found: np.ndarray = self.d * nodes + direction
         return found
@@ -149,7 +178,7 @@ class _Maker:
         direction : number of the axis
         force, motion : for a factor of 1
         """
-        rows = self.rows(self.mesh.nodes_of(self.top), direction)
+        rows = self.rows(self.nodes_of(self.top), direction)
         given: list[float | None] = [None] * self.d
         unit = np.zeros(self.mesh.points.size)  # of nodes alone: modes are not acted on
         if "driven" in self.kinds:
@@ -169,7 +198,7 @@ class _Maker:
         """Fix nodes of a boundary."""
         given = [0.0 if k in directions else None for k in range(self.d)]
         self.supports.append(sg.Support(on, u=tuple(given), name=name))
-        self.held |= {int(row) for k in directions for row in self.rows(self.mesh.nodes_of(on), k)}
+        self.held |= {int(row) for k in directions for row in self.rows(self.nodes_of(on), k)}
 
 
 def _block(rng: np.random.Generator, kinds: frozenset[str], wide: float, columns: int, low: float) -> sg.Mesh:
@@ -178,8 +207,13 @@ def _block(rng: np.random.Generator, kinds: frozenset[str], wide: float, columns
     if "space" in kinds:
         family = next(kind for kind in SOLID if kind in kinds)
         columns, rows = (columns, rows) if family == "hexahedron" else (columns - 1, 1)
-        line = np.linspace(-wide / 2, wide / 2, columns + 1)
-        return sg.box(x=line, y=line, z=np.linspace(low, low + 1.0, rows + 1), cells=family)
+        line, z = np.linspace(-wide / 2, wide / 2, columns + 1), np.linspace(low, low + 1.0, rows + 1)
+        if family != "wedge15":
+            return sg.box(x=line, y=line, z=z, cells=family)
+        flat = sg.rectangle(x=line, y=line, cells="triangle6")
+        sides = {"bottom": "front", "top": "back"}
+        walls = {sides.get(name, name): edges for name, edges in flat.boundaries.items()}
+        return sg.extruded(replace(flat, boundaries=walls), z=z)
     begin = 0.0 if "axisymmetric" in kinds else -wide / 2
     family = next(kind for kind in FLAT if kind in kinds)
     count = columns if family == "quad" else max(2, columns // 2)
@@ -227,8 +261,9 @@ def make(seed: int, wanted: frozenset[str] = frozenset(), *, exactly: bool = Fal
     area = {2: 2.0, 3: 4.0}[d] * (np.pi / 2 if ring else 1.0)
     thickness = float(rng.choice([1.0, 0.3])) if geometry in GEOMETRIES[:2] else 1.0
     law = next(kind for kind in LAWS if kind in kinds)
+    warmth = strain / EXPANSION if "softened" in kinds else 0.0
     stiff = float(rng.choice([70.0, 200.0, 600.0]))
-    upper = sg.Elastic(E=E, nu=NU, expansion=EXPANSION, plastic=plastic(rng, law, Y))
+    upper = sg.Elastic(E=E, nu=NU, expansion=EXPANSION, plastic=plastic(rng, law, Y, warmth))
     lower = sg.Elastic(E=stiff, nu=NU, plastic=None if kinds & {"elastic", "rigid"} else plastic(rng, law, Y))
     motion = 2.0 * len(made.names) * strain
     made.act("press", d - 1, -area * thickness, -motion)
@@ -249,13 +284,16 @@ def make(seed: int, wanted: frozenset[str] = frozenset(), *, exactly: bool = Fal
     floor = (rng.uniform(-1.0, 1.0, d) if not ring else np.array([0.0, rng.uniform(-1.0, 1.0)])) * strain
     steps = _steps(rng, kinds, drag, strain)
     against: Any = "lower.top" if two else sg.Plane((0.0,) * d, (0.0,) * (d - 1) + (1.0,))
+    if "round" in kinds:
+        radius = rng.uniform(20.0, 100.0)
+        against = (sg.Sphere if d == 3 else sg.Circle)((*(0.0,) * (d - 1), -radius), radius)
     obstacles = [sg.Rigid("floor", against, u=tuple(floor.tolist()))] if "moving" in kinds else []
     model = sg.Model(
         mesh,
         kind="3d" if d == 3 else geometry,
         thickness=thickness,
         bodies=[
-            sg.Body(name, material, "incompatible" if "incompatible" in kinds else None)
+            sg.Body(name, material, next((word for kind, word in _FORMULATIONS.items() if kind in kinds), None))
             for name, material in zip(made.names, (upper, lower), strict=False)
         ],
         supports=made.supports,
@@ -376,10 +414,20 @@ def in_words(
     laws = []
     for body in model.bodies:
         law = body.material.plastic
-        rows = np.array([[0.0, np.inf]]) if law is None else np.array(law.yield_stress)
+        tables = [np.array([[0.0, np.inf]])] if law is None else [np.array(curve) for curve in law.curves]
         backs = np.zeros((0, 2)) if law is None or not law.backstresses else np.array(law.backstresses)
         beyond = 0.0 if law is None else law.hardening
-        laws.append(own.Law(E=body.material.E, nu=body.material.nu, rows=rows, beyond=beyond, backs=backs))
+        laws.append(
+            own.Law(
+                E=body.material.E,
+                nu=body.material.nu,
+                expansion=body.material.expansion,
+                tables=tables,
+                temperatures=np.zeros(1) if law is None else law.temperatures,
+                beyond=beyond,
+                backs=backs,
+            )
+        )
     thin = model.kind == "plane stress"
     both = [
         own.points(

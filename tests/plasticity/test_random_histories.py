@@ -46,7 +46,7 @@ def test_increments_tend_to_tiny_ones():
 
 def test_the_judge_sees_a_wrong_answer():
     case = make(2)
-    softer = [replace(law, rows=law.rows * [1.0, 0.999]) for law in case.structure.laws]
+    softer = [replace(law, tables=[rows * [1.0, 0.999] for rows in law.tables]) for law in case.structure.laws]
     wrong = replace(case, structure=replace(case.structure, laws=softer))
     assert histories.judge(wrong).outcome == "WRONG"
 
