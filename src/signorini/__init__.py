@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from signorini.meshing.read import read_mesh
     from signorini.meshing.solid import box, extruded
     from signorini.meshing.surface import mesh_surface, read_surface
+    from signorini.meshing.values import read_values
     from signorini.model.body import Body
     from signorini.model.conditions import Foundation, Load, Support
     from signorini.model.contact import Contact
@@ -36,12 +37,13 @@ if TYPE_CHECKING:
     from signorini.model.rigid import Rigid
     from signorini.model.step import Step
     from signorini.model.triangulated import Surface
-    from signorini.model.varying import Along
+    from signorini.model.varying import Along, ArcLength, Formula, NodeValues, Scattered
     from signorini.model.wear import Wear
     from signorini.settings import SolverSettings
 
 __all__ = [
     "Along",
+    "ArcLength",
     "Body",
     "Circle",
     "Cone",
@@ -49,18 +51,21 @@ __all__ = [
     "Cylinder",
     "Elastic",
     "Equation",
+    "Formula",
     "Foundation",
     "InputError",
     "Interrupted",
     "Load",
     "Mesh",
     "Model",
+    "NodeValues",
     "Orthotropic",
     "Plane",
     "Plastic",
     "Profile",
     "Rigid",
     "RigidBody",
+    "Scattered",
     "SignoriniError",
     "Solution",
     "SolveFailed",
@@ -88,6 +93,7 @@ __all__ = [
     "read_mesh",
     "read_profile",
     "read_surface",
+    "read_values",
     "rectangle",
     "solve",
 ]
@@ -101,6 +107,7 @@ _HOMES = {
     "signorini.meshing.read": ("read_mesh",),
     "signorini.meshing.solid": ("box", "extruded"),
     "signorini.meshing.surface": ("mesh_surface", "read_surface"),
+    "signorini.meshing.values": ("read_values",),
     "signorini.model.body": ("Body",),
     "signorini.model.conditions": ("Foundation", "Load", "Support"),
     "signorini.model.contact": ("Contact",),
@@ -114,7 +121,7 @@ _HOMES = {
     "signorini.model.rigid": ("Rigid",),
     "signorini.model.step": ("Step",),
     "signorini.model.triangulated": ("Surface",),
-    "signorini.model.varying": ("Along",),
+    "signorini.model.varying": ("Along", "ArcLength", "Formula", "NodeValues", "Scattered"),
     "signorini.model.wear": ("Wear",),
     "signorini.settings": ("SolverSettings",),
 }

@@ -10,6 +10,7 @@ from typing import Any
 from signorini.deck import Deck
 from signorini.engine.examine import Examined
 from signorini.model.conditions import Load
+from signorini.model.varying import spell
 
 
 def total_force(examined: Examined, load: Load) -> list[float]:
@@ -55,7 +56,11 @@ def deck_data(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str,
         "node_sets": {name: len(nodes) for name, nodes in mesh.nodes.items()},
         "surfaces": {name: sum(map(len, mesh.facets(name))) for name in mesh.boundaries},
         "supports": [
-            {"name": support.label, "u": list(support.u), "dofs": int((examined.constraints.owner == i).sum())}
+            {
+                "name": support.label,
+                "u": [part if isinstance(part, float | None) else spell(part) for part in support.u],
+                "dofs": int((examined.constraints.owner == i).sum()),
+            }
             for i, support in enumerate(model.supports)
         ],
         "loads": [

@@ -18,6 +18,7 @@ from signorini.law.friction import FrictionLaw
 from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.step import Step
+from signorini.model.varying import spell
 from signorini.output.table import align, spell_vector
 
 Rows = list[tuple[str, ...]]
@@ -88,7 +89,7 @@ def _bodies(model: Model) -> Rows:
 def _supports(examined: Examined) -> Rows:
     rows: Rows = []
     for i, support in enumerate(examined.model.supports):
-        parts = ", ".join("free" if part is None else f"{part:g}" for part in support.u)
+        parts = ", ".join("free" if part is None else spell(part) for part in support.u)
         held = int((examined.constraints.owner == i).sum())
         rows.append((support.label, f"u = ({parts})", f"holds {held} dofs"))
     return rows

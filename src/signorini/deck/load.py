@@ -12,9 +12,10 @@ from signorini.checks import text
 from signorini.deck.deck import Deck, located_error
 from signorini.deck.error import DeckError
 from signorini.deck.inp.build import read_deck
+from signorini.deck.keys import check_keys, make, table
 from signorini.deck.meshes import deck_mesh
 from signorini.deck.syntax import parse
-from signorini.deck.tables import FIELDS, check_keys, deck_bodies, deck_materials, deck_parts, make, table
+from signorini.deck.tables import FIELDS, deck_bodies, deck_materials, deck_parts
 from signorini.errors import InputError, Where
 from signorini.model.model import Model
 from signorini.settings import SolverSettings

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from signorini.checks import choice, text, vector
-from signorini.deck.tables import check_keys, table
+from signorini.deck.keys import check_keys, table
 from signorini.errors import InputError, Where
 from signorini.meshing.plane import annulus, half_disk, quarter_disk, rectangle
 from signorini.meshing.solid import box

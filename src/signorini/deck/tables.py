@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-import difflib
 import inspect
-from collections.abc import Callable, Collection, Mapping
-from typing import Any, TypeVar
+from collections.abc import Callable, Mapping
+from typing import Any
 
 from signorini.checks import choice, text
+from signorini.deck.keys import check_keys, make, table, tables
+from signorini.deck.varying import deck_value, deck_values
 from signorini.errors import InputError, Where, one_of
 from signorini.law.friction import LAWS, FrictionLaw
 from signorini.model.body import Body
@@ -26,8 +27,6 @@ from signorini.model.triangulated import Surface
 from signorini.model.varying import Along
 from signorini.model.wear import Wear
 from signorini.sources import Reach
-
-Made = TypeVar("Made")
 
 OBSTACLES = {
     "plane": Plane,
@@ -49,74 +48,8 @@ _CONTACT_KEYS = (
     *OBSTACLES,
     *(key for key in inspect.signature(Contact).parameters if key not in ("name", *_SIDES)),
 )
+_VARYING = ("pressure", "temperature", "gap", "interference")
 _OBSTACLE_KEYS = ("name", *OBSTACLES, "u", "rotation", "force", "moment", "point")
-
-
-def table(value: Any, where: Where) -> dict[str, Any]:
-    """A table, or what was found instead."""
-    if not isinstance(value, dict):
-        raise InputError(f"is {value!r}; expected a table", where=where)
-    return value
-
-
-def tables(data: Mapping[str, Any], key: str) -> list[dict[str, Any]]:
-    """The entries of an array of tables, none if the key is not there."""
-    value = data.get(key, [])
-    if isinstance(value, dict):
-        raise InputError(f"is a single table; expected [[{key}]], in double brackets, for each", where=(key,))
-    if not isinstance(value, list):
-        raise InputError(f"is {value!r}; expected [[{key}]] tables", where=(key,))
-    return [table(entry, (key, i)) for i, entry in enumerate(value)]
-
-
-def check_keys(data: Mapping[str, Any], where: Where, *, known: Collection[str], needed: Collection[str] = ()) -> None:
-    """Refuse keys that are not known (the nearest known one is named) and tables that lack one.
-
-    Parameters
-    ----------
-    data : a table
-    where : its path in the deck
-    known, needed : keys that it may have, and those that it must
-
-    Examples
-    --------
-    >>> check_keys({"nx": 2, "hight": 1.0}, ("mesh",), known=["nx", "ny", "height"])
-    Traceback (most recent call last):
-    signorini.errors.InputError: mesh.hight: unknown key; did you mean 'height'? Known: nx, ny, height
-    """
-    for key in data:
-        if key not in known:
-            near = difflib.get_close_matches(key, known, n=1)
-            hint = f"; did you mean '{near[0]}'?" if near else "."
-            raise InputError(f"unknown key{hint} Known: {', '.join(known)}", where=(*where, key))
-    for key in needed:
-        if key not in data:
-            raise InputError(f"has no '{key}'; expected it", where=where)
-
-
-def make(kind: Callable[..., Made], data: Mapping[str, Any], where: Where) -> Made:
-    """Call a constructor with the keys of a table: its parameters are the known keys, those without default needed.
-
-    Parameters
-    ----------
-    kind : the constructor
-    data : the table
-    where : its path in the deck
-
-    Raises
-    ------
-    InputError
-        What :func:`check_keys` or the constructor finds wrong, with the path from the top of the deck.
-    """
-    parameters = inspect.signature(kind).parameters
-    needed = [name for name, parameter in parameters.items() if parameter.default is parameter.empty]
-    check_keys(data, where, known=list(parameters), needed=needed)
-    if "name" in data:
-        text(data["name"], (*where, "name"))
-    try:
-        return kind(**data)
-    except InputError as error:
-        raise error.inside(*where) from error
 
 
 def deck_materials(data: Mapping[str, Any]) -> dict[str, Material]:
@@ -186,11 +119,21 @@ def deck_parts(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> dict[str, l
             if key in kinds:
                 if key in ("support", "load"):
                     _refuse_place(entry.get("on", ""), where)
+                    entry = _varied(entry, where, reach, mesh.points.shape[1])
                 made = make(kinds[key], entry, where)
             else:
                 made = (_contact if key == "contact" else _obstacle)(entry, where, reach, mesh)
             parts.setdefault(field, []).append(made)
     return parts
+
+
+def _varied(entry: dict[str, Any], where: Where, reach: Reach, dimension: int) -> dict[str, Any]:
+    """The table of a support, a load or a contact with what varies in it as the model takes it."""
+    single = {key: deck_value(entry[key], (*where, key), reach, dimension) for key in _VARYING if key in entry}
+    several = {
+        key: deck_values(entry[key], (*where, key), reach, dimension) for key in ("u", "traction") if key in entry
+    }
+    return entry | single | several
 
 
 def _refuse_place(on: Any, where: Where) -> None:
@@ -278,6 +221,7 @@ def _contact(entry: dict[str, Any], where: Where, reach: Reach, mesh: Mesh) -> C
         given["friction"] = _friction(given["friction"], (*where, "friction"))
     if "wear" in given:
         given["wear"] = make(Wear, table(given["wear"], (*where, "wear")), (*where, "wear"))
+    given = _varied(given, where, reach, mesh.points.shape[1])
     sides = [key for key in ("mortar", *OBSTACLES) if key in given]
     if len(sides) != 1:
         found = "both " + " and ".join(f"'{key}'" for key in sides) if sides else "no other side"

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from signorini.deck.tables import FIELDS, OBSTACLES
-from signorini.errors import InputError
+from signorini.deck.varying import spelled
 from signorini.law.friction import FrictionLaw
 from signorini.model.material import Material
 from signorini.model.model import Model
@@ -117,6 +117,8 @@ def _given(part: Any) -> dict[str, Any]:
 def _entries(table: Mapping[str, Any]) -> Iterator[str]:
     for key, value in table.items():
         if value is not None or key in _FREE:
+            if key == "friction" and isinstance(value, Along):
+                value = {value.axis: value.at, "mu": value.values}
             yield f"{_key(key)} = {_value(value)}"
 
 
@@ -137,10 +139,7 @@ def _value(value: Any) -> str:
         value = value.table
     if isinstance(value, Wear):
         value = _given(value)
-    if isinstance(value, Along):
-        value = {value.axis: value.at, "mu": value.values}
-    if callable(value):
-        raise InputError(f"{value!r} is a function, which a deck cannot say; expected numbers or a table")
+    value = spelled(value)
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{_key(key)} = {_value(part)}" for key, part in value.items()) + " }"
     if isinstance(value, list | tuple):

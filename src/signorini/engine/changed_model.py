@@ -52,6 +52,8 @@ def _changed_contact(contact: Contact, friction: Mapping[str, float], interferen
             raise InputError("is tied for good; only contacts can change", where=(key, name))
     if name not in friction and name not in interference:
         return contact
+    if name in interference:
+        contact.check_pressed(("interference", name))
     return replace(
         contact,
         friction=friction.get(name, contact.friction),

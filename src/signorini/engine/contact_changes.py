@@ -121,5 +121,6 @@ def nominal_gap(prepared: Prepared, stage: Stage, state: State) -> Array:
     gap = prepared.interface.gap.copy()
     for i, contact in enumerate(prepared.model.contacts):
         if contact.label in stage.interference:
-            gap[prepared.interface.contact == i] += contact.interference - stage.interference[contact.label]
+            own = prepared.interface.contact == i
+            gap[own] += contact.constant_interference - stage.interference[contact.label]
     return gap + prepared.worn_gap(state)

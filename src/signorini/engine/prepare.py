@@ -247,7 +247,7 @@ class Prepared(Examined, DiscreteModel):
         """
         model, factor = changed_model(self.model, friction=friction, interference=interference, loads=loads)
         own, pairs = self.interface.contact, zip(model.contacts, self.model.contacts, strict=True)
-        overlap = np.array([contact.interference - old.interference for contact, old in pairs])
+        overlap = np.array([new.constant_interference - old.constant_interference for new, old in pairs])
         interface = replace(
             under_laws(self.interface, model, [contact.law for contact in model.contacts]),
             gap=self.interface.gap - overlap[own],

@@ -3,19 +3,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
-from signorini.fem.boundary import boundary
+from signorini.fem.boundary import Boundary, boundary
 from signorini.fem.links import place_dofs
 from signorini.fem.measure import facet_areas, measure
 from signorini.fem.obstacles import arm, obstacle_loads
 from signorini.fem.places import nodes_at
 from signorini.fem.space import ON_AXIS, Space
 from signorini.fem.thermal import thermal_forces
+from signorini.fem.varying import on_facets
 from signorini.model.conditions import BODY_LOADS, Load
 from signorini.model.model import Model
+from signorini.model.varying import Varying
 
 
 def nodal_loads(space: Space, model: Model) -> dict[str, Array]:
@@ -48,15 +53,67 @@ def _on_mesh(space: Space, model: Model, load: Load, where: Where) -> Array:
         _check_axis(model, nodes, forces, where)
         return forces.ravel()
     side = boundary(space, str(load.on), (*where, "on"))
+    areas = [facet_areas(model, block)[..., None] for block in side.blocks]
     if load.pressure is not None:
-        parts = [-load.pressure * measure(model, b.at, b.cells)[..., None] * b.outward for b in side.blocks]
-    else:
-        areas = [facet_areas(model, block)[..., None] for block in side.blocks]
+        pressures = on_facets(load.pressure, space, side, (*where, "pressure"))
+        parts = [
+            -p[..., None] * measure(model, block.at, block.cells)[..., None] * block.outward
+            for p, block in zip(pressures, side.blocks, strict=True)
+        ]
+    elif load.bearing is not None:
+        parts = _bearing(model, load, side, (*where, "bearing"))
+    elif load.force is not None:
         total = sum(float(area.sum()) for area in areas)
-        traction = np.array(load.traction) if load.force is None else _given(load.force) / total
-        parts = [area * traction for area in areas]
+        parts = [area * (_given(load.force) / total) for area in areas]
+    else:
+        tractions = _tractions(space, load, side, (*where, "traction"))
+        parts = [area * traction for area, traction in zip(areas, tractions, strict=True)]
     forces[side.nodes] = side.nodal(parts)
     return forces.ravel()
+
+
+def _tractions(space: Space, load: Load, side: Boundary, where: Where) -> list[Array]:
+    """At the quadrature points of every block of facets, (m, q, d)."""
+    if callable(load.traction):
+        given = load.traction
+        columns: list[Varying] = [partial(_column, given, i) for i in range(side.dimension)]
+    else:
+        assert load.traction is not None
+        columns = list(load.traction)
+    found = [on_facets(column, space, side, where) for column in columns]
+    return [np.stack(block, axis=-1) for block in zip(*found, strict=True)]
+
+
+def _column(given: Callable[[Array], Array], i: int, points: Array) -> Array:
+    """A component of a function that gives one vector a point."""
+    found = np.asarray(given(points), float)
+    if found.shape != points.shape:
+        raise InputError(
+            f"is a function that gives shape {found.shape} for points {points.shape}; expected one vector a point"
+        )
+    column: Array = found[:, i]
+    return column
+
+
+def _bearing(model: Model, load: Load, side: Boundary, where: Where) -> list[Array]:
+    """Forces at the quadrature points, (m, q, d), of a pressure ``p c``, c the cosine into the body where it is > 0.
+
+    The total along the force is as given; what it presses across cancels where the side is symmetric about the force.
+    """
+    assert load.bearing is not None
+    size = float(np.linalg.norm(load.bearing))
+    way = np.array(load.bearing) / size
+    cosines = [np.maximum(-(block.outward @ way), 0.0) / block.weights for block in side.blocks]
+    inward = [
+        -c[..., None] * measure(model, block.at, block.cells)[..., None] * block.outward
+        for c, block in zip(cosines, side.blocks, strict=True)
+    ]
+    total = sum(float((part @ way).sum()) for part in inward)
+    if total <= 0.0:
+        raise InputError(
+            f"is {load.bearing}, which pulls on '{load.on}' everywhere; expected a force into the body", where=where
+        )
+    return [part * (size / total) for part in inward]
 
 
 def _check_axis(model: Model, nodes: IntArray, forces: Array, where: Where) -> None:

@@ -11,11 +11,13 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray, selection
 from signorini.errors import InputError
+from signorini.fem.boundary import boundary
 from signorini.fem.foundation import make_springs
 from signorini.fem.links import Eliminated, Links, eliminate, make_links, place_dofs
 from signorini.fem.obstacles import arm, driven
 from signorini.fem.places import nodes_at
 from signorini.fem.space import ON_AXIS, Space
+from signorini.fem.varying import at_nodes
 from signorini.model.links import directions
 from signorini.model.model import Model
 
@@ -163,15 +165,15 @@ def _prescribed(space: Space, model: Model, links: Links, without: Collection[st
         for axis, part in enumerate(support.u):
             if part is None:
                 continue
-            # dofs of rotations are lengths
-            dofs, value = places[:, axis], part * arm(model) if axis >= d else part
-            if value != 0.0:
-                _check_axis(space, np.intersect1d(dofs, axis_dofs), i, value)
+            dofs = places[:, axis]
+            value = _values(space, model, i, axis, dofs)
+            moved = np.isin(dofs, axis_dofs) & (value != 0.0)
+            _check_axis(space, dofs[moved], i, value[moved])
             _check_agreement(space, model, owner, values, dofs, i, value)
-            new = dofs[owner[dofs] < 0]
-            owner[new], values[new] = i, value
+            new = owner[dofs] < 0
+            owner[dofs[new]], values[dofs[new]] = i, value[new]
             if support.moves:
-                prescribed[support.label][new] = value
+                prescribed[support.label][dofs[new]] = value[new]
     held = owner >= 0
     for j, obstacle in enumerate(model.obstacles):
         dofs = space.obstacle_dofs(j)
@@ -189,6 +191,21 @@ def _prescribed(space: Space, model: Model, links: Links, without: Collection[st
     held |= loose
     held[axis_dofs] = True
     return _Prescribed(held=held, owner=owner, values=prescribed)
+
+
+def _values(space: Space, model: Model, i: int, axis: int, dofs: IntArray) -> Array:
+    """What support i prescribes in a direction at factor 1, (k,) for its dofs (k,)."""
+    support, where = model.supports[i], ("support", i, "u", axis)
+    part = support.u[axis]
+    assert part is not None
+    if isinstance(part, float | int):
+        return np.full(len(dofs), part * arm(model) if axis >= space.dimension else part)  # of rotations: lengths
+    if (dofs >= space.mesh.points.size).any():
+        raise InputError("varies, but a rigid body moves as one; expected a number", where=where)
+    nodes = dofs // space.dimension
+    on = str(support.on)
+    side = boundary(space, on, (*where[:2], "on")) if on in space.mesh.boundaries else None
+    return at_nodes(part, space, nodes, where, side)
 
 
 def _leaders(space: Space, model: Model, given: _Prescribed) -> IntArray:
@@ -239,29 +256,28 @@ def _on_axis(space: Space, model: Model) -> IntArray:
     return space.used_nodes[radii <= ON_AXIS * radii.max()] * space.dimension
 
 
-def _check_axis(space: Space, dofs: IntArray, i: int, value: float) -> None:
+def _check_axis(space: Space, dofs: IntArray, i: int, value: Array) -> None:
     if len(dofs):
         number = space.mesh.labels[dofs[0] // 2]
         raise InputError(
-            f"u_r = {value:g} at node {number}, which is on the axis and stays there; expected 0 or None "
+            f"u_r = {value[0]:g} at node {number}, which is on the axis and stays there; expected 0 or None "
             '(in a deck "free")',
             where=("support", i, "u"),
         )
 
 
 def _check_agreement(
-    space: Space, model: Model, owner: IntArray, values: Array, dofs: IntArray, i: int, value: float
+    space: Space, model: Model, owner: IntArray, values: Array, dofs: IntArray, i: int, value: Array
 ) -> None:
-    """Two supports may share a dof if they prescribe the same at every load factor."""
-    for dof in dofs[owner[dofs] >= 0]:
+    """Two supports may share a dof if neither moves it."""
+    shared = (owner[dofs] >= 0) & ((value != 0.0) | (values[dofs] != 0.0))
+    for dof, own in zip(dofs[shared], value[shared], strict=True):
         other = model.supports[owner[dof]]
-        if value == 0.0 and values[dof] == 0.0:
-            continue
         node, axis = divmod(int(dof), space.dimension)
         on = (
-            f"u_{model.axes[axis]} = {value:g} at node {space.mesh.labels[node]}, where"
+            f"u_{model.axes[axis]} = {own:g} at node {space.mesh.labels[node]}, where"
             if (node < len(space.mesh.points))
-            else f"{value:g} for a rigid body in a direction in which"
+            else f"{own:g} for a rigid body in a direction in which"
         )
         raise InputError(
             f"'{model.supports[i].label}' prescribes {on} "

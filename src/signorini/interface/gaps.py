@@ -3,18 +3,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
 from signorini.interface.coupling import Coupling
 from signorini.model.contact import Contact
+from signorini.model.varying import Varying, spell
 
 _COORDINATE_TOL = 16.0 * float(np.finfo(np.float64).eps)  # of a coordinate: what two that are the same differ by
 _CURVE_TOL = 0.01  # of a gap: what it may be more along the normal of a facet than along that of a curve
 
 
-def initial_gaps(geometry: Array, contact: Contact, one: Array, *, farthest: float) -> Array:
+def initial_gaps(geometry: Array, contact: Contact, seen: Callable[[Varying, str], Array], *, farthest: float) -> Array:
     """What a contact makes of the gaps that the geometry has, (n,) length, negative: overlap.
 
     Gaps that are rounding of coordinates are none: beside small loads they would be, and where supports hold both sides
@@ -22,8 +25,10 @@ def initial_gaps(geometry: Array, contact: Contact, one: Array, *, farthest: flo
 
     Parameters
     ----------
+    geometry : (n,) length
+    contact : as asked for
+    seen : (n,) what pairs see of a gap that a key of the contact gives along the normals of the nonmortar side
     farthest : largest coordinate of the mesh
-    one : (n,) what pairs see of a gap of length 1 along the normals of the nonmortar side, see :func:`normal_gap`
     """
     geometry = np.where(np.abs(geometry) > _COORDINATE_TOL * farthest, geometry, 0.0)
     if contact.gap == "zero" or contact.tied:
@@ -31,8 +36,9 @@ def initial_gaps(geometry: Array, contact: Contact, one: Array, *, farthest: flo
     elif contact.gap == "geometry":
         gap = geometry if contact.adjust is None else np.where(geometry <= contact.adjust, 0.0, geometry)
     else:
-        gap = contact.gap * one
-    return gap - contact.interference * one
+        assert not isinstance(contact.gap, str)
+        gap = seen(contact.gap, "gap")
+    return gap - seen(contact.interference, "interference")
 
 
 def normal_gap(coupling: Coupling, nodes: IntArray, normals: Array, distance: Array) -> Array:
@@ -103,7 +109,7 @@ def refuse_deep_overlap(gap: Array, numbers: IntArray, contact: Contact, element
     """
     if len(gap) and -gap.min() > element:
         worst = int(np.argmin(gap))
-        by = f" with the interference of {contact.interference:g}" if contact.interference else ""
+        by = f" with the interference of {spell(contact.interference)}" if contact.interference != 0.0 else ""
         raise InputError(
             f"the two sides overlap{by} by {-gap[worst]:.4g} at node {numbers[worst]}, more than the longest facet "
             f"there, {element:.4g}; displacements are small here. Expected bodies that hardly overlap: move one, or "

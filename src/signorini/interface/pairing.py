@@ -17,6 +17,7 @@ from signorini.fem.measure import contact_measure, facet_areas
 from signorini.fem.obstacles import Placed, placed
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
+from signorini.fem.varying import at_nodes
 from signorini.interface.corners import corner_coupling
 from signorini.interface.coupling import Coupling, FacetGaps, geometric_gap, joined_gaps, point_coupling
 from signorini.interface.facing import search_distance
@@ -29,6 +30,7 @@ from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle, Plane
 from signorini.model.triangulated import Surface
+from signorini.model.varying import Varying
 
 _FINER_RATIO = 0.8  # of the mortar side's mean facet length
 
@@ -129,16 +131,25 @@ def _on_obstacle(
         # the trapezoidal rule, except that a node on the axis has its share of the circle around it, pi h^2 / 3
         coupling = point_coupling(side.nodes, side.nodal(areas)[:, None] * normals, selection(side.nodes, len(points)))
     _refuse_no_normal(space, coupling, where)
-    one = normal_gap(coupling, side.nodes, normals, np.ones(len(distance)))
-    gap = resolved(normal_gap(coupling, side.nodes, normals, distance), coupling, one)
+    seen = partial(_seen, space, side, coupling, normals, where[:2])
+    gap = resolved(normal_gap(coupling, side.nodes, normals, distance), coupling, seen(1.0, ""))
     return Pairs(
         own=side.nodes,
         coupling=coupling,
-        gap=initial_gaps(gap, contact, one, farthest=float(np.abs(points).max())),
+        gap=initial_gaps(gap, contact, seen, farthest=float(np.abs(points).max())),
         sliding=coupling.forces,
         mirrored=np.zeros(coupling.normals.shape, bool),
         sides=Sides(nonmortar=contact.nonmortar, mortar=str(obstacle), coupling="obstacle"),
     )
+
+
+def _seen(
+    space: Space, side: Boundary, coupling: Coupling, normals: Array, where: Where, given: Varying, key: str
+) -> Array:
+    """What pairs see of a gap that a key of the contact gives along the normals of the nonmortar side, (n,)."""
+    if isinstance(given, float | int):
+        return given * normal_gap(coupling, side.nodes, normals, np.ones(len(side.nodes)))
+    return normal_gap(coupling, side.nodes, normals, at_nodes(given, space, side.nodes, (*where, key), side))
 
 
 def _nodal_gaps(block: FacetBlock, distance: Array) -> FacetGaps:
@@ -182,18 +193,18 @@ def _on_side(
         )
     coupling, how = _couple(space, model, side, mortar, contact, where)
     _refuse_no_normal(space, coupling, where)
-    seen, coupling = coupling, replace(coupling, normal_areas=in_symmetry_planes(space, constraints, coupling))
+    whole, coupling = coupling, replace(coupling, normal_areas=in_symmetry_planes(space, constraints, coupling))
     plane = side.dimension == 2
-    one = normal_gap(coupling, side.nodes, -side.nodal_normals, np.ones(len(side.nodes)))
+    seen = partial(_seen, space, side, coupling, -side.nodal_normals, where)
     gap = geometric_gap(coupling, points)
     if not contact.slides:  # where the nearest points are changes as the sides slide
-        gap = resolved(gap, seen, one)
+        gap = resolved(gap, whole, seen(1.0, ""))
     partner = symmetric_partners(space, constraints, coupling.nodes, coupling.normals, mortar.nodes)
-    coupling = replace(coupling, forces=_without_removed(seen, coupling.normal_areas, partner))
+    coupling = replace(coupling, forces=_without_removed(whole, coupling.normal_areas, partner))
     pairs = Pairs(
         own=side.nodes,
         coupling=coupling,
-        gap=initial_gaps(gap, contact, one, farthest=float(np.abs(points).max())),
+        gap=initial_gaps(gap, contact, seen, farthest=float(np.abs(points).max())),
         sliding=_mirrored(coupling, partner.max(axis=1)) if plane else coupling.forces,
         mirrored=(partner >= 0) & (not plane),
         sides=Sides(

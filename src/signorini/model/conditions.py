@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -11,12 +11,13 @@ import numpy as np
 
 from signorini.arrays import Array, frozen
 from signorini.checks import choice, components, number, text, vector
-from signorini.errors import InputError
+from signorini.errors import InputError, Where
+from signorini.model.varying import ArcLength, NodeValues, Varying, varying
 
 Place = str | tuple[float, ...]
 
 BODY_LOADS = ("body_force", "gravity", "centrifugal", "temperature")
-_LOAD_KINDS = ("force", "nodal_forces", "traction", "pressure", *BODY_LOADS)
+_LOAD_KINDS = ("force", "nodal_forces", "traction", "pressure", "bearing", *BODY_LOADS)
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,8 @@ class Support:
     Parameters
     ----------
     on : name of a boundary or node set, or the coordinates of a node
-    u : one entry per direction, length: a number prescribes it (times the step's factor), None leaves it free
+    u : one entry per direction, length: a number prescribes it (times the step's factor), None leaves it free; what
+        varies prescribes it node by node, see :class:`signorini.model.varying.Formula`
     name : what results and steps call it; the place by default
 
     Examples
@@ -36,12 +38,12 @@ class Support:
     """
 
     on: Place
-    u: tuple[float | None, ...]
+    u: tuple[Varying | None, ...]
     name: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "on", _place(self.on))
-        object.__setattr__(self, "u", components(self.u, ("u",)))
+        object.__setattr__(self, "u", _directions(self.u, ("u",), free=True))
         if all(part is None for part in self.u):
             raise InputError("leaves every component free; expected at least one number", where=("u",))
 
@@ -53,7 +55,7 @@ class Support:
     @property
     def moves(self) -> bool:
         """Whether any prescribed value differs from zero."""
-        return any(part for part in self.u)
+        return any(part is not None and part != 0.0 for part in self.u)
 
 
 @dataclass(frozen=True)
@@ -103,8 +105,11 @@ class Load:
         (all others)
     force : total force; a component None (in a deck "free") is left alone
     nodal_forces : (k, d) force of each of the k nodes of a node set, in ascending order
-    traction : force per area
-    pressure : force per area, positive when it pushes on the body
+    traction : force per area: a number or what varies for every direction, or a function of points (k, d) that gives
+        (k, d)
+    pressure : force per area, positive when it pushes on the body; a number or what varies
+    bearing : total force of a pin or ball in a hole, on a boundary: a pressure that goes with the cosine between the
+        force and the way into the body, where it pushes
     body_force : force per volume
     gravity : acceleration; times the density of the material
     centrifugal : angular velocity, angle per time, >= 0: ``density omega^2 r`` away from the axis. A step's factor
@@ -127,8 +132,9 @@ class Load:
     on: Place
     force: tuple[float | None, ...] | None = None
     nodal_forces: Array | None = None
-    traction: tuple[float, ...] | None = None
-    pressure: float | None = None
+    traction: tuple[Varying, ...] | Callable[[Array], Array] | None = None
+    pressure: Varying | None = None
+    bearing: tuple[float, ...] | None = None
     body_force: tuple[float, ...] | None = None
     gravity: tuple[float, ...] | None = None
     centrifugal: float | None = None
@@ -151,11 +157,15 @@ class Load:
             object.__setattr__(self, "force", components(self.force, ("force",)))
         if self.nodal_forces is not None:
             object.__setattr__(self, "nodal_forces", _rows(self.nodal_forces))
-        for key in ("traction", "body_force", "gravity", "centre", "axis"):
+        if self.traction is not None and not callable(self.traction):
+            object.__setattr__(self, "traction", _directions(self.traction, ("traction",), free=False))
+        for key in ("bearing", "body_force", "gravity", "centre", "axis"):
             if getattr(self, key) is not None:
                 object.__setattr__(self, key, vector(getattr(self, key), (key,)))
         if self.pressure is not None:
-            object.__setattr__(self, "pressure", number(self.pressure, ("pressure",)))
+            object.__setattr__(self, "pressure", varying(self.pressure, ("pressure",)))
+        if self.bearing is not None and not any(self.bearing):
+            raise InputError("is zero; expected a force", where=("bearing",))
         if self.centrifugal is not None:
             object.__setattr__(self, "centrifugal", number(self.centrifugal, ("centrifugal",), least=0.0))
         elif self.centre is not None or self.axis is not None:
@@ -163,7 +173,9 @@ class Load:
             raise InputError("goes with a centrifugal load only", where=(key,))
         if self.axis is not None and not any(self.axis):
             raise InputError("is zero; expected a direction", where=("axis",))
-        if self.temperature is not None and not callable(self.temperature):
+        if isinstance(self.temperature, str):
+            object.__setattr__(self, "temperature", varying(self.temperature, ("temperature",)))
+        elif self.temperature is not None and not callable(self.temperature):
             object.__setattr__(self, "temperature", _field(self.temperature))
 
     @property
@@ -180,6 +192,22 @@ class Load:
 def spell_place(on: Place) -> str:
     """A place as a name: itself, or ``point(0, 8)``."""
     return on if isinstance(on, str) else f"point({', '.join(f'{x:g}' for x in on)})"
+
+
+def _directions(value: Any, where: Where, *, free: bool) -> tuple[Varying | None, ...]:
+    """One entry a direction: a number, what varies, or None where that leaves it free."""
+    if isinstance(value, str) or not isinstance(value, Sequence) or not any(_varies(part) for part in value):
+        return components(value, where, free=free)
+    plain = components([0.0 if _varies(part) else part for part in value], where, free=free)
+    return tuple(varying(part, (*where, i)) if _varies(part) else plain[i] for i, part in enumerate(value))
+
+
+def _varies(part: Any) -> bool:
+    """Whether a component is no number and does not leave its direction free."""
+    if isinstance(part, str):
+        return part != "free"
+    array = isinstance(part, np.ndarray) and part.ndim > 0
+    return array or isinstance(part, NodeValues | ArcLength) or callable(part)
 
 
 def _field(values: Any) -> float | Array:

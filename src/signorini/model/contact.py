@@ -14,6 +14,7 @@ from signorini.checks import choice, number, text, vector, whole
 from signorini.errors import InputError, Where
 from signorini.law.friction import Coulomb, FrictionLaw
 from signorini.model.obstacle import Obstacle
+from signorini.model.varying import Varying, varying
 from signorini.model.wear import Wear
 
 COUPLINGS = ("auto", "nodes", "mortar", "node-to-segment")
@@ -39,8 +40,10 @@ class Contact:
     shear_limit : largest traction of friction, force per area, > 0: Coulomb's law with a limit, or Tresca's law with
         friction = "stick"; None (default) is no limit
     adhesion : traction that friction holds without pressure, force per area, >= 0; lost where the sides open
-    gap : "geometry"; "zero"; or one initial gap for every pair, length (negative: overlap)
-    interference : overlap that is added to it, length, positive presses the bodies together
+    gap : "geometry"; "zero"; or the initial gap, length (negative: overlap), a number or what varies over the side,
+        such as :class:`Formula`
+    interference : overlap that is added to it, length, positive presses the bodies together; a number, or what varies:
+        a crown of depth c(x) that the mesh has not is an interference of -c(x)
     normal_compliance, tangential_compliance : of the interface, length per pressure; 0 (default) is the exact law,
         ``1 / E_n`` and ``1 / E_tau`` the paper's penalties or a physical contact stiffness
     name : what results call it; the nonmortar side by default
@@ -72,8 +75,8 @@ class Contact:
     friction: float | tuple[float, float] | Literal["stick", "tied"] | Callable[[Array], Array] | FrictionLaw = 0.0
     shear_limit: float | None = None
     adhesion: float = 0.0
-    gap: float | Literal["geometry", "zero"] = "geometry"
-    interference: float = 0.0
+    gap: Varying | Literal["geometry", "zero"] = "geometry"
+    interference: Varying = 0.0
     normal_compliance: float = 0.0
     tangential_compliance: float = 0.0
     name: str = ""
@@ -92,13 +95,11 @@ class Contact:
             text(self.mortar, ("mortar",))
         self._check_law()
         self._check_cone()
-        if not isinstance(self.gap, str):
-            object.__setattr__(self, "gap", number(self.gap, ("gap",)))
-        elif self.gap not in ("geometry", "zero"):
-            raise InputError(f"is '{self.gap}'; expected 'geometry', 'zero' or a number", where=("gap",))
+        if not isinstance(self.gap, str) or self.gap not in ("geometry", "zero"):
+            object.__setattr__(self, "gap", self._given_gap())
         for key in ("normal_compliance", "tangential_compliance"):
             object.__setattr__(self, key, number(getattr(self, key), (key,), least=0.0))
-        object.__setattr__(self, "interference", number(self.interference, ("interference",)))
+        object.__setattr__(self, "interference", varying(self.interference, ("interference",)))
         choice(self.coupling, COUPLINGS, ("coupling",), "coupling")
         choice(self.side, ("named", "coarser"), ("side",), "side")
         choice(self.sliding, ("small", "finite"), ("sliding",), "sliding")
@@ -110,7 +111,7 @@ class Contact:
             self.check_alone()
         if self.tied:
             for key in ("interference", "normal_compliance", "tangential_compliance"):
-                if getattr(self, key):
+                if getattr(self, key) != 0.0:
                     raise InputError("is given, but a tied contact is neither pressed nor compliant", where=(key,))
         if self.adjust is not None and self.gap != "geometry":
             raise InputError("goes with gap = 'geometry' only", where=("adjust",))
@@ -118,6 +119,16 @@ class Contact:
             self._check_wear(self.wear)
         if self.sliding == "finite":
             self._check_sliding()
+
+    def _given_gap(self) -> Varying:
+        """An initial gap that is not that of the geometry."""
+        try:
+            return varying(self.gap, ("gap",))
+        except InputError as error:
+            if not isinstance(self.gap, str):
+                raise
+            words = "expected 'geometry', 'zero', a number or a formula"
+            raise InputError(f"is '{self.gap}'; {words}: {error.message}", where=("gap",)) from error
 
     def _check_wear(self, wear: Wear) -> None:
         """What wears slides, by friction that does work where the law is one of energy."""
@@ -175,6 +186,16 @@ class Contact:
             raise InputError(f"is {self.facets}; expected a multiple of 4, or 0 for the exact cone", where=("facets",))
         if self.facets and self.tied:
             raise InputError(f"is {self.facets}, but a tied contact has no friction cone", where=("facets",))
+
+    @property
+    def constant_interference(self) -> float:
+        """The interference, length, that steps may change; 0 where it varies over the side and stays as it is."""
+        return self.interference if isinstance(self.interference, float) else 0.0
+
+    def check_pressed(self, where: Where) -> None:
+        """Refuse another interference, asked for at ``where``, in place of one that varies over the side."""
+        if not isinstance(self.interference, float):
+            raise InputError("changes one that varies over the side; expected one that is a number", where=where)
 
     def check_bodies(self, yielding: Sequence[str]) -> None:
         """What goes with bodies some of which yield, by name.

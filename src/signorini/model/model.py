@@ -213,8 +213,9 @@ class Model(Short):
                     where=("load", i, "nodal_forces"),
                 )
         self._check_dimension(load.force, ("load", i, "force"), on=load.on)
-        for kind in ("traction", "body_force", "gravity", "centre"):
-            self._check_dimension(getattr(load, kind), ("load", i, kind))
+        for kind in ("traction", "bearing", "body_force", "gravity", "centre"):
+            if not callable(getattr(load, kind)):
+                self._check_dimension(getattr(load, kind), ("load", i, kind))
         if load.axis is not None and len(load.axis) != self.dimension:
             raise InputError(f"has {len(load.axis)} components; expected 3, in space", where=("load", i, "axis"))
         if load.axis is not None and self.dimension == 2:
@@ -316,9 +317,7 @@ class Model(Short):
         if on not in bodies and not len(self.mesh.nodes_of(on)):
             raise InputError(f"'{on}' is empty in the mesh", where=where)
 
-    def _check_dimension(
-        self, parts: Sequence[float | None] | None, where: tuple[str | int, ...], on: Place = ""
-    ) -> None:
+    def _check_dimension(self, parts: Sequence[object] | None, where: tuple[str | int, ...], on: Place = "") -> None:
         """Of a vector; a rigid body has rotations too."""
         rigid = any(on == body.name for body in self.rigid_bodies)
         expected = directions(self.dimension) if rigid else self.axes
@@ -376,6 +375,8 @@ class Model(Short):
                     raise InputError(f"'{name}' is tied for good; only contacts can change", where=("step", i, key))
         for name, value in step.friction.items():
             self.contacts[known.index(name)].check_change(value, ("step", i, "friction", name))
+        for name in step.interference:
+            self.contacts[known.index(name)].check_pressed(("step", i, "interference", name))
 
     def _check_support_names(self, i: int, step: Step) -> None:
         known = [support.label for support in self.supports]

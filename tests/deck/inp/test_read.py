@@ -367,3 +367,37 @@ def test_how_others_stabilise_is_left_out(tmp_path: Path) -> None:
     static = "*STATIC, STABILIZE=2E-4, FACTOR=2E-4, ALLSDTOL=0, CONTINUE=NO\n0.1, 1.\n"
     path.write_text(f"{MIXED}*STEP\n{static}*DLOAD\nA,P3,2.\n*END STEP\n")
     assert load_deck(path).model.steps[0].name == "step 1"
+
+
+CLEARANCE = "*CLEARANCE, SLAVE=Sslave, MASTER=Smaster, "
+
+
+def with_clearance(folder: Path, lines: str) -> Path:
+    path = folder / "clearance.inp"
+    path.write_text(TWO_BLOCKS.replace("*BOUNDARY\nBase", f"{CLEARANCE}{lines}\n*BOUNDARY\nBase"))
+    return path
+
+
+def test_clearances_are_given_by_node(tmp_path: Path) -> None:
+    one = sg.solve(sg.read(with_clearance(tmp_path, "VALUE=5.E-4"))).steps[0].contacts[0]
+    same = sg.solve(sg.read(with_clearance(tmp_path, "TABULAR\n11, 5.E-4\n12, 5.E-4\n13, 5.E-4"))).steps[0].contacts[0]
+    bent = sg.solve(sg.read(with_clearance(tmp_path, "TABULAR\n11, 2.\n12, 0.\n13, 2."))).steps[0].contacts[0]
+    assert one.pressure.tolist() == same.pressure.tolist()
+    assert bent.pressure.tolist()[::2] == [0.0, 0.0]
+    assert bent.pressure[1] > one.pressure[1]
+
+
+@pytest.mark.parametrize(
+    ("lines", "begins", "said"),
+    [
+        ("TABULAR\n11, 0.\n12, 0.", CLEARANCE, "gives node 13 of 'Sslave' no clearance"),
+        ("TABULAR\n11, 0., 0., 1.", "11, 0.", "has a normal beside the clearance, which is not supported"),
+        ("TABULAR", CLEARANCE, "has no data line; expected a node or a node set, and a clearance"),
+        ("TABULAR, VALUE=1.\n11, 0.", CLEARANCE, "has VALUE and TABULAR; expected one of them"),
+    ],
+)
+def test_a_table_of_clearances_is_whole(tmp_path: Path, lines: str, begins: str, said: str) -> None:
+    path = with_clearance(tmp_path, lines)
+    with pytest.raises(DeckError, match=said) as told:
+        load_deck(path)
+    assert path.read_text().splitlines()[told.value.line - 1].startswith(begins)

@@ -16,6 +16,7 @@ from signorini.deck.inp.keywords import look_up, of_keyword
 from signorini.deck.inp.known import Known
 from signorini.deck.inp.surfaces import DeckSurface
 from signorini.model.contact import Contact
+from signorini.model.varying import NodeValues
 
 _TYPES = ("", "NODE TO SURFACE", "SURFACE TO SURFACE", "MORTAR", "LINMORTAR", "PGLINMORTAR", "MASSLESS")
 IGNORED = (
@@ -130,17 +131,37 @@ def _adjusted(card: Card, slave: DeckSurface, known: Known) -> dict[str, Any]:
     return {"adjust": distance}
 
 
-def _clearances(cards: Sequence[Card], known: Known) -> dict[tuple[str, str], tuple[float, Card]]:
+def _clearances(cards: Sequence[Card], known: Known) -> dict[tuple[str, str], tuple[float | NodeValues, Card]]:
     """Gap of every pair of slave and master surface, and where it stands."""
-    found = {}
+    found: dict[tuple[str, str], tuple[float | NodeValues, Card]] = {}
     for card in of_keyword(cards, "CLEARANCE"):
-        card.refuse_unknown(("MASTER", "SLAVE", "VALUE"))
+        card.refuse_unknown(("MASTER", "SLAVE", "VALUE", "TABULAR"))
+        slave, master = named_sides(card, known, "a name")
+        if "TABULAR" in card.parameters:
+            found[slave, master] = _clearance_table(card, known.surfaces.find(slave, card), known), card
+            continue
         value = to_number(card.value("VALUE", "a distance"))
         if value is None:
             raise card.error(f"VALUE is '{card.value('VALUE')}'; expected a number")
-        slave, master = named_sides(card, known, "a name")
         found[slave, master] = value, card
     return found
+
+
+def _clearance_table(card: Card, slave: DeckSurface, known: Known) -> NodeValues:
+    """Gaps of the nodes of a slave surface, from rows of a node or set and a distance."""
+    if "VALUE" in card.parameters:
+        raise card.error("has VALUE and TABULAR; expected one of them")
+    card.row("a node or a node set, and a clearance")
+    values = np.full(len(known.grid.points), np.nan)
+    for row in card.rows():
+        if len(row.fields) > 2:
+            raise row.error("has a normal beside the clearance, which is not supported; expected a node and a distance")
+        values[known.nodes.find(row.text(0, "a node or a node set"), row)[1]] = row.number(1, "a clearance")
+    lacks = slave.nodes[np.isnan(values[slave.nodes])]
+    if len(lacks):
+        number = known.grid.nodes.labels[lacks[0]]
+        raise card.error(f"gives node {number} of '{slave.name}' no clearance; expected one at every node there")
+    return NodeValues(np.nan_to_num(values))
 
 
 def named_sides(card: Card, known: Known, what: str) -> tuple[str, str]:
