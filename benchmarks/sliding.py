@@ -80,9 +80,9 @@ def row(name: str, given: sg.Model, away_by: float) -> list[object]:
         return factorise(reduced, condensed.dofs, nodes=constraints.nodes, points=space.places)
 
     def pairing() -> object:
-        return paired_at(prepared.interface, space, model, constraints, away)
+        return paired_at(prepared.interface, space, model, constraints, prepared.frames, away)
 
-    interface = paired_at(prepared.interface, space, model, constraints, away)
+    interface = paired_at(prepared.interface, space, model, constraints, prepared.frames, away)
     whole, pairs, condensing = seconds(solved), seconds(pairing), seconds(lambda: paired(prepared, interface))
     stride = 2.0 * pairs + condensing
     sizes = [T.shape[1], len(interface), len(condensed.dofs)]

@@ -12,12 +12,14 @@ from signorini.arrays import Array
 from signorini.engine.duplicate_check import refuse_idle, refuse_same_contacts
 from signorini.engine.free_motion_check import left_out, refuse_free_motions
 from signorini.errors import InputError
+from signorini.fem.body_frames import BodyFrames
 from signorini.fem.links import linked_nodes
 from signorini.fem.loads import nodal_loads
 from signorini.fem.locking import refuse_locking
 from signorini.fem.rigid import ConnectedBody, connected_bodies, free_motions, rigid_motions
 from signorini.fem.space import Space, make_space
 from signorini.fem.supports import Constraints, make_constraints
+from signorini.fem.turning_bodies import turning_bodies
 from signorini.interface.interface import Interface, make_interface, pairs_of
 from signorini.model.model import Model
 from signorini.model.stage import Stage, Standing, stages
@@ -34,6 +36,7 @@ class Examined:
     loads : name to nodal forces at factor 1, each (dofs,)
     parts, motions : connected pieces and their rigid motions, (dofs, motions of all parts)
     floating : (motions, k) rigid motions that supports leave free and contact must hold
+    frames : of bodies that may turn by any angle
     loading : the most that its first step imposes, or steps before it did
     scale : the sizes that go with it
     """
@@ -46,6 +49,7 @@ class Examined:
     parts: tuple[ConnectedBody, ...]
     motions: sp.csr_array
     floating: Array
+    frames: BodyFrames
     loading: Loading
     scale: Scale
 
@@ -91,6 +95,7 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         parts=parts,
         motions=motions,
         floating=floating_motions(motions, constraints, interface),
+        frames=turning_bodies(space, model, parts),
         loading=loading,
         scale=data_scale(space, model, loading, interface),
     )

@@ -355,7 +355,7 @@ def _made(
     if condensed is None:
         with clock.phase("assembly"):
             reduced, relative = reduced_stiffness(K, T), sp.csr_array(interface.B @ T)
-            kept = sliding_unknowns(examined.space, examined.model, T)
+            kept = sliding_unknowns(examined.space, examined.model, examined.frames, T)
             bodies = FreeBodies(reduced, relative, examined.constraints.nodes, examined.space.places, kept)
             yields = examined.model.yields
             whole = iterates(bodies, interface, candidates=candidates, backend=backend, yields=yields)

@@ -16,6 +16,7 @@ from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart
 from signorini.engine.support_changes import support_forces
+from signorini.engine.turning import with_turned_loads
 from signorini.engine.validity_notes import step_notes
 from signorini.fem.obstacles import arm
 from signorini.law.states import OPEN, STICK
@@ -57,7 +58,7 @@ def step_result(
     spent = stored - stored_energy(prepared, before) + float(dissipated) + state.released - before.released
     spent += state.plastic_work - before.plastic_work
     layers = interface_energy(prepared, state)
-    loads, _ = applied(prepared, state.point)
+    loads, _ = applied(with_turned_loads(prepared, followed.turned_at), state.point)
     held = support_forces(prepared.constraints, state, loads)
     model = prepared.model
     springs = -0.5 * float(state.displacement @ prepared.constraints.foundation_forces(state.displacement))
@@ -66,7 +67,7 @@ def step_result(
         path=followed.path,
         finished=finished,
         events=followed.events,
-        displacement=frozen(prepared.space.at_nodes(state.displacement)),
+        displacement=frozen(_displacement(prepared, state)),
         external=frozen(_external(prepared, state, loads, held)),
         obstacles={
             obstacle.name: _rigid_result(prepared, j, state, state.external)
@@ -90,6 +91,11 @@ def step_result(
         notes=(*step_notes(prepared, followed), *((words,) if words else ())),
         yielding=_yielding(prepared, followed, float(stage.number - 1)),
     )
+
+
+def _displacement(prepared: Prepared, state: State) -> Array:
+    """(nodes, d) Displacement in space, of bodies that turn, too."""
+    return prepared.space.at_nodes(prepared.frames.displaced(state.displacement))
 
 
 def _yielding(prepared: Prepared, followed: FollowedPart, begin: float) -> Yielding | None:
@@ -156,9 +162,9 @@ def _external(prepared: Prepared, state: State, loads: Array, held: Array) -> Ar
     """(nodes, d) Loads and reactions; those of a rigid body at its node of no cell, if one is at its point."""
     model, constraints = prepared.model, prepared.constraints
     if not len(constraints.dependent):
-        return prepared.space.at_nodes(state.external)
+        return prepared.space.at_nodes(prepared.frames.in_space(state.external, state.displacement))
     force = np.where(constraints.alone | (constraints.free >= 0), loads, loads + held)
-    at_nodes = prepared.space.at_nodes(force).copy()
+    at_nodes = prepared.space.at_nodes(prepared.frames.in_space(force, state.displacement)).copy()
     loose = prepared.space.loose_nodes
     for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles)):
         here = loose[(model.mesh.points[loose] == np.array(body.point)).all(axis=1)]
@@ -229,7 +235,7 @@ def _instants(
             work=snapshot.state.work - followed.before.work + heat(snapshot.state) - begun
             if snapshot.worked
             else np.nan,
-            displacement=frozen(prepared.space.at_nodes(snapshot.state.displacement)) if snapshot.kept else None,
+            displacement=frozen(_displacement(prepared, snapshot.state)) if snapshot.kept else None,
             factors=dict(snapshot.state.point.factors),
             plastic=_plastic(
                 followed.before,

@@ -24,10 +24,11 @@ from signorini.engine.prepare import Prepared
 from signorini.engine.rubbing import rubbed, rubbing_of_states, set_loose
 from signorini.engine.solver import CondensedSolver
 from signorini.engine.step_parts import FollowedPart, StepPart, ending, joined, keep
+from signorini.engine.turning import first_share, refuse_turned, with_turned_loads
 from signorini.errors import InputError, SolveFailed
 from signorini.fem.boundary import boundary
 from signorini.interface.interface import Interface
-from signorini.interface.sliding import facing, paired_at, sliding_pairs
+from signorini.interface.sliding import facing, paired_at, sliding_pairs, spun
 from signorini.interface.worn_sides import worn_sides
 from signorini.law.states import OPEN
 from signorini.outcome import Outcome
@@ -37,6 +38,7 @@ _STRIDE = 0.25  # of the shortest facet: how far sides slide before pairs are ma
 _AHEAD = 0.1  # of a stride: more than what handing over moves
 _BENT = 2e-3  # of forces over the stiffness of the bodies: what gaps may differ in the middle of a stride
 _SHORTEST_MOVE = 0.125  # of a stride: what bodies move at least, however gaps bend
+_TURN = 0.1  # radians: what a body turns by in a stride at most, for loads keep their direction as it sees them
 _OVER = 1.5  # strides: one that turns out longer is gone again
 _GROWTH = 2.0  # of a stride over the one before it, in load
 _SHORTER = 8.0  # times: a stride that is lost is tried again
@@ -65,7 +67,7 @@ class _Pairing:
         prepared = part.prepared
         model, space, constraints = prepared.model, prepared.space, prepared.constraints
         try:
-            interface = paired_at(prepared.interface, space, model, constraints, displacement)
+            interface = paired_at(prepared.interface, space, model, constraints, prepared.frames, displacement)
         except InputError as error:
             words = f"{part.where} at {part.interval.low:.6%}: {error}"
             raise SolveFailed(words, status=Outcome.NOT_FOUND) from error
@@ -87,6 +89,7 @@ class Stride:
     prepared : with its pairs
     gaps : (2, n) at its ends between sides that are not worn, before anything moved as its pairs see the motion since
     followed : from the handing over to the end
+    middle : (dofs,) displacement in the middle of it, where it was expected
     end : pairs at its end, or where that was expected
     moved : (dofs,) displacement in it
     slid : the longest way of a pair that touches, in strides
@@ -97,6 +100,7 @@ class Stride:
     prepared: Prepared
     gaps: Array
     followed: FollowedPart
+    middle: Array
     end: _Pairing
     moved: Array
     slid: float
@@ -155,13 +159,13 @@ class _Walk:
         u, interval = now.before.displacement, now.interval
         middle = _Pairing.at(now, u + 0.5 * expected)
         end = _Pairing.at(now, u + expected) if expected.any() else middle
-        prepared = paired(now.prepared, middle.interface)
-        frames = self.part.prepared.interface if last is None else last.prepared.interface
+        prepared = with_turned_loads(paired(now.prepared, middle.interface), middle.displacement)
+        seen = self.seen_last(last, middle.displacement)
         behind, changed = list[FollowedPart](), 0.0
         begun = self.part.interval.within(interval.low) if interval.high > interval.low else 0.0
         done = self.part.interval.within(interval.high)
         first = middle.gap_before() + self.beyond(prepared, begun)
-        before = posed(prepared, now.before, frames, first)
+        before = posed(prepared, now.before, seen, first)
         if before.forces.any():
             passed = hand_over(prepared, before, now, _AHEAD * self.limit)
             changed = float(np.abs(passed.after.forces - before.forces).max() / np.abs(before.forces).max())
@@ -185,18 +189,38 @@ class _Walk:
         pressed = max(float(state.forces[0].sum()) for state in (before, after)) / prepared.scale.stiffness
         bent = np.abs(_bent(begin, middle, end)[touch]).max(initial=0.0) / (_BENT * pressed) if pressed > 0.0 else 0.0
         moved = after.displacement - u
+        turned_by = prepared.frames.turned(u, after.displacement) / _TURN
         # gaps of sides with corners jump, and no stride is short enough for that
-        shortened = min(float(bent) ** 0.5, float(np.abs(moved).max()) / (_SHORTEST_MOVE * self.limit))
+        shortened = min(float(bent) ** 0.5, prepared.space.farthest(moved) / (_SHORTEST_MOVE * self.limit))
         return Stride(
             part=replace(now, prepared=prepared),
             prepared=prepared,
             gaps=np.array([first - self.worn_gap(prepared, begun), gap - self.worn_gap(prepared, done)]),
             followed=joined([*behind, followed]),
+            middle=middle.displacement,
             end=end,
             moved=moved,
-            slid=max(_slid(prepared, before, after, own) / self.limit, shortened),
+            slid=max(_slid(prepared, before, after, own) / self.limit, shortened, turned_by),
             changed=changed,
         )
+
+    def seen_last(self, last: Stride | None, displacement: Array) -> Interface:
+        """Pairs of the last stride, or of the beginning, turned as bodies have turned to a displacement since then."""
+        frames = self.part.prepared.frames
+        if last is None:
+            return spun(self.part.prepared.interface, frames, displacement)
+        return spun(last.prepared.interface, frames, displacement, last.middle)
+
+    def arrived(self, last: Stride) -> Stride:
+        """The end of the part with the pairs, and the loads, of where bodies are that have turned."""
+        part, state = self.part, last.followed.after
+        at_end = replace(part, interval=replace(part.interval, low=part.interval.high), before=state)
+        place = _Pairing.at(at_end, state.displacement)
+        prepared = with_turned_loads(paired(part.prepared, place.interface), state.displacement)
+        gap = place.gap_before() + self.beyond(prepared, 1.0)
+        before = posed(prepared, state, self.seen_last(last, state.displacement), gap)
+        followed = hand_over(prepared, before, at_end, _AHEAD * self.limit)
+        return replace(last, followed=followed, prepared=prepared, middle=state.displacement)
 
     def worn(self, prepared: Prepared, before: State, followed: FollowedPart) -> FollowedPart:
         """A stride with what it has rubbed off the sides, and what gaps that grow by wear alone have set free."""
@@ -244,7 +268,7 @@ def follow_sliding(
     walk = _Walk(part=part, follow=follow, limit=limit, lost=none if lost is None else lost)
     behind: list[Stride] = [] if strides is None else strides
     first = len(behind)
-    rest, share = part, 1.0
+    rest, share = part, first_share(part.prepared, part.before.point, part.end, walk.limit)
     rate = np.zeros(len(part.before.displacement))
     while True:
         now = rest if share >= 1.0 else rest.cut(share, "handover")
@@ -262,27 +286,37 @@ def follow_sliding(
             share /= ceil(stride.slid)
             continue
         behind.append(stride)
+        if not part.prepared.model.axisymmetric:
+            _refuse_turned(part, behind[first:])
         if now is rest:
-            return _finished(part, behind[first:])
+            end = [walk.arrived(stride)] if part.prepared.frames else []
+            return _finished(part, [*behind[first:], *end])
         rest = rest.rest(now, stride.followed.after)
         wanted = length * min(_GROWTH, 1.0 / max(stride.slid, 1.0 / _GROWTH))
         share = 1.0 / max(1, ceil((rest.interval.high - rest.interval.low) / wanted - 1e-9))
 
 
+def _refuse_turned(part: StepPart, strides: list[Stride]) -> None:
+    """A body that may not turn has not turned far in the last of the strides."""
+    try:
+        refuse_turned(part.prepared, strides[-1].followed.after, part.where)
+    except SolveFailed as stop:
+        raise keep(stop, [done.followed for done in strides]) from None
+
+
 def _finished(part: StepPart, strides: list[Stride]) -> FollowedPart:
     """All strides as one; the state at the end refers to the pairs before anything moved, as that before does."""
     followed, changed = joined([stride.followed for stride in strides]), max(stride.changed for stride in strides)
-    nominal = part.prepared.interface
+    nominal, frames, last = part.prepared.interface, part.prepared.frames, strides[-1]
     own = sliding_pairs(part.prepared.model, nominal)
-    forces = np.where(
-        own, turned(followed.after.forces, strides[-1].prepared.interface, nominal), followed.after.forces
-    )
+    back = spun(last.prepared.interface, frames, np.zeros_like(last.middle), last.middle)
+    forces = np.where(own, turned(followed.after.forces, back, nominal), followed.after.forces)
     after = replace(followed.after, point=replace(followed.after.point, gap=part.end.gap), forces=forces)
     notes = followed.notes
     if changed > _SAID_FROM:
         words = f"pairs followed the bodies in {len(strides)} strides; handing over changed forces by {changed:.1e}"
         notes = (*notes, f"{words} of the largest at most")
-    return replace(followed, after=after, notes=notes)
+    return replace(followed, after=after, notes=notes, turned_at=last.middle if frames else np.zeros(0))
 
 
 def paired(prepared: Prepared, interface: Interface) -> Prepared:

@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from signorini.arrays import BoolArray
+from signorini.arrays import Array, BoolArray
 from signorini.attempt import MethodRun
 from signorini.engine.prepare import Prepared
 from signorini.errors import Interrupted, SolveFailed
@@ -198,6 +198,7 @@ class FollowedPart:
     events : of an exact path
     notes : what a reader should know of the way
     cycles : of sides that wear, as they were gone through; otherwise they are found in the snapshots
+    turned_at : (dofs,) displacement at which loads were last seen from bodies that turn; empty where none does
     """
 
     path: str
@@ -209,6 +210,7 @@ class FollowedPart:
     events: tuple[PairEvent, ...] = ()
     notes: tuple[str, ...] = ()
     cycles: tuple[Cycle, ...] = ()
+    turned_at: Array = field(default_factory=lambda: np.zeros(0))
 
 
 def lightened(followed: FollowedPart, *, every: bool, end: bool, heated: bool) -> FollowedPart:
@@ -242,6 +244,7 @@ def joined(behind: Sequence[FollowedPart]) -> FollowedPart:
         events=tuple(chain.from_iterable(followed.events for followed in behind)),
         notes=tuple(dict.fromkeys(chain.from_iterable(followed.notes for followed in behind))),
         cycles=tuple(chain.from_iterable(followed.cycles for followed in behind)),
+        turned_at=behind[-1].turned_at,
     )
 
 

@@ -17,6 +17,7 @@ from signorini.arrays import BoolArray, IntArray, extent
 from signorini.engine.examine import Examined
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart
+from signorini.engine.turning import turning_notes
 from signorini.fem.boundary import boundary
 from signorini.fem.rigid import ConnectedBody
 from signorini.law.states import OPEN
@@ -48,6 +49,7 @@ def step_notes(prepared: Prepared, followed: FollowedPart) -> Iterator[str]:
         yield from overlap_notes(prepared)
     yield from patch_notes(prepared, state)
     yield from large_notes(prepared, state)
+    yield from turning_notes(prepared, state)
     yield from flow_notes(prepared, state)
     yield from wear_notes(prepared, state)
 
@@ -174,7 +176,7 @@ def _layers(facets: list[IntArray], one: IntArray, two: IntArray, closed: BoolAr
 
 def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
     """Bodies that strain or turn by a quarter of their size, contacts that slip by a tenth of theirs."""
-    displacement = prepared.space.at_nodes(state.displacement)
+    displacement = prepared.space.at_nodes(prepared.frames.elastic(state.displacement))
     for part in prepared.parts:
         if part.kind == ConnectedBody.kind:
             change = float(np.linalg.norm(extent(displacement[part.nodes]))) / (2.0 * part.size)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
+import scipy.sparse as sp
 import skfem
 
 from signorini.arrays import Array, BoolArray, IntArray, among, extent, frozen
@@ -129,6 +130,15 @@ class Space:
         moved.__dict__["facets"] = self.facets
         return moved
 
+    def spins(self, rows: sp.csr_array) -> sp.csr_array:
+        """(k, 1 or 3) What rows (k, dofs) see of rotations of all nodes about the origin, by one radian each."""
+        x = self.mesh.points
+        if self.dimension == 2:
+            turned = [np.stack([-x[:, 1], x[:, 0]], axis=1)]
+        else:
+            turned = [np.cross(axis, x) for axis in np.eye(3)]
+        return sp.csr_array(rows[:, : x.size] @ np.stack([by.ravel() for by in turned], axis=1))
+
     @property
     def dimension(self) -> int:
         """Of space."""
@@ -195,6 +205,10 @@ class Space:
     def at_nodes(self, values: Array) -> Array:
         """Values of all dofs (dofs,) at the nodes, (nodes, d), without those of obstacles."""
         return values[: self.mesh.points.size].reshape(-1, self.dimension)
+
+    def farthest(self, displacement: Array) -> float:
+        """The longest way of a node of the mesh, of displacements (dofs,), in whatever direction, length."""
+        return float(np.linalg.norm(self.at_nodes(displacement), axis=1).max())
 
     def dofs(self, nodes: IntArray) -> IntArray:
         """Dofs of nodes, (..., d)."""

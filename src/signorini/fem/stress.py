@@ -13,6 +13,7 @@ from signorini.fem.elasticity import elasticities, elasticity
 from signorini.fem.kinematics import Group, Kinematics, groups, kinematics, mean_in_cells
 from signorini.fem.space import Space
 from signorini.fem.thermal import temperatures, thermal_strain
+from signorini.fem.turning_bodies import in_frames
 from signorini.model.model import Model
 from signorini.short import Short
 
@@ -63,11 +64,12 @@ def body_stresses(
     Parameters
     ----------
     space : of the model
-    displacement : (n, d), length
+    displacement : (n, d) in space, length; stresses of bodies that have turned are along its axes, too
     factors : load factors by name, for the temperatures; a model without any needs none
     plastic : plastic strains at the quadrature points, of every family (m, q, 4 or 6); none where nothing has flowed
     """
     temperature = temperatures(space, model, factors or {})
+    displacement, turns = in_frames(space, model, displacement)
 
     def at_best(group: Group) -> Array:
         return _cell_stresses(space, model, group, displacement, temperature, plastic or {})
@@ -77,6 +79,7 @@ def body_stresses(
     for body, (nodes, found) in zip(model.bodies, nodal_averages(space, model, at_best, components), strict=True):
         stress = np.zeros((len(nodes), 6))
         stress[:, :components] = found
+        stress = stress if turns is None else turned(stress, turns[nodes])
         result.append(BodyStress(body=body.name, nodes=nodes, stress=stress))
     return result
 
@@ -119,11 +122,12 @@ def point_stresses(
     displacement, factors, plastic : as :func:`body_stresses`
     """
     temperature = temperatures(space, model, factors or {})
+    displacement, turns = in_frames(space, model, displacement)
     for group in groups(space, model):
         found = _cell_stresses(space, model, group, displacement, temperature, plastic or {})
         stress = np.zeros((*found.shape[:2], 6))
         stress[..., : found.shape[2]] = found
-        yield group.numbers, stress
+        yield group.numbers, stress if turns is None else turned(stress, turns[group.cells[:, :1]])
 
 
 def point_strains(
@@ -146,6 +150,7 @@ def point_strains(
     the strain across.
     """
     temperature, kind = temperatures(space, model, factors or {}), "3d" if model.dimension == 3 else "plane strain"
+    displacement, turns = in_frames(space, model, displacement)
     C = np.linalg.inv(np.array([elasticity(body.material, kind) for body in model.bodies]))
     for group in groups(space, model):
         stress = _cell_stresses(space, model, group, displacement, temperature, plastic or {})
@@ -156,7 +161,29 @@ def point_strains(
         strain = np.zeros((*found.shape[:2], 6))
         strain[..., : found.shape[2]] = found if flowed is None else found + flowed
         strain[..., 3:] *= 0.5
-        yield group.numbers, strain
+        yield group.numbers, strain if turns is None else turned(strain, turns[group.cells[:, :1]])
+
+
+def turned(tensors: Array, turns: Array) -> Array:
+    """Symmetric tensors (..., 6) in other axes: ``R s R^T``.
+
+    Parameters
+    ----------
+    tensors : xx, yy, zz, xy, yz, xz
+    turns : (..., d, d) rotations R
+
+    Examples
+    --------
+    >>> turned(np.array([1.0, 0, 0, 0, 0, 0]), np.array([[0.0, -1.0], [1.0, 0.0]])).tolist()
+    [0.0, 1.0, 0.0, 0.0, 0.0, 0.0]
+    """
+    d = turns.shape[-1]
+    whole = np.zeros((*turns.shape[:-2], 3, 3))
+    whole[...] = np.eye(3)
+    whole[..., :d, :d] = turns
+    full = tensors[..., [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
+    found = whole @ full @ whole.swapaxes(-1, -2)
+    return np.asarray(found[..., [0, 1, 2, 0, 1, 0], [0, 1, 2, 1, 2, 2]] + 0.0)
 
 
 def at_best_points(group: Group, values: Mapping[str, Array]) -> Array | None:

@@ -120,7 +120,7 @@ def _facet_gaps(facing: _Facing) -> FacetGaps:
     gap = facing.gap(np.column_stack([overlaps.low, 0.5 * (overlaps.low + overlaps.high), overlaps.high]))
     order = np.lexsort([overlaps.low, overlaps.first])
     gap, (facet, start) = gap[order], np.unique(overlaps.first[order], return_index=True)
-    end = np.append(start[1:], len(order)) - 1
+    end = np.append(start[1:], len(order))[: len(start)] - 1
     return FacetGaps(
         corners=facing.own.corner_nodes[facet],
         ends=np.column_stack([gap[start, 0], gap[end, -1]]),

@@ -9,6 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.fem.body_frames import BodyFrames
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface, make_interface
@@ -20,12 +21,15 @@ def slides(model: Model) -> bool:
     return any(contact.slides for contact in model.contacts)
 
 
-def sliding_unknowns(space: Space, model: Model, transform: sp.csr_array) -> IntArray:
+def sliding_unknowns(space: Space, model: Model, frames: BodyFrames, transform: sp.csr_array) -> IntArray:
     """Free displacements of the nodes, and obstacles, of both sides of contacts that slide far, ascending.
+
+    Those that tell how their bodies turn are among them.
 
     Parameters
     ----------
     space, model : of the bodies and their contacts
+    frames : of those that turn
     transform : (dofs, z) what dofs are in terms of free displacements
     """
     dofs: list[IntArray] = [np.empty(0, np.int64)]
@@ -34,6 +38,7 @@ def sliding_unknowns(space: Space, model: Model, transform: sp.csr_array) -> Int
             if side in model.mesh.boundaries:
                 dofs.append(space.dofs(model.mesh.nodes_of(str(side))).ravel())
         dofs += [space.obstacle_dofs(j) for j, rigid in enumerate(model.obstacles) if rigid.name == contact.mortar]
+    dofs += [frame.reading.indices for frame in frames.frames]
     return np.unique(transform[np.concatenate(dofs)].indices)
 
 
@@ -49,18 +54,25 @@ def facing(interface: Interface) -> BoolArray:
 
 
 def paired_at(
-    interface: Interface, space: Space, model: Model, constraints: Constraints, displacement: Array
+    interface: Interface,
+    space: Space,
+    model: Model,
+    constraints: Constraints,
+    frames: BodyFrames,
+    displacement: Array,
 ) -> Interface:
     """The interface with contacts that slide far as their sides are opposite each other now; the others as they are.
 
     Its gaps are those of the bodies where they are: ``gap(u) = gap + B (u - displacement)`` for these contacts.
+    Contacts that stay are within one frame, or between bodies that do not turn: what they see is what it was.
 
     Parameters
     ----------
     interface : with the law of the moment; its pairs keep their number and order
     space, model : of the bodies before they move
     constraints : what supports hold: planes of symmetry
-    displacement : (dofs,) of the bodies, length
+    frames : of bodies that turn
+    displacement : (dofs,) of the bodies as their frames see them, length
 
     Raises
     ------
@@ -69,9 +81,12 @@ def paired_at(
     """
     contacts = [i for i, contact in enumerate(model.contacts) if contact.slides]
     own = sliding_pairs(model, interface)
-    found = make_interface(space.moved(displacement), model, constraints, contacts)
+    moved = space.moved(frames.displaced(displacement))
+    found = make_interface(moved, model, constraints, contacts)
     if found.directions == 3:
-        found = _along(found, interface.tangents[own, 0])
+        found = _along(found, spun(interface, frames, displacement).tangents[own, 0])
+    if frames:
+        found = replace(found, B=_seen_from_frames(found, moved, frames, displacement))
     arrays = {}
     for name in ("gap", "area", "normals", "tangents"):
         arrays[name] = getattr(interface, name).copy()
@@ -82,6 +97,48 @@ def paired_at(
     order = np.argsort(np.concatenate([np.flatnonzero(~rows), np.flatnonzero(rows)]))
     B = found.B if own.all() else sp.csr_array(sp.vstack([interface.B[~rows], found.B])[order])
     return replace(interface, B=B, moments=moments, **arrays)
+
+
+def _seen_from_frames(interface: Interface, moved: Space, frames: BodyFrames, displacement: Array) -> sp.csr_array:
+    """B of displacements as frames see them, for rows of derivatives by the places of nodes.
+
+    Both sides of a pair are where the nonmortar one is: across what is between them, a gap or what facets lie beside
+    the surfaces that they stand for, the mortar body goes on as its frame turns. So a rotation of all bodies together
+    moves no pair, and both forces of a pair have one line of action.
+
+    Parameters
+    ----------
+    interface : rows by places
+    moved : the bodies where they are
+    frames, displacement : as of `paired_at`
+    """
+    across, contact = moved.spins(interface.B), np.tile(interface.contact, interface.directions)
+    result = frames.tangent(interface.B, displacement)
+    for i in np.unique(interface.contact):
+        mortar = interface.sides[i].mortar
+        if mortar in moved.mesh.boundaries:
+            spin = frames.spin_of(moved.mesh.nodes_of(mortar), displacement)
+            own = sp.diags_array((contact == i).astype(np.float64))
+            result = result - sp.csr_array(own @ across) @ spin
+    return sp.csr_array(result)
+
+
+def spun(interface: Interface, frames: BodyFrames, to: Array, of: Array | None = None) -> Interface:
+    """The interface with the directions of its pairs turned as the bodies of its nonmortar sides turn.
+
+    Parameters
+    ----------
+    interface : as it is at one displacement
+    frames : of bodies that turn
+    to, of : (dofs,) the other displacement and the one; None: that of bodies that have not moved
+    """
+    if not frames:
+        return interface
+    turn = frames.turns(to)[interface.node]
+    if of is not None:
+        turn = turn @ frames.turns(of)[interface.node].swapaxes(1, 2)
+    normals = np.einsum("kij,kj->ki", turn, interface.normals)
+    return replace(interface, normals=normals, tangents=np.einsum("kij,kaj->kai", turn, interface.tangents))
 
 
 def _along(interface: Interface, first: Array) -> Interface:
