@@ -304,3 +304,19 @@ def test_a_contact_has_it_beside_another_with_coulombs_law():
         np.testing.assert_allclose(beside.pressure, alone.pressure, rtol=1e-9)
         np.testing.assert_allclose(beside.traction, alone.traction, rtol=1e-9, atol=1e-9)
         assert (beside.status == SLIP).any()
+
+
+def test_where_a_support_holds_all_its_pairs_a_body_in_space_moves_alone():
+    """The law of no pair at all knows its directions too."""
+    model = sg.Model(
+        sg.box(x=[0, 1], y=[0, 1], z=[0, 1]),
+        kind="3d",
+        bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.4))],
+        supports=[sg.Support("left", u=(0, 0, 0)), sg.Support("bottom", u=(None, None, 0))],
+        loads=[sg.Load("right", pressure=1.0)],
+        contacts=[sg.Contact("bottom", sg.Plane((0, 0, -1), (0, 0, 1)), friction=QuadraticFriction(0.4, 3.0))],
+        steps=[sg.Step(increments=1), sg.Step(scale={"right": 2.0})],
+    )
+    solution = sg.solve(model)
+    assert solution.solved
+    assert not solution.last.contacts[0].traction.any()

@@ -268,8 +268,8 @@ class CondensedSolver:
                 break
             with increment.clock.phase("recovery"):
                 before = moved[:, own], forces[:, own]
-                forces[:, own] = condensed.root * result.r.reshape(misfit.shape)  # a law without pairs knows no d
-                moved[:, own] = result.h.reshape(misfit.shape) / condensed.root
+                forces[:, own] = condensed.root * result.r
+                moved[:, own] = result.h / condensed.root
                 free = free + condensed.displacement(
                     reduced, moved[:, own] - before[0], forces[:, own] - before[1], misfit
                 )
@@ -281,7 +281,7 @@ class CondensedSolver:
                 ties.give(forces, tied)
                 residual += ties.B.T @ tied
                 misfit = (offset + interface.motion(u) - moved)[:, own] + condensed.compliance * forces[:, own]
-                misfit[1:][law.locked.reshape(misfit[1:].shape)] = 0.0
+                misfit[1:][law.locked] = 0.0
             lost = float(np.abs(misfit).max(initial=0.0))
             lack = np.abs(residual).max(initial=0.0) / scale.force if step < _REFINEMENTS else 0.0
             if max(lack, lost / scale.length) <= max(_BALANCED, increment.allowed_lack):
@@ -359,7 +359,9 @@ def _friction(condensed: Condensed, interface: Interface) -> dict[str, Any]:
     posed = interface.friction.among(active).posed(interface.area[active] / condensed.root)
     if interface.directions == 2:
         return posed
-    if not isinstance(posed["friction"], Bound):
+    if not active.any():
+        posed["friction"] = np.zeros((interface.directions - 1, 0))  # tells a law without pairs its directions
+    elif not isinstance(posed["friction"], Bound):
         posed["friction"] = posed["friction"] * interface.anisotropy[active].T
     return posed | {"facets": interface.facets[active]}
 

@@ -122,8 +122,10 @@ class ContactProblem:
 
     @cached_property
     def directions(self) -> int:
-        """Rows of a pair, d; 2 without pairs."""
-        return len(self.b) // self.pairs if self.pairs else 2
+        """Rows of a pair, d; without pairs as the friction says, 2 where it is a number a pair."""
+        if self.pairs:
+            return len(self.b) // self.pairs
+        return 2 if isinstance(self.friction, Bound) or self.friction.ndim == 1 else len(self.friction) + 1
 
     @property
     def floating(self) -> bool:
