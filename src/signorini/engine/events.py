@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 from typing import Literal
 
@@ -222,7 +223,14 @@ def _part_along(path: _Path) -> FollowedPart:
         snapshots=visited,
         events=_events(path),
         notes=tuple(f"{part.where}: {spent}" for spent in segment.spent),
+        until=partial(_until, path) if path.stops is None else None,
     )
+
+
+def _until(path: _Path, t: float) -> FollowedPart:
+    """The path up to the fraction t of its part, certified."""
+    shorter = path.segment.until(t * path.reached)
+    return _part_along(replace(path, segment=shorter, part=path.part.cut(t, "event")))
 
 
 def _landed(part: StepPart, state: State, landing: Landing) -> FollowedPart:

@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.engine.chord import Chord
-from signorini.engine.increments import advance
+from signorini.engine.chord import TOGETHER, Chord
+from signorini.engine.increments import glimpse
 from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, StepPart, joined, keep, reached
@@ -25,7 +25,7 @@ from signorini.errors import SolveFailed
 from signorini.outcome import Outcome
 from signorini.plasticity.bodies import YieldingBodies
 from signorini.plasticity.crossing import crossing
-from signorini.plasticity.measure import FlowViolation, deviator, fullness, violation, yield_stress
+from signorini.plasticity.measure import FlowViolation, fullness, relative_stress, violation, yield_stress
 from signorini.plasticity.radial_return import ROOT32
 from signorini.plasticity.state import PlasticState
 from signorini.solution.state import State
@@ -41,6 +41,7 @@ _SOON = 1e-3  # of a part: a point that flows by then flows from the start
 _YIELD_ROUNDS = 30  # of regula falsi: a few where contact grows, as pressures do with a power of the load
 _NEAR_YIELD = 1e-6  # of the yield stress: how near it the fullest point is where first yield is found
 _INSIDE = 1e-3  # of the bracket: how near its ends the next try may be
+_HERTZ = 2.0  # power of the stress that the load of a line contact grows with
 _AHEAD = 1.5  # times the load at which Hertz's line contact yields: so far ahead first yield is looked for
 _MOST_AHEAD = 0.5  # of a part: where that is more, all of it
 
@@ -67,11 +68,8 @@ def flows_at_once(part: StepPart) -> bool:
         return False
     calm = _frozen(part)
     point = part.before.point.towards(part.end, _SOON)
-    try:
-        state, _, _ = advance(calm.prepared, part.before, point, part.where)
-    except SolveFailed:
-        return True
-    return fullest(part.prepared, state) > 1.0 + _YIELD_TOL
+    u = glimpse(calm.prepared, part.before, point, part.where)
+    return u is None or fullest(part.prepared, replace(part.before, point=point, displacement=u)) > 1.0 + _YIELD_TOL
 
 
 def elastic_part(
@@ -101,7 +99,12 @@ def elastic_part(
         if ahead is part:
             return _below_yield(prepared, joined(behind), ELASTIC), None
         part = part.rest(ahead, followed.after)
-    reached_yield = _up_to_yield(ahead, found, elastically)
+    exactly = None if followed is None or lost is not None else followed.until
+
+    def again(cut: StepPart, factor: float) -> FollowedPart:
+        return elastically(_frozen(cut)) if exactly is None else exactly(factor)
+
+    reached_yield = _up_to_yield(ahead, found, again)
     if reached_yield is None:
         return (joined(behind) if behind else None), part
     cut, begun = reached_yield
@@ -111,16 +114,16 @@ def elastic_part(
 
 def _ahead(part: StepPart, tried: int) -> StepPart:
     """As much of a part as first yield may be in, more the more was tried: under a contact stresses grow as roots."""
-    try:
-        end, _, _ = advance(_frozen(part).prepared, part.before, part.end, part.where)
-    except SolveFailed:
+    u = glimpse(_frozen(part).prepared, part.before, part.end, part.where)
+    if u is None:
         return part
-    share = 4.0**tried * _AHEAD / max(fullest(part.prepared, end), 1.0) ** 2
+    end = replace(part.before, point=part.end, displacement=u)
+    share = 4.0**tried * _AHEAD / max(fullest(part.prepared, end), 1.0) ** _HERTZ
     return part if share > _MOST_AHEAD else part.cut(share, "event")
 
 
 def _up_to_yield(
-    part: StepPart, bracket: _Bracket, elastically: Callable[[StepPart], FollowedPart]
+    part: StepPart, bracket: _Bracket, elastically: Callable[[StepPart, float], FollowedPart]
 ) -> tuple[StepPart, FollowedPart] | None:
     """The part up to where its first point yields, and how it was followed; None where that is at its beginning.
 
@@ -136,7 +139,7 @@ def _up_to_yield(
         if factor <= AT_ONCE:
             break
         cut = part.cut(factor, "event")
-        begun = elastically(_frozen(cut))
+        begun = elastically(cut, factor)
         excess = fullest(part.prepared, begun.after) - 1.0
         if excess <= _YIELD_TOL:
             best = cut, begun
@@ -155,16 +158,22 @@ def _up_to_yield(
 
 
 def _by_power(one: tuple[float, float], two: tuple[float, float], aim: float) -> float | None:
-    """The load factor at which a power of it, through two of them with what exceeds 1 there, exceeds 1 by an aim."""
-    grown, stretched = (1.0 + two[1]) / (1.0 + one[1]), two[0] / one[0]
-    if min(grown, stretched) <= 0.0 or grown == 1.0:
-        return None
-    return float(two[0] * ((1.0 + aim) / (1.0 + two[1])) ** (np.log(stretched) / np.log(grown)))
+    """The load factor at which a power of it, through two of them with what exceeds 1 there, exceeds 1 by an aim.
+
+    Where one of them is nothing it is that of Hertz's line contact.
+    """
+    exponent = _HERTZ
+    if min(one[0], 1.0 + one[1]) > 0.0:
+        grown, stretched = (1.0 + two[1]) / (1.0 + one[1]), two[0] / one[0]
+        if min(grown, stretched) <= 0.0 or grown == 1.0:
+            return None
+        exponent = np.log(stretched) / np.log(grown)
+    return float(two[0] * ((1.0 + aim) / (1.0 + two[1])) ** exponent)
 
 
 def _below_yield(prepared: Prepared, followed: FollowedPart, note: str) -> FollowedPart:
     """What was followed elastically with a note, certified to leave no point beyond its yield stress."""
-    states = [*(shot.state for shot in followed.snapshots if shot.whole), followed.after]
+    states = [shot.state for shot in followed.snapshots if shot.whole]
     fullest = max((_still(prepared, state) for state in states), key=lambda found: found.excess)
     *others, last = followed.certificates
     certificates = (*others, replace(last, plastic=fullest))
@@ -221,11 +230,11 @@ class _Look(NamedTuple):
     full: Array
 
     @staticmethod
-    def at(prepared: Prepared, factor: float, state: State) -> _Look:
-        """A whole state at a fraction of the part."""
+    def at(prepared: Prepared, factor: float, state: State, limit: Array | None = None) -> _Look:
+        """A whole state at a fraction of the part; ``limit``: (p,) yield stresses, where they are known."""
         bodies, plastic = points_of(prepared, state)
         heat = bodies.heat(state.point.factors)
-        return _Look(factor, state, fullness(bodies, state.displacement, plastic, heat))
+        return _Look(factor, state, fullness(bodies, state.displacement, plastic, heat, limit))
 
     @property
     def excess(self) -> float:
@@ -236,15 +245,18 @@ class _Look(NamedTuple):
 def _first_yield(part: StepPart, followed: FollowedPart) -> _Bracket | None:
     """Where the first point yields on an elastic path; None where none does."""
     prepared, between = part.prepared, list[tuple[float, State]]()
-    varies = points_of(prepared, followed.before)[0].laws.varies  # then all states are whole
-    one = _Look.at(prepared, 0.0, followed.before)
+    bodies, plastic = points_of(prepared, followed.before)
+    varies = bodies.laws.varies  # then all states are whole
+    heat = bodies.heat(followed.before.point.factors)
+    limit = None if varies else yield_stress(bodies, plastic.equivalent, heat)
+    one = _Look.at(prepared, 0.0, followed.before, limit)
     for shot in followed.snapshots:
         here = part.interval.within(shot.fraction), shot.state
         if not shot.whole:
             between.append(here)
             continue
-        two = _Look.at(prepared, *here)
-        ends = (one, two) if varies else _between(prepared, one, two, between)
+        two = _Look.at(prepared, *here, limit)
+        ends = (one, two) if limit is None else _between(prepared, one, two, between, limit)
         found = None if ends is None else _crossed(prepared, *ends)
         if found is not None:
             return found
@@ -253,7 +265,7 @@ def _first_yield(part: StepPart, followed: FollowedPart) -> _Bracket | None:
 
 
 def _between(
-    prepared: Prepared, one: _Look, two: _Look, between: list[tuple[float, State]]
+    prepared: Prepared, one: _Look, two: _Look, between: list[tuple[float, State]], limit: Array
 ) -> tuple[_Look, _Look] | None:
     """The first state of a path with a point beyond its yield stress, after the one before it; None where none has.
 
@@ -262,45 +274,89 @@ def _between(
     prepared : the model
     one, two : whole states; only the second may have such a point
     between : states of the path between them, and where they are
+    limit : (p,) yield stresses
     """
     known = {-1: one, len(between): two}
     if between:
         parts = (np.array([factor for factor, _ in between]) - one.factor) / (two.factor - one.factor)
         chord = Chord.of(prepared, (one.state, two.state), parts, [state for _, state in between])
-        reach = _full_by_energy(prepared, one.state)
+        reach = _full_by_energy(prepared, limit)
     while True:
         beyond = next((i for i in sorted(known) if known[i].excess > _YIELD_TOL), None)
-        looks = [
-            (i + j) // 2
+        unsure = [
+            (i, j)
             for i, j in pairwise(i for i in sorted(known) if beyond is None or i <= beyond)
             if j > i + 1
             and (np.maximum(known[i].full, known[j].full) + reach * chord.energy(i, j) ** 0.5).max() > 1.0 + _YIELD_TOL
         ]
-        if not looks:
+        if not unsure:
             break
+        looks = []
+        if unsure[-1][1] == beyond:
+            i, _ = unsure.pop()
+            first = _behind_yield(known[i], known[beyond], [factor for factor, _ in between[i + 1 : beyond]])
+            looks = [k for k in (i + first, i + 1 + first) if i < k < beyond]
+            unsure.append((i, looks[0]))
+        looks = _spread(unsure, looks)
         for i, u in zip(looks, chord.displacements(np.array(looks)), strict=True):
             factor, state = between[i]
-            known[i] = _Look.at(prepared, factor, replace(state, displacement=u))
+            known[i] = _Look.at(prepared, factor, replace(state, displacement=u), limit)
     return None if beyond is None else (known[beyond - 1], known[beyond])
 
 
-def _full_by_energy(prepared: Prepared, state: State) -> Array:
+def _behind_yield(below: _Look, beyond: _Look, factors: list[float]) -> int:
+    """How many events come before first yield, where stresses grow with a power of the load.
+
+    Parameters
+    ----------
+    below, beyond : states between which a point begins to yield
+    factors : of the events between them, fractions of the part
+    """
+    guess = _by_power((below.factor, below.excess), (beyond.factor, beyond.excess), 0.0)
+    return len(factors) // 2 if guess is None else int(np.searchsorted(factors, guess))
+
+
+def _spread(between: list[tuple[int, int]], looks: list[int]) -> list[int]:
+    """As many events as are looked at together, in order: halves of intervals, and halves of these.
+
+    Parameters
+    ----------
+    between : the events on either side of each interval
+    looks : events that are looked at anyway
+    """
+    halved, chosen = list(between), set(looks)
+    for i, j in halved:  # grows meanwhile
+        if len(chosen) >= TOGETHER:
+            break
+        if j > i + 1:
+            k = (i + j) // 2
+            chosen.add(k)
+            halved += [(i, k), (k, j)]
+    return sorted(chosen)
+
+
+def _full_by_energy(prepared: Prepared, limit: Array) -> Array:
     """(p,) The most that energy E in the bodies adds to relative stresses over the yield stress, over the root of E.
 
     The deviator s at a point of volume w stores ``w s : s / 4 G``, which is no more than all of it.
+
+    Parameters
+    ----------
+    prepared : the model
+    limit : (p,) yield stresses
     """
-    bodies, plastic = points_of(prepared, state)
-    stress = np.sqrt(4.0 * bodies.laws.shear[bodies.body] / bodies.weights)
-    return np.asarray(ROOT32 * stress / yield_stress(bodies, plastic.equivalent, bodies.heat(state.point.factors)))
+    bodies = prepared.yielding
+    assert bodies is not None
+    return np.asarray(ROOT32 * np.sqrt(4.0 * bodies.laws.shear[bodies.body] / bodies.weights) / limit)
 
 
 def _crossed(prepared: Prepared, one: _Look, two: _Look) -> _Bracket | None:
     """Where a point yields on the straight way from one state to another; None where none does."""
     ends = one.state, two.state
     bodies, plastic = points_of(prepared, one.state)
-    relative = _relative(prepared, ends[0]), _relative(prepared, ends[1])
     heat = bodies.heat(ends[0].point.factors), bodies.heat(ends[1].point.factors)
-    found = crossing(bodies, relative, plastic.equivalent, heat)
+    stresses = [relative_stress(bodies, ends[k].displacement, plastic, heat[k]) for k in (0, 1)]
+    found = crossing(bodies, (stresses[0], stresses[1]), plastic.equivalent, heat)
     if found is None:
         return None
     low, length = one.factor, two.factor - one.factor
@@ -309,13 +365,6 @@ def _crossed(prepared: Prepared, one: _Look, two: _Look) -> _Bracket | None:
         high=(low + found.beyond * length, max(found.excess, two.excess) if found.beyond == 1.0 else found.excess),
         factor=low + found.part * length,
     )
-
-
-def _relative(prepared: Prepared, state: State) -> Array:
-    """(p, n) Deviators of the stresses less the back stresses."""
-    bodies, plastic = points_of(prepared, state)
-    stress = deviator(bodies, state.displacement, plastic.strain, bodies.heat(state.point.factors))
-    return stress - plastic.back.sum(axis=1)
 
 
 def _place(prepared: Prepared, state: State) -> str:

@@ -103,10 +103,52 @@ def advance(
     SolveFailed
         If there is no certified solution.
     """
+    increment = _asked(prepared, state, point, where, start=start, last=last)
+    answer = prepared.solver.solve(increment)
+    if not answer.solved:
+        raise _failure(prepared, answer, where)
+    new = _recovered(prepared, increment, answer, point)
+    sizes = (new.displacement, increment.imposed, state.displacement, point.gap)
+    farthest = max(float(np.abs(size).max(initial=0.0)) for size in sizes)
+    origin = None if len(prepared.flowed) else state.plastic
+    certificate = measured(prepared, new, state.tangential, origin)
+    if certificate.passed and answer.lost <= _LOST_DIGITS * farthest:
+        return new, certificate, answer.trace
+    if prepared.has_multipliers:
+        polished = _polished(prepared, increment, answer, min(prepared.scale.length, farthest))
+        new = new if polished is None else _recovered(prepared, increment, polished, point)
+    return new, certified(prepared, new, state.tangential, where, origin), answer.trace
+
+
+def glimpse(prepared: Prepared, state: State, point: LoadPoint, where: str) -> Array | None:
+    """(dofs,) Where one increment would bring the bodies, which nothing certifies; None where that is not found.
+
+    Parameters
+    ----------
+    prepared, state, point, where : as of `advance`
+    """
+    try:
+        increment = _asked(prepared, state, point, where)
+    except SolveFailed:
+        return None
+    answer = prepared.solver.solve(increment)
+    return prepared.constraints.transform @ answer.free + increment.imposed if answer.solved else None
+
+
+def _asked(
+    prepared: Prepared,
+    state: State,
+    point: LoadPoint,
+    where: str,
+    *,
+    start: Array | IntArray | None = None,
+    last: State | None = None,
+) -> Increment:
+    """What an increment asks of a solver, see `advance`."""
     _, imposed = applied(prepared, point)
     offset = np.concatenate([point.gap[None], -state.tangential]) + moved_by_supports(prepared, imposed)
     refuse_overlap(prepared, offset[0], where)
-    increment = Increment(
+    return Increment(
         system=prepared,
         f=free_load(prepared, point),
         offset=offset,
@@ -118,20 +160,6 @@ def advance(
         floating=bool(prepared.floating.shape[1]),
         clock=prepared.clock,
     )
-    answer = prepared.solver.solve(increment)
-    if not answer.solved:
-        raise _failure(prepared, answer, where)
-    new = _recovered(prepared, increment, answer, point)
-    sizes = (new.displacement, imposed, state.displacement, point.gap)
-    farthest = max(float(np.abs(size).max(initial=0.0)) for size in sizes)
-    origin = None if len(prepared.flowed) else state.plastic
-    certificate = measured(prepared, new, state.tangential, origin)
-    if certificate.passed and answer.lost <= _LOST_DIGITS * farthest:
-        return new, certificate, answer.trace
-    if prepared.has_multipliers:
-        polished = _polished(prepared, increment, answer, min(prepared.scale.length, farthest))
-        new = new if polished is None else _recovered(prepared, increment, polished, point)
-    return new, certified(prepared, new, state.tangential, where, origin), answer.trace
 
 
 def _recovered(prepared: Prepared, increment: Increment, answer: IncrementAnswer, point: LoadPoint) -> State:

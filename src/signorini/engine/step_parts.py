@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import Literal
@@ -199,6 +199,7 @@ class FollowedPart:
     notes : what a reader should know of the way
     cycles : of sides that wear, as they were gone through; otherwise they are found in the snapshots
     turned_at : (dofs,) displacement at which loads were last seen from bodies that turn; empty where none does
+    until : the same up to a fraction of it, where it is known without following it again
     """
 
     path: str
@@ -211,6 +212,7 @@ class FollowedPart:
     notes: tuple[str, ...] = ()
     cycles: tuple[Cycle, ...] = ()
     turned_at: Array = field(default_factory=lambda: np.zeros(0))
+    until: Callable[[float], FollowedPart] | None = None
 
 
 def lightened(followed: FollowedPart, *, every: bool, end: bool, heated: bool) -> FollowedPart:
@@ -227,7 +229,7 @@ def lightened(followed: FollowedPart, *, every: bool, end: bool, heated: bool) -
         last = i == len(followed.snapshots)  # a cycle may end here, which is judged by its plastic strains
         kept = shot.whole and (every or shot.what == "asked" or (end and last))
         shots.append(replace(shot, kept=True) if kept else shot if heated else shot.light(last))
-    return replace(followed, snapshots=tuple(shots))
+    return replace(followed, snapshots=tuple(shots), until=None)
 
 
 def joined(behind: Sequence[FollowedPart]) -> FollowedPart:
@@ -245,6 +247,7 @@ def joined(behind: Sequence[FollowedPart]) -> FollowedPart:
         notes=tuple(dict.fromkeys(chain.from_iterable(followed.notes for followed in behind))),
         cycles=tuple(chain.from_iterable(followed.cycles for followed in behind)),
         turned_at=behind[-1].turned_at,
+        until=behind[0].until if len(behind) == 1 else None,
     )
 
 

@@ -61,7 +61,8 @@ class MultifrontalFactorisation:
     def reduce(self, f: Array) -> Reduced:
         """Eliminate the interior of a load."""
         y = np.ascontiguousarray(as_columns(f, self.n).T[:, self.plan.order])
-        self._solve(_fronts.forward, y)
+        if y.any():
+            self._solve(_fronts.forward, y)
         g = np.empty((self.m, len(y)))
         g[self.slots] = y[:, self.n - self.m :].T
         return Reduced(like(f, g), lambda u_c: self._expand(f, y.copy(), u_c))

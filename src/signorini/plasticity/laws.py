@@ -137,14 +137,12 @@ def stress_in_tables(
     rows, strain, stress, beyond : of `YieldLaws`, rows and slope those of the body
     body, p, level : as there
     """
-    last = strain[body, rows - 1]
-    if p >= last:
-        return stress_in_row(stress, body, rows - 1, level) + beyond * (p - last), beyond
-    i = 0
-    while p >= strain[body, i + 1]:
+    i, last = 0, rows - 1
+    while i < last and p >= strain[body, i + 1]:
         i += 1
-    low = stress_in_row(stress, body, i, level)
-    slope = (stress_in_row(stress, body, i + 1, level) - low) / (strain[body, i + 1] - strain[body, i])
+    low, slope = stress_in_row(stress, body, i, level), beyond
+    if i < last:
+        slope = (stress_in_row(stress, body, i + 1, level) - low) / (strain[body, i + 1] - strain[body, i])
     return low + slope * (p - strain[body, i]), slope
 
 
@@ -158,9 +156,15 @@ def yield_stresses(laws: YieldLaws, body: IntArray, p: Array, level: Array) -> A
     p, level : (p,) equivalent plastic strains and places of the temperature, see `yield_stress_at`
     """
     found, rows, strain, stress, beyond = np.empty(len(p)), laws.rows, laws.strain, laws.stress, laws.beyond
-    for i in range(len(p)):
-        j = body[i]
-        found[i], _ = stress_in_tables(rows[j], strain, stress, beyond[j], j, p[i], level[i])
+    for i in range(len(p)):  # `stress_in_tables` without a call for each point, which would count its arrays
+        j, row = body[i], 0
+        last = rows[j] - 1
+        while row < last and p[i] >= strain[j, row + 1]:
+            row += 1
+        low, slope = stress_in_row(stress, j, row, level[i]), beyond[j]
+        if row < last:
+            slope = (stress_in_row(stress, j, row + 1, level[i]) - low) / (strain[j, row + 1] - strain[j, row])
+        found[i] = low + slope * (p[i] - strain[j, row])
     return found
 
 

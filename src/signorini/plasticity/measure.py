@@ -7,17 +7,20 @@ Nothing here comes from the solver but its answer: the certificate rests on it.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
+from numba import njit
 
-from signorini.arrays import Array
+from signorini.arrays import Array, IntArray
 from signorini.plasticity.bodies import YieldingBodies
-from signorini.plasticity.laws import Heat, yield_stresses
+from signorini.plasticity.laws import Heat, YieldLaws, yield_stresses
 from signorini.plasticity.radial_return import ROOT32
 from signorini.plasticity.state import PlasticState
 
-_MEAN = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]) / 3.0  # of the components xx, yy, zz: products with BLAS are fastest
 _TIMES = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])  # that components stand in a tensor
+_NO_BACK = np.zeros((0, 0, 0))
+_TINY = float(np.finfo(np.float64).tiny)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,6 +39,19 @@ class FlowViolation:
     flow: float
     consistency: float
     dissipation: float
+
+
+class Flowed(NamedTuple):
+    """Plastic strain, equivalent plastic strain and back stresses of points; a named tuple, for compiled loops.
+
+    Attributes
+    ----------
+    strain, equivalent, back : (p, n), (p,) and (p, M, n), as of `PlasticState`
+    """
+
+    strain: Array
+    equivalent: Array
+    back: Array
 
 
 def full_strains(bodies: YieldingBodies, u: Array, plastic: Array, heat: Heat) -> Array:
@@ -64,12 +80,19 @@ def deviator(bodies: YieldingBodies, u: Array, plastic: Array, heat: Heat) -> Ar
     ----------
     bodies, u, plastic, heat : as of `full_strains`
     """
-    stress = full_strains(bodies, u, plastic, heat)
-    stress -= plastic
-    stress[:, :3] -= (stress @ _MEAN[: stress.shape[1]])[:, None]
-    stress[:, 3:] *= 0.5
-    stress *= 2.0 * bodies.laws.shear[bodies.body][:, None]
-    return stress
+    return _relative(full_strains(bodies, u, plastic, heat), plastic, _NO_BACK, bodies.laws.shear, bodies.body)
+
+
+def relative_stress(bodies: YieldingBodies, u: Array, state: PlasticState, heat: Heat) -> Array:
+    """(p, n) Deviators of the stresses less the back stresses, tensors.
+
+    Parameters
+    ----------
+    bodies, u, heat : as of `full_strains`
+    state : of the points
+    """
+    strain = full_strains(bodies, u, state.strain, heat)
+    return _relative(strain, state.strain, state.back, bodies.laws.shear, bodies.body)
 
 
 def yield_stress(bodies: YieldingBodies, equivalent: Array, heat: Heat) -> Array:
@@ -84,16 +107,18 @@ def yield_stress(bodies: YieldingBodies, equivalent: Array, heat: Heat) -> Array
     return yield_stresses(bodies.laws, bodies.body, equivalent, heat.level)
 
 
-def fullness(bodies: YieldingBodies, u: Array, state: PlasticState, heat: Heat) -> Array:
+def fullness(bodies: YieldingBodies, u: Array, state: PlasticState, heat: Heat, limit: Array | None = None) -> Array:
     """(p,) Relative stress over the yield stress: 1 where a point is about to flow.
 
     Parameters
     ----------
     bodies, u, heat : as of `full_strains`
     state : of the points
+    limit : (p,) their yield stresses, where they are known
     """
-    relative = deviator(bodies, u, state.strain, heat) - state.back.sum(axis=1)
-    return ROOT32 * size(relative) / yield_stress(bodies, state.equivalent, heat)
+    limit = yield_stress(bodies, state.equivalent, heat) if limit is None else limit
+    strain = full_strains(bodies, u, state.strain, heat)
+    return ROOT32 * _sizes(strain, state.strain, state.back, bodies.laws.shear, bodies.body) / limit
 
 
 def violation(bodies: YieldingBodies, u: Array, old: PlasticState, new: PlasticState, heat: Heat) -> FlowViolation:
@@ -104,29 +129,10 @@ def violation(bodies: YieldingBodies, u: Array, old: PlasticState, new: PlasticS
     bodies, u, heat : as of `full_strains`, at the new state
     old, new : states
     """
-    laws, own = bodies.laws, bodies.body
-    relative = deviator(bodies, u, new.strain, heat) - new.back.sum(axis=1)
-    length, limit = size(relative), yield_stress(bodies, new.equivalent, heat)
-    unit = relative / np.maximum(length, np.finfo(np.float64).tiny)[:, None]
-    grown = new.equivalent - old.equivalent
-    step = new.strain - old.strain
-    step[:, 3:] *= 0.5
-    strain = limit / (2.0 * laws.shear[own])
-    off = size(step - ROOT32 * grown[:, None] * unit) / strain
-    law = laws.back[own][..., None], laws.recovery[own][..., None]
-    kept = new.back * (1.0 + law[1] * grown[:, None, None])
-    drift = kept - old.back - 2.0 / 3.0 * law[0] * (ROOT32 * grown[:, None] * unit)[:, None]
-    drifted = np.sqrt((drift**2).sum(axis=-1)).max(axis=1, initial=0.0) / limit
-    power = inner(relative, step) / (limit * strain)
-    short = 1.0 - ROOT32 * length / limit
-    return FlowViolation(
-        excess=float(np.max(-short, initial=0.0)),
-        flow=float(max(off.max(initial=0.0), drifted.max(initial=0.0))),
-        consistency=float(
-            max(np.max(np.abs(grown * short) / strain, initial=0.0), np.max(-grown / strain, initial=0.0))
-        ),
-        dissipation=float(max(-power.min(initial=0.0), 0.0)),
-    )
+    relative, limit = relative_stress(bodies, u, new, heat), yield_stress(bodies, new.equivalent, heat)
+    before, after = (Flowed(state.strain, state.equivalent, state.back) for state in (old, new))
+    excess, flow, consistency, dissipation = _lacks(bodies.laws, bodies.body, relative, limit, before, after)
+    return FlowViolation(excess=excess, flow=flow, consistency=consistency, dissipation=dissipation)
 
 
 def plastic_work(
@@ -200,3 +206,91 @@ def size(tensor: Array) -> Array:
     """Norms of tensors (..., n) whose shear components stand once."""
     result: Array = np.sqrt(inner(tensor, tensor))
     return result
+
+
+@njit(cache=True, inline="always", error_model="numpy")
+def _relative_at(strain: Array, plastic: Array, back: Array, shear: float, i: int, out: Array) -> float:
+    """Relative stress of point i, written to out (n,), and its size; arguments as of `_relative`."""
+    mean, square = 0.0, 0.0
+    for c in range(3):
+        mean += (strain[i, c] - plastic[i, c]) / 3.0
+    for c in range(len(out)):
+        x = strain[i, c] - plastic[i, c]
+        x = 2.0 * shear * (x - mean) if c < 3 else shear * x
+        for k in range(back.shape[1]):
+            x -= back[i, k, c]
+        out[c] = x
+        square += x * x if c < 3 else 2.0 * x * x
+    return float(np.sqrt(square))
+
+
+@njit(cache=True, error_model="numpy")
+def _relative(strain: Array, plastic: Array, back: Array, shear: Array, body: IntArray) -> Array:
+    """(p, n) Relative stresses.
+
+    Parameters
+    ----------
+    strain, plastic : (p, n) strains
+    back : (p, M, n) back stresses
+    shear, body : (b,) shear moduli, (p,) body of every point
+    """
+    out = np.empty(strain.shape)
+    for i in range(len(body)):
+        _relative_at(strain, plastic, back, shear[body[i]], i, out[i])
+    return out
+
+
+@njit(cache=True, error_model="numpy")
+def _sizes(strain: Array, plastic: Array, back: Array, shear: Array, body: IntArray) -> Array:
+    """(p,) Sizes of the relative stresses, see `_relative`."""
+    room, out = np.empty(strain.shape[1]), np.empty(len(body))
+    for i in range(len(body)):
+        out[i] = _relative_at(strain, plastic, back, shear[body[i]], i, room)
+    return out
+
+
+@njit(cache=True, error_model="numpy")
+def _lacks(
+    laws: YieldLaws, body: IntArray, relative: Array, limit: Array, old: Flowed, new: Flowed
+) -> tuple[float, float, float, float]:
+    """The largest of `FlowViolation` over all points; what is not a number stays one.
+
+    Parameters
+    ----------
+    laws, body : material data, and the body of every point
+    relative, limit : (p, n) relative stresses and (p,) yield stresses at the new state
+    old, new : the states
+    """
+    excess, flow, consistency, dissipation, n = 0.0, 0.0, 0.0, 0.0, relative.shape[1]
+    for i in range(len(body)):
+        j, square = body[i], 0.0
+        for c in range(n):
+            square += relative[i, c] ** 2 * (1.0 if c < 3 else 2.0)
+        length = np.sqrt(square)
+        over, strain = 1.0 / max(length, _TINY), limit[i] / (2.0 * laws.shear[j])
+        grown = new.equivalent[i] - old.equivalent[i]
+        off, power = 0.0, 0.0
+        for c in range(n):
+            weight = 1.0 if c < 3 else 2.0
+            step = (new.strain[i, c] - old.strain[i, c]) / weight
+            off += weight * (step - ROOT32 * grown * over * relative[i, c]) ** 2
+            power += weight * relative[i, c] * step
+        flow = _larger(flow, np.sqrt(off) / strain)
+        for k in range(new.back.shape[1]):
+            drift = 0.0
+            for c in range(n):
+                law = old.back[i, k, c] + 2.0 / 3.0 * laws.back[j, k] * ROOT32 * grown * over * relative[i, c]
+                kept = new.back[i, k, c] * (1.0 + laws.recovery[j, k] * grown)
+                drift += (kept - law) ** 2 * (1.0 if c < 3 else 2.0)
+            flow = _larger(flow, np.sqrt(drift) / limit[i])
+        short = 1.0 - ROOT32 * length / limit[i]
+        excess = _larger(excess, -short)
+        consistency = _larger(_larger(consistency, abs(grown * short) / strain), -grown / strain)
+        dissipation = _larger(dissipation, -power / (limit[i] * strain))
+    return excess, flow, consistency, dissipation
+
+
+@njit(cache=True, inline="always")
+def _larger(one: float, two: float) -> float:
+    """The larger of two numbers, or what is none."""
+    return two if two > one or np.isnan(two) else one

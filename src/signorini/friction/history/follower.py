@@ -81,7 +81,7 @@ class PathFollower(ABC):
                 raise InputError("has entries that are not finite", where=(name,))
         self.now, self.factor, self.residual = start, 0.0, 0.0
         self.events: list[Event] = []
-        self.pieces = [Breakpoint(factor=0.0, h=start.h, r=start.r)]
+        self.pieces = [Breakpoint(factor=0.0, h=start.h, r=start.r, state=start)]
         self.acting: IntArray = np.zeros(0, dtype=np.int64)
         self.spent: list[Spent] = []
         most = self.settings.solver.path_increments

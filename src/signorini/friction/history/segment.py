@@ -3,8 +3,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from bisect import bisect_left
+from dataclasses import dataclass, replace
 from typing import Literal
+
+import numpy as np
 
 from signorini.arrays import Array
 from signorini.attempt import Spent
@@ -41,7 +44,7 @@ class Breakpoint:
     ----------
     factor : part of the segment behind
     h, r : (d, n) as in `PathState`
-    state : the whole state, in space, where a piece is an increment
+    state : the whole state
     tried : increments tried to find where it ends, in space
     """
 
@@ -113,3 +116,30 @@ class Segment:
     def followed(self) -> bool:
         """Whether the end of the segment was reached."""
         return self.outcome == Outcome.FOLLOWED
+
+    def until(self, factor: float) -> Segment:
+        """The segment in the plane up to a part of it, 0 < factor <= that of its end: inside a piece all is linear."""
+        i = max(1, bisect_left([piece.factor for piece in self.pieces], factor))
+        one, two = self.pieces[i - 1], self.pieces[i]
+        before, after = one.state, two.state
+        assert before is not None
+        assert after is not None
+        part = (factor - one.factor) / (two.factor - one.factor)
+
+        def between(start: Array, end: Array) -> Array:
+            return (1.0 - part) * start + part * end
+
+        r, friction, whole = between(one.r, two.r), one.r[1], one.r[1] + two.r[1]
+        # friction grows linearly with the slip that it works on
+        spent = part * np.divide(friction + r[1], whole, out=np.zeros_like(whole), where=whole != 0.0)
+        end = replace(
+            after,
+            b=between(before.b, after.b),
+            h=between(one.h, two.h),
+            r=r,
+            slip=between(before.slip, after.slip),
+            dissipation=before.dissipation + spent * (after.dissipation - before.dissipation),
+        )
+        last = Breakpoint(factor=factor, h=end.h, r=end.r, state=end)
+        events = tuple(event for event in self.events if event.factor < factor)
+        return replace(self, end=end, events=events, pieces=(*self.pieces[:i], last))
