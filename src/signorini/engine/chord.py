@@ -16,7 +16,7 @@ from signorini.arrays import Array, IntArray
 from signorini.engine.prepare import Prepared
 from signorini.solution.state import State
 
-TOGETHER = 16
+LOOKS_TOGETHER = 16
 """Displacements found at a time: so many right-hand sides take about twice as long as one."""
 
 
@@ -82,8 +82,8 @@ class Chord:
         condensed, T = self.prepared.paths.condensed, self.prepared.constraints.transform
         one, two = (end.displacement for end in self.ends)
         found = []
-        for first in range(0, len(which), TOGETHER):
-            own = which[first : first + TOGETHER]
+        for first in range(0, len(which), LOOKS_TOGETHER):
+            own = which[first : first + LOOKS_TOGETHER]
             none = condensed.reduce(np.zeros((T.shape[1], len(own))))
             offset = np.zeros_like(condensed.compliance)
             off = T @ condensed.displacement(none, self.moved[..., own], self.forces[..., own], offset)

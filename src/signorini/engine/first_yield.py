@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.engine.chord import TOGETHER, Chord
+from signorini.engine.chord import LOOKS_TOGETHER, Chord
 from signorini.engine.increments import glimpse
 from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.prepare import Prepared
@@ -326,7 +326,7 @@ def _spread(between: list[tuple[int, int]], looks: list[int]) -> list[int]:
     """
     halved, chosen = list(between), set(looks)
     for i, j in halved:  # grows meanwhile
-        if len(chosen) >= TOGETHER:
+        if len(chosen) >= LOOKS_TOGETHER:
             break
         if j > i + 1:
             k = (i + j) // 2

@@ -6,8 +6,10 @@ import functools
 import numpy as np
 import pytest
 
+from signorini.friction.history import follow
 from signorini.gallery.blocks import dragged_block
 from signorini.gallery.cylinder import zhu_cylinder
+from signorini.law.states import STICK
 from tests.helpers.path_samples import increments, loads_at_breakpoints
 from tests.helpers.prepared_paths import PreparedPath
 
@@ -97,3 +99,23 @@ def test_a_block_pushed_too_hard_slides():
     assert push.outcome == "jump"
     assert push.jump.gross_sliding
     assert push.jump.factor == pytest.approx(0.1 * 4.0 / (0.3 * 2.0), rel=1e-10)
+
+
+@pytest.mark.parametrize("part", [0.03, 0.51, 0.999])
+def test_a_segment_cut_short_is_the_one_to_a_smaller_load(part):
+    """Unloading, where pairs turn their slip, open and stick."""
+    path = cylinder(2)
+    loaded = run(path, 1.0)[0].end
+    way = [path.load({"cut": load}) for load in (1.0, 0.0)]
+    whole = follow(path.problem, loaded, way[1])
+    shorter = follow(path.problem, loaded, (1.0 - part) * way[0] + part * way[1])
+    cut = whole.until(part)
+    for name in ("b", "h", "r", "slip", "dissipation"):
+        one, two = (getattr(segment.end, name) for segment in (cut, shorter))
+        np.testing.assert_allclose(one, two, rtol=0, atol=1e-12 * np.abs(two).max(), err_msg=name)
+    held = shorter.end.state == STICK
+    np.testing.assert_array_equal(cut.end.state, shorter.end.state)
+    np.testing.assert_allclose(cut.end.anchor[:, held], shorter.end.anchor[:, held], rtol=0, atol=1e-12)
+    assert [event.pairs for event in cut.events] == [event.pairs for event in shorter.events]
+    assert len(cut.events) <= len(whole.events)
+    assert cut.events or part < 0.1
