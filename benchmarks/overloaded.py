@@ -9,11 +9,12 @@ steps; matching or not; paths as they come, exact, in a few increments, jumps fo
 bracket of the examples under several times what its friction holds, lifted, on other ways of stepping; decks of the
 tests under many times their loads; cubes of up to 289 pairs and some ten thousand unknowns that slide and turn.
 
-Every model ends certified, proved (no equilibrium), named (a jump or gross sliding, with its load), or in nothing. Its
-price is the work on the law of contact in factorisations: operations of Newton's systems, their iterations, sweeps,
-held interfaces and linear programmes over those of one factorisation, the sparse one or a dense one of all rows of the
-pairs, whichever takes more. CPU seconds of models so small count how often Python is asked. With --page the table of
-how they ended goes into docs/three_dimensions.md.
+Every model ends certified, proved (no equilibrium), named (a jump or gross sliding, with its load), or in nothing. What
+it takes is counted twice. Factorisations of the stiffness of its bodies, sparse, which is what a large model pays for.
+And work on the interface, dense matrices of as many rows as its pairs have: the factorisations among it, and all of it
+as a price (Newton systems, their iterations, sweeps, held interfaces, linear programmes), operations over those of one
+factorisation, the sparse one or a dense one of all rows of the pairs, whichever takes more. CPU seconds of models so
+small count how often Python is asked. With --page the table of how they ended goes into docs/three_dimensions.md.
 """
 
 from __future__ import annotations
@@ -42,13 +43,17 @@ from signorini.friction.history import rates
 from signorini.friction.history.space import find_rates as space_rates
 from signorini.friction.history.space import sticking_response as held
 from signorini.friction.space import proximal
-from signorini.linalg import multifrontal
+from signorini.linalg import _fronts, multifrontal
 from signorini.meshing.solid import box
 from signorini.model.mesh import join
 
 ROOT = Path(__file__).parents[1]
 FAMILIES = ("block on plane", "block on block", "stack", "slab", "wedge", "tall block")
 SEED = 1993
+HEADS = (
+    *("ended", "models", "most factorisations of bodies", "median of dense ones", "most"),
+    *("median price", "largest price", "median CPU s", "largest CPU s"),
+)
 FRICTION = (0.05, 0.1, 0.3, 0.6, 1.0, 2.0, 4.0)
 
 
@@ -186,6 +191,7 @@ def counted() -> Iterator[Work]:
         wrapped(held.StickingResponse, "of", held_form),
         wrapped(space_rates, "_complementary", lambda a, _k, _f: 2.0 / 3.0 * len(a[1]) ** 3),
         wrapped(multifrontal, "analyse", planned),
+        wrapped(_fronts, "factorise_fronts", lambda _a, _k, _f: 0.0),
     ):
         yield work
 
@@ -284,7 +290,6 @@ def row_of(model: sg.Model, number: str, limit: float) -> dict[str, Any]:
         "pairs": 0,
         "price": 0.0,
         "seconds": 0.0,
-        "ratio": 0.0,
     }
     start, ended = time.process_time(), "nothing"
     with counted() as work:
@@ -313,7 +318,8 @@ def row_of(model: sg.Model, number: str, limit: float) -> dict[str, Any]:
     row["seconds"] = time.process_time() - start
     dense = 2.0 / 3.0 * (3.0 * row["pairs"]) ** 3
     row["price"] = work.law / max(work.sparse, dense, 1.0)
-    row["ended"], row["counts"] = ended, dict(work.counts)
+    row["ended"], row["bodies"] = ended, work.counts["factorise_fronts"]
+    row["dense"] = work.counts["linear_system"] + work.counts["of"]
     return row
 
 
@@ -332,16 +338,16 @@ def main() -> None:
     models += [(f"d{k}", model) for k, model in enumerate(decks())]
     row_of(random_model(options.seed, 0), "", options.limit)  # compiles what is compiled: no price of a model
     rows = []
-    print("number | pairs | price | CPU s | ended | model")
+    print("number | pairs | bodies | dense | price | CPU s | ended | model")
     for number, model in models:
         row = row_of(model, number, options.limit)
         rows.append(row)
-        figures = f"{number:>4} | {row['pairs']:4d} | {row['price']:8.1f} | {row['seconds']:7.2f}"
+        counted = f"{number:>4} | {row['pairs']:4d} | {row['bodies']:3d} | {row['dense']:6d}"
+        figures = f"{counted} | {row['price']:8.1f} | {row['seconds']:7.2f}"
         print(figures, row["ended"], row["model"], row["message"].partition("\n")[0][:200], sep=" | ", flush=True)
     kinds = {"random": [row for row in rows if row["number"].isdigit()]}
     kinds["decks"] = [row for row in rows if not row["number"].isdigit()]
-    heads = ["ended", "models", "median price", "largest price", "median CPU s", "largest CPU s"]
-    tables = {kind: page.table(heads, summary(own)) for kind, own in kinds.items() if own}
+    tables = {kind: page.table(HEADS, summary(own)) for kind, own in kinds.items() if own}
     for kind, table in tables.items():
         print(f"\n{kind}\n\n{table}")
     if options.page and "random" in tables:
@@ -353,9 +359,11 @@ def summary(rows: list[dict[str, Any]]) -> list[list[str]]:
     lines = []
     for ended in sorted({row["ended"] for row in rows}):
         own = [row for row in rows if row["ended"] == ended]
-        price, seconds = [row["price"] for row in own], [row["seconds"] for row in own]
+        dense, price, seconds = ([row[name] for row in own] for name in ("dense", "price", "seconds"))
         lines.append(
-            [ended, str(len(own)), f"{statistics.median(price):.1f}", f"{max(price):.1f}"]
+            [ended, str(len(own)), str(max(row["bodies"] for row in own))]
+            + [f"{statistics.median(dense):.0f}", str(max(dense))]
+            + [f"{statistics.median(price):.1f}", f"{max(price):.1f}"]
             + [f"{statistics.median(seconds):.2f}", f"{max(seconds):.2f}"]
         )
     return lines
