@@ -9,6 +9,9 @@ import pytest
 
 import signorini as sg
 from signorini import deck
+from signorini.engine import automatic
+from signorini.engine.increments import advance
+from signorini.engine.step_parts import FollowedPart, Snapshot
 from signorini.meshing.solid import box
 from signorini.model.mesh import join
 
@@ -136,3 +139,61 @@ def test_a_joint_that_slides_until_its_bend_bears_is_told_once_from_wherever_inc
     notes = [note for note in solution.steps[-1].notes if "gross sliding: body 'bracket' can move along x" in note]
     assert len(notes) == 1
     assert notes[0].startswith("step 'pull' at 75.005319%: ")
+
+
+def shelf(*, friction, pull):
+    """A cell that is clamped on its left, lies on a floor, and is pulled at its bottom."""
+    x, y, z = (np.array([0.0, end]) for end in (1.0, 0.5, 0.5))
+    return sg.Model(
+        join({"top": box(x=x, y=y, z=z)}),
+        bodies=[sg.Body("top", sg.Elastic(E=1000.0, nu=0.3))],
+        supports=[sg.Support("top.left", u=(0.0, 0.0, 0.0))],
+        loads=[
+            sg.Load("top.bottom", force=(0.0, 0.0, -1.0), name="press"),
+            sg.Load("top.bottom", force=pull, name="pull"),
+        ],
+        contacts=[sg.Contact("top.bottom", sg.Plane((0, 0, 0), (0, 0, 1)), friction=friction, name="floor")],
+        steps=[
+            sg.Step(name="press", scale={"press": 1.0}, increments=1),
+            sg.Step(name="pull", scale={"pull": 1.0}, increments="auto", jump="stop"),
+        ],
+    )
+
+
+def lifted(part, number, **_):  # noqa: ARG001
+    """A part of a step in one increment, sought where all pairs are open."""
+    y = np.zeros((3, int(part.prepared.solver.active.sum())))
+    y[0] = -1e3
+    after, certificate, tried = advance(part.prepared, part.before, part.end, part.where, start=y)
+    assert certificate.passed
+    assert not after.forces.any()
+    shot = Snapshot(number=part.interval.number, fraction=1.0, what="segment", state=after)
+    return FollowedPart(
+        path="increments",
+        before=part.before,
+        after=after,
+        certificates=(certificate,),
+        trace=(tried,),
+        snapshots=(shot,),
+    )
+
+
+def test_where_two_equilibria_are_certified_at_one_load_the_history_is_said_to_part(monkeypatch):
+    """The cell has lifted off in the one, and sticks in the other, up to 80 % of a pull of (1, 0, 1)."""
+    monkeypatch.setattr(automatic, "follow_to_events", lifted)
+    model = shelf(friction=4.0, pull=(0.79, 0.0, 0.79))
+    solution = sg.solve(model, settings=sg.SolverSettings(automatic_increments=1), raise_on_failure=False)
+    assert solution.status == "jump"
+    said = (
+        "step 'pull' between 0.000000% and 100.000000%: the history parts: from one equilibrium two ways lead to others"
+    )
+    assert solution.message.startswith(f"{said} whose contact forces differ by 0.79 of the largest")
+
+
+@pytest.mark.parametrize("pull", [(2.0, 0.0, 0.5), (3.0, 0.0, 0.0), (-2.0, 0.0, 1.0)])
+def test_what_changes_in_proportion_to_the_load_is_no_jump(pull):
+    """A few increments are too few, but no pair acts where forces change most: shorter ones resolve that."""
+    model = shelf(friction=2.0, pull=pull)
+    solution = sg.solve(model, settings=sg.SolverSettings(automatic_increments=4), raise_on_failure=False)
+    assert solution.status == "not_found"
+    assert solution.message.startswith("step 'pull': 4 increments still change ")

@@ -36,6 +36,7 @@ WATCH_INCREMENTS = 16
 
 _SHORT_OF_LIMIT = 0.999  # of the load that contact can hold: how far one increment goes
 _SUDDEN = 0.5  # of that change, in one of them each time: no increments resolve it
+_STRAIGHT = 0.5  # of the way looked at: an increment as long is no 16th of it, no pair acts in it
 _SAME_LOAD = 1e-9  # part of a step: how far behind the end of an increment a jump at its very end may be seen
 
 
@@ -149,13 +150,15 @@ def sudden_change(part: StepPart, followed: FollowedPart) -> SolveFailed | None:
     states, shots = [followed.before, *(shot.state for shot in followed.snapshots)], followed.snapshots
     ends = [0.0, *(within(shot.fraction) for shot in shots)]
     size, first = max(float(np.abs(state.forces).max(initial=0.0)) for state in states), 0.0
-    for _ in range(ZOOMS):
+    for zoom in range(ZOOMS):
         changes = [float(np.abs(two.forces - one.forces).max(initial=0.0)) for one, two in pairwise(states)]
         k = int(np.argmax(changes))
         first = first or changes[k]
         if changes[k] < _SUDDEN * first or changes[k] == 0.0:
             return None
         low, high = ends[k], ends[k + 1]
+        if zoom and high - low > _STRAIGHT * (ends[-1] - ends[0]):
+            return None  # in proportion to the load, which changes much
         before = _whole(part, states[k]) if k and not shots[k - 1].whole else states[k]
         try:
             finer = follow_to_events(_between(part, before, low, high), WATCH_INCREMENTS)
