@@ -9,7 +9,7 @@ import pytest
 
 import signorini as sg
 from signorini import deck
-from signorini.engine import automatic
+from signorini.engine import automatic, jump_watch
 from signorini.engine.increments import advance
 from signorini.engine.step_parts import FollowedPart, Snapshot
 from signorini.meshing.solid import box
@@ -197,3 +197,35 @@ def test_what_changes_in_proportion_to_the_load_is_no_jump(pull):
     solution = sg.solve(model, settings=sg.SolverSettings(automatic_increments=4), raise_on_failure=False)
     assert solution.status == "not_found"
     assert solution.message.startswith("step 'pull': 4 increments still change ")
+
+
+def test_a_look_begins_with_the_whole_state_on_the_way(monkeypatch):
+    """On the way bodies, and pairs far from contact, are not recovered; a look that begins there needs both."""
+    model = shelf(friction=0.3, pull=(-2.0, 1.0, 1.5))
+    ceiling = sg.Contact("top.top", sg.Plane((0, 0, 3), (0, 0, -1)), friction=0.3, name="ceiling")
+    looked, follow = [], jump_watch.follow_to_events
+
+    def seen(part, number, **way):
+        looked.append((part.prepared.interface, part.before, part.interval.low))
+        return follow(part, number, **way)
+
+    monkeypatch.setattr(jump_watch, "follow_to_events", seen)
+    sg.solve(
+        replace(model, contacts=[*model.contacts, ceiling]),
+        settings=sg.SolverSettings(automatic_increments=4),
+        raise_on_failure=False,
+    )
+    (interface, state, low), *_ = looked
+    assert 0.3 < low < 0.4
+    moved = interface.B @ state.displacement
+    np.testing.assert_allclose(state.gap, interface.gap + moved[: len(interface)], rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(state.tangential, moved[len(interface) :], rtol=0.0, atol=1e-12)
+
+
+def test_where_contact_is_iterated_no_change_is_looked_into():
+    """There are no events to follow it to, and what is told is that it does not settle."""
+    model = shelf(friction=2.0, pull=(2.0, 0.0, 0.5))
+    settings = sg.SolverSettings(automatic_increments=2)
+    solution = sg.solve(model, backend="iterative", settings=settings, raise_on_failure=False)
+    assert solution.status == "not_found"
+    assert solution.message.startswith("step 'pull': 1 increment still changes the answer")

@@ -56,12 +56,13 @@ def follow_automatically(
     """
     coarse: FollowedPart | None = None
     prepared = part.prepared
-    changes, number, why = "the answer, where one is found", 1, ""
+    changes, number, tried, why = "the answer, where one is found", 1, 1, ""
     seen: dict[int, float] = {}
     more, fewer = (2, "half as many") if prepared.interface.directions == 2 else (4, "a quarter as many")
     limit = prepared.settings.automatic_increments
     most = limit if enough is None or prepared.interface.directions == 2 else _LOST * enough
     while number <= limit:
+        tried = number
         try:
             with prepared.clock.again(why):
                 fine, words = _followed(part, number, jump)
@@ -96,7 +97,7 @@ def follow_automatically(
         return replace(fine, path="increments", notes=(*fine.notes, note))
     unsettled = SolveFailed(
         told(
-            f"{part.where}: {min(number, limit)} increments still change {changes}",
+            f"{part.where}: {_counted(tried)} still change{'s' if tried == 1 else ''} {changes}",
             remedy='a larger tolerance, or path = "exact" where sections are polygons or the model is plane',
             evidence=""
             if number > limit
