@@ -51,7 +51,7 @@ ROOT = Path(__file__).parents[1]
 FAMILIES = ("block on plane", "block on block", "stack", "slab", "wedge", "tall block")
 SEED = 1993
 HEADS = (
-    *("ended", "models", "most factorisations of bodies", "median of dense ones", "most"),
+    *("ended", "models", "most factorisations of bodies", "median of dense ones", "most dense ones"),
     *("median price", "largest price", "median CPU s", "largest CPU s"),
 )
 FRICTION = (0.05, 0.1, 0.3, 0.6, 1.0, 2.0, 4.0)
