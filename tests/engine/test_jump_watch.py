@@ -219,7 +219,7 @@ def test_a_look_begins_with_the_whole_state_on_the_way(monkeypatch):
     assert 0.3 < low < 0.4
     moved = interface.B @ state.displacement
     np.testing.assert_allclose(state.gap, interface.gap + moved[: len(interface)], rtol=0.0, atol=1e-12)
-    np.testing.assert_allclose(state.tangential, moved[len(interface) :], rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(state.tangential.ravel(), moved[len(interface) :], rtol=0.0, atol=1e-12)
 
 
 def test_where_contact_is_iterated_no_change_is_looked_into():
