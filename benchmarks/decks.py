@@ -8,10 +8,11 @@ folder ``test`` of the CalculiX repository; nothing is fetched. Every deck that 
 small strains, and the displacements of the last table are compared node by node: the largest difference, as a part of
 the largest displacement in it.
 
-With ``--ccx`` CalculiX takes each difference apart: it computes the deck again without ``NLGEOM`` and with elements
-that are integrated fully, as this package has them ("small"), and so with springs of the contacts a hundred times
-stiffer ("stiff"); this package solves the very same texts. What is left in the last column is neither large
-displacements nor penalty. With ``--write`` the table replaces the one in a document.
+With ``--large`` pairs of decks with ``NLGEOM`` follow the bodies. With ``--ccx`` CalculiX takes each difference apart:
+it computes the deck again without ``NLGEOM`` and with elements that are integrated fully, as this package has them
+("small"), and so with springs of the contacts a hundred times stiffer ("stiff"); this package solves the very same
+texts. What is left in the last column is neither large displacements nor penalty. With ``--write`` the table replaces
+the one in a document.
 """
 
 from __future__ import annotations
@@ -140,9 +141,9 @@ def by_calculix(text: str, folder: Path, seconds: float = _SECONDS) -> Values:
     return found[-1] if found else {}
 
 
-def apart(deck: Path, values: Values) -> float | None:
+def apart(deck: Path, values: Values, *, large: bool = False) -> float | None:
     """Largest difference of the displacements, as a part of the largest; None without a reference."""
-    solution = sg.solve(load_deck(deck, small_strain=True).model)
+    solution = sg.solve(load_deck(deck, small_strain=not large).model)
     row = {int(number): i for i, number in enumerate(solution.model.mesh.labels)}
     nodes = [number for number in values if number in row]
     if not nodes:
@@ -153,13 +154,13 @@ def apart(deck: Path, values: Values) -> float | None:
     return float(np.abs(computed - printed).max()) / size if size else None
 
 
-def compare(deck: Path, folder: Path, *, ccx: bool) -> Compared | None:
+def compare(deck: Path, folder: Path, *, ccx: bool, large: bool = False) -> Compared | None:
     """All comparisons of a deck; None if there is none."""
     printed, text = reference(deck), deck.read_text(errors="replace")
     if not printed and not ccx:
-        load_deck(deck, small_strain=True)
+        load_deck(deck, small_strain=not large)
         return None
-    found = Compared(deck.stem, len(printed), apart(deck, printed) if printed else None)
+    found = Compared(deck.stem, len(printed), apart(deck, printed, large=large) if printed else None)
     if ccx:
         small = plain(text)
         for key, changed in (("small", small), ("stiff", stiffer(small))):
@@ -191,6 +192,7 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("names", nargs="*", help="decks without .inp (default: all in the folder)")
     parser.add_argument("--ccx", action="store_true", help="let CalculiX take the differences apart")
+    parser.add_argument("--large", action="store_true", help="pairs follow the bodies where a deck has NLGEOM")
     options = parser.parse_args()
     if options.ccx and not shutil.which("ccx"):
         parser.error("there is no ccx; expected CalculiX on the path")
@@ -202,7 +204,7 @@ def main() -> None:
         for deck in decks:
             started = time.perf_counter()
             try:
-                row = compare(deck, Path(folder), ccx=options.ccx)
+                row = compare(deck, Path(folder), ccx=options.ccx, large=options.large)
             except (sg.InputError, sg.SolveFailed) as error:
                 words = re.sub(r"^.*?\.inp:(\d+: )? ?", "", str(error))
                 refused[

@@ -37,6 +37,7 @@ from signorini.model.step import Step
 from signorini.sources import Reach
 
 _SMALL_SLIDING = "contact is treated as small sliding: pairs are found on the undeformed bodies"
+_FOLLOWING_PAIRS = "NLGEOM: contact pairs follow the bodies, which may turn by any angle; strains are small about that"
 _OWN_INCREMENTS = (
     "increments of the deck are not used: {} follow the package's rule (exact path where there is friction, otherwise "
     "one increment); --increments deck takes them over"
@@ -79,10 +80,10 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
     outside, steps = split_steps(cards)
     ignored = _left_out(outside, steps)
     _refuse_incomplete(outside, steps, path)
-    _refuse_large(steps, small_strain)
 
     known = make_known(cards, outside)
-    contacts = make_contacts(outside, known)
+    contacts = make_contacts(outside, known, large=not small_strain and any(step.nlgeom for step in steps))
+    _refuse_large(steps, contacts, small_strain)
     rigid, equations = make_deck_links(outside, known)
     conditions = make_conditions(follow_steps(outside, steps, known, rigid), known)
     changes = [make_changes(step.cards, known, contacts) for step in steps]
@@ -151,11 +152,15 @@ def _refuse_incomplete(outside: Sequence[Card], steps: Sequence[DeckStep], path:
         raise DeckError("has no *STEP; expected at least one", path=path)
 
 
-def _refuse_large(steps: Sequence[DeckStep], small_strain: bool) -> None:
+def _refuse_large(steps: Sequence[DeckStep], contacts: Sequence[Pair], small_strain: bool) -> None:
+    """Large displacements are those of bodies that slide, roll and turn as wholes."""
+    moving = bool(contacts) and all(pair.contact.slides or pair.contact.tied for pair in contacts)
     for step in steps:
-        if step.nlgeom and not small_strain:
+        if step.nlgeom and not small_strain and not (moving and any(pair.contact.slides for pair in contacts)):
+            why = "here there is no contact" if not contacts else "here pairs stay (SMALL SLIDING, CLEARANCE, ADJUST)"
             raise step.card.error(
-                "NLGEOM asks for large displacements, which are not supported; --small-strain solves with small ones"
+                "NLGEOM asks for large displacements, which bodies have whose contact pairs follow them, not by large "
+                f"strains; {why}; --small-strain solves with small ones"
             )
 
 
@@ -248,8 +253,10 @@ def _notes(
     if grid.skins:
         types = ", ".join(dict.fromkeys(group.type.name for group in grid.skins))
         notes.append(f"{types}: faces and lines of the bodies, for sets and surfaces; they carry nothing")
-    if any(not pair.contact.tied for pair in contacts):
+    if any(not pair.contact.tied and not pair.contact.slides for pair in contacts):
         notes.append(_SMALL_SLIDING)
+    if any(pair.contact.slides for pair in contacts):
+        notes.append(_FOLLOWING_PAIRS)
     if any(pair.contact.tied and pair.card.keyword == "CONTACT PAIR" for pair in contacts):
         notes.append("surfaces of a TIED contact pair are tied exactly: a stiffness given with it is not used")
     if any(card.keyword == "VISCO" for step in steps for card in step.cards):

@@ -38,8 +38,15 @@ class Pair:
     interaction: str = ""
 
 
-def make_contacts(cards: Sequence[Card], known: Known) -> list[Pair]:
-    """Read all ``*CONTACT PAIR`` keywords, whose slave side is nonmortar, and then all ``*TIE`` keywords."""
+def make_contacts(cards: Sequence[Card], known: Known, *, large: bool) -> list[Pair]:
+    """Read all ``*CONTACT PAIR`` keywords, whose slave side is nonmortar, and then all ``*TIE`` keywords.
+
+    Parameters
+    ----------
+    cards : outside the steps
+    known : surfaces and laws of contact
+    large : whether a step has large displacements: pairs follow the bodies then, unless they say otherwise
+    """
     clearances = _clearances(cards, known)
     found: list[Pair] = []
     for card in of_keyword(cards, "CONTACT PAIR"):
@@ -56,6 +63,13 @@ def make_contacts(cards: Sequence[Card], known: Known) -> list[Pair]:
                     "tangential_compliance": law.tangential_compliance,
                     "shear_limit": law.shear_limit,
                 }
+            if (
+                large
+                and not law.tied
+                and not given.keys() & {"gap", "adjust"}
+                and "SMALL SLIDING" not in card.parameters
+            ):
+                given["sliding"] = "finite"
             found.append(_pair(card.at(row), slave, master, found, law, **given))
     sides = {(pair.contact.nonmortar, pair.contact.mortar) for pair in found}
     for (slave_name, master_name), (_, card) in clearances.items():
