@@ -52,6 +52,79 @@ def von_mises(stress: Array) -> Array:
     return result
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _DeformedBodies:
+    """Bodies with their displacements, temperatures and plastic strains.
+
+    Attributes
+    ----------
+    space, model : of the bodies
+    displacement : (n, d) along axes that turn with the bodies, length
+    turns : (n, d, d) of these axes at every node; None where none turns
+    temperature : at every node; None without
+    plastic : plastic strains at the quadrature points, of every family (m, q, 4 or 6)
+    """
+
+    space: Space
+    model: Model
+    displacement: Array
+    turns: Array | None
+    temperature: Array | None
+    plastic: Mapping[str, Array]
+
+    @staticmethod
+    def of(
+        space: Space,
+        model: Model,
+        displacement: Array,
+        factors: Mapping[str, float] | None,
+        plastic: Mapping[str, Array] | None,
+    ) -> _DeformedBodies:
+        """The bodies at load factors; arguments as of :func:`body_stresses`."""
+        own, turns = in_frames(space, model, displacement)
+        return _DeformedBodies(
+            space=space,
+            model=model,
+            displacement=own,
+            turns=turns,
+            temperature=temperatures(space, model, factors or {}),
+            plastic=plastic or {},
+        )
+
+    def stress(self, group: Group) -> Array:
+        """Stresses xx, yy, zz, xy (yz, xz) at the best points of the cells of a group, (m, p, 4 or 6)."""
+        space, model, D = self.space, self.model, elasticities(self.model)[group.body]
+        points = kinematics(space, model, group, best=True)
+        strain = self._elastic_strain(group, points)
+        if group.formulation == "mean dilatation":
+            every = kinematics(space, model, group)
+            dilatation = self._elastic_strain(group, every)[..., :3].sum(axis=-1)
+            mean = mean_in_cells(every.weights, group.block.pressures, dilatation, group.block.stress_pressures)
+            strain[..., :3] += ((mean - strain[..., :3].sum(axis=-1)) / 3.0)[..., None]
+        flowed = at_best_points(group, self.plastic)
+        stress = np.einsum("mcd,mqd->mqc", D, strain if flowed is None else strain - flowed)
+        return points.relaxed(D, stress)
+
+    def _elastic_strain(self, group: Group, points: Kinematics) -> Array:
+        """Strains of the displacements less the thermal ones, at points of a group, (m, q, 4 or 6)."""
+        strain = points.strain(self.displacement[group.cells])
+        if self.temperature is not None:
+            strain = strain - thermal_strain(self.model, group, points, self.temperature)
+        return strain
+
+    def in_space(self, found: Array, nodes: IntArray) -> Array:
+        """Tensors (..., 6) along the axes of space.
+
+        Parameters
+        ----------
+        found : (..., 4 or 6) along those of the bodies
+        nodes : (...) with whose axes they turn
+        """
+        tensors = np.zeros((*found.shape[:-1], 6))
+        tensors[..., : found.shape[-1]] = found
+        return tensors if self.turns is None else turned(tensors, self.turns[nodes])
+
+
 def body_stresses(
     space: Space,
     model: Model,
@@ -68,20 +141,12 @@ def body_stresses(
     factors : load factors by name, for the temperatures; a model without any needs none
     plastic : plastic strains at the quadrature points, of every family (m, q, 4 or 6); none where nothing has flowed
     """
-    temperature = temperatures(space, model, factors or {})
-    displacement, turns = in_frames(space, model, displacement)
-
-    def at_best(group: Group) -> Array:
-        return _cell_stresses(space, model, group, displacement, temperature, plastic or {})
-
-    components = elasticities(model).shape[1]
-    result = []
-    for body, (nodes, found) in zip(model.bodies, nodal_averages(space, model, at_best, components), strict=True):
-        stress = np.zeros((len(nodes), 6))
-        stress[:, :components] = found
-        stress = stress if turns is None else turned(stress, turns[nodes])
-        result.append(BodyStress(body=body.name, nodes=nodes, stress=stress))
-    return result
+    deformed = _DeformedBodies.of(space, model, displacement, factors, plastic)
+    averages = nodal_averages(space, model, deformed.stress, elasticities(model).shape[1])
+    return [
+        BodyStress(body=body.name, nodes=nodes, stress=deformed.in_space(found, nodes))
+        for body, (nodes, found) in zip(model.bodies, averages, strict=True)
+    ]
 
 
 def nodal_averages(
@@ -121,13 +186,9 @@ def point_stresses(
     space, model : of the bodies
     displacement, factors, plastic : as :func:`body_stresses`
     """
-    temperature = temperatures(space, model, factors or {})
-    displacement, turns = in_frames(space, model, displacement)
+    deformed = _DeformedBodies.of(space, model, displacement, factors, plastic)
     for group in groups(space, model):
-        found = _cell_stresses(space, model, group, displacement, temperature, plastic or {})
-        stress = np.zeros((*found.shape[:2], 6))
-        stress[..., : found.shape[2]] = found
-        yield group.numbers, stress if turns is None else turned(stress, turns[group.cells[:, :1]])
+        yield group.numbers, deformed.in_space(deformed.stress(group), group.cells[:, :1])
 
 
 def point_strains(
@@ -149,19 +210,19 @@ def point_strains(
     They belong to the stresses: with the mean dilatation or the internal modes of the cells, and in plane stress with
     the strain across.
     """
-    temperature, kind = temperatures(space, model, factors or {}), "3d" if model.dimension == 3 else "plane strain"
-    displacement, turns = in_frames(space, model, displacement)
+    deformed = _DeformedBodies.of(space, model, displacement, factors, plastic)
+    kind = "3d" if model.dimension == 3 else "plane strain"
     C = np.linalg.inv(np.array([elasticity(body.material, kind) for body in model.bodies]))
     for group in groups(space, model):
-        stress = _cell_stresses(space, model, group, displacement, temperature, plastic or {})
-        found = np.einsum("mcd,mqd->mqc", C[group.body], stress)
-        if temperature is not None:
-            found += thermal_strain(model, group, kinematics(space, model, group, best=True), temperature)
-        flowed = at_best_points(group, plastic or {})
-        strain = np.zeros((*found.shape[:2], 6))
-        strain[..., : found.shape[2]] = found if flowed is None else found + flowed
+        strain = np.einsum("mcd,mqd->mqc", C[group.body], deformed.stress(group))
+        if deformed.temperature is not None:
+            points = kinematics(space, model, group, best=True)
+            strain += thermal_strain(model, group, points, deformed.temperature)
+        flowed = at_best_points(group, deformed.plastic)
+        if flowed is not None:
+            strain += flowed
         strain[..., 3:] *= 0.5
-        yield group.numbers, strain if turns is None else turned(strain, turns[group.cells[:, :1]])
+        yield group.numbers, deformed.in_space(strain, group.cells[:, :1])
 
 
 def turned(tensors: Array, turns: Array) -> Array:
@@ -196,35 +257,3 @@ def at_best_points(group: Group, values: Mapping[str, Array]) -> Array | None:
     """
     own = values.get(group.block.family)
     return None if own is None else np.einsum("pq,mq...->mp...", group.block.to_best, own[group.index])
-
-
-def _cell_stresses(
-    space: Space,
-    model: Model,
-    group: Group,
-    displacement: Array,
-    temperature: Array | None,
-    plastic: Mapping[str, Array],
-) -> Array:
-    """Stresses xx, yy, zz, xy (yz, xz) at the best points of the cells of a group, (m, p, 4 or 6)."""
-    D = elasticities(model)[group.body]
-    points = kinematics(space, model, group, best=True)
-    strain = _elastic_strain(model, group, points, displacement, temperature)
-    if group.formulation == "mean dilatation":
-        every = kinematics(space, model, group)
-        dilatation = _elastic_strain(model, group, every, displacement, temperature)[..., :3].sum(axis=-1)
-        mean = mean_in_cells(every.weights, group.block.pressures, dilatation, group.block.stress_pressures)
-        strain[..., :3] += ((mean - strain[..., :3].sum(axis=-1)) / 3.0)[..., None]
-    flowed = at_best_points(group, plastic)
-    stress = np.einsum("mcd,mqd->mqc", D, strain if flowed is None else strain - flowed)
-    return points.relaxed(D, stress)
-
-
-def _elastic_strain(
-    model: Model, group: Group, points: Kinematics, displacement: Array, temperature: Array | None
-) -> Array:
-    """Strains of the displacements less the thermal ones, at points of a group, (m, q, 4 or 6)."""
-    strain = points.strain(displacement[group.cells])
-    if temperature is not None:
-        strain = strain - thermal_strain(model, group, points, temperature)
-    return strain
