@@ -18,12 +18,12 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.engine.chord import LOOKS_TOGETHER, Chord
 from signorini.engine.increments import glimpse
-from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, StepPart, joined, keep, reached
 from signorini.errors import SolveFailed
 from signorini.outcome import Outcome
 from signorini.plasticity.bodies import YieldingBodies
+from signorini.plasticity.bracket import Bracket, narrowed, secant
 from signorini.plasticity.crossing import crossing
 from signorini.plasticity.measure import FlowViolation, fullness, relative_stress, violation, yield_stress
 from signorini.plasticity.radial_return import ROOT32
@@ -51,7 +51,6 @@ def _frozen(part: StepPart) -> StepPart:
     plastic = points_of(part.prepared, part.before)[1]
 
     def elastic(prepared: Prepared) -> Prepared:
-        assert isinstance(prepared.solver, PlasticSolver)
         return replace(prepared, solver=prepared.solver.elastic, flowed=plastic.forces)
 
     awake = None if part.awake is None else elastic(part.awake)
@@ -123,7 +122,7 @@ def _ahead(part: StepPart, tried: int) -> StepPart:
 
 
 def _up_to_yield(
-    part: StepPart, bracket: _Bracket, elastically: Callable[[StepPart, float], FollowedPart]
+    part: StepPart, found: _Crossing, elastically: Callable[[StepPart, float], FollowedPart]
 ) -> tuple[StepPart, FollowedPart] | None:
     """The part up to where its first point yields, and how it was followed; None where that is at its beginning.
 
@@ -131,10 +130,9 @@ def _up_to_yield(
     as contact does, and where that law no longer halves what is lacking regula falsi goes on, from the side that does
     not yield.
     """
-    (low, below), (high, above), factor = bracket.low, bracket.high, bracket.factor
-    last = bracket.high
+    bracket, factor = found
+    last = bracket.high, bracket.above
     best: tuple[StepPart, FollowedPart] | None = None
-    side = 0
     for _ in range(_YIELD_ROUNDS):
         if factor <= AT_ONCE:
             break
@@ -145,14 +143,12 @@ def _up_to_yield(
             best = cut, begun
             if excess >= -_NEAR_YIELD:
                 break
-            low, below, above, side = factor, excess, above * (0.5 if side < 0 else 1.0), -1
-        else:
-            high, above, below, side = factor, excess, below * (0.5 if side > 0 else 1.0), 1
+        bracket = narrowed(bracket, factor, excess, excess > _YIELD_TOL)
         aim = -0.5 * _NEAR_YIELD
         guess = _by_power(last, (factor, excess), aim) if abs(excess) < 0.5 * abs(last[1]) else None
         last = factor, excess
-        factor = low + (high - low) * min(max((aim - below) / (above - below), _INSIDE), 1.0 - _INSIDE)
-        if guess is not None and low < guess < high:
+        factor = secant(bracket, aim, _INSIDE)
+        if guess is not None and bracket.low < guess < bracket.high:
             factor = guess
     return best
 
@@ -201,17 +197,16 @@ def fullest(prepared: Prepared, state: State) -> float:
     return float(fullness(bodies, state.displacement, plastic, bodies.heat(state.point.factors)).max())
 
 
-class _Bracket(NamedTuple):
+class _Crossing(NamedTuple):
     """Where on an elastic path the first point yields, as fractions of a part.
 
     Attributes
     ----------
-    low, high : of states before and behind, with what the fullest point has beyond its yield stress, of that
+    bracket : of states before and behind, with what the fullest point has beyond its yield stress, of that
     factor : where it does if stresses are straight between them
     """
 
-    low: tuple[float, float]
-    high: tuple[float, float]
+    bracket: Bracket
     factor: float
 
 
@@ -242,7 +237,7 @@ class _Look(NamedTuple):
         return float(self.full.max()) - 1.0
 
 
-def _first_yield(part: StepPart, followed: FollowedPart) -> _Bracket | None:
+def _first_yield(part: StepPart, followed: FollowedPart) -> _Crossing | None:
     """Where the first point yields on an elastic path; None where none does."""
     prepared, between = part.prepared, list[tuple[float, State]]()
     bodies, plastic = points_of(prepared, followed.before)
@@ -350,7 +345,7 @@ def _full_by_energy(prepared: Prepared, limit: Array) -> Array:
     return np.asarray(ROOT32 * np.sqrt(4.0 * bodies.laws.shear[bodies.body] / bodies.weights) / limit)
 
 
-def _crossed(prepared: Prepared, one: _Look, two: _Look) -> _Bracket | None:
+def _crossed(prepared: Prepared, one: _Look, two: _Look) -> _Crossing | None:
     """Where a point yields on the straight way from one state to another; None where none does."""
     ends = one.state, two.state
     bodies, plastic = points_of(prepared, one.state)
@@ -360,11 +355,9 @@ def _crossed(prepared: Prepared, one: _Look, two: _Look) -> _Bracket | None:
     if found is None:
         return None
     low, length = one.factor, two.factor - one.factor
-    return _Bracket(
-        low=(low, min(one.excess, 0.0)),
-        high=(low + found.beyond * length, max(found.excess, two.excess) if found.beyond == 1.0 else found.excess),
-        factor=low + found.part * length,
-    )
+    above = max(found.excess, two.excess) if found.beyond == 1.0 else found.excess
+    bracket = Bracket(low, low + found.beyond * length, min(one.excess, 0.0), above, 0)
+    return _Crossing(bracket=bracket, factor=low + found.part * length)
 
 
 def _place(prepared: Prepared, state: State) -> str:

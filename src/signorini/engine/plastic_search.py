@@ -10,6 +10,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.engine.solver import Increment, IncrementAnswer
 from signorini.plasticity.bodies import PlasticResponse, YieldingBodies
+from signorini.plasticity.bracket import Bracket, narrowed, secant
 from signorini.plasticity.laws import Heat
 from signorini.plasticity.state import PlasticState
 
@@ -68,20 +69,14 @@ class LineSearch:
         )
         if start >= 0.0 or end <= max(_UPHILL * -start, noise):
             return 1.0, self.two, after
-        low, high, below, above, side = 0.0, 1.0, start, end, 0
+        bracket = Bracket(0.0, 1.0, start, end, 0)
         for _ in range(_ROUNDS):
-            s = (low * above - high * below) / (above - below)
-            s = min(max(s, low + _INSIDE * (high - low)), high - _INSIDE * (high - low))
+            s = secant(bracket, 0.0, _INSIDE)
             here = self._response(s)
             slope = self._slope(s, step, here)
             if abs(slope) <= _LEVEL * abs(start):
                 break
-            if slope > 0.0:
-                high, above, below = s, slope, below * (0.5 if side == 1 else 1.0)
-                side = 1
-            else:
-                low, below, above = s, slope, above * (0.5 if side == -1 else 1.0)
-                side = -1
+            bracket = narrowed(bracket, s, slope, slope > 0.0)
         return s, between(self.one, self.two, s), here
 
     def _response(self, s: float) -> PlasticResponse:

@@ -23,6 +23,7 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import Array, IntArray
+from signorini.plasticity.bracket import Bracket, narrowed, secant
 from signorini.plasticity.kernels import strain_rows
 from signorini.plasticity.laws import Heat, YieldLaws
 from signorini.plasticity.linearised import taken
@@ -268,20 +269,14 @@ def settle(
             softened(cell.stiffness, loss, L)
             step[:] = -h
             substitute(L, step)
-            low, high, below, above, side, s = 0.0, 1.0, np.dot(h, step), 0.0, 0, 1.0
-            start = -below
+            start, s = -np.dot(h, step), 1.0
+            bracket = Bracket(0.0, s, -start, 0.0, 0)
             for cut in range(_CUTS):
                 end[:] = at + s * step
                 _imbalance(laws, heat, cell, old, new, end, h, room)
                 slope = np.dot(h, step)
                 if (cut == 0 and slope <= _UPHILL * start) or abs(slope) <= _LEVEL * start:
                     break
-                if slope > 0.0:
-                    high, above, below = s, slope, below * (0.5 if side == 1 else 1.0)
-                    side = 1
-                else:
-                    low, below, above = s, slope, above * (0.5 if side == -1 else 1.0)
-                    side = -1
-                s = (low * above - high * below) / (above - below)
-                s = min(max(s, low + _INSIDE * (high - low)), high - _INSIDE * (high - low))
+                bracket = narrowed(bracket, s, slope, slope > 0.0)
+                s = secant(bracket, 0.0, _INSIDE)
             at[:] = end
