@@ -63,6 +63,11 @@ class MultiplierSolver:
     def paths(self) -> None:
         """None: nothing is condensed."""
 
+    @property
+    def elastic(self) -> MultiplierSolver:
+        """Itself."""
+        return self
+
     def under(self, interface: Interface, scale: Scale, absent: BoolArray) -> MultiplierSolver:  # noqa: ARG002
         """Bodies without pairs that are switched off; the law is asked for in every increment.
 

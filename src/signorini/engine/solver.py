@@ -138,6 +138,10 @@ class ContactSolver(Protocol):
     def paths(self) -> CondensedSolver | None:
         """What follows paths from event to event; None where nothing is condensed."""
 
+    @property
+    def elastic(self) -> ContactSolver:
+        """Of the same bodies before any of them yields."""
+
     def under(self, interface: Interface, scale: Scale, absent: BoolArray) -> Self:
         """Bodies as they are under another law, without pairs that are switched off; nothing is factorised again.
 
@@ -218,6 +222,11 @@ class CondensedSolver:
 
     @property
     def paths(self) -> CondensedSolver:
+        """Itself."""
+        return self
+
+    @property
+    def elastic(self) -> CondensedSolver:
         """Itself."""
         return self
 
