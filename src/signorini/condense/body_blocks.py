@@ -76,9 +76,9 @@ class BodyBlocks:
         """``B M^-1 B^T`` of the stiffness M with its ties, (k, k), symmetric to the last digit; B (k, m)."""
         result = np.zeros((B.shape[0],) * 2)
         for part in self.blocks:
-            own = sp.csr_array(B[:, part.dofs])
+            own = B if len(part.dofs) == B.shape[1] else sp.csr_array(B[:, part.dofs])
             seen = np.flatnonzero(np.diff(own.indptr))
-            own = own[seen]
+            own = own if len(seen) == len(result) else own[seen]
             inverse = inverse_of(part.cholesky) if part.inverse is None else part.inverse
             moved = own @ np.ascontiguousarray((own @ inverse.T).T)
             if len(seen) == len(result):

@@ -15,10 +15,11 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.clock import Clock
 from signorini.condense.basis import Basis, make_basis
 from signorini.condense.body_blocks import make_body_blocks
+from signorini.condense.kept import Kept, interface_stiffness
 from signorini.condense.operator import InterfaceOperator
 from signorini.condense.response import ByNodes, Response, keep_pairs
-from signorini.condense.ties import Ties, make_ties
-from signorini.interface.active import FreeBodies, active_pairs, with_supple
+from signorini.condense.ties import Ties
+from signorini.interface.active import FreeBodies, active_pairs
 from signorini.interface.interface import Interface
 from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import Factorisation, NotPositiveDefinite, Reduced
@@ -186,7 +187,7 @@ def condense(
     bodies: FreeBodies,
     interface: Interface,
     *,
-    candidates: BoolArray,
+    kept: Kept,
     rigid: Array,
     stiffness: float,
     backend: str,
@@ -199,7 +200,7 @@ def condense(
     ----------
     bodies : as they are
     interface : the pairs
-    candidates : (n,) pairs that may touch; the nodes of the others are eliminated like any other
+    kept : what is kept of them for the pairs
     rigid : (z, k) rigid motions that neither supports nor ties resist
     stiffness : of the size of the data, force per length: what pairs count with whose sides are both rigid
     backend : of the factorisation, "auto" or a name
@@ -214,36 +215,33 @@ def condense(
         If contact hardly holds a body that nothing else holds.
     """
     K, nodes, points = bodies.K, bodies.nodes, bodies.points
-    seen, moves, held, active = active_pairs(bodies.B, interface, candidates)
-    ties = make_ties(seen, np.nonzero(interface.rows(interface.tied) & moves)[0])
-    B = sp.csr_array(seen[np.nonzero(interface.rows(active))[0]])
-    dofs = np.unique(np.concatenate([B.indices, ties.B.indices, bodies.kept]))
+    B, dofs, ties, active = kept.B, kept.dofs, kept.ties, kept.active
     response: Response | None = None
     with clock.phase("factorisation"):
         by_nodes = interface.directions == 2 or len(ties.rows) or len(bodies.kept)
         if not by_nodes and B.shape[0] and takes_borders(backend):
             at = points[interface.node[active]]
             with suppress(NotPositiveDefinite):  # the contact may still hold what moves
-                kept = bodies._replace(B=B)
-                response = keep_pairs(kept, at=at, rigid=rigid, stiffness=stiffness, backend=backend, plans=plans)
+                seen = bodies._replace(B=B)
+                response = keep_pairs(seen, at=at, rigid=rigid, stiffness=stiffness, backend=backend, plans=plans)
         if response is None:
             factorisation = factorise(K, dofs, nodes=nodes, points=points, backend=backend, plans=plans)
     with clock.phase("condensation"):
-        B_c, K_c = sp.csr_array(B[:, dofs]), sp.csr_array(K[dofs][:, dofs])
+        B_c, K_c = kept.contact, kept.block(K)
         if response is None:
             size = float(K_c.diagonal().mean()) if K_c.nnz else stiffness
-            parts = make_body_blocks(factorisation.schur(), ties.B[:, dofs].toarray(), rigid[dofs], size=size)
+            parts = make_body_blocks(factorisation.schur(), kept.tied, rigid[dofs], size=size)
             parts = parts.inverted() if len(bodies.kept) else parts
             response = ByNodes(factorisation=factorisation, parts=parts, B=B_c, rigid=rigid[dofs])
         found = _seen_by(active, interface, response, K_c, B_c, stiffness)
-        return Condensed(held=held, dofs=dofs, ties=ties, K=K_c, **found)
+        return Condensed(held=kept.held, dofs=dofs, ties=ties, K=K_c, **found)
 
 
 def _seen_by(
     active: BoolArray, interface: Interface, response: Response, K: sp.csr_array, B: sp.csr_array, stiffness: float
 ) -> dict[str, Any]:
     """What active pairs make of the response of the bodies, as fields of `Condensed`; the arguments as there."""
-    root = np.sqrt(_interface_stiffness(K, B, interface, np.flatnonzero(active), stiffness))
+    root = np.sqrt(interface_stiffness(K, B, interface, np.flatnonzero(active), stiffness))
     compliance = interface.compliance[:, active]
     image = _image(response, root, compliance)
     return {"response": response, "active": active, "root": root, "B": B, "compliance": compliance, **image}
@@ -263,26 +261,3 @@ def _image(response: Response, root: Array, compliance: Array) -> dict[str, Any]
     leaning = basis.project(A)
     A.flags.writeable = motions.flags.writeable = False
     return {"image": InterfaceOperator.of_compliance(A, motions, basis.R), "_basis": basis, "_leaning": leaning}
-
-
-def _interface_stiffness(
-    K_c: sp.csr_array, B_c: sp.csr_array, interface: Interface, pairs: IntArray, stiffness: float
-) -> Array:
-    """D, (a,) force per length: of the size that makes Newton's method most robust, equal in all directions.
-
-    Half the mean stiffness that a pair of the contact feels where only its own nodes move, spread like the areas and
-    divided by the root of their number (between the stiffness of a node and that of the whole surface). Of sides that
-    differ much the soft one counts: no more than four times what both are in series, which is the sum of equal ones.
-    """
-    felt = (B_c @ K_c).multiply(B_c).sum(axis=1)[: len(pairs)]
-    stiff = K_c.diagonal()
-    gives = B_c.multiply(B_c)[: len(pairs)] @ np.divide(1.0, stiff, out=np.zeros_like(stiff), where=stiff > 0.0)
-    felt = np.minimum(felt, np.divide(4.0, gives, out=np.full_like(gives, np.inf), where=gives > 0.0))
-    felt = with_supple(felt, interface, pairs)
-    felt[felt == 0.0] = stiffness  # both sides are rigid, and nothing gives way
-    result = np.zeros(len(pairs))
-    for contact in np.unique(interface.contact[pairs]):
-        own = interface.contact[pairs] == contact
-        area = interface.area[pairs][own]
-        result[own] = 0.5 * felt[own].mean() / np.sqrt(own.sum()) * area / area.mean()
-    return result

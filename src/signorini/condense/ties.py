@@ -64,9 +64,9 @@ def make_ties(B: sp.csr_array, rows: IntArray) -> Ties:
     rows : those of tied pairs that are not held by supports
     """
     own = sp.csr_array(B[rows])
-    gram = (own @ own.T).toarray()
     if not len(rows):
-        return Ties(rows=rows, B=own, _gram=gram)
+        return Ties(rows=rows, B=own, _gram=np.zeros((0, 0)))
+    gram = (own @ own.T).toarray()
     size = np.sqrt(np.diag(gram))
     _, pivots, rank, _ = scipy.linalg.lapack.dpstrf(gram / np.outer(size, size), lower=1, tol=_DEPENDENT)
     chosen = np.sort(pivots[:rank] - 1)

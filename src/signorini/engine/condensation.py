@@ -8,6 +8,7 @@ import numpy as np
 from signorini.arrays import BoolArray
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
+from signorini.condense.kept import Kept
 from signorini.engine.examine import Examined
 from signorini.errors import InputError
 from signorini.fem.rigid import hinged
@@ -46,7 +47,7 @@ def condense_bodies(
         return condense(
             bodies,
             examined.interface,
-            candidates=candidates,
+            kept=Kept.of(bodies, examined.interface, candidates),
             rigid=rigid,
             stiffness=examined.scale.stiffness,
             backend="auto" if backend == ITERATIVE else backend,

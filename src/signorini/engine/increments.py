@@ -255,8 +255,7 @@ def free_load(prepared: Prepared, point: LoadPoint) -> Array:
         loads = loads + prepared.flowed
     if imposed.any():
         loads = loads - prepared.K @ imposed
-    force: Array = prepared.constraints.transform.T @ loads
-    return force
+    return prepared.constraints.on_free(loads)
 
 
 def is_straight(prepared: Prepared, followed: FollowedPart) -> bool:

@@ -108,7 +108,8 @@ def recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState)
     moved[1:] -= last.tangential
     forces, ties = seen.forces.copy(), condensed.ties
     given = loads + prepared.flowed if len(prepared.flowed) else loads
-    ties.give(forces, ties.forces(T.T @ (given + interface.on_bodies(forces) - prepared.K @ displacement)))
+    missing = given + interface.on_bodies(forces) - prepared.K @ displacement
+    ties.give(forces, ties.forces(prepared.constraints.on_free(missing)))
     after = next_state(
         prepared,
         last,

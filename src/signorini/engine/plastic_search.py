@@ -64,9 +64,8 @@ class LineSearch:
         step = self.two.free - self.one.free
         start, end = self._slope(0.0, step, before), self._slope(1.0, step, after)
         system, T = self.increment.system, self.increment.system.constraints.transform
-        noise = _SLOPE_NOISE * float(
-            np.abs(step) @ (np.abs(self.increment.f) + np.abs(T.T @ (system.K @ (T @ self.two.free))))
-        )
+        inner = system.constraints.on_free(system.K @ (T @ self.two.free))
+        noise = _SLOPE_NOISE * float(np.abs(step) @ (np.abs(self.increment.f) + np.abs(inner)))
         if start >= 0.0 or end <= max(_UPHILL * -start, noise):
             return 1.0, self.two, after
         bracket = Bracket(0.0, 1.0, start, end, 0)
@@ -88,7 +87,7 @@ class LineSearch:
         """Of the energy along the step, at a part of the way."""
         system, T = self.increment.system, self.increment.system.constraints.transform
         here = between(self.one, self.two, s)
-        inner = T.T @ (system.K @ (T @ here.free) - at.state.forces) - self.increment.f
+        inner = system.constraints.on_free(system.K @ (T @ here.free) - at.state.forces) - self.increment.f
         bound = system.interface.most(self.two.forces[0])
         bound = np.where(np.isfinite(bound), bound, 0.0)
         slip, change = here.moved[1:], (self.two.moved - self.one.moved)[1:]

@@ -28,6 +28,7 @@ from signorini.attempt import MethodRun
 from signorini.engine.plastic_search import LineSearch
 from signorini.engine.solver import CondensedSolver, ContactSolver, Increment, IncrementAnswer, Mechanism
 from signorini.engine.tangent_bodies import TangentBodies
+from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.outcome import Outcome
@@ -229,7 +230,7 @@ class PlasticSolver:
         heat = bodies.heat(increment.point.factors)
         scale = 1.0 / np.sqrt(np.maximum(self.tangents.diagonal, np.finfo(np.float64).tiny))
         tangent = _Tangent(solver=self.elastic, K=system.K)
-        model, x = bodies.at_rest(state.displacement, old, heat), T.T @ old.forces
+        model, x = bodies.at_rest(state.displacement, old, heat), system.constraints.on_free(old.forces)
         reached: tuple[IncrementAnswer, PlasticResponse] | None = None
         while True:
             answer, tangent, x = self._contact(increment, tangent, x, rounds, model, reached)
@@ -269,10 +270,10 @@ class PlasticSolver:
             if stiffer or step < 1.0 or self._pays(tangent, rounds):
                 del tangent  # one factor less while the next is made
                 tangent, model = self._softened(after, increment, rounds), after
-                x = self._right(after, tangent, answer, T)
+                x = self._right(after, tangent, answer, system.constraints)
                 rounds.inputs, rounds.outputs = [], []
             else:
-                x = rounds.accelerated(x, self._right(after, tangent, answer, T), scale)
+                x = rounds.accelerated(x, self._right(after, tangent, answer, system.constraints), scale)
 
     def _settled(
         self,
@@ -292,19 +293,20 @@ class PlasticSolver:
         new = replace(after.state, dissipation=old.dissipation + work, stored=stored)
         return replace(answer, plastic=new, trace=(*answer.trace, run))
 
-    def _right(self, after: PlasticResponse, tangent: _Tangent, answer: IncrementAnswer, T: sp.csr_array) -> Array:
+    def _right(
+        self, after: PlasticResponse, tangent: _Tangent, answer: IncrementAnswer, constraints: Constraints
+    ) -> Array:
         """x = f_p - S u, (z,), at an answer."""
         forces = after.state.forces
         if tangent.S is not None:
-            forces = forces - tangent.S @ (T @ answer.free)
-        right: Array = T.T @ forces
-        return right
+            forces = forces - tangent.S @ (constraints.transform @ answer.free)
+        return constraints.on_free(forces)
 
     def _lack(self, increment: Increment, answer: IncrementAnswer, after: PlasticResponse) -> float:
         """What equilibrium lacks at an answer, of the size of the forces."""
         system, T = increment.system, increment.system.constraints.transform
         forces = after.state.forces + system.interface.on_bodies(answer.forces) - system.K @ (T @ answer.free)
-        return float(np.abs(increment.f + T.T @ forces).max(initial=0.0)) / system.scale.force
+        return float(np.abs(increment.f + system.constraints.on_free(forces)).max(initial=0.0)) / system.scale.force
 
     def _pays(self, tangent: _Tangent, rounds: _Rounds) -> bool:
         """Whether a new tangent is worth its factorisation."""
@@ -352,11 +354,10 @@ class PlasticSolver:
         answer = self._on(increment, tangent, x, reached[0])
         if answer.solved or tangent.S is None:
             return answer, tangent, x
-        T = increment.system.constraints.transform
         rounds.least = _STIFFER_PARTS[0]
         for part in (*(part for part in _STIFFER_PARTS if part > tangent.left), 1.0):
             other = self._softened(model, increment, rounds, (part,) if part < 1.0 else ())
-            y = self._right(reached[1], other, reached[0], T)
+            y = self._right(reached[1], other, reached[0], increment.system.constraints)
             answer = self._on(increment, other, y, None)
             if answer.solved:
                 return answer, other, y

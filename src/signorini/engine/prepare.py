@@ -72,7 +72,7 @@ class Prepared(Examined, DiscreteModel):
     resting : (dofs,) rigid displacement of bodies that rest, see `engine.floating_bodies`; empty where none does
     flowed : (dofs,) forces of plastic strain that does not change, so that bodies answer as elastic ones; else empty
     wearing : sides that wear, as the pairs see them; None where none does
-    plans : of the factorisation, for tangents of bodies that yield; None where none does
+    plans, reduced : of the factorisation, and (z, z) stiffness, for tangents of bodies that yield; None where none does
     kept : the last that was factorised, by supports released and candidates, to be found again; None: nothing is kept
     """
 
@@ -89,6 +89,7 @@ class Prepared(Examined, DiscreteModel):
     flowed: Array = field(default_factory=lambda: np.zeros(0))
     wearing: WornSides | None = None
     plans: Plans | None = None
+    reduced: sp.csr_array | None = None
     kept: dict[tuple[frozenset[str], bytes], Condensed] | None = None
 
     @property
@@ -313,17 +314,11 @@ def prepare(
 
 def _flowing(made: Prepared, yielding: YieldingBodies | None) -> Prepared:
     """Bodies whose points may yield, where there are any."""
-    if yielding is None:
+    if yielding is None or made.reduced is None:
         return made
+    whole, plans = made.solver.paths is None, made.plans or Plans()
     tangents = TangentBodies.of(
-        made,
-        made.K,
-        yielding,
-        near=made.candidates,
-        whole=made.solver.paths is None,
-        backend=made.backend,
-        settings=made.settings,
-        plans=made.plans or Plans(),
+        made, made.K, made.reduced, yielding, made.candidates, whole, made.backend, made.settings, plans
     )
     solver = PlasticSolver(
         elastic=made.solver, tangents=tangents, interface=made.interface, scale=made.scale, absent=made.absent
@@ -350,14 +345,16 @@ def _made(
     """
     interface, T = examined.interface, examined.constraints.transform
     data = {field.name: getattr(examined, field.name) for field in fields(Examined)}
-    softness, condensed, plans = 0.0, known, Plans() if examined.model.yields else None
+    yields = examined.model.yields
+    softness, condensed, plans = 0.0, known, Plans() if yields else None
+    with clock.phase("assembly"):
+        reduced = reduced_stiffness(K, T) if yields or known is None else None
     solver: ContactSolver
-    if condensed is None:
+    if reduced is not None and condensed is None:
         with clock.phase("assembly"):
-            reduced, relative = reduced_stiffness(K, T), sp.csr_array(interface.B @ T)
+            relative = sp.csr_array(interface.B @ T)
             kept = sliding_unknowns(examined.space, examined.model, examined.frames, T)
             bodies = FreeBodies(reduced, relative, examined.constraints.nodes, examined.space.places, kept)
-            yields = examined.model.yields
             whole = iterates(bodies, interface, candidates=candidates, backend=backend, yields=yields)
             if whole:
                 solver = make_multipliers(examined, reduced, relative, candidates, settings)
@@ -380,6 +377,7 @@ def _made(
         settings=settings,
         softness=softness,
         plans=plans,
+        reduced=reduced if yields else None,
     )
 
 

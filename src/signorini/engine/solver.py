@@ -285,7 +285,7 @@ class CondensedSolver:
                 u = T @ free
                 ties.give(forces, 0.0)
                 internal = internal_forces(system.K, u) if step else system.K @ u
-                residual = f + T.T @ (interface.on_bodies(forces) - internal)
+                residual = f + system.constraints.on_free(interface.on_bodies(forces) - internal)
                 tied = ties.forces(residual)
                 ties.give(forces, tied)
                 residual += ties.B.T @ tied

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
@@ -11,10 +12,10 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray
 from signorini.clock import Clock
 from signorini.condense.condensed import condense
+from signorini.condense.kept import Kept
 from signorini.engine.examine import Examined
 from signorini.engine.multipliers import PATIENCE, make_multipliers
 from signorini.engine.solver import CondensedSolver, ContactSolver
-from signorini.fem.stiffness import reduced_stiffness
 from signorini.interface.active import FreeBodies
 from signorini.iterative.bodies import ITERATIVE
 from signorini.linalg.multifrontal import MultifrontalFactorisation
@@ -60,8 +61,8 @@ class TangentBodies:
     def of(
         examined: Examined,
         K: sp.csr_array,
+        reduced: sp.csr_array,
         yielding: YieldingBodies,
-        *,
         near: BoolArray,
         whole: bool,
         backend: str,
@@ -73,7 +74,7 @@ class TangentBodies:
         Parameters
         ----------
         examined : the model
-        K : (dofs, dofs) elastic stiffness
+        K, reduced : (dofs, dofs) elastic stiffness, and (z, z) the same on the free displacements
         yielding : the points of the bodies that yield
         near : (n,) pairs that the law is asked of
         whole : whether contact is iterated on the bodies as they are
@@ -81,7 +82,7 @@ class TangentBodies:
         """
         T = examined.constraints.transform
         rows = yielding.rows()
-        reduced, gather = on_one_pattern(reduced_stiffness(K, T), rows, T)
+        reduced, gather = on_one_pattern(reduced, rows, T)
         return TangentBodies(
             examined=examined,
             yielding=yielding,
@@ -97,7 +98,24 @@ class TangentBodies:
             plans=plans,
         )
 
-    @property
+    @cached_property
+    def bodies(self) -> FreeBodies:
+        """With the elastic stiffness."""
+        constraints, space = self.examined.constraints, self.examined.space
+        return FreeBodies(self.reduced, self.B, constraints.nodes, space.places)
+
+    @cached_property
+    def kept(self) -> Kept:
+        """What is kept of the bodies for the pairs."""
+        return Kept.of(self.bodies, self.examined.interface, self.near)
+
+    @cached_property
+    def rigid(self) -> Array:
+        """(z, k) Rigid motions that neither supports nor ties resist."""
+        examined = self.examined
+        return np.asarray((examined.motions @ examined.floating)[examined.constraints.leaders], dtype=np.float64)
+
+    @cached_property
     def diagonal(self) -> Array:
         """(z,) Of the elastic stiffness."""
         return np.asarray(self.reduced.diagonal(), dtype=np.float64)
@@ -112,8 +130,8 @@ class TangentBodies:
         """
         data, rows = self.yielding.softening(at, left), self.rows
         S = sp.csr_array((data, rows.indices, rows.indptr), shape=rows.shape)
-        reduced = self.reduced.copy()
-        reduced.data -= self.gather @ data
+        softer = self.reduced.data - self.gather @ data
+        reduced = sp.csr_array((softer, self.reduced.indices, self.reduced.indptr), shape=self.reduced.shape)
         return S, sp.csr_array(self.K - S), reduced
 
     def solver(self, reduced: sp.csr_array, clock: Clock) -> ContactSolver:
@@ -132,10 +150,10 @@ class TangentBodies:
             return replace(found, bodies=replace(found.bodies, patience=PATIENCE))
         scale = examined.scale
         condensed = condense(
-            FreeBodies(reduced, self.B, examined.constraints.nodes, examined.space.places),
+            self.bodies._replace(K=reduced),
             examined.interface,
-            candidates=self.near,
-            rigid=(examined.motions @ examined.floating)[examined.constraints.leaders],
+            kept=self.kept,
+            rigid=self.rigid,
             stiffness=scale.stiffness,
             backend=self.backend,
             clock=clock,

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
@@ -48,6 +49,16 @@ class Constraints:
     nodes: IntArray
     dependent: IntArray
     shares: sp.csr_array
+
+    def on_free(self, forces: Array) -> Array:
+        """(z,) What forces (dofs,) are on the free displacements, ``T^T f``."""
+        found: Array = self._transposed @ forces
+        return found
+
+    @cached_property
+    def _transposed(self) -> sp.csc_array:
+        """T^T, asked for in every round of small models."""
+        return self.transform.T
 
     @property
     def leaders(self) -> IntArray:

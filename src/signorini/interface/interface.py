@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -100,8 +101,13 @@ class Interface:
 
     def on_bodies(self, forces: Array) -> Array:
         """(dofs,) Nodal forces ``B^T r`` of the forces (d, n) of the pairs on the bodies."""
-        nodal: Array = self.B.T @ forces.ravel()
+        nodal: Array = self._transposed @ forces.ravel()
         return nodal
+
+    @cached_property
+    def _transposed(self) -> sp.csc_array:
+        """B^T, asked for in every round of small models."""
+        return self.B.T
 
     @property
     def compliance(self) -> Array:

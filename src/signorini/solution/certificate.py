@@ -125,7 +125,7 @@ def certify(
     applied = loads + of_pairs
     if state.plastic is not None:
         applied = applied + state.plastic.forces
-    residual = constraints.transform.T @ (system.K @ u - applied)
+    residual = constraints.on_free(system.K @ u - applied)
     balance = motions.T @ (state.external + constraints.foundation_forces(u) + of_pairs)
     moved = (interface.motion(u) + interface.compliance * r) / scale.length
     gap = state.point.gap / scale.length + moved[0]
@@ -143,7 +143,7 @@ def certify(
     if equilibrium > TOLERANCE:
         rounding = _rounding(system.K, u, motions, scale.force)
         # the forces of slender bodies cancel but for digits that the terms of K u have lost
-        residual = constraints.transform.T @ (internal_forces(system.K, u) - applied)
+        residual = constraints.on_free(internal_forces(system.K, u) - applied)
         if yielding is None or not np.abs(yielding(residual)).max(initial=0.0) <= _MOST_ROUNDING * scale.length:
             rounding = min(rounding, _MOST_ROUNDING)
     return Certificate(

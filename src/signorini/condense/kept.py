@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pairs that the law is asked of and unknowns that are kept for them: what of a condensation no stiffness changes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from numba import njit
+
+from signorini.arrays import Array, BoolArray, Int32Array, IntArray
+from signorini.condense.ties import Ties, make_ties
+from signorini.interface.active import FreeBodies, active_pairs, with_supple
+from signorini.interface.interface import Interface
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Kept:
+    """What is kept of the bodies for their pairs, whatever their stiffness.
+
+    Attributes
+    ----------
+    held : (n,) pairs that cannot move along their normal, because supports hold them
+    active : (n,) pairs that the law is asked of
+    ties : tied pairs
+    B : (d a, z) relative displacements of the active pairs in terms of the free displacements
+    dofs : (m,) free displacements that pairs see
+    contact : (d a, m) B in terms of them
+    tied : (t, m) relative displacements of the ties in terms of them
+    """
+
+    held: BoolArray
+    active: BoolArray
+    ties: Ties
+    B: sp.csr_array
+    dofs: IntArray
+    contact: sp.csr_array
+    tied: Array
+
+    @staticmethod
+    def of(bodies: FreeBodies, interface: Interface, candidates: BoolArray) -> Kept:
+        """What is kept of bodies; their stiffness is not looked at.
+
+        Parameters
+        ----------
+        bodies, interface : with the pairs
+        candidates : (n,) pairs that may touch; the nodes of the others are eliminated like any other
+        """
+        seen, moves, held, active = active_pairs(bodies.B, interface, candidates)
+        ties = make_ties(seen, np.nonzero(interface.rows(interface.tied) & moves)[0])
+        B = sp.csr_array(seen[np.nonzero(interface.rows(active))[0]])
+        dofs = np.unique(np.concatenate([B.indices, ties.B.indices, bodies.kept]))
+        contact, tied = sp.csr_array(B[:, dofs]), ties.B[:, dofs].toarray()
+        return Kept(held=held, active=active, ties=ties, B=B, dofs=dofs, contact=contact, tied=tied)
+
+    def block(self, K: sp.csr_array) -> sp.csr_array:
+        """(m, m) The stiffness between what is kept where all else is held, of one on the free displacements (z, z)."""
+        place = np.full(K.shape[0], -1, np.int64)
+        place[self.dofs] = np.arange(len(self.dofs))
+        data, indices, indptr = _block(K.indptr, K.indices, K.data, self.dofs, place)
+        return sp.csr_array((data, indices, indptr), shape=(len(self.dofs),) * 2)
+
+
+def interface_stiffness(
+    K_c: sp.csr_array, B_c: sp.csr_array, interface: Interface, pairs: IntArray, stiffness: float
+) -> Array:
+    """D, (a,) force per length: of the size that makes Newton's method most robust, equal in all directions.
+
+    Half the mean stiffness that a pair of the contact feels where only its own nodes move, spread like the areas and
+    divided by the root of their number (between the stiffness of a node and that of the whole surface). Of sides that
+    differ much the soft one counts: no more than four times what both are in series, which is the sum of equal ones.
+
+    Parameters
+    ----------
+    K_c, B_c : stiffness and relative displacements of the active pairs, in terms of the contact dofs
+    interface, pairs : all pairs, and the numbers (a,) of the active ones
+    stiffness : of the size of the data, where both sides are rigid
+    """
+    felt, gives = _felt(B_c.indptr, B_c.indices, B_c.data, K_c.indptr, K_c.indices, K_c.data, len(pairs))
+    felt = np.minimum(felt, np.divide(4.0, gives, out=np.full_like(gives, np.inf), where=gives > 0.0))
+    felt = with_supple(felt, interface, pairs)
+    felt[felt == 0.0] = stiffness  # both sides are rigid, and nothing gives way
+    result = np.zeros(len(pairs))
+    for contact in np.unique(interface.contact[pairs]):
+        own = interface.contact[pairs] == contact
+        area = interface.area[pairs][own]
+        result[own] = 0.5 * felt[own].mean() / np.sqrt(own.sum()) * area / area.mean()
+    return result
+
+
+@njit(cache=True)
+def _block(
+    begin: Int32Array, column: Int32Array, value: Array, dofs: IntArray, place: IntArray
+) -> tuple[Array, Int32Array, Int32Array]:
+    """Entries, columns and row ends of the block of a matrix on some unknowns; ``place``: where each is among them."""
+    indptr = np.zeros(len(dofs) + 1, np.int32)
+    for i in range(len(dofs)):
+        indptr[i + 1] = indptr[i]
+        for e in range(begin[dofs[i]], begin[dofs[i] + 1]):
+            indptr[i + 1] += place[column[e]] >= 0
+    data, indices, at = np.empty(indptr[-1]), np.empty(indptr[-1], np.int32), 0
+    for i in range(len(dofs)):
+        for e in range(begin[dofs[i]], begin[dofs[i] + 1]):
+            if place[column[e]] >= 0:
+                data[at], indices[at] = value[e], place[column[e]]
+                at += 1
+    return data, indices, indptr
+
+
+@njit(cache=True)
+def _felt(
+    B_begin: Int32Array,
+    B_column: Int32Array,
+    B_value: Array,
+    K_begin: Int32Array,
+    K_column: Int32Array,
+    K_value: Array,
+    count: int,
+) -> tuple[Array, Array]:
+    """Diagonal of ``B K B^T``, (count,), and of ``B diag(K)^-1 B^T``, where the diagonal is not 0; first rows alone."""
+    felt, gives, weight = np.zeros(count), np.zeros(count), np.zeros(len(K_begin) - 1)
+    for i in range(count):
+        own = range(B_begin[i], B_begin[i + 1])
+        for e in own:
+            weight[B_column[e]] += B_value[e]
+        for e in own:
+            p = B_column[e]
+            for k in range(K_begin[p], K_begin[p + 1]):
+                felt[i] += B_value[e] * K_value[k] * weight[K_column[k]]
+                if K_column[k] == p and K_value[k] > 0.0:
+                    gives[i] += B_value[e] ** 2 / K_value[k]
+        for e in own:
+            weight[B_column[e]] = 0.0
+    return felt, gives
