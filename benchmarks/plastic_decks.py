@@ -29,6 +29,7 @@ _PULLS = "nothing yields; CalculiX's springs pull by up to 1 where sides are apa
 _WHY = {
     "metalforming": _PULLS,
     _SHARP: "not taken apart further",
+    _FAR: "yields at its axis, to a plastic strain of 5.5 %; contact as before",
     "beampd": _KINEMATIC,
     "beampik": _KINEMATIC,
     "beampkin": _KINEMATIC,

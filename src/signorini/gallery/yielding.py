@@ -15,6 +15,7 @@ from signorini.model.body import Body, Formulation
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
 from signorini.model.material import Elastic
+from signorini.model.mesh import Mesh
 from signorini.model.model import Kind, Model
 from signorini.model.obstacle import Obstacle, Plane
 from signorini.model.plastic import Plastic
@@ -241,6 +242,31 @@ def stretched(hardening: float, *, steps: Sequence[Step]) -> Model:
             Support("right", u=(1e-4, None), name="x"),
             Support("top", u=(None, 1e-4), name="y"),
         ],
+        steps=steps,
+    )
+
+
+def overlaid_squares(steps: Sequence[Step]) -> Model:
+    """NAFEMS: three perfectly plastic squares of side and thickness 1 on the same four nodes, mm and MPa.
+
+    Parameters
+    ----------
+    steps : of the force 1 on their right side, "pull"
+    """
+    laws = {"first": (100e3, 3.0), "second": (60e3, 6.0), "third": (40e3, 8.0)}
+    mesh = Mesh(
+        points=[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)],
+        cells={"quad": [[0, 1, 2, 3]] * len(laws)},
+        bodies={name: [i] for i, name in enumerate(laws)},
+        nodes={"left": [0, 3], "bottom": [0, 1], "right": [1, 2]},
+    )
+    return Model(
+        mesh,
+        kind="plane stress",
+        title="NAFEMS: three squares in one place",
+        bodies=[Body(name, Elastic(E=E, nu=0.25, plastic=Plastic(Y))) for name, (E, Y) in laws.items()],
+        supports=[Support("left", u=(0.0, None)), Support("bottom", u=(None, 0.0))],
+        loads=[Load("right", force=(1.0, None), name="pull")],
         steps=steps,
     )
 

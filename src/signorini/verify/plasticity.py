@@ -13,7 +13,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.engine.solve import solve
 from signorini.gallery.press_fit import press_fit
-from signorini.gallery.yielding import PERFECT, SHEAR_STRENGTH, bent_beam, footing, stretched, tube
+from signorini.gallery.yielding import PERFECT, SHEAR_STRENGTH, bent_beam, footing, overlaid_squares, stretched, tube
 from signorini.meshing.plane import Cells
 from signorini.model.body import Body, Formulation
 from signorini.model.material import Elastic
@@ -62,6 +62,14 @@ _NL1: dict[float, tuple[float, ...]] = {
     62.5: (5.0, 5.862, 5.482, 6.362, 6.640, 7.322, 4.230, 5.673),
 }
 """Hardening, GPa, and the equivalent stress that is printed after each of its steps, MPa."""
+
+_OVERLAID = {
+    9.0: ((3.147155, 3.511707, 2.341138), (0.3199571, -0.1900098, -0.1279828)),
+    12.95: ((3.252919, 5.814267, 3.878832), (0.5950074, -0.3523377, -0.2380030)),
+    15.0: ((3.213822, 6.017834, 5.768340), (0.4873069, 0.03174572, -0.5231355)),
+    16.93: ((3.209297, 6.149462, 7.571241), (0.4753345, 0.3048490, -0.7863557)),
+}
+"""Force on three squares in one place, and the stresses along and across it that are printed for them, MPa."""
 
 _NEXT_LOAD = 0.998  # of the limit that is named: the next load
 _ATTEMPTS = 8  # loads, from twice the limit on: 2 to 5 are the rule
@@ -184,6 +192,24 @@ def stretched_square() -> Iterator[Check]:
             ("largest error of those before", errors[:6].max(), 0.0, 3e-3),
             source="NAFEMS Non-Linear Benchmarks (1989), as in Abaqus Benchmarks",
         )
+
+
+def overlaid() -> Iterator[Check]:
+    """NAFEMS: a force on three squares in one place, one after the other yields; what is printed balances to 0.005."""
+    steps = [Step(scale={"pull": force}, increments=60) for force in (3.0, 6.0, *_OVERLAID)]
+    history = solve(overlaid_squares(steps))
+    rows, cross = [], []
+    for k, (force, (along, across)) in enumerate(_OVERLAID.items(), start=2):
+        stress = yielding_points(history, k).stress.reshape(len(along), -1, 4).mean(axis=1)
+        cross.append(np.abs(stress[:, 1] - across).max())
+        error = np.abs(stress[:, 0] / along - 1.0).max()
+        rows.append((f"largest error along it at the force {force:g}", error, 0.0, 2e-3))
+    yield from checks_of(
+        "B12 NAFEMS: three squares in plane stress on the same nodes, yield stress 3, 6, 8 MPa",
+        *rows,
+        ("largest error across it, MPa", max(cross), 0.0, 1e-2),
+        source="NAFEMS Fundamental tests (1987), by SAMCEF in Code_Aster's SSNP303, V6.03.303",
+    )
 
 
 def _named(cells: Cells, formulation: Formulation | None) -> str:

@@ -77,6 +77,7 @@ QUICK: tuple[Case, ...] = (
     plasticity.yielding_press_fits,
     plasticity.bending,
     plasticity.stretched_square,
+    plasticity.overlaid,
     indentation.first_yield,
     wear.worn_volumes,
     wear.worn_annulus,
