@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +11,8 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.gallery.large_bodies import bend, graded_lines, with_seat
 from signorini.meshing.plane import Cells, annulus, rectangle
+from signorini.meshing.solid import extruded
+from signorini.meshing.tetrahedra import tetrahedra
 from signorini.model.body import Body, Formulation
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
@@ -111,6 +113,39 @@ def footing(
         supports=supports,
         loads=loads,
         steps=[Step(name="press", increments=1)],
+    )
+
+
+_RAISED: Mapping[str, Cells] = {
+    "hexahedron": "quad",
+    "hexahedron20": "quad8",
+    "hexahedron27": "quad9",
+    "tetra10": "quad9",
+    "wedge15": "triangle6",
+}
+"""Families of a slab, and of the plane mesh that it is made of."""
+
+
+def footing_slab(pressure: float, *, n: int, family: str) -> Model:
+    """The smooth footing as a layer of solids, one cell thick, that cannot move across.
+
+    Parameters
+    ----------
+    pressure, n : see `footing`
+    family : "hexahedron", "hexahedron20", "hexahedron27", "tetra10" or "wedge15"
+    """
+    flat = footing(pressure, n=n, cells=_RAISED[family])
+    (body,), (load,) = flat.bodies, flat.loads
+    layers = np.linspace(0.0, 1.0 / n, 2 if family == "hexahedron" else 3)
+    mesh = extruded(flat.mesh, z=layers, ends=("back", "front"))
+    across = [Support(side, u=(None, None, 0.0)) for side in ("back", "front")]
+    return Model(
+        tetrahedra(mesh) if family == "tetra10" else mesh,
+        title="Flat punch on a layer that yields",
+        bodies=[replace(body, formulation="standard" if family == "wedge15" else None)],
+        supports=[*across, *(replace(support, u=(*support.u, None)) for support in flat.supports)],
+        loads=[replace(load, force=(None, -pressure / n, None))],
+        steps=flat.steps,
     )
 
 
@@ -254,11 +289,12 @@ def overlaid_squares(steps: Sequence[Step]) -> Model:
     steps : of the force 1 on their right side, "pull"
     """
     laws = {"first": (100e3, 3.0), "second": (60e3, 6.0), "third": (40e3, 8.0)}
+    corners = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
     mesh = Mesh(
-        points=[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)],
-        cells={"quad": [[0, 1, 2, 3]] * len(laws)},
-        bodies={name: [i] for i, name in enumerate(laws)},
-        nodes={"left": [0, 3], "bottom": [0, 1], "right": [1, 2]},
+        points=corners,
+        cells={"quad": np.tile(np.arange(4), (len(laws), 1))},
+        bodies={name: np.array([i]) for i, name in enumerate(laws)},
+        nodes={"left": np.array([0, 3]), "bottom": np.array([0, 1]), "right": np.array([1, 2])},
     )
     return Model(
         mesh,

@@ -13,7 +13,16 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.engine.solve import solve
 from signorini.gallery.press_fit import press_fit
-from signorini.gallery.yielding import PERFECT, SHEAR_STRENGTH, bent_beam, footing, overlaid_squares, stretched, tube
+from signorini.gallery.yielding import (
+    PERFECT,
+    SHEAR_STRENGTH,
+    bent_beam,
+    footing,
+    footing_slab,
+    overlaid_squares,
+    stretched,
+    tube,
+)
 from signorini.meshing.plane import Cells
 from signorini.model.body import Body, Formulation
 from signorini.model.material import Elastic
@@ -45,15 +54,27 @@ _COARSE_PUNCHES: _Meshes = (
     ("quad", None, 8, 0.06),
     ("quad", "incompatible", 8, 0.05),
     ("quad8", None, 4, 0.06),
+    ("quad9", None, 4, 0.03),
     ("triangle6", None, 4, 0.02),
 )
 _FINE_PUNCHES: _Meshes = (
     ("quad", None, 32, 0.02),
     ("quad", "incompatible", 32, 0.02),
     ("quad8", None, 16, 0.02),
+    ("quad9", None, 8, 0.02),
     ("triangle6", None, 8, 0.01),
 )
 """Cells, formulation, how many under half the punch, whose edge is singular: errors are of first order in size."""
+
+_SLABS = (
+    ("hexahedron", 8, 0.05),
+    ("hexahedron20", 4, 0.05),
+    ("hexahedron27", 4, 0.03),
+    ("tetra10", 4, 0.03),
+    ("wedge15", 4, 0.07),
+)
+"""Families, how many cells under half the punch, tolerance."""
+_BEYOND_SLABS = 1.07  # of the exact limit: what none of them carries
 
 _NL1_STRAINS = ((0.25, 0.0), (0.5, 0.0), (0.5, 0.25), (0.5, 0.5), (0.25, 0.5), (0.0, 0.5), (0.0, 0.25), (0.0, 0.0))
 """Of NAFEMS NL1 along x and y, in 1e-4."""
@@ -115,6 +136,19 @@ def flat_punch() -> Iterator[Check]:
 def flat_punch_refined() -> Iterator[Check]:
     """On fine ones, smooth and rough: within 2 % with every family of cells."""
     yield from _punches(_FINE_PUNCHES, (False, True))
+
+
+def flat_punch_in_space() -> Iterator[Check]:
+    """On a layer of solids, coarse."""
+    exact = punch_limit(SHEAR_STRENGTH)
+    for family, n, tolerance in _SLABS:
+        above, below = _limit(partial(footing_slab, n=n, family=family), _BEYOND_SLABS * exact)
+        yield from checks_of(
+            f"B12 flat punch, smooth, a layer of {family}, {n} cells under half of it",
+            ("mean pressure beyond which flow is proved", above, exact, tolerance),
+            ("mean pressure that is carried", below, exact, tolerance),
+            source="Prandtl (1920): (2 + pi) k",
+        )
 
 
 def _punches(meshes: _Meshes, rough: tuple[bool, ...]) -> Iterator[Check]:

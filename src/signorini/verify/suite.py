@@ -97,6 +97,7 @@ SLOW: tuple[Case, ...] = (
     rates.smooth_contact_refined,
     rates.corners,
     plasticity.flat_punch_refined,
+    plasticity.flat_punch_in_space,
     indentation.full_plasticity,
     indentation.ball_in_a_block,
     indentation.cone_in_a_block,
