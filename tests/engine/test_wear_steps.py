@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Sides that wear: what is worn, that nothing is factorised for it, that the energy balance closes, that runs go on."""
 
+import re
 from dataclasses import replace
 from itertools import pairwise
 
@@ -9,6 +10,7 @@ import pytest
 
 import signorini as sg
 from signorini.condense import condensed
+from signorini.gallery.half_planes import equal_half_planes
 from signorini.gallery.wearing import FORCE, FRICTION, WEAR, rubbed_cylinder, to_and_fro
 
 COARSE, FAST = 0.02, sg.Wear(1.9e-6, mortar=2.9e-6)
@@ -156,6 +158,39 @@ def test_automatic_blocks_keep_to_their_tolerance():
         for way in ({"block": 1}, {"block": "auto", "tolerance": 0.02})
     )
     assert np.abs(every.depth - automatic.depth).max() < 0.02 * every.depth.max()
+
+
+def partial_slip(cycles, *, share, wear, **block):
+    """Two equal cylinders to and fro below sliding, the middle of the contact sticks; cycles followed for them."""
+    steps = [
+        sg.Step(name="press", scale={"press": 1.0}),
+        sg.Step(name="pull", scale={"pull": share}),
+        sg.Step(name="cycles", scale={"pull": [-share, share]}, repeat=cycles, **block),
+    ]
+    model = equal_half_planes(steps[:2], spacing=0.2)
+    contact = replace(model.contacts[0], wear=sg.Wear(wear, mortar=wear))
+    solution = sg.solve(replace(model, steps=steps, contacts=[contact]))
+    (note,) = (note for note in solution.last.notes if note.startswith("sides wore in"))
+    return solution.end.state.wear.depth, int(re.search("for which ([0-9]+) cycles", note)[1])
+
+
+def test_blocks_of_partial_slip_settle_in_a_few_cycles():
+    short, cost = partial_slip(21, share=0.9, wear=0.2, block=1)
+    assert cost < 2.5 * 21
+    long, few = partial_slip(21, share=0.9, wear=0.2, block=10)
+    assert few < 21
+    assert np.abs(long - short).max() < 0.05 * short.max()
+
+
+def test_where_no_block_is_found_cycles_go_by_themselves():
+    """As much wear in a cycle as in tens of them: pairs at the edge of what sticks double their wear in each."""
+    _, cost = partial_slip(30, share=0.7, wear=10.0, block=10)
+    assert 30 < cost < 3 * 30
+
+
+def test_automatic_blocks_cost_no_more_than_every_cycle():
+    _, cost = partial_slip(30, share=0.7, wear=10.0, block="auto")
+    assert cost <= 1.1 * 30 + 20
 
 
 @pytest.mark.slow

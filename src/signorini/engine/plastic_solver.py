@@ -30,6 +30,7 @@ from signorini.engine.solver import CondensedSolver, ContactSolver, Increment, I
 from signorini.engine.tangent_bodies import TangentBodies
 from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface
+from signorini.linalg.anderson import anderson
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.outcome import Outcome
 from signorini.plasticity.bodies import PlasticResponse
@@ -152,13 +153,7 @@ class _Rounds:
             [*self.inputs, x][-_ANDERSON_DEPTH - 1 :],
             [*self.outputs, became][-_ANDERSON_DEPTH - 1 :],
         )
-        if len(self.inputs) == 1:
-            return became
-        outputs = np.stack(self.outputs, axis=1)
-        missing = (outputs - np.stack(self.inputs, axis=1)) * scale[:, None]
-        share = np.linalg.lstsq(np.diff(missing, axis=1), missing[:, -1], rcond=1e-10)[0]
-        following: Array = became - np.diff(outputs, axis=1) @ share
-        return following
+        return anderson(self.inputs, self.outputs, scale)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -5,29 +5,39 @@ With x(d) what a cycle rubs on sides worn by d, a block of N cycles ends at ``d 
 first order in N. Explicit blocks ``d = d_0 + N k x(d_0)`` oscillate as soon as N k times the distance slid is more
 than twice what the bodies give under a pressure that alternates from node to node; implicit ones never do.
 
-The equation is solved by a few cycles. The pressures of one are corrected by those that its end has on sides worn as
-they say: with p the normal forces there, s the distance slid in a cycle and friction as it was, that is a linear
-complementarity problem with N k s added to the diagonal of the normal compliance,
-
-    0 <= p  _|_  (A + N k s) p + q >= 0.
+The equation is solved by a few cycles, from what the last cycle before lets expect. Each gives a Newton step
+(`engine.wear_correction`), and of the steps so far Anderson's method makes the next sides. Where friction lets parts of
+the contact stick, a pair at their edge that begins to wear slips the more for it: from a length of blocks on the
+equation has no answer near by, and errors stop falling. Such a block is given up at once, and fewer cycles are tried.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.engine.rubbing import Rubbing, worn
-from signorini.engine.wear_paths import PathCycle, WornPaths
+from signorini.engine.rubbing import worn
+from signorini.engine.wear_correction import corrected
+from signorini.engine.wear_paths import FollowedCycle, PathCycle, WornPaths
 from signorini.interface.worn_sides import WornSides
+from signorini.linalg.anderson import anderson
 
 _SETTLED = 1e-5  # of what the most worn pair loses in a block: how well the equation of a block is solved
-_CYCLES = 40  # tried for one block: three to six are usual
-_LEAST_SHARE = 0.1  # of a correction: halved where the last one has brought nothing
-_SET_CHANGES = 100  # of the pairs that press, in one correction
-_GIVES = 1e-12  # of the compliance: what keeps rigid motions that no normal force feels out of the equations
+_SETTLED_SHARE = 0.1  # of the tolerance of automatic blocks: the same, and what is left wears with the next block
+_CYCLES = 20  # tried for one block: two to seven are usual
+_FALL = 0.5  # of an error, in every cycle since the second: blocks whose errors fall more slowly are given up
+_LOOKS_BACK = 5  # cycles that the next one is made of
+_RESOLVED = 1e-8  # of changes of the errors: below it they are rounding
+_MOST_GROWTH = 3.0  # times as many cycles as the block before
+_SAFETY = 0.8  # of the number of cycles whose error would be the tolerance
+_LEAST_BLOCK = 3  # cycles: fewer cost more in a block than one by one
+_MOST_COST = 1.1  # cycles followed over cycles gone, from which on automatic blocks wait
+_MOST_LOST = 0.5  # of the cycles gone: so many may be lost on blocks of a given length that are not found
+_FREE = 10  # cycles that may be lost before that counts
+_UNSTABLE = 1.0  # of what a cycle wears: where the next one differs by more, single cycles are implicit too
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -37,22 +47,123 @@ class CycleBlock:
     Attributes
     ----------
     count : of cycles
-    moved : before its last cycle, sides worn as at its end
-    done : at its end
-    rubs : (n,) what every cycle is worn by, see `Rubbing`
-    tries : cycles that were followed to find it
-    last : cycles that its last one stands for, of a block that was solved in parts
+    cycle : the last of them, sides worn as at its end
+    done : at its end, with what all of them have done
     """
 
     count: int
-    last: int
-    moved: PathCycle
+    cycle: FollowedCycle
     done: PathCycle
-    rubs: Array
-    tries: int
 
 
-def implicit_block(paths: WornPaths, at: PathCycle, last: int, count: int, guess: Array) -> CycleBlock | None:
+class CycleBlocks:
+    """The blocks of a step, one after the other.
+
+    Attributes
+    ----------
+    paths : the cycles
+    most : cycles of a block; None where that is found by the tolerance
+    tolerance : of automatic blocks: error of a block over what it wears
+    blocks, singles : numbers of blocks, and of cycles that had to go by themselves
+    longest : cycles of a block
+    """
+
+    def __init__(self, paths: WornPaths, block: int | Literal["auto"], tolerance: float) -> None:
+        self.paths, self.tolerance = paths, tolerance
+        self.most = None if block == "auto" else block
+        self.blocks, self.singles, self.longest = 0, 0, 0
+        self._known: FollowedCycle | None = None
+        self._since = np.zeros(0)  # what the sides are worn by since that cycle began
+        self._count, self._least = 1, _LEAST_BLOCK
+        self._lost = 0
+
+    def next(self, at: PathCycle, behind: int, room: int) -> CycleBlock | None:
+        """The next block; None where its first cycle is to go by itself.
+
+        Parameters
+        ----------
+        at : where the step stands
+        behind : cycles so far
+        room : cycles to the next that is kept
+        """
+        found = self._given(at, behind, room) if self.most else self._automatic(at, behind, room)
+        if found is not None:
+            self.blocks, self.longest = self.blocks + 1, max(self.longest, found.count)
+            self._known, self._since = found.cycle, np.zeros(len(found.cycle.rubbing.wearing))
+        return found
+
+    def single(self, cycle: FollowedCycle | None) -> None:
+        """A cycle that went by itself; None where it was followed with all that is known of the bodies."""
+        if cycle is not None and self._known is not None and self.most is None:
+            change = self._change(cycle)
+            self._count, self._least = self._wanted(1, change), 1 if change > _UNSTABLE else _LEAST_BLOCK
+        self._known = cycle
+        if cycle is not None:
+            self._since = cycle.rubbing.wearing
+        self.singles += 1
+
+    @property
+    def note(self) -> str:
+        """What a reader should know of them."""
+        words = f"sides wore in {self.blocks} blocks of up to {self.longest} cycles and in {self.singles} single ones"
+        return f"{words}, for which {self.paths.followed} cycles were followed"
+
+    def _given(self, at: PathCycle, behind: int, room: int) -> CycleBlock | None:
+        """A block of the length asked for, shorter where none is found; the first cycle is one of its own."""
+        assert self.most is not None
+        if self._lost > _FREE + _MOST_LOST * behind:
+            return None
+        asked = count = min(self._count, room)
+        found = self._solved(at, behind, count, _SETTLED)
+        while found is None and count > 1:
+            count //= 2
+            found = self._solved(at, behind, count, _SETTLED)
+        failed = found is None or count < asked
+        self._count = 2 * count if failed else self.most if behind == 0 else min(self.most, 2 * self._count)
+        return found
+
+    def _automatic(self, at: PathCycle, behind: int, room: int) -> CycleBlock | None:
+        """A block within the tolerance, where it pays."""
+        count = min(self._count, room)
+        if self._known is None or self.paths.followed > _FREE + _MOST_COST * behind:
+            return None
+        while count >= self._least:
+            found = self._solved(at, behind, count, _SETTLED_SHARE * self.tolerance)
+            if found is None:
+                count = self._count = count // 2
+                continue
+            change = self._change(found.cycle)
+            self._count = self._wanted(count, change)
+            if 0.5 * change <= self.tolerance or count == 1:
+                return found
+            count = min(self._count, count // 2)
+        return None
+
+    def _change(self, cycle: FollowedCycle) -> float:
+        """How much else a cycle wears than the one known before it, of the most that a pair wears."""
+        assert self._known is not None
+        rate = self.paths.sides.rate
+        now, then = rate * cycle.rubbing.wearing, rate * self._known.rubbing.wearing
+        return float(np.abs(now - then).max() / max(now.max(), np.finfo(float).tiny))
+
+    def _wanted(self, count: int, change: float) -> int:
+        """Cycles of a block whose error, half of what its last cycle wears else than the one before it, is allowed."""
+        growth = min(_MOST_GROWTH, _SAFETY * self.tolerance / max(0.5 * change, 1e-12))
+        return max(1, int(count * growth))
+
+    def _solved(self, at: PathCycle, behind: int, count: int, settled: float) -> CycleBlock | None:
+        paths, known, before = self.paths, self._known, self.paths.followed
+        none = np.zeros(len(paths.sides.by_energy))
+        guess = none if known is None else corrected(paths, known, -self._since, count)
+        found = implicit_block(paths, at, behind + count, count, guess, settled)
+        if found is None:
+            self._lost += self.paths.followed - before
+        return found
+
+
+def implicit_block(
+    paths: WornPaths, at: PathCycle, last: int, count: int, guess: Array, settled: float
+) -> CycleBlock | None:
     """A block of cycles that ends with a cycle; None where it is not found.
 
     Parameters
@@ -61,30 +172,32 @@ def implicit_block(paths: WornPaths, at: PathCycle, last: int, count: int, guess
     last : number of its last cycle
     count : of cycles
     guess : (n,) what a cycle rubs
+    settled : error of the equation of the block, over what the most worn pair loses in it
     """
-    sides, rubs, error, share = paths.sides, guess, np.inf, 1.0
-    for tries in range(1, _CYCLES + 1):
+    sides, rubs, best = paths.sides, guess, np.inf
+    inputs, outputs = list[Array](), list[Array]()
+    for tries in range(_CYCLES):
         wear = worn(sides, replace(at.wear, loose=at.wear.loose + count * (sides.volume @ rubs)), cycles=count)
         moved = paths.worn(at, wear)
-        found = None if moved is None else paths.cycle(moved, last)
-        if moved is None or found is None:
+        cycle = None if moved is None else paths.cycle(moved, last)
+        if cycle is None:
             return None
-        done, rubbing = found
-        grown = sides.rate * rubbing.wearing
-        last_error, error = error, float(np.abs(grown - sides.rate * rubs).max())
-        if error <= _SETTLED * grown.max():
-            done = _repeated(sides, moved, done, rubbing, rubs, count)
-            return CycleBlock(count=count, last=count, moved=moved, done=done, rubs=rubbing.wearing, tries=tries)
-        share = 0.5 * share if error > last_error and share > _LEAST_SHARE else share
-        rubs = rubs + share * (_corrected(paths, done, rubbing, rubs, count) - rubs)
+        grown = sides.rate * cycle.rubbing.wearing
+        error, most = float(np.abs(grown - sides.rate * rubs).max()), grown.max(initial=0.0)
+        if error <= settled * most:
+            return CycleBlock(count=count, cycle=cycle, done=_repeated(sides, cycle, rubs, count))
+        best = min(best, error / max(most, np.finfo(float).tiny))
+        if best > _FALL ** (tries - 1):
+            return None
+        inputs, outputs = [*inputs, rubs], [*outputs, corrected(paths, cycle, count * rubs, count)]
+        inputs, outputs = inputs[-_LOOKS_BACK - 1 :], outputs[-_LOOKS_BACK - 1 :]
+        rubs = np.maximum(anderson(inputs, outputs, sides.rate, rcond=_RESOLVED), 0.0)
     return None
 
 
-def _repeated(
-    sides: WornSides, moved: PathCycle, done: PathCycle, rubbing: Rubbing, rubs: Array, count: int
-) -> PathCycle:
-    """The end of a block whose last cycle stands for all of them."""
-    others = count - 1
+def _repeated(sides: WornSides, cycle: FollowedCycle, rubs: Array, count: int) -> PathCycle:
+    """The end of a block whose last cycle stands for all of them; ``rubs`` (n,) is what each has worn."""
+    moved, done, rubbing, others = cycle.before, cycle.after, cycle.rubbing, count - 1
     dissipation = done.now.dissipation + others * (done.now.dissipation - moved.now.dissipation)
     wear = replace(
         done.wear,
@@ -97,47 +210,3 @@ def _repeated(
         wear=wear,
         spent=done.spent + others * (done.spent - moved.spent),
     )
-
-
-def _corrected(paths: WornPaths, done: PathCycle, rubbing: Rubbing, rubs: Array, count: int) -> Array:
-    """(n,) What a cycle rubs on sides that are worn by it, from a cycle on sides worn by ``rubs``."""
-    law, condensed, sides = paths.prepared.paths.law, paths.prepared.paths.condensed, paths.sides
-    a, active = law.pairs, condensed.active
-    root, area = condensed.root, paths.prepared.interface.area[active]
-    h, p = done.now.h[0], done.now.r[0]
-    slope = np.where(sides.by_energy[active], law.mu, 1.0) * rubbing.travel[active] * root / area
-    grows = count * sides.rate[active] * root
-    A = law.image.A[:a, :a]
-    softer = np.array(A)
-    softer[np.diag_indices(a)] += grows * slope
-    q = h - softer @ p + grows * (rubbing.wearing - rubs)[active]
-    pressed = _pressed(softer, q, law.image.R[:a], p)
-    found = np.array(rubbing.wearing)
-    found[active] = np.maximum(found[active] + slope * (pressed - p), 0.0)
-    return found
-
-
-def _pressed(M: Array, q: Array, R: Array, p: Array) -> Array:
-    """(a,) Normal forces ``x >= 0`` with ``M x + q + R a >= 0``, complementary, and the resultants ``R^T x = R^T p``.
-
-    By Newton's method on the set of pairs that press.
-
-    Parameters
-    ----------
-    M, q : (a, a) and (a,)
-    R : (a, k) rigid motions of the pairs along their normals
-    p : (a,) forces with these resultants
-    """
-    k, closed = R.shape[1], p > 0.0
-    for _ in range(_SET_CHANGES):
-        S = np.flatnonzero(closed)
-        system = np.block([[M[np.ix_(S, S)], R[S]], [R[S].T, -_GIVES * np.eye(k)]])
-        found = np.linalg.solve(system, np.concatenate([-q[S], R.T @ p]))
-        x = np.zeros_like(q)
-        x[S] = found[: len(S)]
-        gap = M @ x + q + R @ found[len(S) :]
-        now = np.where(closed, x > 0.0, gap < 0.0)
-        if np.array_equal(now, closed):
-            break
-        closed = now
-    return np.maximum(x, 0.0)

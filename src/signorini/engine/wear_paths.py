@@ -44,6 +44,23 @@ class PathCycle:
     residual: float = 0.0
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FollowedCycle:
+    """A cycle on the condensed interface.
+
+    Attributes
+    ----------
+    before, after : where the step stood at its ends, sides worn as before it
+    rubbing : what it has done to the sides
+    turns : states of the path before it and at the end of each of its segments
+    """
+
+    before: PathCycle
+    after: PathCycle
+    rubbing: Rubbing
+    turns: tuple[PathState, ...]
+
+
 class WornPaths:
     """The segments of the cycles of a step.
 
@@ -54,6 +71,10 @@ class WornPaths:
     start : the state before it
     end : the point at its end, between sides that are worn as they are before it
     stops : how increments are chosen in space; None: event by event
+
+    Attributes
+    ----------
+    followed : number of cycles that were followed so far
     """
 
     def __init__(
@@ -62,6 +83,7 @@ class WornPaths:
         assert prepared.wearing is not None
         self.prepared, self.stage, self.stops = prepared, stage, stops
         self.sides: WornSides = prepared.wearing
+        self.followed = 0
         self._depth = wear_of(start).depth
         m = stage.step.segments
 
@@ -77,8 +99,10 @@ class WornPaths:
         """A whole state on the path."""
         return PathCycle(now=path_state(self.prepared, state), wear=wear_of(state))
 
-    def cycle(self, at: PathCycle, number: int) -> tuple[PathCycle, Rubbing] | None:
-        """A cycle, by its number, and what it rubs; None where no path leads through it."""
+    def cycle(self, before: PathCycle, number: int) -> FollowedCycle | None:
+        """A cycle, by its number; None where no path leads through it."""
+        at, turns = before, [before.now]
+        self.followed += 1
         m, count = self.stage.step.segments, len(self.stage.ends)
         worn, total = self._of_depths(at.wear.depth - self._depth), None
         for j, (first, last) in enumerate(self._first if number == 1 else self._others):
@@ -89,8 +113,10 @@ class WornPaths:
             at, segment = found
             rubbing = rubbing_of_segment(self.sides, self.prepared.interface, self.prepared.paths, segment)
             total = rubbing if total is None else total.and_then(rubbing)
+            turns.append(at.now)
         assert total is not None
-        return replace(at, wear=rubbed(at.wear, total)), total
+        after = replace(at, wear=rubbed(at.wear, total))
+        return FollowedCycle(before=before, after=after, rubbing=total, turns=tuple(turns))
 
     def worn(self, at: PathCycle, wear: WearState) -> PathCycle | None:
         """Sides that lose material at the loads of the moment, to a state of wear; None where no path leads there."""

@@ -13,8 +13,6 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cached_property, partial
 
-import numpy as np
-
 from signorini.arrays import Array
 from signorini.attempt import MethodRun
 from signorini.engine.cycles import cycle_between
@@ -34,9 +32,9 @@ from signorini.engine.step_parts import (
     straight_parts,
 )
 from signorini.engine.ways import SPACE_INCREMENTS, follow_part
-from signorini.engine.wear_blocks import CycleBlock, implicit_block
-from signorini.engine.wear_paths import PathCycle, WornPaths
-from signorini.errors import SolveFailed, told
+from signorini.engine.wear_blocks import CycleBlock, CycleBlocks
+from signorini.engine.wear_paths import FollowedCycle, PathCycle, WornPaths
+from signorini.errors import SolveFailed
 from signorini.interface.sliding import slides
 from signorini.interface.worn_sides import WornSides
 from signorini.model.stage import Stage
@@ -47,8 +45,6 @@ from signorini.solution.state import LoadPoint, State, wear_of
 TOLERANCE_OF_DEPTH = 1e-2
 """Of ``block = "auto"``, where the step gives none: of the largest depth that a block wears."""
 
-_MOST_GROWTH = 3.0  # times as many cycles as the block before
-_SAFETY = 0.8  # of the number of cycles whose error would be the tolerance
 _SAME_TIME = 1e-9  # of a step: times asked for that are closer to the end of a cycle are there
 
 
@@ -102,7 +98,6 @@ class _Walk:
         self.behind: list[FollowedPart] = []
         self.ends: list[float] = []
         self._since = 0
-        self._tries = 0
 
     @cached_property
     def paths(self) -> WornPaths | None:
@@ -117,87 +112,50 @@ class _Walk:
             stops = stops_at(SPACE_INCREMENTS, self.prepared.settings)
         return WornPaths(self.prepared, self.stage, self.start, self.end, stops)
 
-    def cycle(self, number: int) -> None:
-        """A cycle, and its wear at its end."""
+    def cycle(self, number: int) -> FollowedCycle | None:
+        """A cycle, and its wear at its end; given where it went on the condensed interface alone."""
         paths = self.paths
         if paths is not None and not self._kept(number):
             found = paths.cycle(self._on_path(number - 1), number)
-            moved = None if found is None else paths.worn(found[0], worn(self.sides, found[0].wear, cycles=1))
+            moved = None if found is None else paths.worn(found.after, worn(self.sides, found.after.wear, cycles=1))
             if moved is not None:
                 self.at = moved
-                return
+                return found
         self._whole(number - 1)
         begin, (parts, interval) = self.state, self._cycle_parts(number)
         parts.append(self._worn(interval))
         self._keep(joined(parts), begin, number)
+        return None
 
     def blocks(self) -> None:
-        """The step in implicit blocks: the first cycle is one, others end at the latest where a cycle is kept."""
+        """The step in implicit blocks, which end at the latest where a cycle is kept."""
         step = self.stage.step
+        assert step.block is not None
         if self.paths is None:
             words = "blocks of cycles need exact paths; expected no 'increments', and no results at events"
             raise SolveFailed(f"{self.stage.name}: {words}", status=Outcome.NOT_FOUND)
-        behind, count = 0, 1
-        rubs = np.zeros(len(self.prepared.interface))
+        blocks = CycleBlocks(self.paths, step.block, step.tolerance or TOLERANCE_OF_DEPTH)
+        behind = 0
         while behind < step.repeat:
             room = next(number for number in range(behind + 1, step.repeat + 1) if self._kept(number)) - behind
-            found, again = self._block(self.paths, behind, min(count, room), rubs)
-            rubs = found.rubs
-            behind += found.count
-            self._take(found, behind)
-            count = step.block if isinstance(step.block, int) else again
-
-    def _block(self, paths: WornPaths, behind: int, count: int, rubs: Array) -> tuple[CycleBlock, int]:
-        """The next block, of at most so many cycles, and how many the one behind it may have."""
-        at = self._on_path(behind)
-        while True:
-            found = implicit_block(paths, at, behind + count, count, rubs)
-            if found is None and count == 1:
-                raise SolveFailed(
-                    told(
-                        f"{self.stage.name} at cycle {behind + 1}: no block of one cycle was found",
-                        remedy="leave 'block' out, so that every cycle wears explicitly, or less wear",
-                    ),
-                    status=Outcome.NOT_FOUND,
-                )
-            self._tries += 0 if found is None else found.tries
-            if found is not None and not isinstance(self.stage.step.block, str):
-                return found, count
-            if found is not None and count == 1:
-                return found, 2
-            halves = None if found is None else self._halves(paths, behind, count, found.rubs)
-            if found is None or halves is None:
-                count //= 2
-                continue
-            one, other = found.done.wear.depth, halves.done.wear.depth
-            error = np.abs(one - other).max() / np.abs(other - at.wear.depth).max()
-            wanted = self.stage.step.tolerance or TOLERANCE_OF_DEPTH
-            again = max(1, int(count * min(_MOST_GROWTH, _SAFETY * wanted / max(error, 1e-12))))
-            if error <= wanted:
-                return halves, again
-            count = max(1, min(again, count // 2))
-
-    def _halves(self, paths: WornPaths, behind: int, count: int, rubs: Array) -> CycleBlock | None:
-        """Two blocks in place of one, the second of which is given with the number of both."""
-        first = count // 2
-        one = implicit_block(paths, self._on_path(behind), behind + first, first, rubs)
-        if one is None:
-            return None
-        two = implicit_block(paths, one.done, behind + count, count - first, one.rubs)
-        if two is None:
-            return None
-        self._tries += one.tries + two.tries
-        return replace(two, count=count, last=count - first)
+            block = blocks.next(self._on_path(behind), behind, room)
+            if block is None:
+                behind += 1
+                blocks.single(self.cycle(behind))
+            else:
+                behind += block.count
+                self._take(block, behind)
+        self.behind[-1] = replace(self.behind[-1], notes=(*self.behind[-1].notes, blocks.note))
 
     def _take(self, block: CycleBlock, behind: int) -> None:
         """Go to the end of a block; where its last cycle is kept, with all that is known of bodies and pairs."""
         self.at = block.done
         if not self._kept(behind):
             return
-        self.at = block.moved
+        self.at = block.cycle.before
         self._whole(behind - 1)
         begin, (parts, _) = self.state, self._cycle_parts(behind)
-        once, others = self.state, block.last - 1
+        once, others = self.state, block.count - 1
         wear, before = wear_of(once), wear_of(begin)
         taken = once.dissipation - begin.dissipation
         self.state = replace(

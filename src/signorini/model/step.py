@@ -51,7 +51,8 @@ class Step:
         say what they left
     block : where contacts wear, cycles that one of them stands for, implicitly: what wears in a block is what the
         last of its cycles wears on the worn surfaces, times their number; "auto": as many as keep the error of a
-        block below ``tolerance`` of what it wears. None wears after every cycle what it has worn, explicitly
+        block below ``tolerance`` of what it wears, or one by one where no block pays. None wears after every cycle
+        what it has worn, explicitly
     jump : where an exact path, in space also one in increments that end at events, has no gradual continuation, "stop"
         there, or "follow" the equilibria to the next one at that load, which is called a candidate. None stops where
         the path is asked to be exact, otherwise follows
