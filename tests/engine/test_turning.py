@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import cos, pi, radians, sin
+from math import atan, cos, pi, radians, sin
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import signorini as sg
+from signorini.gallery.rolling import block_on_slope, pushed_disc
 from signorini.output.fields import Fields
 
 STEEL = sg.Elastic(E=200.0, nu=0.3)
@@ -113,6 +114,24 @@ def test_a_roll_that_is_cut_goes_on_to_the_last_bit(tmp_path: Path) -> None:
     for name in ("pressure", "traction", "slip", "normals"):
         assert np.array_equal(getattr(whole.steps[-1].contacts[0], name), getattr(second.steps[-1].contacts[0], name))
     assert np.array_equal(whole.steps[-1].displacement, second.steps[-1].displacement)
+
+
+def test_a_block_slides_off_a_bed_that_is_tilted() -> None:
+    """Where the slope is the coefficient of friction, to a stride; nothing is followed beyond."""
+    with pytest.raises(sg.SolveFailed, match=r"body 'block' can .* away along a rigid motion") as caught:
+        sg.solve(block_on_slope(angles=(0.2,), friction=0.15))
+    assert caught.value.status == "no_equilibrium"
+    step = caught.value.solution.steps[-1]
+    assert step.rigid_bodies["hub"].rotation == pytest.approx(atan(0.15), abs=3e-3)
+    assert step.contacts[0].forces.sum(axis=0) == pytest.approx([0.0, 0.4 * 9.81], rel=5e-3, abs=2e-2)
+
+
+def test_a_disc_that_is_pushed_at_its_hub_rolls() -> None:
+    """As far as its arc is long; the meshed flat is the nonmortar side."""
+    step = sg.solve(pushed_disc(cells=30, force=0.005, facets=2.0)).steps[-1]
+    hub = step.rigid_bodies["hub"]
+    assert hub.displacement[0] == pytest.approx(-hub.rotation, rel=1e-6)
+    assert abs(step.energy_defect) < 1e-9 * step.strain_energy
 
 
 def test_a_body_that_is_turned_in_fixed_directions_is_refused() -> None:

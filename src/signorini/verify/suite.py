@@ -19,6 +19,7 @@ from signorini.verify import (
     punches,
     rates,
     rings,
+    rolling,
     scalar,
     sliding,
     solids,
@@ -83,6 +84,8 @@ QUICK: tuple[Case, ...] = (
     wear.worn_annulus,
     sliding.sliding_cylinder,
     sliding.rolling_wheel,
+    rolling.rolling_without_slip,
+    rolling.tilted_block,
 )
 SLOW: tuple[Case, ...] = (
     cylinder.small_load,
