@@ -10,7 +10,7 @@ import signorini as sg
 from signorini.cli import main
 from signorini.deck import load_deck
 from signorini.fem.space import make_space
-from signorini.fem.stress import point_stresses
+from signorini.fem.stress import DeformedBodies, point_stresses
 from signorini.output.ccx_contact import tangents
 from signorini.output.dat import write_dat
 from signorini.output.fields import Fields
@@ -108,7 +108,8 @@ def test_stresses_totals_and_contact_forces(tmp_path: Path) -> None:
     assert after("total surface force")[:2] == pytest.approx([0.0, force], abs=1e-4)
     row = after("stresses (elem, integ.pnt.")
     model = solution.model
-    stress = next(iter(point_stresses(make_space(model.mesh), model, solution.steps[0].displacement)))[1][2]
+    deformed = DeformedBodies.of(make_space(model.mesh), model, solution.steps[0].displacement)
+    stress = next(iter(point_stresses(deformed)))[1][2]
     assert row[0] == 30
     assert row[2:6] == pytest.approx(stress[0, :4], rel=1e-5, abs=1e-6)
 

@@ -53,7 +53,7 @@ def von_mises(stress: Array) -> Array:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class _DeformedBodies:
+class DeformedBodies:
     """Bodies with their displacements, temperatures and plastic strains.
 
     Attributes
@@ -77,12 +77,17 @@ class _DeformedBodies:
         space: Space,
         model: Model,
         displacement: Array,
-        factors: Mapping[str, float] | None,
-        plastic: Mapping[str, Array] | None,
-    ) -> _DeformedBodies:
-        """The bodies at load factors; arguments as of :func:`body_stresses`."""
+        factors: Mapping[str, float] | None = None,
+        plastic: Mapping[str, Array] | None = None,
+    ) -> DeformedBodies:
+        """The bodies at load factors.
+
+        Parameters
+        ----------
+        space, model, displacement, factors, plastic : as of :func:`body_stresses`
+        """
         own, turns = in_frames(space, model, displacement)
-        return _DeformedBodies(
+        return DeformedBodies(
             space=space,
             model=model,
             displacement=own,
@@ -141,7 +146,7 @@ def body_stresses(
     factors : load factors by name, for the temperatures; a model without any needs none
     plastic : plastic strains at the quadrature points, of every family (m, q, 4 or 6); none where nothing has flowed
     """
-    deformed = _DeformedBodies.of(space, model, displacement, factors, plastic)
+    deformed = DeformedBodies.of(space, model, displacement, factors, plastic)
     averages = nodal_averages(space, model, deformed.stress, elasticities(model).shape[1])
     return [
         BodyStress(body=body.name, nodes=nodes, stress=deformed.in_space(found, nodes))
@@ -172,45 +177,21 @@ def nodal_averages(
     return [(own, total[i, own] / weight[i, own, None]) for i, own in enumerate(nodes)]
 
 
-def point_stresses(
-    space: Space,
-    model: Model,
-    displacement: Array,
-    factors: Mapping[str, float] | None = None,
-    plastic: Mapping[str, Array] | None = None,
-) -> Iterator[tuple[IntArray, Array]]:
-    """Stresses at the best points of the cells, group by group: cells (m,) and stresses (m, p, 6) as nodes have them.
-
-    Parameters
-    ----------
-    space, model : of the bodies
-    displacement, factors, plastic : as :func:`body_stresses`
-    """
-    deformed = _DeformedBodies.of(space, model, displacement, factors, plastic)
-    for group in groups(space, model):
+def point_stresses(deformed: DeformedBodies) -> Iterator[tuple[IntArray, Array]]:
+    """Stresses at the best points of the cells, group by group: cells (m,) and (m, p, 6) as nodes have them."""
+    for group in groups(deformed.space, deformed.model):
         yield group.numbers, deformed.in_space(deformed.stress(group), group.cells[:, :1])
 
 
-def point_strains(
-    space: Space,
-    model: Model,
-    displacement: Array,
-    factors: Mapping[str, float] | None = None,
-    plastic: Mapping[str, Array] | None = None,
-) -> Iterator[tuple[IntArray, Array]]:
+def point_strains(deformed: DeformedBodies) -> Iterator[tuple[IntArray, Array]]:
     """Strains at the points of `point_stresses`: elastic, thermal and plastic ones together, as tensors.
-
-    Parameters
-    ----------
-    space, model : of the bodies
-    displacement, factors, plastic : as :func:`body_stresses`
 
     Notes
     -----
     They belong to the stresses: with the mean dilatation or the internal modes of the cells, and in plane stress with
     the strain across.
     """
-    deformed = _DeformedBodies.of(space, model, displacement, factors, plastic)
+    space, model = deformed.space, deformed.model
     kind = "3d" if model.dimension == 3 else "plane strain"
     C = np.linalg.inv(np.array([elasticity(body.material, kind) for body in model.bodies]))
     for group in groups(space, model):

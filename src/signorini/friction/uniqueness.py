@@ -44,7 +44,7 @@ GUESSES = 24
 """States at random from which other solutions are looked for."""
 
 FEW_PAIRS_GUESSES = 100
-"""The same in space of few pairs."""
+"""States at random in space of few pairs."""
 
 TURNS = 8
 """Directions of slip in which all pairs start in space."""

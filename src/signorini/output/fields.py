@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.fem.space import Space, make_space
-from signorini.fem.stress import BodyStress, body_stresses, point_strains, point_stresses, von_mises
+from signorini.fem.stress import BodyStress, DeformedBodies, body_stresses, point_strains, point_stresses, von_mises
 from signorini.model.model import Model
 from signorini.plasticity.fields import PlasticFields, by_family, joined, mean_fields, nodal_fields, point_fields
 from signorini.solution.results import Instant, StepResult
@@ -86,15 +86,16 @@ class Fields:
     def cell_stresses(self, step: StepResult) -> list[tuple[IntArray, Array]]:
         """Stresses in the cells, see :func:`signorini.fem.stress.point_stresses`; those of one step are kept."""
         if self._points is None or self._points[0] is not step:
-            plastic = self.plastic_strains(step)
-            found = point_stresses(self.space, self.model, step.displacement, step.factors, plastic)
-            self._points = step, list(found)
+            self._points = step, list(point_stresses(self._deformed(step)))
         return self._points[1]
 
     def cell_strains(self, step: StepResult) -> Iterator[tuple[IntArray, Array]]:
         """Strains in the cells, see :func:`signorini.fem.stress.point_strains`."""
-        plastic = self.plastic_strains(step)
-        yield from point_strains(self.space, self.model, step.displacement, step.factors, plastic)
+        yield from point_strains(self._deformed(step))
+
+    def _deformed(self, step: StepResult) -> DeformedBodies:
+        """The bodies at the end of a step."""
+        return DeformedBodies.of(self.space, self.model, step.displacement, step.factors, self.plastic_strains(step))
 
     def cell_plastic(self, step: StepResult) -> Iterator[tuple[IntArray, PlasticFields]]:
         """Plastic fields in the cells, see :func:`signorini.plasticity.fields.point_fields`; none where none yields."""
