@@ -62,14 +62,14 @@ def make_facets(mesh: Mesh) -> dict[int, CellFacets]:
         inside_out = corner_volumes(mesh.points, family, cells).sum(axis=1) < 0.0
         for facet in FACETS[family]:
             members = cells[:, list(facet)]
-            members[inside_out] = members[inside_out][:, _reversed(facet_corners(d, len(facet)), len(facet))]
+            members[inside_out] = members[inside_out][:, turned_facet(facet_corners(d, len(facet)), len(facet))]
             nodes.setdefault(len(facet), []).append(members)
             owner.setdefault(len(facet), []).append(first + np.arange(len(cells)))
         first += len(cells)
     result = {}
     for count, parts in nodes.items():
         every, cell = np.concatenate(parts), np.concatenate(owner[count])
-        key = _key(every[:, : facet_corners(d, count)], len(mesh.points))
+        key = facet_keys(every[:, : facet_corners(d, count)], len(mesh.points))
         order = np.argsort(key, kind="stable")
         result[count] = CellFacets(nodes=every[order], cell=cell[order], key=key[order])
     return result
@@ -211,7 +211,7 @@ def _outer(
     """Of facets that name as many nodes each, by the number of nodes that cells have there: nodes, cells and keys."""
     d = mesh.points.shape[1]
     corners = facet_corners(d, given.shape[1])
-    wanted = _key(given[:, :corners], len(mesh.points))
+    wanted = facet_keys(given[:, :corners], len(mesh.points))
     total = np.zeros(len(wanted), np.int64)
     found = []
     for count, every in facets.items():
@@ -268,8 +268,13 @@ def tool_facets(mesh: Mesh, name: str) -> tuple[IntArray, ...]:
     return tuple(facets for facets, _ in outer_facets(make_facets(mesh), mesh, name, ("boundary",)))
 
 
-def _key(corners: IntArray, points: int) -> IntArray:
-    """One number for the corners of facets (m, 2, 3 or 4), in any order: of their three smallest, or both of an edge.
+def facet_keys(corners: IntArray, points: int) -> IntArray:
+    """One number for the corners of facets, in any order: of their three smallest, or both of an edge.
+
+    Parameters
+    ----------
+    corners : (m, 2, 3 or 4) nodes
+    points : how many nodes the mesh has
 
     Raises
     ------
@@ -291,8 +296,8 @@ def _nodes(mesh: Mesh, nodes: IntArray) -> str:
     return f"nodes {', '.join(others)} and {last}" if others else f"node {last}"
 
 
-def _reversed(corners: int, count: int) -> list[int]:
-    """The nodes of a facet run through the other way round."""
+def turned_facet(corners: int, count: int) -> list[int]:
+    """Places of the nodes of a facet run through the other way round, of its corners and all its nodes."""
     if corners == 2:
         return [1, 0, 2][:count]
     order = [0, *range(corners - 1, 0, -1)]
