@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from signorini.deck import read
     from signorini.engine import paper
     from signorini.errors import InputError, Interrupted, SignoriniError, SolveFailed
+    from signorini.meshing.cut import cut
     from signorini.meshing.plane import annulus, half_disk, quarter_disk, rectangle
     from signorini.meshing.profile import mesh_profile, read_profile
     from signorini.meshing.read import read_mesh
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from signorini.meshing.surface import mesh_surface, read_surface
     from signorini.meshing.values import read_values
     from signorini.model.body import Body
+    from signorini.model.bolt import Bolt
     from signorini.model.conditions import Foundation, Load, Support
     from signorini.model.contact import Contact
     from signorini.model.links import Equation, RigidBody
@@ -45,6 +47,7 @@ __all__ = [
     "Along",
     "ArcLength",
     "Body",
+    "Bolt",
     "Circle",
     "Cone",
     "Contact",
@@ -79,6 +82,7 @@ __all__ = [
     "__version__",
     "annulus",
     "box",
+    "cut",
     "extruded",
     "half_disk",
     "join",
@@ -102,6 +106,7 @@ _HOMES = {
     "signorini.api": ("Solution", "load", "prepare", "solve"),
     "signorini.deck": ("read",),
     "signorini.errors": ("InputError", "Interrupted", "SignoriniError", "SolveFailed"),
+    "signorini.meshing.cut": ("cut",),
     "signorini.meshing.plane": ("annulus", "half_disk", "quarter_disk", "rectangle"),
     "signorini.meshing.profile": ("mesh_profile", "read_profile"),
     "signorini.meshing.read": ("read_mesh",),
@@ -109,6 +114,7 @@ _HOMES = {
     "signorini.meshing.surface": ("mesh_surface", "read_surface"),
     "signorini.meshing.values": ("read_values",),
     "signorini.model.body": ("Body",),
+    "signorini.model.bolt": ("Bolt",),
     "signorini.model.conditions": ("Foundation", "Load", "Support"),
     "signorini.model.contact": ("Contact",),
     "signorini.model.links": ("Equation", "RigidBody"),

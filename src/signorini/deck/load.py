@@ -13,7 +13,7 @@ from signorini.deck.deck import Deck, located_error
 from signorini.deck.error import DeckError
 from signorini.deck.inp.build import read_deck
 from signorini.deck.keys import check_keys, make, table
-from signorini.deck.meshes import deck_mesh
+from signorini.deck.meshes import cut_for_bolts, deck_mesh
 from signorini.deck.syntax import parse
 from signorini.deck.tables import FIELDS, deck_bodies, deck_materials, deck_parts
 from signorini.errors import InputError, Where
@@ -77,7 +77,7 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int], reach
         raise InputError("there is no mesh; expected [mesh] with a generator or a file")
     materials = deck_materials(data)
     bodies = deck_bodies(data, materials)
-    mesh = deck_mesh(data["mesh"], reach)
+    mesh = cut_for_bolts(deck_mesh(data["mesh"], reach), data)
     parts: dict[str, Any] = deck_parts(data, reach, mesh)
     parts |= {key: data[key] for key in ("title", "kind", "thickness", "units") if key in data}
     model = Model(mesh, bodies=bodies, **parts)

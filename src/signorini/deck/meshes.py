@@ -8,8 +8,9 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from signorini.checks import choice, text, vector
-from signorini.deck.keys import check_keys, table
+from signorini.deck.keys import check_keys, table, tables
 from signorini.errors import InputError, Where
+from signorini.meshing.cut import cut
 from signorini.meshing.plane import annulus, half_disk, quarter_disk, rectangle
 from signorini.meshing.solid import box
 from signorini.model.mesh import Mesh, join
@@ -47,6 +48,33 @@ def deck_mesh(value: Any, reach: Reach) -> Mesh:
     if not parts:
         raise InputError("there is none; expected a generator or a file", where=("mesh",))
     return join(parts)
+
+
+def cut_for_bolts(mesh: Mesh, data: Mapping[str, Any]) -> Mesh:
+    """The mesh, cut along the sections of the bolts of a deck; what is no boundary is left to the bolt to tell.
+
+    Parameters
+    ----------
+    mesh : of the deck
+    data : the whole deck
+    """
+    for i, entry in enumerate(tables(data, "bolt")):
+        where: Where = ("bolt", i)
+        section, plane = entry.get("section"), entry.get("plane")
+        if not isinstance(section, str) or (plane is None and section not in mesh.boundaries):
+            continue
+        try:
+            if plane is None:
+                mesh = cut(mesh, section)
+            else:
+                given = table(plane, (*where, "plane"))
+                keys = ["body", "point", "normal"]
+                check_keys(given, (*where, "plane"), known=keys, needed=keys)
+                mesh = cut(mesh, section, **given)
+        except InputError as error:
+            own = (*where, "section" if plane is None else "plane")
+            raise InputError(error.message, where=error.where if error.where[:1] == ("bolt",) else own) from error
+    return mesh
 
 
 def _one(data: dict[str, Any], where: Where, reach: Reach) -> Mesh:

@@ -13,6 +13,7 @@ from signorini.deck.varying import deck_value, deck_values
 from signorini.errors import InputError, Where, one_of
 from signorini.law.friction import LAWS, FrictionLaw
 from signorini.model.body import Body
+from signorini.model.bolt import Bolt
 from signorini.model.conditions import Foundation, Load, Support
 from signorini.model.contact import Contact
 from signorini.model.links import Equation, RigidBody
@@ -88,6 +89,7 @@ FIELDS = {
     "obstacle": "obstacles",
     "rigid_body": "rigid_bodies",
     "equation": "equations",
+    "bolt": "bolts",
     "step": "steps",
 }
 """Arrays of tables, and the fields of the model that they give."""
@@ -108,6 +110,7 @@ def deck_parts(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> dict[str, l
         "load": Load,
         "rigid_body": RigidBody,
         "equation": Equation,
+        "bolt": Bolt,
         "step": Step,
     }
     parts: dict[str, list[Any]] = {}
@@ -120,6 +123,8 @@ def deck_parts(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> dict[str, l
                 if key in ("support", "load"):
                     _refuse_place(entry.get("on", ""), where)
                     entry = _varied(entry, where, reach, mesh.points.shape[1])
+                if key == "bolt":
+                    entry = {own: value for own, value in entry.items() if own != "plane"}  # the mesh is cut there
                 made = make(kinds[key], entry, where)
             else:
                 made = (_contact if key == "contact" else _obstacle)(entry, where, reach, mesh)

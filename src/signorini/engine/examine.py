@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import scipy.sparse as sp
 
 from signorini.arrays import Array
+from signorini.engine.bolts import with_bolts
 from signorini.engine.duplicate_check import refuse_idle, refuse_same_contacts
 from signorini.engine.free_motion_check import left_out, refuse_free_motions
 from signorini.errors import InputError
@@ -67,6 +68,7 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         If something in the model does not fit the mesh or the start, a load never acts, two contacts are between the
         same sides, or a body can move freely: it is named, with its motion.
     """
+    model = with_bolts(model)
     refuse_locking(model)
     _refuse_sliding(model)
     factors = {} if start is None else start.state.point.factors

@@ -298,18 +298,18 @@ def prepare(
     clock = clock or Clock()
     with clock.phase("assembly"):
         examined = examine(model, start=start)
-        refuse_unassembled(model)
-        K = stiffness(examined.space, model)
+        refuse_unassembled(examined.model)
+        K = stiffness(examined.space, examined.model)
         for springs in examined.constraints.springs.values():
             K = sp.csr_array(K + springs.T @ springs)
         near = candidate_pairs(examined, examined.loading, None if start is None else start.near)
     made = _made(examined, K, near, backend, settings or SolverSettings(), clock)
     before = None if start is None else start.standing
-    wearing = worn_sides(made.space, model, made.interface) if model.wears else None
+    wearing = worn_sides(made.space, made.model, made.interface) if model.wears else None
     if wearing is not None and made.solver.paths is None:
         raise InputError(_UNCONDENSED_WEAR, where=("contact", int(wearing.contact[0]), "wear"))
-    made = replace(made, released=next(stages(model, before=before)).released, wearing=wearing)
-    return _flowing(made, yielding_bodies(made.space, model) if model.yields else None)
+    made = replace(made, released=next(stages(made.model, before=before)).released, wearing=wearing)
+    return _flowing(made, yielding_bodies(made.space, made.model) if model.yields else None)
 
 
 def _flowing(made: Prepared, yielding: YieldingBodies | None) -> Prepared:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
+from signorini.engine.bolts import bolt_results
 from signorini.engine.cycles import judge, make_cycles
 from signorini.engine.energy import interface_energy, stored_energy, thermal_energy
 from signorini.engine.increments import applied
@@ -61,6 +62,7 @@ def step_result(
     loads, _ = applied(with_turned_loads(prepared, followed.turned_at), state.point)
     held = support_forces(prepared.constraints, state, loads)
     model = prepared.model
+    reactions = _reactions(prepared, state, held)
     springs = -0.5 * float(state.displacement @ prepared.constraints.foundation_forces(state.displacement))
     return StepResult(
         name=stage.title,
@@ -77,7 +79,8 @@ def step_result(
             body.name: _rigid_result(prepared, j, state, loads + held)
             for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles))
         },
-        reactions=_reactions(prepared, state, held),
+        reactions=reactions,
+        bolts=bolt_results(model, prepared.space.at_nodes(state.displacement), state.point.factors, reactions),
         strain_energy=stored - layers - springs + heat(state),
         interface_energy=layers + springs,
         work=state.work - before.work + heat(state) - heat(before),

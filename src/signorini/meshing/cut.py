@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,15 +11,25 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.errors import InputError, Where
+from signorini.checks import vector
+from signorini.errors import InputError, Where, one_of
 from signorini.meshing.facets import CellFacets, facet_corners, facet_keys, make_facets, turned_facet
 from signorini.model.mesh import Facets, Mesh
 
+_PLANE_TOL = 1e-9  # of the size of the mesh: how far from a plane nodes lie in it
 BELOW, ABOVE = ".below", ".above"
 """Behind the name of a section: the boundaries that it becomes."""
 
 
-def cut(mesh: Mesh, section: str) -> Mesh:
+def cut(
+    mesh: Mesh,
+    section: str,
+    *,
+    body: str = "",
+    point: Sequence[float] | None = None,
+    normal: Sequence[float] | None = None,
+    node: bool = True,
+) -> Mesh:
     """The mesh with a body cut along a boundary inside it, and a node apart for what moves both halves.
 
     The boundary ``section`` gives way to ``section.below`` and ``section.above``, whose nodes are opposite each other
@@ -29,6 +40,9 @@ def cut(mesh: Mesh, section: str) -> Mesh:
     ----------
     mesh : with the boundary
     section : name of a boundary whose facets each lie between two cells, and which cuts the cells there apart
+    body, point, normal : where the mesh has no such boundary: the facets of a body in the plane through a point (d,)
+        with a normal (d,)
+    node : whether to make the node apart
 
     Raises
     ------
@@ -45,17 +59,23 @@ def cut(mesh: Mesh, section: str) -> Mesh:
     """
     where: Where = ("mesh", "boundaries", section)
     facets = make_facets(mesh)
-    parts = _pairs(facets, mesh, section, where)
+    if point is not None and normal is not None:
+        drawn = _in_plane(mesh, facets, body, point, normal, where)
+    elif section in mesh.boundaries:
+        drawn = mesh.facets(section)
+    else:
+        raise InputError(one_of(section, mesh.boundaries, "boundary"), where=where)
+    parts = _pairs(facets, mesh, drawn, where)
     _turn_alike(mesh, parts, where)
     nodes = np.unique(np.concatenate([part.nodes.ravel() for part in parts]))
     above = _above(mesh, facets, parts, nodes, where)
     twin = np.arange(len(mesh.points))
     twin[nodes] = len(mesh.points) + np.arange(len(nodes))
     cells, first = {}, 0
-    for family, given in mesh.cells.items():
-        moved = above[first : first + len(given)]
-        cells[family] = np.where(moved[:, None], twin[given], given)
-        first += len(given)
+    for family, own in mesh.cells.items():
+        moved = above[first : first + len(own)]
+        cells[family] = np.where(moved[:, None], twin[own], own)
+        first += len(own)
     boundaries: dict[str, Facets] = {
         name: tuple(_moved(own, facets, above, twin, mesh) for own in mesh.facets(name))
         for name in mesh.boundaries
@@ -63,18 +83,18 @@ def cut(mesh: Mesh, section: str) -> Mesh:
     }
     boundaries[section + BELOW] = tuple(part.nodes for part in parts)
     boundaries[section + ABOVE] = tuple(twin[_turned(part.nodes, mesh.points.shape[1])] for part in parts)
-    middle = mesh.points[nodes].mean(axis=0)
+    middle = mesh.points[nodes].mean(axis=0)[None, :] if node else np.empty((0, mesh.points.shape[1]))
     count = len(mesh.points) + len(nodes)
     twins = {name: twin[np.intersect1d(own, nodes)] for name, own in mesh.nodes.items()}
     sets = {name: np.union1d(own, twins[name]) for name, own in mesh.nodes.items()}
     labels = mesh.labels
     return Mesh(
-        points=np.concatenate([mesh.points, mesh.points[nodes], middle[None]]),
+        points=np.concatenate([mesh.points, mesh.points[nodes], middle]),
         cells=cells,
         bodies=mesh.bodies,
         boundaries=boundaries,
-        nodes=sets | {section: np.array([count])},
-        node_numbers=np.concatenate([labels, labels.max() + 1 + np.arange(len(nodes) + 1)]),
+        nodes=sets | ({section: np.array([count])} if node else {}),
+        node_numbers=np.concatenate([labels, labels.max() + 1 + np.arange(len(nodes) + len(middle))]),
         cell_numbers=mesh.cell_numbers,
         cell_word=mesh.cell_word,
     )
@@ -93,7 +113,7 @@ def section_normal(mesh: Mesh, section: str) -> Array:
     InputError
         If the mesh is not cut there.
     """
-    if section + BELOW not in mesh.boundaries or section not in mesh.nodes:
+    if section + BELOW not in mesh.boundaries:
         raise InputError(
             f"'{section}' is no section along which the mesh is cut; expected signorini.cut(mesh, '{section}'), of a "
             "boundary inside a body"
@@ -118,10 +138,40 @@ class _Pairs:
     key: IntArray
 
 
-def _pairs(facets: dict[int, CellFacets], mesh: Mesh, section: str, where: Where) -> list[_Pairs]:
+def _in_plane(
+    mesh: Mesh,
+    facets: dict[int, CellFacets],
+    body: str,
+    point: Sequence[float],
+    normal: Sequence[float],
+    where: Where,
+) -> tuple[IntArray, ...]:
+    """The facets of a body in a plane, between two of its cells, by the number of their nodes."""
+    if body not in mesh.bodies:
+        raise InputError(one_of(body, mesh.bodies, "body"), where=(*where, "body"))
+    d = mesh.points.shape[1]
+    at, way = np.array(vector(point, ("point",), dimension=d)), np.array(vector(normal, ("normal",), dimension=d))
+    if not way.any():
+        raise InputError("is zero; expected a direction", where=("normal",))
+    distance = (mesh.points - at) @ (way / np.linalg.norm(way))
+    on = np.abs(distance) <= _PLANE_TOL * float(np.ptp(mesh.points, axis=0).max())
+    inside = np.zeros(mesh.number_of_cells, bool)
+    inside[mesh.bodies[body]] = True
+    found = []
+    for every in facets.values():
+        same = np.flatnonzero(every.key[1:] == every.key[:-1])
+        kept = on[every.nodes[same]].all(axis=1) & inside[every.cell[same]] & inside[every.cell[same + 1]]
+        if kept.any():
+            found.append(every.nodes[same[kept]])
+    if not found:
+        raise InputError(f"no facet of '{body}' lies in the plane; expected one between its cells", where=("point",))
+    return tuple(found)
+
+
+def _pairs(facets: dict[int, CellFacets], mesh: Mesh, given: tuple[IntArray, ...], where: Where) -> list[_Pairs]:
     """The facets of the section with both their cells."""
     found, d = [], mesh.points.shape[1]
-    for own in mesh.facets(section):
+    for own in given:
         corners = facet_corners(d, own.shape[1])
         wanted = np.unique(facet_keys(own[:, :corners], len(mesh.points)))
         left = len(wanted)

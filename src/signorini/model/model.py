@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import Any, Literal
 
@@ -15,8 +14,10 @@ from signorini.checks import choice, members, number
 from signorini.errors import InputError, one_of
 from signorini.law.friction import FrictionLaw
 from signorini.model.body import Body
+from signorini.model.bolt import Bolt
 from signorini.model.conditions import BODY_LOADS, Foundation, Load, Place, Support
 from signorini.model.contact import Contact
+from signorini.model.labels import Labelled, refuse_same_names
 from signorini.model.links import Equation, RigidBody, directions
 from signorini.model.material import Orthotropic
 from signorini.model.mesh import Mesh
@@ -44,6 +45,7 @@ class Model(Short):
         :class:`Contact`
     obstacles : rigid ones that move, see :class:`Rigid`; fixed ones are said in the contact itself
     equations, rigid_bodies : what couples displacements without an element, see :class:`Equation`, :class:`RigidBody`
+    bolts : sections that are drawn together, see :class:`Bolt`
     steps : the load history; by default one step, all loads from 0 to 1, in one increment
     title, units : said again in the results
 
@@ -75,6 +77,7 @@ class Model(Short):
     obstacles: Sequence[Rigid] = ()
     equations: Sequence[Equation] = ()
     rigid_bodies: Sequence[RigidBody] = ()
+    bolts: Sequence[Bolt] = ()
     steps: Sequence[Step] = (Step(name="load"),)
     title: str = ""
     units: str = "as given, consistent"
@@ -91,7 +94,7 @@ class Model(Short):
         if self.thickness != 1.0:
             self._refuse_thickness(self.thickness, ("thickness",))
         kinds = {"bodies": Body, "supports": Support, "foundations": Foundation, "loads": Load, "contacts": Contact}
-        kinds |= {"obstacles": Rigid, "equations": Equation, "rigid_bodies": RigidBody, "steps": Step}
+        kinds |= {"obstacles": Rigid, "equations": Equation, "rigid_bodies": RigidBody, "bolts": Bolt, "steps": Step}
         for part, kind in kinds.items():
             object.__setattr__(self, part, members(getattr(self, part), kind, part))
         object.__setattr__(self, "bodies", tuple(body.in_kind(self.kind) for body in self.bodies))
@@ -115,7 +118,9 @@ class Model(Short):
                 raise InputError(words, where=("contact", i, "friction"))
         for i, obstacle in enumerate(self.obstacles):
             self._check_obstacle(i, obstacle)
-        self._check_labels()
+        held: tuple[Support | Foundation, ...] = (*self.supports, *self.foundations)
+        named: dict[str, Sequence[Labelled]] = {"support": held, "load": self.loads, "contact": self.contacts}
+        refuse_same_names(named | {"obstacle": self.obstacles, "bolt": self.bolts})
         self._check_steps()
 
     @property
@@ -325,30 +330,6 @@ class Model(Short):
             words = f", one for each of {', '.join(expected)}" if rigid else ""
             raise InputError(f"has {len(parts)} components; expected {len(expected)}{words}", where=where)
 
-    def _check_labels(self) -> None:
-        groups: tuple[tuple[str, Iterable[Support | Foundation | Load | Contact | Rigid]], ...] = (
-            ("support", (*self.supports, *self.foundations)),
-            ("load", self.loads),
-            ("contact", self.contacts),
-            ("obstacle", self.obstacles),
-        )
-        for part, own in groups:
-            twice = [label for label, n in Counter(member.label for member in own).items() if n > 1]
-            if twice:
-                raise InputError(f"two are called '{twice[0]}'; give each a name of its own", where=(part,))
-        both = {load.label for load in self.loads} & {support.label for support in self.supports if support.moves}
-        if both:
-            raise InputError(
-                f"'{both.pop()}' is a load and a moving support; steps need a name for each", where=("load",)
-            )
-        taken = {load.label for load in self.loads} | {support.label for support in self.supports}
-        for i, obstacle in enumerate(self.obstacles):
-            if obstacle.label in taken:
-                raise InputError(
-                    f"'{obstacle.label}' is a load or a support too; steps need a name for each",
-                    where=("obstacle", i, "name"),
-                )
-
     def _check_steps(self) -> None:
         if not self.steps:
             raise InputError("there is none; expected at least one", where=("step",))
@@ -379,7 +360,7 @@ class Model(Short):
             self.contacts[known.index(name)].check_pressed(("step", i, "interference", name))
 
     def _check_support_names(self, i: int, step: Step) -> None:
-        known = [support.label for support in self.supports]
+        known = [*(support.label for support in self.supports), *(bolt.label for bolt in self.bolts)]
         for key in ("release", "hold", "restore"):
             for name in getattr(step, key):
                 if name not in known:
@@ -389,7 +370,9 @@ class Model(Short):
     def scaled_names(self) -> tuple[str, ...]:
         """What steps can scale: loads, moving supports, and obstacles that are moved or loaded."""
         moving = (s.label for s in self.supports if s.moves)
-        return (*(load.label for load in self.loads), *moving, *(o.label for o in self.obstacles if o.acts))
+        driven = (o.label for o in self.obstacles if o.acts)
+        own = (*(load.label for load in self.loads), *(bolt.label for bolt in self.bolts))
+        return tuple(dict.fromkeys([*own, *moving, *driven]))
 
     def factors(self) -> list[dict[str, float]]:
         """Load factors by name: before the first step (all 0) and at the end of every step."""

@@ -23,6 +23,7 @@ AnyArray = np.ndarray[Any, Any]
 _HOMES = (
     "signorini.attempt",
     "signorini.model.body",
+    "signorini.model.bolt",
     "signorini.model.conditions",
     "signorini.model.contact",
     "signorini.model.links",
@@ -37,6 +38,7 @@ _HOMES = (
     "signorini.model.wear",
     "signorini.plasticity.measure",
     "signorini.plasticity.state",
+    "signorini.solution.bolt_result",
     "signorini.solution.certificate",
     "signorini.solution.checkpoint",
     "signorini.solution.history",

@@ -100,6 +100,7 @@ def _step(model: Model, step: StepResult) -> dict[str, Any]:
         "reactions": {name: _list(force) for name, force in step.reactions.items()},
         "obstacles": {name: _rigid(obstacle) for name, obstacle in step.obstacles.items()},
         "rigid_bodies": {name: _rigid(body) for name, body in step.rigid_bodies.items()},
+        "bolts": {name: asdict(bolt) for name, bolt in step.bolts.items()},
         "strain_energy": step.strain_energy,
         "interface_energy": step.interface_energy,
         "work": step.work,

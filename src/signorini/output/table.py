@@ -93,6 +93,7 @@ def _step_lines(step: StepResult, number: int) -> list[str]:
             for kind, every in (("obstacle", step.obstacles), ("rigid body", step.rigid_bodies))
             for name, found in every.items()
         ),
+        *(f"bolt {name}: force {b.force:.6g}, shortened by {b.shortening:.6g}" for name, b in step.bolts.items()),
         *_flow_lines(step),
         *_wear_lines(step),
         f"certificate {verdict}: worst of five {certificate.worst:.1e}, allowed {TOLERANCE:.0e}",

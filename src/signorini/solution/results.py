@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -14,6 +14,7 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import MethodRun
 from signorini.plasticity.state import PlasticState
 from signorini.short import Short
+from signorini.solution.bolt_result import BoltResult
 from signorini.solution.certificate import Certificate
 
 OPEN, STICK, SLIP = "open", "stick", "slip"
@@ -331,6 +332,7 @@ class StepResult(Short):
     steadiness : of the cycles: "shakes down", "steady", "ratchets" or "not yet", empty without cycles
     notes : what a reader should know
     yielding : which bodies yield, and how far; None where none may
+    bolts : what they bear, by name
     """
 
     name: str
@@ -354,6 +356,7 @@ class StepResult(Short):
     steadiness: str
     notes: tuple[str, ...]
     yielding: Yielding | None = None
+    bolts: Mapping[str, BoltResult] = field(default_factory=dict)
 
     @property
     def load_factor(self) -> float:

@@ -24,6 +24,7 @@ from signorini.deck.inp.loading import follow_steps, initial_temperatures
 from signorini.deck.inp.materials import Section
 from signorini.deck.inp.pairs import Pair, make_changes, make_contacts
 from signorini.deck.inp.plasticity import above_initial
+from signorini.deck.inp.pretension import cut_along, make_pretensions, pretension_equations
 from signorini.deck.inp.prints import make_prints
 from signorini.deck.inp.steps import DeckStep, split_steps
 from signorini.deck.inp.syntax import flatten, read_cards
@@ -86,6 +87,8 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
     _refuse_large(steps, contacts, small_strain)
     rigid, equations = make_deck_links(outside, known)
     conditions = make_conditions(follow_steps(outside, steps, known, rigid), known)
+    pretensions = make_pretensions(outside, known)
+    mesh = cut_along(_mesh(known), pretensions)
     changes = [make_changes(step.cards, known, contacts) for step in steps]
     initial = initial_temperatures(outside, known)
     kind, thickness = known.grid.kind, _thickness(known.sections[0], known.grid.kind)
@@ -95,13 +98,16 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
         "load": [(load, conditions.cards[load.label]) for load in conditions.loads],
         "contact": [(pair.contact, pair.card) for pair in contacts],
         "rigid_body": [(item.body, item.card) for item in rigid],
-        "equation": [(item.equation, item.card) for item in [*equations, *conditions.equations]],
+        "equation": [
+            *((item.equation, item.card) for item in [*equations, *conditions.equations]),
+            *pretension_equations(mesh, pretensions),
+        ],
         "step": [(_step(k, steps, conditions, changes[k], deck_increments), steps[k].card) for k in range(len(steps))],
     }
     places: dict[Where, Card] = {(key, i): card for key, found in made.items() for i, (_, card) in enumerate(found)}
     parts: dict[str, Any] = {FIELDS[key]: [part for part, _ in found] for key, found in made.items()}
     try:
-        model = Model(_mesh(known), kind=kind, thickness=thickness, title=_title(outside), **parts)
+        model = Model(mesh, kind=kind, thickness=thickness, title=_title(outside), **parts)
     except InputError as error:
         raise _located_error(error, places, path, known.grid.card_of_cell) from error
     notes = [
