@@ -9,49 +9,17 @@ from numpy.testing import assert_allclose
 
 import signorini as sg
 from signorini.cli import main
+from signorini.gallery.bolts import bolted_sleeve
 
 SOFT = sg.Elastic(E=200.0, nu=0.0)
 
 
-def joint():
-    """A bolt of width 1 with a head that clamps a sleeve of width 1.5, both 4 long."""
-    bolt = sg.rectangle(x=[0.0, 1.0, 1.5, 3.0], y=np.linspace(0.0, 5.0, 6))
-    at = bolt.points[bolt.cells["quad"]].mean(axis=1)
-    kept = (at[:, 0] < 1.0) | (at[:, 1] > 4.0)
-    used, cells = np.unique(bolt.cells["quad"][kept], return_inverse=True)
-    points = bolt.points[used]
-    head = np.flatnonzero(at[kept][:, 1] > 4.0)
-    row = np.flatnonzero((points[:, 1] == 4.0) & (points[:, 0] >= 1.5))
-    foot = np.flatnonzero(points[:, 1] == 0.0)
-    part = sg.Mesh(
-        points=points,
-        cells={"quad": cells.reshape(-1, 4)},
-        bodies={"shank": np.setdiff1d(np.arange(kept.sum()), head), "head": head},
-        boundaries={"seat": [row], "foot": [foot]},
-    )
-    sleeve = sg.rectangle(x=[1.5, 3.0], y=np.linspace(0.0, 4.0, 5))
-    mesh = sg.join({"bolt": part, "sleeve": sleeve})
-    return sg.cut(mesh, "cut", body="bolt.shank", point=(0.0, 2.0), normal=(0.0, 1.0))
+JOINT, BOLT, SLEEVE = bolted_sleeve()
 
 
 def clamped(**given):
-    return sg.Model(
-        mesh=joint(),
-        kind="plane stress",
-        bodies=[sg.Body("bolt.shank", SOFT), sg.Body("bolt.head", SOFT), sg.Body("sleeve", SOFT)],
-        supports=[
-            sg.Support("bolt.foot", u=(0.0, 0.0)),
-            sg.Support("sleeve.bottom", u=(0.0, 0.0)),
-            sg.Support("head", u=(0.0, None, 0.0)),
-        ],
-        rigid_bodies=[sg.RigidBody("head", on="bolt.head", point=(0.0, 5.0))],
-        contacts=[sg.Contact("sleeve.top", "bolt.seat", friction=0.2)],
-        bolts=[sg.Bolt("cut", force=6.0, name="bolt")],
-        **given,
-    )
-
-
-BOLT, SLEEVE = 200.0 * 1.0 / 4.0, 200.0 * 1.5 / 4.0  # stiffness, force over length
+    """The joint, loaded otherwise."""
+    return replace(JOINT, **({"loads": []} | given))
 
 
 def test_the_stiffness_diagram_of_a_bolted_joint():
@@ -83,8 +51,8 @@ def test_the_stiffness_diagram_of_a_bolted_joint():
 
 def test_a_bolt_is_drawn_together_by_a_length_and_loosened():
     shortening = 6.0 / BOLT + 6.0 / SLEEVE
-    model = replace(clamped(), bolts=[sg.Bolt("cut", shortening=shortening, name="bolt")])
-    model = replace(model, steps=[sg.Step(scale={"bolt": 1.0}), sg.Step(scale={"bolt": 0.0})])
+    bolts = [sg.Bolt("cut", shortening=shortening, name="bolt")]
+    model = clamped(bolts=bolts, steps=[sg.Step(scale={"bolt": 1.0}), sg.Step(scale={"bolt": 0.0})])
     tight, loose = sg.solve(model).steps
     assert tight.bolts["bolt"].force == pytest.approx(6.0, rel=1e-10)
     assert loose.bolts["bolt"].force == pytest.approx(0.0, abs=1e-12)

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from signorini.arrays import Array
 from signorini.errors import InputError
-from signorini.meshing.cut import ABOVE, BELOW, section_normal
+from signorini.meshing.cut import HALF_ABOVE, HALF_BELOW, section_normal
 from signorini.model.conditions import Load, Support
 from signorini.model.links import AXES, Equation, Term
 from signorini.model.model import Model
@@ -54,7 +54,7 @@ def _halves(model: Model, i: int) -> list[Equation]:
         raise error.inside("bolt", i, "section") from error
     equations = []
     for axis, part in zip(AXES, normal.tolist(), strict=False):
-        terms: list[Term] = [(section + ABOVE, axis, 1.0), (section + BELOW, axis, -1.0)]
+        terms: list[Term] = [(section + HALF_ABOVE, axis, 1.0), (section + HALF_BELOW, axis, -1.0)]
         equations.append(Equation([*terms, *([(section, "x", part)] if part else [])], name=model.bolts[i].label))
     return equations
 

@@ -17,7 +17,7 @@ from signorini.meshing.facets import CellFacets, facet_corners, facet_keys, make
 from signorini.model.mesh import Facets, Mesh
 
 _PLANE_TOL = 1e-9  # of the size of the mesh: how far from a plane nodes lie in it
-BELOW, ABOVE = ".below", ".above"
+HALF_BELOW, HALF_ABOVE = ".below", ".above"
 """Behind the name of a section: the boundaries that it becomes."""
 
 
@@ -81,8 +81,8 @@ def cut(
         for name in mesh.boundaries
         if name != section
     }
-    boundaries[section + BELOW] = tuple(part.nodes for part in parts)
-    boundaries[section + ABOVE] = tuple(twin[_turned(part.nodes, mesh.points.shape[1])] for part in parts)
+    boundaries[section + HALF_BELOW] = tuple(part.nodes for part in parts)
+    boundaries[section + HALF_ABOVE] = tuple(twin[_turned(part.nodes, mesh.points.shape[1])] for part in parts)
     middle = mesh.points[nodes].mean(axis=0)[None, :] if node else np.empty((0, mesh.points.shape[1]))
     count = len(mesh.points) + len(nodes)
     twins = {name: twin[np.intersect1d(own, nodes)] for name, own in mesh.nodes.items()}
@@ -101,7 +101,7 @@ def cut(
 
 
 def section_normal(mesh: Mesh, section: str) -> Array:
-    """Mean unit normal of a section, (d,), from its half below to the one above.
+    """Mean of the unit normals of the facets of a section, (d,), from its half below to the one above, as in CalculiX.
 
     Parameters
     ----------
@@ -113,12 +113,13 @@ def section_normal(mesh: Mesh, section: str) -> Array:
     InputError
         If the mesh is not cut there.
     """
-    if section + BELOW not in mesh.boundaries:
+    if section + HALF_BELOW not in mesh.boundaries:
         raise InputError(
             f"'{section}' is no section along which the mesh is cut; expected signorini.cut(mesh, '{section}'), of a "
             "boundary inside a body"
         )
-    total = sum(_areas(mesh, own).sum(axis=0) for own in mesh.facets(section + BELOW))
+    areas = np.concatenate([_areas(mesh, own) for own in mesh.facets(section + HALF_BELOW)])
+    total = (areas / np.linalg.norm(areas, axis=1, keepdims=True)).sum(axis=0)
     return np.asarray(total / np.linalg.norm(total))
 
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from signorini.verify import (
+    bolts,
     bounded,
     cylinder,
     elements,
@@ -86,6 +87,7 @@ QUICK: tuple[Case, ...] = (
     sliding.rolling_wheel,
     rolling.rolling_without_slip,
     rolling.tilted_block,
+    bolts.stiffness_diagram,
 )
 SLOW: tuple[Case, ...] = (
     cylinder.small_load,

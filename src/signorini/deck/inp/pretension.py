@@ -15,7 +15,7 @@ from signorini.deck.inp.keywords import of_keyword
 from signorini.deck.inp.known import Known
 from signorini.deck.inp.surfaces import FACES
 from signorini.errors import InputError
-from signorini.meshing.cut import ABOVE, BELOW, cut, section_normal
+from signorini.meshing.cut import HALF_ABOVE, HALF_BELOW, cut, section_normal
 from signorini.model.links import AXES, Equation, Term
 from signorini.model.mesh import Mesh
 
@@ -102,10 +102,10 @@ def pretension_equations(mesh: Mesh, pretensions: Sequence[Pretension]) -> list[
     for one in pretensions:
         normal = section_normal(mesh, one.section)
         if one.normal:
-            middle = mesh.points[mesh.nodes_of(one.section + BELOW)].mean(axis=0)
+            middle = mesh.points[mesh.nodes_of(one.section + HALF_BELOW)].mean(axis=0)
             side = np.sign((middle - one.inside) @ normal)  # 1 where the elements of the surface are below
             normal = side * np.array(one.normal) / np.linalg.norm(one.normal)
         for axis, part in zip(AXES, normal.tolist(), strict=False):
-            terms: list[Term] = [(one.section + ABOVE, axis, 1.0), (one.section + BELOW, axis, -1.0)]
+            terms: list[Term] = [(one.section + HALF_ABOVE, axis, 1.0), (one.section + HALF_BELOW, axis, -1.0)]
             found.append((Equation([*terms, *([(one.node, "x", part)] if part else [])]), one.card))
     return found
